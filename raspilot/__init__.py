@@ -1,0 +1,1 @@
+"""Raspilot: the autopilot application on Up."""

@@ -1,0 +1,1 @@
+"""The runner: spawns and watches Raspilot instances."""

@@ -1,0 +1,57 @@
+"""Packaging of Up, Raspilot, the runner, the proxy, the ground station and the simulator.
+
+The cogs are distributions of their own (cogs/*/setup.py); ``up gather`` installs them.
+"""
+
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+ROOT = Path(__file__).parent
+SOURCES = {"up": ".", "raspilot": ".", "up_runner": "runner", "up_proxy": "proxy",
+           "up_ground": "ground", "up_simulator": "simulator"}
+
+
+def version() -> str:
+    """Return the version that up/version.py states, without importing the package."""
+    scope: dict[str, str] = {}
+    exec((ROOT / "up" / "version.py").read_text(encoding="utf-8"), scope)
+    return scope["VERSION"]
+
+
+def packages() -> list[str]:
+    """Return every package of every source folder."""
+    found: list[str] = []
+    for name, folder in SOURCES.items():
+        found += find_packages(str(ROOT / folder), include=[name, f"{name}.*"])
+    return found
+
+
+setup(
+    name="raspilot",
+    version=version(),
+    description="Up, a framework for autopilots that can be changed, and Raspilot, the autopilot",
+    long_description=(ROOT / "README.md").read_text(encoding="utf-8"),
+    long_description_content_type="text/markdown",
+    license="MIT",
+    python_requires=">=3.11",
+    packages=packages(),
+    package_dir={name: str(Path(folder, name)) for name, folder in SOURCES.items()
+                 if folder != "."},
+    include_package_data=True,
+    package_data={"": ["*.yml", "*.txt", "*.tmpl", "*.service", "*.conf", "*.md", "UpFile",
+                       "py.typed", "*.csv", "*.xml", "*.gz"]},
+    install_requires=["twisted>=22.4", "pyserial>=3.5", "PyYAML>=6", "psutil>=5.9",
+                      "simple-pid>=2.0"],
+    extras_require={
+        "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'"],
+        "dev": ["pytest>=8", "hypothesis>=6.100", "ruff>=0.6", "mypy>=1.11",
+                "import-linter>=2.0", "types-PyYAML", "types-psutil", "types-pyserial"],
+    },
+    entry_points={"console_scripts": [
+        "up = up.cli.main:main",
+        "up-runner = up_runner.main:main",
+        "up-proxy = up_proxy.main:main",
+        "up-ground = up_ground.main:main",
+    ]},
+)

@@ -1,0 +1,1 @@
+"""The virtual aircraft, phone and boards."""

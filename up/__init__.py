@@ -1,0 +1,1 @@
+"""Up: a modular framework for autopilots that can be changed."""
