@@ -1,0 +1,128 @@
+"""A configuration file: its name, its shape, and how it is read and written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+from up.config.nodes import compose
+from up.config.problems import ConfigErrors, ConfigProblem
+from up.config.reading import decode, read_text
+from up.config.scalars import is_null
+from up.config.schema import schema_of
+from up.config.shape import Shape, shape_of
+from up.config.template import template_of
+from up.config.validator import Validator
+
+T = TypeVar("T")
+MAX_PROBLEMS = 100
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ConfigFile(Generic[T]):
+    """One YAML file of a configuration folder, read into the frozen dataclass `cls`.
+
+    `removed` maps an old key (dotted where it lies in a section) that means something else now, or
+    nothing, to the sentence that tells its replacement. Raises TypeError or ValueError when `cls`
+    is declared wrongly.
+    """
+
+    filename: str
+    cls: type[T]
+    removed: Mapping[str, str] = field(default_factory=dict)
+    shape: Shape = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "shape", shape_of(self.cls))
+
+    def load(self, folder: Path) -> T:
+        """Return the values of the file in `folder`, the defaults when it is not there.
+
+        Raises ConfigErrors with every problem of the file.
+        """
+        path = Path(folder) / self.filename
+        problems = _Problems(path)
+        text = read_text(path, problems.report)
+        value = self.cls() if text is None else self._parse(text, problems, whole=False)
+        problems.raise_if_any()
+        return value
+
+    def parse(self, text: str | bytes, path: Path, *, whole: bool = False) -> T:
+        """Return the values in a text; `path` is only named in problems. Raises ConfigErrors.
+
+        With `whole` the text must hold something and no map in it may lack one of its values: half
+        a set of numbers that belong together is refused.
+        """
+        problems = _Problems(Path(path))
+        if isinstance(text, bytes):
+            text = decode(text, problems.report) or ""
+        value = None if problems.found else self._parse(text, problems, whole)
+        problems.raise_if_any()
+        return value  # type: ignore[return-value]
+
+    def template(self) -> str:
+        """Return the commented file whose values are the defaults."""
+        return self.render(self.cls())
+
+    def render(self, values: T) -> str:
+        """Return the commented file that holds `values`."""
+        return template_of(self.shape, values)
+
+    def json_schema(self) -> dict[str, Any]:
+        """Return the JSON Schema (draft 2020-12) of the file, for editors."""
+        return schema_of(self.filename, self.shape)
+
+    def _parse(self, text: str, problems: _Problems, whole: bool) -> T:
+        root = compose(text, problems.report)
+        if root is None or is_null(root):
+            if whole and not problems.found:
+                problems.report(1, 1, "is empty")
+            return self.cls()
+        value: T = Validator(problems.report, dict(self.removed), whole).read(self.shape, root)
+        return value
+
+
+def load_all(folder: Path, files: Iterable[ConfigFile[Any]]) -> dict[ConfigFile[Any], Any]:
+    """Return the values of all files; raises ConfigErrors once, with the problems of all."""
+    values: dict[ConfigFile[Any], Any] = {}
+    problems: list[ConfigProblem] = []
+    for file in files:
+        try:
+            values[file] = file.load(folder)
+        except ConfigErrors as errors:
+            problems.extend(errors.problems)
+    if problems:
+        raise ConfigErrors(problems)
+    return values
+
+
+def unknown_files(folder: Path, files: Iterable[ConfigFile[Any]]) -> list[Path]:
+    """Return the YAML files of the folder that no ConfigFile reads, sorted, for a warning."""
+    known = {file.filename for file in files}
+    try:
+        found = sorted(Path(folder).iterdir())
+    except OSError:
+        return []
+    return [path for path in found if path.suffix in (".yml", ".yaml") and path.name not in known]
+
+
+class _Problems:
+    """Collects the problems of one file, at most MAX_PROBLEMS and a note that there are more."""
+
+    def __init__(self, path: Path) -> None:
+        self.found: list[ConfigProblem] = []
+        self._path = path
+
+    def report(self, line: int, column: int, what: str) -> None:
+        if len(self.found) == MAX_PROBLEMS:
+            what = f"more than {MAX_PROBLEMS} problems, the rest is not shown"
+        if len(self.found) <= MAX_PROBLEMS:
+            self.found.append(ConfigProblem(self._path, line, column, what))
+
+    def raise_if_any(self) -> None:
+        if self.found:
+            raise ConfigErrors(
+                sorted(self.found, key=lambda problem: (problem.line, problem.column))
+            )

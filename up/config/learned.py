@@ -1,0 +1,83 @@
+"""Values that the program itself learns and keeps, like gains tuned in flight."""
+
+from __future__ import annotations
+
+import contextlib
+from pathlib import Path
+from typing import Generic, TypeVar
+
+from up.config.file import ConfigFile
+from up.config.problems import ConfigErrors
+from up.config.reading import read_text
+from up.config.writing import write_atomically
+
+T = TypeVar("T")
+
+
+class LearnedFile(Generic[T]):
+    """A file of learned values with a last good copy beside it, named `<name>.good`.
+
+    A set is good as a whole only: a map in it that lacks a value makes the file corrupt.
+    """
+
+    def __init__(self, path: Path, config_file: ConfigFile[T]) -> None:
+        self.path = Path(path)
+        self.good_path = self.path.with_name(self.path.name + ".good")
+        self._file = config_file
+
+    def load(self) -> tuple[T, str | None]:
+        """Return the values and None, or the best that is left and the sentence that says why.
+
+        A corrupt or lost file gives its last good copy, else the defaults. Nothing is raised. When
+        neither file exists nothing was ever learned: the defaults, and no problem.
+        """
+        values, problem = self._read(self.path)
+        if values is not None:
+            self._keep_good(values)
+            return values, None
+        good, good_problem = self._read(self.good_path)
+        if good is not None:
+            reason = problem or f"{self.path}: is gone"
+            return good, f"{reason}; the last good copy {self.good_path.name} is used"
+        if problem is None and good_problem is None:
+            return self._file.cls(), None
+        return self._file.cls(), f"{problem or good_problem}; the defaults are used"
+
+    def save(self, values: T) -> None:
+        """Write the values and their good copy, each atomically.
+
+        Raises ValueError for values that could not be read back, before anything is touched, and
+        OSError when the disk refuses; what was saved before is then still there.
+        """
+        data = self._file.render(values).encode()
+        try:
+            self._file.parse(data, self.path, whole=True)
+        except ConfigErrors as errors:
+            raise ValueError(str(errors)) from None
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(self.path, data)
+        write_atomically(self.good_path, data)
+
+    def _read(self, path: Path) -> tuple[T | None, str | None]:
+        found: list[str] = []
+
+        def report(line: int, column: int, what: str) -> None:
+            found.append(f"{path}:{line}:{column}: {what}")
+
+        text = read_text(path, report)
+        if text is not None:
+            try:
+                return self._file.parse(text, path, whole=True), None
+            except ConfigErrors as errors:
+                found.extend(str(problem) for problem in errors.problems)
+        if not found:
+            return None, None
+        rest = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        return None, found[0] + rest
+
+    def _keep_good(self, values: T) -> None:
+        """Make what was just read, perhaps edited by hand, the good copy, if the disk permits."""
+        good, _ = self._read(self.good_path)
+        if good != values:
+            with contextlib.suppress(OSError):
+                write_atomically(self.good_path, self._file.render(values).encode())

@@ -1,0 +1,171 @@
+"""YAML text to a tree of nodes that know their places; it gives no meaning to any value.
+
+Only the plain heart of YAML is let in: one document, maps, lists and scalars. Anchors, aliases,
+tags and deep nesting are refused, so a file can neither grow when it is read nor make objects.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import yaml
+
+from up.fields import printable
+
+MAX_DEPTH = 20
+MAX_NODES = 50_000
+
+Report = Callable[[int, int, str], None]
+
+
+@dataclass(slots=True)
+class ScalarNode:
+    """A single value as it was written; `plain` when it stood there without quotes."""
+
+    line: int
+    column: int
+    text: str
+    plain: bool
+
+
+@dataclass(slots=True)
+class ListNode:
+    """A list of nodes."""
+
+    line: int
+    column: int
+    items: list[Node] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class MapNode:
+    """Pairs of nodes in the order of the file, duplicates included."""
+
+    line: int
+    column: int
+    pairs: list[tuple[Node, Node]] = field(default_factory=list)
+
+
+Node = ScalarNode | ListNode | MapNode
+
+
+def compose(text: str, report: Report) -> Node | None:
+    """Return the root of the one document, None when there is none or it cannot be followed.
+
+    What is refused is reported; nothing is raised for any text.
+    """
+    builder = _Builder(report)
+    try:
+        for event in yaml.parse(text, Loader=yaml.SafeLoader):
+            if not builder.take(event):
+                return None
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+        report(line, column, _syntax_sentence(error))
+    except yaml.reader.ReaderError as error:
+        line, column = place_of(text, int(error.position))
+        report(line, column, f"the character U+{ord(text[error.position]):04X} is not allowed here")
+    except (ValueError, OverflowError):
+        # PyYAML turns the digits of \U escapes and of %YAML into numbers without asking their size.
+        report(builder.line, builder.column, "an escape or directive after this place is not valid")
+    else:
+        return builder.root
+    return None
+
+
+def place_of(text: str, position: int) -> tuple[int, int]:
+    """Return line and column, from 1, of a position in a text."""
+    before = text[:position]
+    return before.count("\n") + 1, position - (before.rfind("\n") + 1) + 1
+
+
+def _syntax_sentence(error: yaml.MarkedYAMLError) -> str:
+    problem = printable(str(error.problem or error.context or "cannot be understood"))
+    if "'\\t'" in problem:
+        return "a tab cannot indent here, use spaces"
+    if error.context and error.problem and error.context_mark:
+        return (
+            f"is not valid YAML: {problem} "
+            f"({printable(str(error.context))}, line {error.context_mark.line + 1})"
+        )
+    return f"is not valid YAML: {problem}"
+
+
+class _Builder:
+    """Builds the tree from events with a stack of its own: no depth can exhaust Python's."""
+
+    def __init__(self, report: Report) -> None:
+        self.root: Node | None = None
+        self.line = self.column = 1
+        self._report = report
+        self._open: list[ListNode | MapNode] = []
+        self._keys: list[Node | None] = []
+        self._count = 0
+        self._documents = 0
+
+    def take(self, event: yaml.Event) -> bool:
+        """Take the next event; False when the rest of the file cannot be of use."""
+        mark = event.start_mark
+        if mark is not None:
+            self.line, self.column = mark.line + 1, mark.column + 1
+        if isinstance(event, yaml.DocumentStartEvent):
+            self._documents += 1
+            if self._documents > 1:
+                self._refuse("a second document begins here, a file may hold only one")
+                return False
+        elif isinstance(event, yaml.CollectionEndEvent):
+            self._open.pop()
+            self._keys.pop()
+        elif isinstance(event, yaml.NodeEvent):
+            return self._take_node(event)
+        return True
+
+    def _take_node(self, event: yaml.NodeEvent) -> bool:
+        self._count += 1
+        if self._count > MAX_NODES:
+            self._refuse(f"the file has more than {MAX_NODES} values")
+            return False
+        if isinstance(event, yaml.AliasEvent):
+            name = printable(str(event.anchor))
+            self._refuse(f"aliases (*{name}) are not allowed, write the value itself")
+            self._place(ScalarNode(self.line, self.column, "", True))
+            return True
+        if event.anchor is not None:
+            self._refuse(f"anchors (&{printable(event.anchor)}) are not allowed")
+        if isinstance(event, yaml.ScalarEvent | yaml.CollectionStartEvent) and event.tag:
+            tag = printable(event.tag).replace("tag:yaml.org,2002:", "!!")
+            self._refuse(f"tags ({tag}) are not allowed, write the plain value")
+        node: Node
+        if isinstance(event, yaml.ScalarEvent):
+            node = ScalarNode(self.line, self.column, event.value, event.style is None)
+        elif isinstance(event, yaml.MappingStartEvent):
+            node = MapNode(self.line, self.column)
+        else:
+            node = ListNode(self.line, self.column)
+        self._place(node)
+        if not isinstance(node, ScalarNode):
+            if len(self._open) >= MAX_DEPTH:
+                self._refuse(f"is nested more than {MAX_DEPTH} deep")
+                return False
+            self._open.append(node)
+            self._keys.append(None)
+        return True
+
+    def _place(self, node: Node) -> None:
+        if not self._open:
+            self.root = node
+            return
+        parent = self._open[-1]
+        if isinstance(parent, ListNode):
+            parent.items.append(node)
+            return
+        key, self._keys[-1] = self._keys[-1], None
+        if key is None:
+            self._keys[-1] = node
+        else:
+            parent.pairs.append((key, node))
+
+    def _refuse(self, what: str) -> None:
+        self._report(self.line, self.column, what)

@@ -1,0 +1,60 @@
+"""A configuration file's bytes to text, whatever lies at its path."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+from up.config.nodes import Report, place_of
+
+MAX_BYTES = 1024 * 1024
+
+
+def read_text(path: Path, report: Report) -> str | None:
+    """Return the file's text, or None when it is missing or something is reported.
+
+    Only regular files of at most 1 MiB of UTF-8 are read; a pipe or device cannot make it wait.
+    """
+    try:
+        data = _read_bytes(path)
+    except FileNotFoundError:
+        if path.is_symlink():
+            report(1, 1, "is a link to a file that is not there")
+        return None
+    except OSError as error:
+        report(1, 1, f"cannot be read: {error.strerror or error}")
+        return None
+    except _NotAFileError as error:
+        report(1, 1, str(error))
+        return None
+    return decode(data, report)
+
+
+def decode(data: bytes, report: Report) -> str | None:
+    """Return bytes as text, or None when something is reported."""
+    if len(data) > MAX_BYTES:
+        report(1, 1, "is larger than 1 MiB")
+        return None
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line, column = place_of(data[: error.start].decode("utf-8", "replace"), error.start)
+        report(line, column, f"is not UTF-8 text: byte 0x{data[error.start]:02X}")
+        return None
+    return text
+
+
+class _NotAFileError(Exception):
+    """The path leads to something that is no regular file."""
+
+
+def _read_bytes(path: Path) -> bytes:
+    descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    with os.fdopen(descriptor, "rb") as file:
+        mode = os.fstat(descriptor).st_mode
+        if stat.S_ISDIR(mode):
+            raise _NotAFileError("is a folder, not a file")
+        if not stat.S_ISREG(mode):
+            raise _NotAFileError("is not a regular file")
+        return file.read(MAX_BYTES + 1)

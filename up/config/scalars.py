@@ -1,0 +1,97 @@
+"""The text of a scalar to a value of the type that is asked, without YAML's surprises.
+
+YAML 1.1 reads an unquoted `no` as false, `12:30` as 750 and `010` as 8. Here the key says which
+type is wanted, and a text that YAML could take for something else must be quoted to be text.
+"""
+
+from __future__ import annotations
+
+import re
+
+from up.config.nodes import ScalarNode
+from up.fields import Constraint, show
+
+_NULLS = frozenset({"", "~", "null", "Null", "NULL"})
+_BOOLS = {
+    spelling: value
+    for word, value in {
+        "true": True,
+        "yes": True,
+        "on": True,
+        "false": False,
+        "no": False,
+        "off": False,
+    }.items()
+    for spelling in (word, word.capitalize(), word.upper())
+}
+_INT = re.compile(r"[-+]?(0|[1-9][0-9]*)", re.ASCII)
+_FLOAT = re.compile(r"[-+]?(0|[1-9][0-9]*)?(\.[0-9]*)?([eE][-+]?[0-9]+)?", re.ASCII)
+_NOT_FINITE = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
+_OCTAL = re.compile(r"[-+]?0[0-9_]+")
+_SEXAGESIMAL = re.compile(r"[-+]?[0-9][0-9_]*(:[0-9]{1,2})+(\.[0-9_]*)?")
+_NUMBER_LIKE = re.compile(r"[-+]?(0[xob])?[0-9.][0-9a-fA-F_.]*([eE][-+]?[0-9]+)?")
+_TIMESTAMP = re.compile(r"[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}([Tt \t].*)?")
+_MAX_DIGITS = 400
+
+
+def is_null(node: object) -> bool:
+    """Tell whether a node is an empty or null value."""
+    return isinstance(node, ScalarNode) and node.plain and node.text in _NULLS
+
+
+def needs_quotes(text: str) -> bool:
+    """Tell whether some YAML reader takes this plain text for something else than text."""
+    return (
+        text in _NULLS
+        or text in _BOOLS
+        or text in ("<<", "=", "y", "Y", "n", "N")
+        or any(
+            pattern.fullmatch(text)
+            for pattern in (_FLOAT, _NOT_FINITE, _OCTAL, _SEXAGESIMAL, _TIMESTAMP)
+        )
+        or bool(_NUMBER_LIKE.fullmatch(text) and any(c.isdigit() for c in text))
+    )
+
+
+def read_scalar(node: ScalarNode, constraint: Constraint) -> object:
+    """Return the checked value of a scalar; raises ValueError with one sentence."""
+    if is_null(node):
+        return constraint.check(None)
+    if constraint.type_ is str:
+        return constraint.check(_text(node, constraint))
+    if not node.plain:
+        hint = ""
+        if constraint.type_ in (bool, int, float):
+            hint = " (remove the quotes)"
+        raise ValueError(f"must be {constraint.describe()}, not text: {show(node.text)}{hint}")
+    if constraint.type_ is bool:
+        return constraint.check(_BOOLS.get(node.text, node.text))
+    if constraint.type_ in (int, float):
+        return constraint.check(_number(node.text, constraint))
+    raise ValueError(f"must be {constraint.describe()}, not {show(node.text)}")
+
+
+def _text(node: ScalarNode, constraint: Constraint) -> str:
+    # Among choices there is no doubt what a word means, so it needs no quotes.
+    if node.plain and constraint.choices is None and needs_quotes(node.text):
+        what = "must be in quotes, YAML does not read it as text:"
+        raise ValueError(f"{what} write {show(node.text)}")
+    return node.text
+
+
+def _number(text: str, constraint: Constraint) -> object:
+    if len(text) > _MAX_DIGITS:
+        return text
+    if _INT.fullmatch(text):
+        return int(text)
+    if _NOT_FINITE.fullmatch(text):
+        raise ValueError(f"must be a finite number, not {text}")
+    if _OCTAL.fullmatch(text):
+        raise ValueError(f"must not begin with 0, which YAML reads as octal: {show(text)}")
+    if _SEXAGESIMAL.fullmatch(text):
+        raise ValueError(
+            f"must be {constraint.describe()}, not {show(text)} (YAML counts it in sixties)"
+        )
+    if any(c.isdigit() for c in text) and _FLOAT.fullmatch(text):
+        return float(text)
+    return text

@@ -1,0 +1,229 @@
+"""The shape of a configuration file, declared as frozen dataclasses.
+
+`key`, `section`, `mapping` and `items` stand where a dataclass field has its default; `shape_of`
+reads them back as a tree that the validator, the template and the schema walk.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import sys
+import types
+import typing
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar, cast
+
+from up.fields import Constraint
+
+T = TypeVar("T")
+V = TypeVar("V")
+_METADATA = "up.config"
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A map with known keys, read into an instance of the dataclass `cls`."""
+
+    cls: type[Any]
+    comment: str
+    entries: tuple[Entry, ...]
+
+    def defaults(self) -> Any:
+        """Return the instance that an empty file gives."""
+        return self.cls()
+
+
+@dataclass(frozen=True, slots=True)
+class MapOf:
+    """A map with free keys, read into a dict."""
+
+    key: Constraint
+    value: Spec
+    max_length: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class ListOf:
+    """A list, read into a tuple."""
+
+    item: Spec
+    max_length: int | None
+
+
+Spec = Constraint | Shape | MapOf | ListOf
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One key of a Shape: where it goes, what it may be and what people should know about it."""
+
+    attribute: str
+    name: str
+    comment: str
+    spec: Spec
+    default: Any
+    replaced: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Declared:
+    """What a field of the dataclass says before its annotation is known."""
+
+    kind: str
+    comment: str
+    name: str | None
+    replaced: tuple[str, ...]
+    bounds: Mapping[str, Any]
+
+
+def key(
+    default: T,
+    comment: str,
+    *,
+    name: str | None = None,
+    unit: str = "",
+    minimum: float | None = None,
+    maximum: float | None = None,
+    choices: tuple[Any, ...] | None = None,
+    max_length: int | None = None,
+    nullable: bool = False,
+    ignore_case: bool = False,
+    replaced: tuple[str, ...] = (),
+) -> T:
+    """Declare a key with one value, whose type is the field's annotation (`X | None`: nullable).
+
+    In the file it is called `name`, else as the attribute. `replaced` lists names that it had
+    before: they are refused with a sentence that tells the new one.
+    """
+    bounds = {
+        "unit": unit,
+        "minimum": minimum,
+        "maximum": maximum,
+        "choices": choices,
+        "max_length": max_length,
+        "nullable": nullable,
+        "ignore_case": ignore_case,
+    }
+    declared = _Declared("key", comment, name, replaced, bounds)
+    return dataclasses.field(default=default, metadata={_METADATA: declared})
+
+
+def section(
+    cls: type[T],
+    comment: str = "",
+    *,
+    name: str | None = None,
+    optional: bool = False,
+    replaced: tuple[str, ...] = (),
+) -> T:
+    """Declare a map with known keys, itself a dataclass; an absent `optional` one reads as None."""
+    declared = _Declared("section", comment, name, replaced, {"cls": cls})
+    factory: Any = (lambda: None) if optional else cls
+    return cast(T, dataclasses.field(default_factory=factory, metadata={_METADATA: declared}))
+
+
+def mapping(
+    key: Constraint,
+    value: Constraint | type[V] | MapOf | ListOf,
+    comment: str,
+    *,
+    default: Mapping[str, Any] | None = None,
+    name: str | None = None,
+    max_length: int | None = 1000,
+    replaced: tuple[str, ...] = (),
+) -> Any:
+    """Declare a map with free keys, read into a dict; in a file it replaces the whole default."""
+    spec = MapOf(key, _spec_of(value), max_length)
+    declared = _Declared("free", comment, name, replaced, {"spec": spec})
+    start = dict(default or {})
+    return dataclasses.field(default_factory=lambda: dict(start), metadata={_METADATA: declared})
+
+
+def items(
+    item: Constraint | type[V] | MapOf | ListOf,
+    comment: str,
+    *,
+    default: Iterable[Any] = (),
+    name: str | None = None,
+    max_length: int | None = 1000,
+    replaced: tuple[str, ...] = (),
+) -> Any:
+    """Declare a list, read into a tuple; in a file it replaces the whole default."""
+    spec = ListOf(_spec_of(item), max_length)
+    declared = _Declared("free", comment, name, replaced, {"spec": spec})
+    return dataclasses.field(default=tuple(default), metadata={_METADATA: declared})
+
+
+def shape_of(cls: type[Any]) -> Shape:
+    """Return the shape that a frozen dataclass declares.
+
+    Raises TypeError for a class that declares it wrongly and ValueError for a default that its own
+    constraint refuses: both are mistakes of the programmer.
+    """
+    if not dataclasses.is_dataclass(cls):
+        raise TypeError(f"{cls.__qualname__} is not a dataclass")
+    entries = tuple(_entry_of(cls, field) for field in dataclasses.fields(cls))
+    names = [name for entry in entries for name in (entry.name, *entry.replaced)]
+    if len(names) != len(set(names)):
+        raise TypeError(f"{cls.__qualname__} gives one name to two keys")
+    return Shape(cls, _doc_of(cls), entries)
+
+
+def _entry_of(cls: type[Any], field: dataclasses.Field[Any]) -> Entry:
+    where = f"{cls.__qualname__}.{field.name}"
+    declared = field.metadata.get(_METADATA)
+    if not isinstance(declared, _Declared):
+        raise TypeError(f"{where} is not declared with key, section, mapping or items")
+    if isinstance(field.default_factory, type) or callable(field.default_factory):
+        default = field.default_factory()
+    else:
+        default = field.default
+    spec: Spec
+    comment = declared.comment
+    if declared.kind == "section":
+        spec = shape_of(declared.bounds["cls"])
+        comment = comment or spec.comment
+    elif declared.kind == "key":
+        spec = _constraint_of(cls, field, declared.bounds, where)
+        try:
+            default = spec.check(default)
+        except ValueError as error:
+            raise ValueError(f"the default of {where} {error}") from None
+    else:
+        spec = declared.bounds["spec"]
+    return Entry(field.name, declared.name or field.name, comment, spec, default, declared.replaced)
+
+
+def _constraint_of(
+    cls: type[Any], field: dataclasses.Field[Any], bounds: Mapping[str, Any], where: str
+) -> Constraint:
+    annotation: Any = field.type
+    if isinstance(annotation, str):
+        holder = types.SimpleNamespace(__annotations__={field.name: annotation})
+        scope = vars(sys.modules[cls.__module__])
+        annotation = typing.get_type_hints(holder, globalns=scope)[field.name]
+    arguments = dict(bounds)
+    members = typing.get_args(annotation)
+    if types.NoneType in members:
+        arguments["nullable"] = True
+        rest = [member for member in members if member is not types.NoneType]
+        annotation = rest[0] if len(rest) == 1 else annotation
+    if typing.get_origin(annotation) is typing.Literal:
+        choices = typing.get_args(annotation)
+        arguments["choices"] = choices
+        annotation = type(choices[0])
+    if annotation not in (bool, int, float, str):
+        raise TypeError(f"{where}: a key is a bool, int, float or str, not {annotation!r}")
+    return Constraint(annotation, **arguments)
+
+
+def _spec_of(value: Constraint | type[Any] | MapOf | ListOf) -> Spec:
+    return shape_of(value) if isinstance(value, type) else value
+
+
+def _doc_of(cls: type[Any]) -> str:
+    # A dataclass without a docstring gets its signature as one, which is no comment.
+    doc = inspect.cleandoc(cls.__doc__ or "")
+    return "" if doc.startswith(f"{cls.__name__}(") else doc

@@ -1,0 +1,187 @@
+"""A tree of nodes to the values that a shape declares, with every problem at its place."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import Any, Protocol, runtime_checkable
+
+from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode
+from up.config.scalars import is_null, read_scalar
+from up.config.shape import Entry, ListOf, MapOf, Shape, Spec
+from up.fields import Constraint, show
+
+_LONGEST_GUESSED_KEY = 60
+
+
+@runtime_checkable
+class ChecksItself(Protocol):
+    """A configuration dataclass whose keys must also fit together."""
+
+    def problems(self) -> Iterable[tuple[str, str]]:
+        """Yield (attribute, sentence) for what does not fit."""
+
+
+class _Refused:
+    """What stands where a value was refused; the problem is already reported."""
+
+
+_REFUSED = _Refused()
+
+
+class Validator:
+    """Reads nodes as a shape says; with `whole`, a map that is there must have all its keys.
+
+    `removed` maps the dotted name of an old key to the sentence that tells its replacement.
+    """
+
+    def __init__(self, report: Report, removed: dict[str, str], whole: bool = False) -> None:
+        self._report = report
+        self._removed = removed
+        self._whole = whole
+        self._refused = 0
+
+    def read(self, spec: Spec, node: Node) -> Any:
+        """Return the value; what it is after a reported problem does not matter."""
+        return self._value(spec, node, "")
+
+    def _value(self, spec: Spec, node: Node, path: str) -> Any:
+        if isinstance(spec, Shape):
+            return self._shape(spec, node, path)
+        if isinstance(spec, MapOf):
+            return self._map(spec, node, path)
+        if isinstance(spec, ListOf):
+            return self._list(spec, node, path)
+        if not isinstance(node, ScalarNode):
+            found = "a list" if isinstance(node, ListNode) else "a map"
+            return self._refuse(node, path, f"must be {spec.describe()}, not {found}")
+        try:
+            return read_scalar(node, spec)
+        except ValueError as error:
+            return self._refuse(node, path, str(error))
+
+    def _shape(self, shape: Shape, node: Node, path: str) -> Any:
+        if not isinstance(node, MapNode):
+            return self._refuse(node, path, f"must be a map of keys, not {_found(node)}")
+        before = self._refused
+        entries = {entry.name: entry for entry in shape.entries}
+        places: dict[str, Node] = {}
+        values: dict[str, Any] = {}
+        for name, key_node, value_node in self._pairs(node, path):
+            entry = entries.get(name)
+            if entry is None:
+                self._unknown(shape, name, key_node, path)
+                continue
+            places[entry.attribute] = value_node
+            inner = _join(path, name)
+            if not is_null(value_node):
+                values[entry.attribute] = self._value(entry.spec, value_node, inner)
+            elif isinstance(entry.spec, Constraint) and entry.spec.nullable:
+                values[entry.attribute] = None
+            elif self._whole:
+                self._refuse(value_node, inner, "must have a value")
+        if self._whole:
+            self._check_whole(shape, node, places, path)
+        if self._refused > before:
+            return _REFUSED
+        value = shape.cls(**values)
+        return value if self._fits(shape, value, node, places, path) else _REFUSED
+
+    def _check_whole(self, shape: Shape, node: MapNode, places: dict[str, Node], path: str) -> None:
+        for entry in shape.entries:
+            if isinstance(entry.spec, Constraint) and entry.attribute not in places:
+                self._refuse(node, path, f"the key {show(entry.name)} is missing")
+
+    def _fits(
+        self, shape: Shape, value: Any, node: MapNode, places: dict[str, Node], path: str
+    ) -> bool:
+        before = self._refused
+        if isinstance(value, ChecksItself):
+            names = {entry.attribute: entry.name for entry in shape.entries}
+            for attribute, what in value.problems():
+                self._refuse(places.get(attribute, node), _join(path, names[attribute]), what)
+        return self._refused == before
+
+    def _map(self, spec: MapOf, node: Node, path: str) -> Any:
+        if not isinstance(node, MapNode):
+            return self._refuse(node, path, f"must be a map, not {_found(node)}")
+        if spec.max_length is not None and len(node.pairs) > spec.max_length:
+            return self._refuse(node, path, f"must have at most {spec.max_length} keys")
+        values: dict[str, Any] = {}
+        for name, key_node, value_node in self._pairs(node, path):
+            inner = _join(path, name)
+            try:
+                checked_name = str(read_scalar(key_node, spec.key))
+            except ValueError as error:
+                self._refuse(key_node, inner, f"as a key {error}")
+                continue
+            if is_null(value_node) and isinstance(spec.value, Shape) and not self._whole:
+                values[checked_name] = spec.value.defaults()
+            else:
+                values[checked_name] = self._value(spec.value, value_node, inner)
+        return values
+
+    def _list(self, spec: ListOf, node: Node, path: str) -> Any:
+        if not isinstance(node, ListNode):
+            return self._refuse(node, path, f"must be a list, not {_found(node)}")
+        if spec.max_length is not None and len(node.items) > spec.max_length:
+            return self._refuse(node, path, f"must have at most {spec.max_length} items")
+        return tuple(
+            self._value(spec.item, item, f"{path}[{index}]")
+            for index, item in enumerate(node.items)
+        )
+
+    def _pairs(self, node: MapNode, path: str) -> Iterable[tuple[str, ScalarNode, Node]]:
+        """Yield name, key and value of each pair, once for each name."""
+        lines: dict[str, int] = {}
+        for key_node, value_node in node.pairs:
+            if not isinstance(key_node, ScalarNode):
+                self._refuse(
+                    key_node, path, f"a key must be one word or text, not {_found(key_node)}"
+                )
+                continue
+            name = key_node.text
+            if name in lines:
+                what = f"the key {show(name)} stands here twice, first in line {lines[name]}"
+                self._refuse(key_node, path, what)
+                continue
+            lines[name] = key_node.line
+            yield name, key_node, value_node
+
+    def _unknown(self, shape: Shape, name: str, node: Node, path: str) -> None:
+        sentence = self._removed.get(_join(path, name))
+        if sentence is not None:
+            self._refuse(node, path, f"the key {show(name)} is no longer used: {sentence}")
+            return
+        for entry in shape.entries:
+            if name in entry.replaced:
+                new = show(entry.name)
+                self._refuse(node, path, f"the key {show(name)} is now called {new}")
+                return
+        self._refuse(node, path, f"unknown key {show(name)}{_guess(name, shape.entries)}")
+
+    def _refuse(self, node: Node, path: str, what: str) -> _Refused:
+        self._refused += 1
+        prefix = f"{show(path)[1:-1]}: " if path else ""
+        self._report(node.line, node.column, prefix + what)
+        return _REFUSED
+
+
+def _found(node: Node) -> str:
+    if isinstance(node, MapNode):
+        return "a map"
+    if isinstance(node, ListNode):
+        return "a list"
+    return "nothing" if is_null(node) else show(node.text)
+
+
+def _join(path: str, name: str) -> str:
+    return f"{path}.{name}" if path else name
+
+
+def _guess(name: str, entries: Iterable[Entry]) -> str:
+    if len(name) > _LONGEST_GUESSED_KEY:
+        return ""
+    names = {entry.name.lower(): entry.name for entry in entries}
+    near = difflib.get_close_matches(name.lower(), names, n=1)
+    return f", did you mean '{names[near[0]]}'?" if near else ""

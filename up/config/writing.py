@@ -1,0 +1,116 @@
+"""Configuration files onto the disk: whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import json
+import os
+import secrets
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from up.config.file import ConfigFile
+
+_NO_HARD_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)
+
+
+def write_template(file: ConfigFile[Any], folder: Path) -> bool:
+    """Write the file's template into `folder` unless something has its name; tell whether it wrote.
+
+    The folder is made. Raises OSError when the disk refuses.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / file.filename
+    if os.path.lexists(path):
+        return False
+    return _create(path, file.template().encode())
+
+
+def write_schemas(files: Iterable[ConfigFile[Any]], folder: Path) -> list[Path]:
+    """Write `<name>.schema.json` for every file, return the paths; raises OSError."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for file in files:
+        path = folder / f"{Path(file.filename).stem}.schema.json"
+        text = json.dumps(file.json_schema(), indent=2, ensure_ascii=False, allow_nan=False)
+        write_atomically(path, text.encode() + b"\n")
+        written.append(path)
+    return written
+
+
+def write_atomically(path: Path, data: bytes) -> None:
+    """Replace the file's contents so that a power cut leaves either the old or the new ones.
+
+    Raises OSError; the old contents are then still there and nothing else is left behind.
+    """
+    temporary = _write_temporary(path, data)
+    try:
+        temporary.replace(path)
+    except OSError:
+        _remove(temporary)
+        raise
+    _sync_folder(path.parent)
+
+
+def _create(path: Path, data: bytes) -> bool:
+    temporary = _write_temporary(path, data)
+    try:
+        # Unlike rename, link refuses a name that is taken, be it by a link to nowhere.
+        os.link(temporary, path)
+    except FileExistsError:
+        return False
+    except OSError as error:
+        if error.errno not in _NO_HARD_LINKS:
+            raise
+        return _create_exclusively(path, data)
+    finally:
+        _remove(temporary)
+    _sync_folder(path.parent)
+    return True
+
+
+def _create_exclusively(path: Path, data: bytes) -> bool:
+    """Write under the final name, for file systems without hard links."""
+    try:
+        with path.open("xb") as file:
+            _write_and_sync(file.fileno(), data)
+    except FileExistsError:
+        return False
+    return True
+
+
+def _write_temporary(path: Path, data: bytes) -> Path:
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.tmp")
+    try:
+        with temporary.open("xb") as file:
+            _write_and_sync(file.fileno(), data)
+    except OSError:
+        _remove(temporary)
+        raise
+    return temporary
+
+
+def _write_and_sync(descriptor: int, data: bytes) -> None:
+    view = memoryview(data)
+    while view:
+        view = view[os.write(descriptor, view) :]
+    os.fsync(descriptor)
+
+
+def _sync_folder(folder: Path) -> None:
+    # Some file systems cannot sync a folder; the file itself is safe by then.
+    with contextlib.suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+
+
+def _remove(path: Path) -> None:
+    with contextlib.suppress(OSError):
+        path.unlink()
