@@ -1,1 +1,1 @@
-"""The ground station proxy: relays between aircraft and ground on a public host."""
+"""The Ground Station Proxy: a relay between aircraft and ground stations on a public host."""

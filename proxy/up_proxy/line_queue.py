@@ -1,0 +1,65 @@
+"""What waits for a slow peer: whole lines, in order, bounded."""
+
+
+class LineQueue:
+    """Bytes that the socket did not take yet, made of whole lines.
+
+    With `limit_bytes` the oldest whole lines go first when more waits (telemetry: the newest
+    wins); with 0 nothing is ever dropped and whoever fills the queue must wait. The rest of a
+    line that has begun to leave, and control lines, are never dropped.
+    """
+
+    __slots__ = ("_buffer", "_kept", "dropped_lines", "limit_bytes")
+
+    def __init__(self, limit_bytes: int = 0) -> None:
+        self.limit_bytes = limit_bytes
+        self.dropped_lines = 0
+        self._buffer = bytearray()
+        self._kept = 0
+        """Length of the head that must leave as it is."""
+
+    def __len__(self) -> int:
+        return len(self._buffer)
+
+    @property
+    def kept_bytes(self) -> int:
+        """Length of the head that may not be dropped."""
+        return self._kept
+
+    def put_rest(self, rest: bytes) -> None:
+        """Begin the queue with lines of which a part of the first may have left already."""
+        assert not self._buffer
+        self._buffer += rest
+        self._kept = rest.find(b"\n") + 1
+
+    def put(self, lines: bytes) -> None:
+        """Append whole lines."""
+        buffer = self._buffer
+        buffer += lines
+        if not self.limit_bytes or len(buffer) <= self.limit_bytes:
+            return
+        last = min(self._kept + len(buffer) - self.limit_bytes, len(buffer)) - 1
+        cut = buffer.find(b"\n", max(last, self._kept)) + 1
+        if cut > self._kept:
+            self.dropped_lines += buffer.count(b"\n", self._kept, cut)
+            del buffer[self._kept : cut]
+
+    def put_control(self, line: bytes) -> None:
+        """Insert a control line at the first line boundary, ahead of all that may be dropped."""
+        self._buffer[self._kept : self._kept] = line
+        self._kept += len(line)
+
+    def head(self, size: int = 65536) -> bytes:
+        """Return the next bytes to send."""
+        return bytes(self._buffer[:size])
+
+    def sent(self, count: int) -> None:
+        """Forget bytes that the socket took."""
+        buffer = self._buffer
+        if count < self._kept:
+            self._kept -= count
+        elif count and buffer[count - 1] != 0x0A:
+            self._kept = buffer.find(b"\n", count) + 1 - count
+        else:
+            self._kept = 0
+        del buffer[:count]

@@ -1,0 +1,1 @@
+"""What programs ask of the operating system: supervision, addresses, time."""
