@@ -18,7 +18,7 @@ class ApplicationConfig:
     )
     log_file: str = key(
         "",
-        "A file that also gets every event, one JSON object a line, and is rotated. Empty: none.",
+        "A file that gets the same events, one JSON object a line, and is rotated. Empty: none.",
         name="log file",
         max_length=4096,
     )

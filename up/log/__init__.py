@@ -1,0 +1,7 @@
+"""Logging: one readable line an event for people and the journal, JSON lines for programs."""
+
+from up.log.limits import Limited, Once
+from up.log.setup import Logging, start_logging
+from up.log.up_logger import UpLogger
+
+__all__ = ["Limited", "Logging", "Once", "UpLogger", "start_logging"]

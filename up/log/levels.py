@@ -1,0 +1,55 @@
+"""How severe an event is, in the words of configuration files, people and the journal."""
+
+from __future__ import annotations
+
+from constantly import NamedConstant
+from twisted.logger import LogEvent, LogLevel
+
+_BY_NAME = {
+    "debug": LogLevel.debug,
+    "info": LogLevel.info,
+    "warn": LogLevel.warn,
+    "warning": LogLevel.warn,
+    "error": LogLevel.error,
+}
+_WORDS = {
+    LogLevel.debug: "DEBUG",
+    LogLevel.info: "INFO",
+    LogLevel.warn: "WARNING",
+    LogLevel.error: "ERROR",
+    LogLevel.critical: "CRITICAL",
+}
+_PRIORITIES = {
+    LogLevel.debug: 7,
+    LogLevel.info: 6,
+    LogLevel.warn: 4,
+    LogLevel.error: 3,
+    LogLevel.critical: 2,
+}
+
+
+def level_named(name: str) -> NamedConstant:
+    """Return the level for debug, info, warn or warning, or error, in any case; else ValueError."""
+    try:
+        return _BY_NAME[name.lower()]
+    except KeyError:
+        choices = ", ".join(_BY_NAME)
+        raise ValueError(f'a log level must be one of {choices}, not "{name}"') from None
+
+
+def level_of(event: LogEvent) -> NamedConstant:
+    """Return the level of an event; what Twisted says about its own doings is for debugging."""
+    level = event.get("log_level", LogLevel.info)
+    if level is LogLevel.info and str(event.get("log_namespace", "")).startswith("twisted."):
+        return LogLevel.debug
+    return level
+
+
+def word_of(level: NamedConstant) -> str:
+    """Return the word for people."""
+    return _WORDS.get(level, "INFO")
+
+
+def priority_of(level: NamedConstant) -> int:
+    """Return the syslog priority (0 to 7, 7 the least severe) that the journal understands."""
+    return _PRIORITIES.get(level, 6)

@@ -1,0 +1,108 @@
+"""What keeps a log readable when one thing happens again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+Emit = Callable[..., None]
+
+
+class Cancellable(Protocol):
+    """A call that is yet to come."""
+
+    def cancel(self) -> None:
+        """Do not make the call."""
+
+
+class Clock(Protocol):
+    """What calls later: the reactor, or a test's clock."""
+
+    def callLater(  # noqa: N802 - Twisted's name
+        self, delay: float, callable: Callable[..., object], *args: object
+    ) -> Cancellable:
+        """Call after `delay` seconds."""
+
+
+class Once:
+    """Remembers what was said already: at most `limit` things, beyond which nothing is first."""
+
+    def __init__(self, limit: int = 1000) -> None:
+        self._limit = limit
+        self._seen: set[Hashable] = set()
+
+    def first(self, key: Hashable) -> bool:
+        """Tell whether this is the first time that the key is asked for."""
+        if key in self._seen or len(self._seen) >= self._limit:
+            return False
+        self._seen.add(key)
+        return True
+
+
+@dataclass(slots=True)
+class _Held:
+    """What was held back in the running interval, with the newest event."""
+
+    call: Cancellable
+    emit: Emit
+    format_: str
+    fields: dict[str, Any]
+    more: int = 0
+
+
+class Limited:
+    """Lets one event a key through in `interval_s`, and then tells how many more there were.
+
+    For the reactor's thread. Beyond `limit` keys in one interval all the others share one.
+    """
+
+    def __init__(self, clock: Clock, interval_s: float, limit: int = 1000) -> None:
+        self._clock = clock
+        self._interval_s = interval_s
+        self._limit = limit
+        self._held: dict[Hashable, _Held] = {}
+
+    def log(self, emit: Emit, format_: str, *, key: Hashable = None, **fields: Any) -> None:
+        """Log by `emit` (a logger's method), now or counted; the format is the key if none is."""
+        key = format_ if key is None else key
+        if key not in self._held and len(self._held) >= self._limit:
+            key = _OTHERS
+        held = self._held.get(key)
+        if held is None:
+            self._held[key] = _Held(self._schedule(key), emit, format_, fields)
+            emit(format_, **fields)
+        else:
+            held.emit, held.format_, held.fields = emit, format_, fields
+            held.more += 1
+
+    def stop(self) -> None:
+        """Say what is still held back and forget it."""
+        held_back, self._held = self._held, {}
+        for held in held_back.values():
+            held.call.cancel()
+            self._tell(held)
+
+    def _schedule(self, key: Hashable) -> Cancellable:
+        return self._clock.callLater(self._interval_s, self._end_interval, key)
+
+    def _end_interval(self, key: Hashable) -> None:
+        held = self._held[key]
+        if not held.more:
+            del self._held[key]
+            return
+        self._tell(held)
+        held.more = 0
+        held.call = self._schedule(key)
+
+    def _tell(self, held: _Held) -> None:
+        if held.more:
+            held.emit(
+                held.format_ + " (and {more} more in {interval_s:g} s)",
+                **held.fields,
+                more=held.more,
+                interval_s=self._interval_s,
+            )
+
+
+_OTHERS = object()

@@ -1,0 +1,88 @@
+"""Where a program's log goes, said once at its start."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TextIO, cast
+
+from twisted.logger import (
+    ILogObserver,
+    LogBeginner,
+    LogLevel,
+    LogPublisher,
+    globalLogBeginner,
+    globalLogPublisher,
+)
+
+from up.log.json_lines import JsonLinesObserver, RotatingFile
+from up.log.levels import level_named
+from up.log.text import TextObserver, is_journal
+
+
+class Logging:
+    """The log of a running program, until `stop`."""
+
+    def __init__(
+        self,
+        publisher: LogPublisher,
+        observers: Sequence[ILogObserver],
+        json_lines: JsonLinesObserver | None,
+    ) -> None:
+        self._publisher = publisher
+        self._observers = observers
+        self._json_lines = json_lines
+
+    def stop(self) -> None:
+        """Take the observers away and close the file."""
+        for observer in self._observers:
+            self._publisher.removeObserver(observer)
+        if self._json_lines is not None:
+            self._json_lines.stop()
+
+
+def start_logging(
+    level: str = "info",
+    stream: TextIO | None = None,
+    json_path: Path | None = None,
+    rotate_bytes: int = 5_000_000,
+    keep: int = 5,
+    *,
+    environ: Mapping[str, str] = os.environ,
+    beginner: LogBeginner = globalLogBeginner,
+    publisher: LogPublisher = globalLogPublisher,
+) -> Logging:
+    """Send events of `level` and above to `stream` (stderr) and, as JSON lines, to `json_path`.
+
+    At `rotate_bytes` the file is renamed and begun anew; `keep` old ones stay. Raises ValueError
+    for an unknown level. No write error is raised: a file that cannot be written is given up,
+    which is said once on the stream. `beginner` and `publisher` belong together.
+    """
+    least = level_named(level)
+    stream = sys.stderr if stream is None else stream
+    text = TextObserver(stream, least, is_journal(stream, environ))
+    observers = [cast(ILogObserver, text)]
+    json_lines = None
+    if json_path is not None:
+        file = RotatingFile(json_path, rotate_bytes, keep)
+        json_lines = JsonLinesObserver(file, least, lambda what: _say(text, what))
+        observers.append(cast(ILogObserver, json_lines))
+        json_lines.start()
+    beginner.beginLoggingTo(observers, redirectStandardIO=False)
+    return Logging(publisher, observers, json_lines)
+
+
+def _say(observer: TextObserver, what: str) -> None:
+    """Tell people directly, past the publisher that is just in the middle of an event."""
+    observer(
+        {
+            "log_level": LogLevel.error,
+            "log_namespace": "up.log",
+            "log_format": "{what}",
+            "log_time": time.time(),
+            "what": what,
+        }
+    )

@@ -1,0 +1,115 @@
+"""Events as lines for people and for the journal."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from typing import TextIO
+
+from constantly import NamedConstant
+from twisted.logger import ILogObserver, LogEvent, LogLevel, formatEvent
+from zope.interface import implementer
+
+from up.fields import printable
+from up.log.levels import level_of, priority_of, word_of
+
+_MAX_TEXT = 4000
+
+
+def source_of(event: LogEvent) -> str:
+    """Return who speaks: the logger's name."""
+    source = event.get("log_namespace") or "-"
+    if source == "log_legacy":
+        source = event.get("log_system") or "-"
+    return printable(str(source))
+
+
+def text_of(event: LogEvent) -> str:
+    """Return what an event says, in one line without control characters, at most 4000 long.
+
+    A failure that was expected (logged below critical) adds its own sentence.
+    """
+    text = formatEvent(event)
+    failure = event.get("log_failure")
+    if failure is not None:
+        reason = failure.getErrorMessage() or failure.type.__name__
+        if reason not in text:
+            text = f"{text}: {reason}" if text else reason
+    if len(text) > _MAX_TEXT:
+        text = text[:_MAX_TEXT] + "..."
+    return printable(text)
+
+
+def traceback_of(event: LogEvent, least: NamedConstant) -> str:
+    """Return the traceback of a bug, or of any failure when everything is logged; else ''."""
+    failure = event.get("log_failure")
+    if failure is None or (least > LogLevel.debug and level_of(event) < LogLevel.critical):
+        return ""
+    return str(failure.getTraceback())
+
+
+def is_journal(stream: TextIO, environ: Mapping[str, str]) -> bool:
+    """Tell whether the stream leads into systemd's journal (sd-daemon: JOURNAL_STREAM).
+
+    The variable outlives a redirection, so its device and inode must be the stream's.
+    """
+    named = environ.get("JOURNAL_STREAM")
+    if not named:
+        return False
+    try:
+        status = os.fstat(stream.fileno())
+    except (OSError, ValueError):
+        return False
+    return named == f"{status.st_dev}:{status.st_ino}"
+
+
+@implementer(ILogObserver)
+class TextObserver:
+    """Writes every event of level `least` and above to a stream, from whatever thread.
+
+    A stream that refuses to take a line loses that line; nothing is raised.
+    """
+
+    def __init__(self, stream: TextIO, least: NamedConstant, journal: bool) -> None:
+        self._stream = stream
+        self._least = least
+        self._journal = journal
+        self._lock = threading.Lock()
+
+    def __call__(self, event: LogEvent) -> None:
+        """Write the event if it is severe enough."""
+        if level_of(event) < self._least:
+            return
+        self._write("".join(f"{line}\n" for line in self._lines(event)))
+
+    def _lines(self, event: LogEvent) -> Iterator[str]:
+        level = level_of(event)
+        said = f"{source_of(event)}: {text_of(event)}"
+        if self._journal:
+            head = f"<{priority_of(level)}>"
+            yield head + said
+        else:
+            head = ""
+            yield f"{_clock_text(event)} {word_of(level):<8}{said}"
+        for line in traceback_of(event, self._least).splitlines():
+            yield f"{head}    {printable(line)}"
+
+    def _write(self, text: str) -> None:
+        with self._lock:
+            try:
+                try:
+                    self._stream.write(text)
+                except UnicodeEncodeError:
+                    self._stream.write(text.encode("ascii", "backslashreplace").decode())
+                self._stream.flush()
+            except (OSError, ValueError):
+                # Nobody is left to tell: the stream is full, broken or closed.
+                return
+
+
+def _clock_text(event: LogEvent) -> str:
+    moment = event.get("log_time", 0.0)
+    milliseconds = int(moment * 1000) % 1000
+    return f"{time.strftime('%H:%M:%S', time.localtime(moment))}.{milliseconds:03d}"
