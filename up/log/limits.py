@@ -4,25 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
+
+from up.system.clock import Clock, Timer
 
 Emit = Callable[..., None]
-
-
-class Cancellable(Protocol):
-    """A call that is yet to come."""
-
-    def cancel(self) -> None:
-        """Do not make the call."""
-
-
-class Clock(Protocol):
-    """What calls later: the reactor, or a test's clock."""
-
-    def callLater(  # noqa: N802 - Twisted's name
-        self, delay: float, callable: Callable[..., object], *args: object
-    ) -> Cancellable:
-        """Call after `delay` seconds."""
 
 
 class Once:
@@ -44,7 +30,7 @@ class Once:
 class _Held:
     """What was held back in the running interval, with the newest event."""
 
-    call: Cancellable
+    call: Timer
     emit: Emit
     format_: str
     fields: dict[str, Any]
@@ -83,7 +69,7 @@ class Limited:
             held.call.cancel()
             self._tell(held)
 
-    def _schedule(self, key: Hashable) -> Cancellable:
+    def _schedule(self, key: Hashable) -> Timer:
         return self._clock.callLater(self._interval_s, self._end_interval, key)
 
     def _end_interval(self, key: Hashable) -> None:

@@ -92,7 +92,7 @@ class TextObserver:
             yield head + said
         else:
             head = ""
-            yield f"{_clock_text(event)} {word_of(level):<8}{said}"
+            yield f"{_clock_text(event)} {word_of(level):<8} {said}"
         for line in traceback_of(event, self._least).splitlines():
             yield f"{head}    {printable(line)}"
 
