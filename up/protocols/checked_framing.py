@@ -1,0 +1,135 @@
+"""Checked framing of the serial line: COBS, sequence and CRC16 (docs/protocols.md 2.1)."""
+
+from __future__ import annotations
+
+from binascii import crc_hqx
+from collections.abc import Mapping
+
+from up.protocols import cobs
+from up.protocols.crc16 import crc16
+from up.protocols.frame import LONGEST_PAYLOAD, Frame, FrameCounters, SilenceTimer
+
+LONGEST_ENCODED = 101
+"""Bytes of the longest frame without its closing zero."""
+
+_SHORTEST_ENCODED = 5
+
+# The CRC state that one zero byte turns into 0xFFFF. A decoded frame still has its first COBS
+# code, patched to zero, in front; beginning here spares the copy that would cut it off.
+_BEFORE_PATCHED_ZERO = next(state for state in range(0x10000) if crc_hqx(b"\0", state) == 0xFFFF)
+
+
+class CheckedEncoder:
+    """Builds checked frames with the sequence of one direction."""
+
+    opening = b"\0"
+
+    def __init__(self) -> None:
+        self._next_sequence = 0
+
+    @property
+    def last_sequence(self) -> int:
+        """The sequence of the newest frame; 255 before the first one."""
+        return (self._next_sequence - 1) & 0xFF
+
+    def encode(self, type_: int, payload: bytes = b"") -> bytes:
+        """Return one frame with its closing zero; ValueError for more than 96 bytes."""
+        if len(payload) > LONGEST_PAYLOAD:
+            raise ValueError(f"a payload of {len(payload)} bytes, at most {LONGEST_PAYLOAD} fit")
+        body = bytes((self._next_sequence, type_)) + payload
+        self._next_sequence = (self._next_sequence + 1) & 0xFF
+        return cobs.encode(body + crc16(body).to_bytes(2, "big")) + b"\0"
+
+
+class CheckedDecoder:
+    """Finds checked frames in a stream of bytes.
+
+    Holds at most one unfinished frame; a longer one is dropped as it streams by. A frame whose
+    CRC is right counts for the sequence even if its type is unknown: it did arrive.
+    """
+
+    def __init__(self, sizes: Mapping[int, int]) -> None:
+        self.counters = FrameCounters()
+        self._sizes = dict(sizes)
+        self._tail = b""
+        self._is_skipping = False
+        self._expected_sequence = -1
+        self._silence = SilenceTimer()
+
+    def feed(self, data: bytes, now: float | None = None) -> list[Frame]:
+        """Return the frames that `data` completes, in order."""
+        if now is not None and self._silence.has_expired(now):
+            self._drop_unfinished()
+        self._silence.heard(now)
+        pieces = (self._tail + data).split(b"\0")
+        tail = pieces.pop()
+        if self._is_skipping and pieces:
+            self._is_skipping = False
+            pieces[0] = b""
+        if self._is_skipping:
+            tail = b""
+        elif len(tail) > LONGEST_ENCODED:
+            self.counters.format_errors += 1
+            self._is_skipping = True
+            tail = b""
+        self._tail = tail
+        return self._decode(pieces) if pieces else []
+
+    def expire(self, now: float) -> list[Frame]:
+        """Drop a frame whose newest byte is 100 ms old; silence completes none."""
+        if self._silence.has_expired(now):
+            self._drop_unfinished()
+        return []
+
+    def reset(self) -> None:
+        """Forget the unfinished frame and the sequence: the line was opened anew."""
+        self._tail = b""
+        self._is_skipping = False
+        self._expected_sequence = -1
+        self._silence = SilenceTimer()
+
+    def _drop_unfinished(self) -> None:
+        if self._tail:
+            self.counters.timeouts += 1
+        self._tail = b""
+        self._is_skipping = False
+
+    def _decode(self, pieces: list[bytes]) -> list[Frame]:
+        """Return the good frames among `pieces`; written flat, this is the hot path."""
+        counters = self.counters
+        size_of = self._sizes.get
+        expected = self._expected_sequence
+        frames: list[Frame] = []
+        for piece in pieces:
+            length = len(piece)
+            if not _SHORTEST_ENCODED <= length <= LONGEST_ENCODED:
+                if length:
+                    counters.format_errors += 1
+                continue
+            # Below 255 bytes every code byte stands where a zero was: put the zeros back.
+            patched = bytearray(piece)
+            position = 0
+            while position < length:
+                patched[position] = 0
+                position += piece[position]
+            if position != length:
+                counters.format_errors += 1
+                continue
+            if crc_hqx(patched, _BEFORE_PATCHED_ZERO):
+                counters.crc_errors += 1
+                continue
+            sequence = patched[1]
+            if sequence != expected and expected >= 0:
+                counters.lost_by_sequence += (sequence - expected) & 0xFF
+            expected = (sequence + 1) & 0xFF
+            type_ = patched[2]
+            size = size_of(type_)
+            if size is None:
+                counters.unknown_types += 1
+            elif size != length - _SHORTEST_ENCODED:
+                counters.format_errors += 1
+            else:
+                frames.append((type_, bytes(patched[3:-2]), sequence))
+        self._expected_sequence = expected
+        counters.frames += len(frames)
+        return frames

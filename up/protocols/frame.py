@@ -1,0 +1,50 @@
+"""What a decoder of the serial line hands on, and what it counts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+Frame = tuple[int, bytes, int]
+"""Type byte, payload, sequence (0 in thesis framing)."""
+
+UNFINISHED_TIMEOUT_S = 0.1
+"""How long an unfinished frame may wait for its next byte (docs/protocols.md 2.1)."""
+
+LONGEST_PAYLOAD = 96
+
+
+@dataclass(slots=True)
+class FrameCounters:
+    """Counts since the decoder was made; they survive a reopened line."""
+
+    frames: int = 0
+    crc_errors: int = 0
+    format_errors: int = 0
+    unknown_types: int = 0
+    lost_by_sequence: int = 0
+    timeouts: int = 0
+
+
+class SilenceTimer:
+    """Tells when the newest byte is more than 100 ms old.
+
+    `heard` may not know the time; then the age runs from the next look at the clock, which is
+    later and so never drops a frame too early. Times are monotonic seconds.
+    """
+
+    __slots__ = ("_heard_s", "_is_fresh")
+
+    def __init__(self) -> None:
+        self._heard_s: float | None = None
+        self._is_fresh = False
+
+    def heard(self, now: float | None) -> None:
+        """Note that bytes came."""
+        self._heard_s = now
+        self._is_fresh = now is None
+
+    def has_expired(self, now: float) -> bool:
+        """Return whether the newest byte is too old for its frame to go on."""
+        if self._is_fresh:
+            self.heard(now)
+        return self._heard_s is not None and now - self._heard_s >= UNFINISHED_TIMEOUT_S
