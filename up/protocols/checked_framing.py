@@ -6,7 +6,7 @@ from binascii import crc_hqx
 from collections.abc import Mapping
 
 from up.protocols import cobs
-from up.protocols.crc16 import crc16
+from up.protocols.crc16 import INITIAL, crc16
 from up.protocols.frame import LONGEST_PAYLOAD, Frame, FrameCounters, SilenceTimer
 
 LONGEST_ENCODED = 101
@@ -14,9 +14,16 @@ LONGEST_ENCODED = 101
 
 _SHORTEST_ENCODED = 5
 
-# The CRC state that one zero byte turns into 0xFFFF. A decoded frame still has its first COBS
-# code, patched to zero, in front; beginning here spares the copy that would cut it off.
-_BEFORE_PATCHED_ZERO = next(state for state in range(0x10000) if crc_hqx(b"\0", state) == 0xFFFF)
+
+def _states_before() -> tuple[int, ...]:
+    """Return for each byte the CRC state that this byte turns into the initial one."""
+    zero = next(state for state in range(0x10000) if crc_hqx(b"\0", state) == INITIAL)
+    return tuple(zero ^ (byte << 8) for byte in range(256))
+
+
+# The first COBS code stands in front of the sequence. A CRC that begins in the state which this
+# code turns into the initial one spares the copy that would cut it off.
+_STATE_BEFORE = _states_before()
 
 
 class CheckedEncoder:
@@ -98,6 +105,7 @@ class CheckedDecoder:
         """Return the good frames among `pieces`; written flat, this is the hot path."""
         counters = self.counters
         size_of = self._sizes.get
+        state_before = _STATE_BEFORE
         expected = self._expected_sequence
         frames: list[Frame] = []
         for piece in pieces:
@@ -106,30 +114,32 @@ class CheckedDecoder:
                 if length:
                     counters.format_errors += 1
                 continue
-            # Below 255 bytes every code byte stands where a zero was: put the zeros back.
-            patched = bytearray(piece)
-            position = 0
-            while position < length:
-                patched[position] = 0
-                position += piece[position]
+            # Below 255 bytes every code stands where a zero was: put the zeros back.
+            position = piece[0]
             if position != length:
-                counters.format_errors += 1
-                continue
-            if crc_hqx(patched, _BEFORE_PATCHED_ZERO):
+                patched = bytearray(piece)
+                while position < length:
+                    patched[position] = 0
+                    position += piece[position]
+                if position != length:
+                    counters.format_errors += 1
+                    continue
+                piece = bytes(patched)
+            if crc_hqx(piece, state_before[piece[0]]):
                 counters.crc_errors += 1
                 continue
-            sequence = patched[1]
+            sequence = piece[1]
             if sequence != expected and expected >= 0:
                 counters.lost_by_sequence += (sequence - expected) & 0xFF
             expected = (sequence + 1) & 0xFF
-            type_ = patched[2]
+            type_ = piece[2]
             size = size_of(type_)
             if size is None:
                 counters.unknown_types += 1
             elif size != length - _SHORTEST_ENCODED:
                 counters.format_errors += 1
             else:
-                frames.append((type_, bytes(patched[3:-2]), sequence))
+                frames.append((type_, piece[3:-2], sequence))
         self._expected_sequence = expected
         counters.frames += len(frames)
         return frames

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from itertools import repeat
 from struct import Struct
 from typing import NamedTuple
 
@@ -13,7 +12,12 @@ LARGEST_RATE_DEG_S = 4000.0
 
 _FRAME = Struct(">6f")
 _FRAMES_AT_ONCE = 128
+_BLOCK_SIZE = FRAME_SIZE * _FRAMES_AT_ONCE
 _MAGNITUDE = 0x7FFFFFFF
+
+
+OrientationValues = tuple[float, float, float, float, float, float]
+"""The fields of an `OrientationFrame`, in its order, without their names."""
 
 
 class OrientationFrame(NamedTuple):
@@ -34,14 +38,17 @@ def encode(frame: OrientationFrame) -> bytes:
 
 def decode_datagram(datagram: bytes) -> OrientationFrame | None:
     """Return the one frame of a datagram; None: another size, or a value out of range."""
-    if len(datagram) != FRAME_SIZE or not _are_all_in_range(datagram, 1):
+    if len(datagram) != FRAME_SIZE:
         return None
-    return OrientationFrame(*_FRAME.unpack(datagram))
+    values = _FRAME.unpack(datagram)
+    return OrientationFrame(*values) if _is_in_range(values) else None
 
 
 class OrientationDecoder:
     """Finds frames in the bytes of one connection; holds less than one frame.
 
+    They come as plain tuples: to name the fields of each takes as long as to decode it, so that
+    is left to whoever reads them (`OrientationFrame._make`).
     `dropped` counts frames with a value that is not finite or out of range.
     """
 
@@ -49,32 +56,47 @@ class OrientationDecoder:
         self.dropped = 0
         self._remainder = b""
 
-    def feed(self, data: bytes) -> list[OrientationFrame]:
+    def feed(self, data: bytes) -> list[OrientationValues]:
         """Return the frames that `data` completes, in order."""
         if self._remainder:
             data = self._remainder + data
         length = len(data)
-        whole = length - length % FRAME_SIZE
-        self._remainder = data[whole:]
-        if whole == length and length <= FRAME_SIZE * _FRAMES_AT_ONCE:
-            return self._decode(data)
-        frames: list[OrientationFrame] = []
-        for start in range(0, whole, FRAME_SIZE * _FRAMES_AT_ONCE):
-            frames += self._decode(data[start : min(start + FRAME_SIZE * _FRAMES_AT_ONCE, whole)])
+        if length == FRAME_SIZE:  # As a phone sends them: spare the work for many.
+            self._remainder = b""
+            values = _FRAME.unpack(data)
+            if _is_in_range(values):
+                return [values]
+            self.dropped += 1
+            return []
+        excess = length % FRAME_SIZE
+        self._remainder = data[length - excess :] if excess else b""
+        if length <= _BLOCK_SIZE:
+            return self._decode(data[: length - excess] if excess else data)
+        frames: list[OrientationValues] = []
+        for start in range(0, length - excess, _BLOCK_SIZE):
+            frames += self._decode(data[start : min(start + _BLOCK_SIZE, length - excess)])
         return frames
 
-    def _decode(self, block: bytes) -> list[OrientationFrame]:
+    def _decode(self, block: bytes) -> list[OrientationValues]:
         count = len(block) // FRAME_SIZE
         if _are_all_in_range(block, count):
-            # What OrientationFrame._make does, without a Python call for each frame.
-            return list(map(tuple.__new__, repeat(OrientationFrame), _FRAME.iter_unpack(block)))
-        good = [
-            frame
-            for start in range(0, len(block), FRAME_SIZE)
-            if (frame := decode_datagram(block[start : start + FRAME_SIZE])) is not None
-        ]
+            return list(_FRAME.iter_unpack(block))
+        good = [values for values in _FRAME.iter_unpack(block) if _is_in_range(values)]
         self.dropped += count - len(good)
         return good
+
+
+def _is_in_range(values: tuple[float, ...]) -> bool:
+    """Return whether all six are finite and within their limits; NaN compares as false."""
+    roll, pitch, yaw, roll_rate, pitch_rate, yaw_rate = values
+    return (
+        -LARGEST_ANGLE_DEG <= roll <= LARGEST_ANGLE_DEG
+        and -LARGEST_ANGLE_DEG <= pitch <= LARGEST_ANGLE_DEG
+        and -LARGEST_ANGLE_DEG <= yaw <= LARGEST_ANGLE_DEG
+        and -LARGEST_RATE_DEG_S <= roll_rate <= LARGEST_RATE_DEG_S
+        and -LARGEST_RATE_DEG_S <= pitch_rate <= LARGEST_RATE_DEG_S
+        and -LARGEST_RATE_DEG_S <= yaw_rate <= LARGEST_RATE_DEG_S
+    )
 
 
 @lru_cache(maxsize=_FRAMES_AT_ONCE + 1)
