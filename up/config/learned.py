@@ -12,12 +12,15 @@ from up.config.reading import read_text
 from up.config.writing import write_atomically
 
 T = TypeVar("T")
+_HEAD = "# Written by the program; a file that lacks its last line, '# end', is not used.\n\n"
+_END = "# end"
 
 
 class LearnedFile(Generic[T]):
     """A file of learned values with a last good copy beside it, named `<name>.good`.
 
-    A set is good as a whole only: a map in it that lacks a value makes the file corrupt.
+    A set is good as a whole only: a map in it that lacks a value makes the file corrupt, and so
+    does a lost end. People may edit the file, and one from elsewhere needs no end.
     """
 
     def __init__(self, path: Path, config_file: ConfigFile[T]) -> None:
@@ -49,7 +52,7 @@ class LearnedFile(Generic[T]):
         Raises ValueError for values that could not be read back, before anything is touched, and
         OSError when the disk refuses; what was saved before is then still there.
         """
-        data = self._file.render(values).encode()
+        data = self._render(values)
         try:
             self._file.parse(data, self.path, whole=True)
         except ConfigErrors as errors:
@@ -65,7 +68,9 @@ class LearnedFile(Generic[T]):
             found.append(f"{path}:{line}:{column}: {what}")
 
         text = read_text(path, report)
-        if text is not None:
+        if text is not None and text.startswith(_HEAD) and not text.rstrip().endswith(_END):
+            report(text.count("\n") + 1, 1, "is cut short")
+        elif text is not None:
             try:
                 return self._file.parse(text, path, whole=True), None
             except ConfigErrors as errors:
@@ -80,4 +85,7 @@ class LearnedFile(Generic[T]):
         good, _ = self._read(self.good_path)
         if good != values:
             with contextlib.suppress(OSError):
-                write_atomically(self.good_path, self._file.render(values).encode())
+                write_atomically(self.good_path, self._render(values))
+
+    def _render(self, values: T) -> bytes:
+        return f"{_HEAD}{self._file.render(values)}\n{_END}\n".encode()

@@ -39,8 +39,10 @@ def decode(data: bytes, report: Report) -> str | None:
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        line, column = place_of(data[: error.start].decode("utf-8", "replace"), error.start)
-        report(line, column, f"is not UTF-8 text: byte 0x{data[error.start]:02X}")
+        # The error counts from behind a byte order mark; its object begins there too.
+        before = error.object[: error.start].decode()
+        line, column = place_of(before, len(before))
+        report(line, column, f"is not UTF-8 text: byte 0x{error.object[error.start]:02X}")
         return None
     return text
 
@@ -51,10 +53,13 @@ class _NotAFileError(Exception):
 
 def _read_bytes(path: Path) -> bytes:
     descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
-    with os.fdopen(descriptor, "rb") as file:
+    try:
         mode = os.fstat(descriptor).st_mode
         if stat.S_ISDIR(mode):
             raise _NotAFileError("is a folder, not a file")
         if not stat.S_ISREG(mode):
             raise _NotAFileError("is not a regular file")
-        return file.read(MAX_BYTES + 1)
+        with open(descriptor, "rb", closefd=False) as file:
+            return file.read(MAX_BYTES + 1)
+    finally:
+        os.close(descriptor)

@@ -25,11 +25,14 @@ _BOOLS = {
     for spelling in (word, word.capitalize(), word.upper())
 }
 _INT = re.compile(r"[-+]?(0|[1-9][0-9]*)", re.ASCII)
-_FLOAT = re.compile(r"[-+]?(0|[1-9][0-9]*)?(\.[0-9]*)?([eE][-+]?[0-9]+)?", re.ASCII)
+_FLOAT = re.compile(r"[-+]?((0|[1-9][0-9]*)(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?", re.ASCII)
 _NOT_FINITE = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
 _OCTAL = re.compile(r"[-+]?0[0-9_]+")
 _SEXAGESIMAL = re.compile(r"[-+]?[0-9][0-9_]*(:[0-9]{1,2})+(\.[0-9_]*)?")
-_NUMBER_LIKE = re.compile(r"[-+]?(0[xob])?[0-9.][0-9a-fA-F_.]*([eE][-+]?[0-9]+)?")
+_NUMBER_LIKE = re.compile(
+    r"[-+]?(0x[0-9a-fA-F_]+|0o[0-7_]+|0b[01_]+"
+    r"|([0-9][0-9_]*(\.[0-9_]*)?|\.[0-9][0-9_]*)([eE][-+]?[0-9]+)?)"
+)
 _TIMESTAMP = re.compile(r"[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}([Tt \t].*)?")
 _MAX_DIGITS = 400
 
@@ -47,9 +50,8 @@ def needs_quotes(text: str) -> bool:
         or text in ("<<", "=", "y", "Y", "n", "N")
         or any(
             pattern.fullmatch(text)
-            for pattern in (_FLOAT, _NOT_FINITE, _OCTAL, _SEXAGESIMAL, _TIMESTAMP)
+            for pattern in (_NUMBER_LIKE, _NOT_FINITE, _SEXAGESIMAL, _TIMESTAMP)
         )
-        or bool(_NUMBER_LIKE.fullmatch(text) and any(c.isdigit() for c in text))
     )
 
 
@@ -92,6 +94,6 @@ def _number(text: str, constraint: Constraint) -> object:
         raise ValueError(
             f"must be {constraint.describe()}, not {show(text)} (YAML counts it in sixties)"
         )
-    if any(c.isdigit() for c in text) and _FLOAT.fullmatch(text):
+    if _FLOAT.fullmatch(text):
         return float(text)
     return text

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
-from up.fields import Constraint
+from up.fields import Constraint, show
 
 T = TypeVar("T")
 V = TypeVar("V")
@@ -187,13 +187,29 @@ def _entry_of(cls: type[Any], field: dataclasses.Field[Any]) -> Entry:
         comment = comment or spec.comment
     elif declared.kind == "key":
         spec = _constraint_of(cls, field, declared.bounds, where)
-        try:
-            default = spec.check(default)
-        except ValueError as error:
-            raise ValueError(f"the default of {where} {error}") from None
     else:
         spec = declared.bounds["spec"]
+    if not isinstance(spec, Shape):
+        try:
+            _check_default(spec, default)
+        except ValueError as error:
+            raise ValueError(f"the default of {where} {error}") from None
     return Entry(field.name, declared.name or field.name, comment, spec, default, declared.replaced)
+
+
+def _check_default(spec: Spec, value: Any) -> None:
+    if isinstance(spec, Constraint):
+        spec.check(value)
+    elif isinstance(spec, Shape):
+        if not isinstance(value, spec.cls):
+            raise ValueError(f"must be a {spec.cls.__name__}, not {show(value)}")
+    elif isinstance(spec, MapOf):
+        for name, inner in value.items():
+            spec.key.check(name)
+            _check_default(spec.value, inner)
+    else:
+        for inner in value:
+            _check_default(spec.item, inner)
 
 
 def _constraint_of(

@@ -1,0 +1,228 @@
+import os
+import sys
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.up.config.samples import LINK, PATH, Link, problems_of
+from up.config import ConfigErrors
+from up.config.application import APPLICATION
+from up.config.disabled_modules import DISABLED_MODULES
+
+FILES = [LINK, APPLICATION, DISABLED_MODULES]
+SMALL = (
+    b"remote_server:\n  url: \"a\\x41\"\n  port: 1 # p\ngains: {yaw: {p: 1.5e1}}\nhosts:\n- 'b'\n"
+)
+
+
+def is_value_or_config_errors(file, data):
+    """The one promise about any bytes: a value, or problems that are one printable line each."""
+    try:
+        value = file.parse(data, PATH)
+    except ConfigErrors as errors:
+        assert errors.problems
+        lines = (
+            data.count(b"\n") + data.count(b"\r") + data.count(b"\x85") + data.count(b"\xe2") + 2
+        )
+        for problem in errors.problems:
+            assert str(problem).isprintable()
+            assert 1 <= problem.line <= lines
+            assert problem.column >= 1
+    else:
+        assert isinstance(value, file.cls)
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        (
+            "role: [pilot\n",
+            "2:1: is not valid YAML: expected ',' or ']', but got '<stream end>' "
+            "(while parsing a flow sequence, line 1)",
+        ),
+        ("role: a: b\n", "1:8: is not valid YAML: mapping values are not allowed here"),
+        ("remote_server:\n\turl: a\n", "2:1: a tab cannot indent here, use spaces"),
+        (
+            "role: pilot\n---\nrole: pilot\n",
+            "2:1: a second document begins here, a file may hold only one",
+        ),
+        ("role: &a pilot\n", "1:7: anchors (&a) are not allowed"),
+        ("role: *a\n", "1:7: aliases (*a) are not allowed, write the value itself"),
+        ("role: !!python/object/apply:os.system [x]\n", None),
+        ("role: !!str pilot\n", "1:7: tags (!!str) are not allowed, write the plain value"),
+        ("role: ! pilot\n", "1:7: tags (!) are not allowed, write the plain value"),
+        ('role: "\\UFFFFFFFF"\n', "1:1: an escape or directive after this place is not valid"),
+        (
+            f"%YAML {'1' * 5000}.1\n---\n",
+            "1:1: an escape or directive after this place is not valid",
+        ),
+        ("role: a\x07b\n", "1:8: the character U+0007 is not allowed here"),
+        ("role: a\x00\n", "1:8: the character U+0000 is not allowed here"),
+    ],
+)
+def test_what_is_no_plain_yaml_is_refused_at_its_place(text, problem):
+    problems = problems_of(text)
+    assert len(problems) >= 1
+    if problem is not None:
+        assert problems == [problem]
+
+
+def test_a_python_object_is_not_made(tmp_path):
+    witness = tmp_path / "witness"
+    text = f"role: !!python/object/apply:os.mkdir ['{witness}']\n"
+    assert problems_of(text)[0].startswith("1:7: tags (!!python/object/apply:os.mkdir)")
+    assert not witness.exists()
+
+
+def test_what_else_is_wrong_is_told_beside_a_refused_tag_or_anchor():
+    assert len(problems_of("role: &a 5\nname: !x b\nrol: 1\n")) == 4
+
+
+def test_an_alias_bomb_is_refused_at_its_first_anchor():
+    bomb = "a: &a [x]\n" + "".join(
+        f"{chr(98 + n)}: &{chr(98 + n)} [{', '.join(['*' + chr(97 + n)] * 9)}]\n" for n in range(9)
+    )
+    assert "1:4: anchors (&a) are not allowed" in problems_of(bomb)
+
+
+@pytest.mark.parametrize("opening", ["[", "{a: ", "- ", "? ", "{[", "[{"])
+def test_deep_nesting_is_refused(opening):
+    for depth in (25, 300, sys.getrecursionlimit() * 5):
+        problems = problems_of("hosts: " + opening * depth)
+        assert len(problems) == 1
+
+
+def test_deep_block_nesting_is_refused():
+    text = "".join(" " * depth + "a:\n" for depth in range(500))
+    assert problems_of(text) == ["21:21: is nested more than 20 deep"]
+
+
+def test_a_very_large_number_is_refused():
+    assert len(problems_of(f"stop delay (s): {'9' * 100_000}\n")) == 1
+    assert len(problems_of(f"labels: {{a: {'9' * 399}}}\n")) == 1
+    assert problems_of("limit: 1e999\n") == ["1:8: limit: must be a finite number, not inf"]
+
+
+@pytest.mark.parametrize(
+    ("data", "place"),
+    [
+        (b"role: \xff\n", "1:7: is not UTF-8 text: byte 0xFF"),
+        (b"\xef\xbb\xbfrole: \xff\n", "1:7: is not UTF-8 text: byte 0xFF"),
+        ("a: 1\n# ž\nrole: ".encode() + b"\xe9", "3:7: is not UTF-8 text: byte 0xE9"),
+        ("role: pilot\n".encode("utf-16"), "1:1: is not UTF-8 text: byte 0xFF"),
+        (b"#" * (1024 * 1024 + 1), "1:1: is larger than 1 MiB"),
+    ],
+)
+def test_bytes_that_are_no_text_are_refused(data, place):
+    assert problems_of(data) == [place]
+
+
+def load_problem(tmp_path):
+    with pytest.raises(ConfigErrors) as caught:
+        LINK.load(tmp_path)
+    [problem] = caught.value.problems
+    assert problem.path == tmp_path / "link.yml"
+    return problem.what
+
+
+def test_a_missing_file_is_its_defaults(tmp_path):
+    assert LINK.load(tmp_path) == Link()
+    assert LINK.load(tmp_path / "no folder") == Link()
+
+
+def test_a_folder_in_the_place_of_a_file_is_refused(tmp_path):
+    (tmp_path / "link.yml").mkdir()
+    assert load_problem(tmp_path) == "is a folder, not a file"
+
+
+def test_a_dangling_link_is_refused(tmp_path):
+    (tmp_path / "link.yml").symlink_to(tmp_path / "nowhere")
+    assert load_problem(tmp_path) == "is a link to a file that is not there"
+
+
+def test_a_link_to_itself_is_refused(tmp_path):
+    (tmp_path / "link.yml").symlink_to(tmp_path / "link.yml")
+    assert load_problem(tmp_path).startswith("cannot be read: ")
+
+
+def test_a_link_to_a_file_is_followed(tmp_path):
+    (tmp_path / "real").write_text("role: pilot\n")
+    (tmp_path / "link.yml").symlink_to(tmp_path / "real")
+    assert LINK.load(tmp_path).role == "pilot"
+
+
+def test_a_pipe_does_not_make_it_wait(tmp_path):
+    os.mkfifo(tmp_path / "link.yml")
+    assert load_problem(tmp_path) == "is not a regular file"
+
+
+def test_a_device_is_refused(tmp_path):
+    (tmp_path / "link.yml").symlink_to("/dev/zero")
+    assert load_problem(tmp_path) == "is not a regular file"
+
+
+def test_a_file_in_the_place_of_the_folder_is_refused(tmp_path):
+    (tmp_path / "folder").write_text("")
+    with pytest.raises(ConfigErrors, match="cannot be read: Not a directory"):
+        LINK.load(tmp_path / "folder")
+
+
+def test_an_unreadable_file_is_refused(tmp_path):
+    (tmp_path / "link.yml").write_text("role: pilot\n")
+    (tmp_path / "link.yml").chmod(0)
+    user = os.geteuid()
+    if user == 0:
+        os.seteuid(65534)  # root reads everything
+    try:
+        assert load_problem(tmp_path) == "cannot be read: Permission denied"
+    finally:
+        os.seteuid(user)
+
+
+def test_every_byte_of_a_small_file_changed_to_every_other_gives_a_value_or_problems():
+    is_value_or_config_errors(LINK, SMALL)
+    for position in range(len(SMALL)):
+        for byte in range(256):
+            data = SMALL[:position] + bytes([byte]) + SMALL[position + 1 :]
+            is_value_or_config_errors(LINK, data)
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.filename)
+def test_every_byte_of_a_template_lost_or_spoiled_gives_a_value_or_problems(file):
+    data = "".join(
+        line + "\n" for line in file.template().splitlines() if not line.lstrip().startswith("#")
+    ).encode()
+    for position in range(len(data)):
+        for put in (b"", b"\x00", b"\xff", b"\t", b":", b"[", b"\n", b"'", b"&", b"!", b"0"):
+            is_value_or_config_errors(file, data[:position] + put + data[position + 1 :])
+        is_value_or_config_errors(file, data[:position])
+
+
+YAML_BITS = st.sampled_from(
+    ["role", ": ", "\n", "  ", "- ", "[", "]", "{", "}", ", ", "'", '"', "#", "&a", "*a", "!!x ",
+     "!", "? ", "|\n", ">-\n", "%YAML 1.1", "---\n", "...\n", "<<", "~", "\t", "\\", "\\x", "\\U",
+     "remote_server", "port", "gains", "hosts", "1", "0x", ".nan", "1e9", "\ufeff", "\x85",
+     "\u2028", "\r", "@", "`", "\ud7ff", "🛩"]
+)  # fmt: skip
+
+
+@settings(max_examples=500, deadline=None)
+@given(st.lists(YAML_BITS, max_size=40).map("".join))
+def test_any_heap_of_yaml_gives_a_value_or_problems(text):
+    is_value_or_config_errors(LINK, text.encode())
+
+
+@settings(deadline=None)
+@given(st.binary(max_size=200))
+def test_any_bytes_give_a_value_or_problems(data):
+    is_value_or_config_errors(LINK, data)
+
+
+@settings(deadline=None)
+@given(st.text(st.characters(exclude_categories=()), max_size=100))
+def test_any_text_even_with_surrogates_gives_a_value_or_problems(text):
+    try:
+        assert isinstance(LINK.parse(text, PATH), Link)
+    except ConfigErrors as errors:
+        assert all(str(problem).isprintable() for problem in errors.problems)

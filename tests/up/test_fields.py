@@ -1,0 +1,188 @@
+import math
+from dataclasses import FrozenInstanceError, replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from up.fields import Constraint, show
+
+LATITUDE = Constraint(float, -90, 90, unit="deg")
+ANYTHING = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(),
+    st.integers(min_value=10**300, max_value=10**320),
+    st.floats(),
+    st.text(st.characters(exclude_categories=())),
+    st.lists(st.integers(), max_size=5),
+    st.dictionaries(st.text(max_size=3), st.integers(), max_size=5),
+    st.binary(max_size=5),
+    st.builds(object),
+)
+CONSTRAINTS = [
+    Constraint(bool),
+    Constraint(int),
+    Constraint(int, 0, 10, nullable=True),
+    Constraint(float),
+    LATITUDE,
+    Constraint(float, minimum=0),
+    Constraint(str, max_length=3),
+    Constraint(str, choices=("off", "on"), ignore_case=True),
+    Constraint(int, choices=(1, 2)),
+    Constraint(dict, max_length=1),
+    Constraint(list, max_length=1),
+]
+
+
+def refusal(constraint, value):
+    with pytest.raises(ValueError) as caught:
+        constraint.check(value)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("value", [-90, 90, 0.5, -90.0, 10**1])
+def test_a_number_within_its_bounds_comes_back_as_a_float(value):
+    checked = LATITUDE.check(value)
+    assert checked == value
+    assert type(checked) is float
+
+
+def test_a_refusal_is_one_sentence_with_range_unit_and_what_came():
+    assert refusal(LATITUDE, "x") == 'must be a number between -90 and 90 deg, not "x"'
+    assert refusal(LATITUDE, 90.5) == "must be a number between -90 and 90 deg, not 90.5"
+    assert refusal(Constraint(int, 1, 65535), 0) == (
+        "must be a whole number between 1 and 65535, not 0"
+    )
+    assert refusal(Constraint(float, minimum=0.5), None) == (
+        "must be a number of at least 0.5, not null"
+    )
+    assert refusal(Constraint(bool), 1) == "must be true or false, not 1"
+    assert refusal(Constraint(str, choices=("a", "b")), "c") == 'must be one of "a", "b", not "c"'
+    assert refusal(Constraint(str, max_length=2), "abc") == (
+        "must be text of at most 2 characters, not of 3"
+    )
+    assert refusal(Constraint(list, max_length=1), [1, 2]) == (
+        "must be a list of at most 1 items, not of 2"
+    )
+    assert refusal(Constraint(dict), [1]) == "must be a map, not a list"
+
+
+@pytest.mark.parametrize("constraint", [Constraint(int), Constraint(float), Constraint(int, 0, 1)])
+@pytest.mark.parametrize("value", [True, False])
+def test_a_bool_is_no_number(constraint, value):
+    refusal(constraint, value)
+
+
+@pytest.mark.parametrize("value", [1, 0, "true", None])
+def test_a_number_is_no_bool(value):
+    refusal(Constraint(bool), value)
+
+
+@pytest.mark.parametrize("constraint", [Constraint(float), LATITUDE, Constraint(float, minimum=0)])
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_what_is_not_finite_is_refused(constraint, value):
+    assert refusal(constraint, value).startswith("must be a finite number, not ")
+
+
+@pytest.mark.parametrize("value", [10**400, -(10**400), 10**5000], ids=["+", "-", "longest"])
+@pytest.mark.parametrize("constraint", [Constraint(float), Constraint(int), LATITUDE])
+def test_huge_integers_are_refused_in_a_short_sentence(constraint, value):
+    assert refusal(constraint, value).endswith("not a huge number")
+
+
+def test_an_unbounded_int_holds_64_bits():
+    assert Constraint(int).check(2**63 - 1) == 2**63 - 1
+    assert Constraint(int).check(-(2**63)) == -(2**63)
+    refusal(Constraint(int), 2**63)
+
+
+@pytest.mark.parametrize("value", [1.0, "1", None])
+def test_an_int_must_be_whole_by_type(value):
+    refusal(Constraint(int), value)
+
+
+def test_lone_surrogates_are_no_text():
+    assert refusal(Constraint(str), "a\ud800") == "must be valid Unicode text, not lone surrogates"
+    assert Constraint(str).check("žluťoučký 🛩") == "žluťoučký 🛩"
+
+
+def test_null_only_where_it_is_allowed():
+    assert Constraint(float, nullable=True).check(None) is None
+    assert "or null" in refusal(Constraint(float, nullable=True), "x")
+    refusal(Constraint(float), None)
+
+
+def test_choices_may_ignore_case_and_come_back_as_they_are_spelled():
+    level = Constraint(str, choices=("debug", "info"), ignore_case=True)
+    assert level.check("INFO") == "info"
+    refusal(Constraint(str, choices=("debug", "info")), "INFO")
+
+
+def test_a_choice_of_numbers_is_no_bool():
+    assert Constraint(int, choices=(0, 1)).check(1) == 1
+    refusal(Constraint(int, choices=(0, 1)), True)
+
+
+def test_a_tuple_passes_as_a_list():
+    assert Constraint(list).check((1,)) == (1,)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"type_": bytes},
+        {"type_": str, "minimum": 1},
+        {"type_": float, "max_length": 1},
+        {"type_": int, "minimum": 2, "maximum": 1},
+        {"type_": list, "choices": (1,)},
+        {"type_": str, "choices": (1,)},
+    ],
+)
+def test_a_constraint_that_contradicts_itself_is_refused(arguments):
+    with pytest.raises((TypeError, ValueError)):
+        Constraint(**arguments)
+
+
+def test_a_constraint_is_a_value():
+    assert Constraint(float, -90, 90, unit="deg") == LATITUDE
+    assert hash(Constraint(float, -90, 90, unit="deg")) == hash(LATITUDE)
+    assert replace(LATITUDE, maximum=10).check(10) == 10
+    refusal(replace(LATITUDE, maximum=10), 11)
+    with pytest.raises(FrozenInstanceError):
+        LATITUDE.minimum = 0
+
+
+def test_json_schema():
+    assert LATITUDE.json_schema() == {
+        "type": "number",
+        "minimum": -90,
+        "maximum": 90,
+        "x-unit": "deg",
+    }
+    assert Constraint(str, choices=("a",), nullable=True).json_schema() == {
+        "type": ["string", "null"],
+        "enum": ["a", None],
+    }
+    assert Constraint(list, max_length=3).json_schema() == {"type": "array", "maxItems": 3}
+
+
+@pytest.mark.parametrize("constraint", CONSTRAINTS, ids=lambda c: c.describe())
+@given(value=ANYTHING)
+def test_any_value_is_accepted_again_or_refused_in_one_short_printable_sentence(constraint, value):
+    try:
+        checked = constraint.check(value)
+    except ValueError as error:
+        assert type(error) is ValueError
+        assert str(error).isprintable()
+        assert len(str(error)) < 400
+    else:
+        assert constraint.check(checked) == checked
+        if constraint.type_ is float:
+            assert math.isfinite(checked)
+
+
+def test_what_is_shown_is_short_and_cannot_steer_a_terminal():
+    assert show("\x1b[2J\n") == '"\\x1b[2J\\n"'
+    assert len(show("x" * 10_000)) < 60
+    assert show(object()) == "a object"

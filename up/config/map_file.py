@@ -1,0 +1,49 @@
+"""A YAML file whose top level is a map with free keys, such as a list of cogs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+from up.config.nodes import compose
+from up.config.problems import ConfigErrors, ConfigProblem
+from up.config.reading import read_text
+from up.config.scalars import is_null
+from up.config.shape import MapOf, shape_of
+from up.config.validator import Validator
+from up.fields import Constraint
+
+V = TypeVar("V")
+_GREATEST_LENGTH = 1000
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapFile(Generic[V]):
+    """A file that maps names to entries, each read into the frozen dataclass ``cls``."""
+
+    filename: str
+    cls: type[V]
+    key: Constraint = field(default_factory=lambda: Constraint(str, max_length=100))
+
+    def load(self, folder: Path) -> dict[str, V]:
+        """Return the entries in the order of the file; a missing or empty file has none.
+
+        Raises ConfigErrors with every problem of the file.
+        """
+        path = Path(folder) / self.filename
+        problems: list[ConfigProblem] = []
+
+        def report(line: int, column: int, what: str) -> None:
+            problems.append(ConfigProblem(path, line, column, what))
+
+        text = read_text(path, report)
+        entries: dict[str, V] = {}
+        if text is not None:
+            root = compose(text, report)
+            if root is not None and not is_null(root):
+                spec: Any = MapOf(self.key, shape_of(self.cls), _GREATEST_LENGTH)
+                entries = Validator(report, {}).read(spec, root)
+        if problems:
+            raise ConfigErrors(problems)
+        return entries
