@@ -1,0 +1,167 @@
+"""A TCP connection that carries General Messages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+from typing import Protocol as Interface
+
+from twisted.internet.protocol import Protocol, connectionDone
+from twisted.python.failure import Failure
+
+from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
+from up.protocols.line_decoder import LineDecoder
+from up.protocols.link_output import LinkOutput
+from up.protocols.tcp_options import set_user_timeout, watch_peer
+from up.system.clock import Clock, Timer
+
+USER_TIMEOUT_MS = 1500
+CLOSING_LIMIT_S = 1.0
+
+
+class GeneralMessageLink(Interface):
+    """What the callbacks get, on TCP and UDP alike."""
+
+    @property
+    def peer(self) -> str:
+        """Host and port of the other side as text; empty while there is none."""
+
+    def send(self, message: bytes) -> bool:
+        """Send an encoded message in order; False: dropped and counted."""
+
+    def send_newest(self, message: bytes) -> bool:
+        """Send an encoded message that replaces an older one still waiting."""
+
+    def close(self) -> None:
+        """Give the link up."""
+
+
+OnMessage = Callable[[Any, GeneralMessage], object]
+OnMalformed = Callable[[Any, MalformedMessage], object]
+OnConnected = Callable[[Any], object]
+OnLost = Callable[[Any, str], object]
+
+
+class GeneralMessageProtocol(Protocol):
+    """One connection; make a new one for each.
+
+    The callbacks get this link first: `on_message` a message, `on_malformed` a line that is none,
+    `on_connected` nothing more, `on_lost` the reason as text. With `idle_timeout_s` a peer that
+    sends no byte for so long, not even an empty line, is given up. `malformed` and
+    `output.dropped`, `output.replaced`, `dropped_too_long` count.
+    """
+
+    transport: Any
+
+    def __init__(
+        self,
+        clock: Clock,
+        *,
+        on_message: OnMessage,
+        on_malformed: OnMalformed,
+        on_connected: OnConnected,
+        on_lost: OnLost,
+        idle_timeout_s: float | None = None,
+        user_timeout_ms: int = USER_TIMEOUT_MS,
+    ) -> None:
+        self.peer = ""
+        self.output = LinkOutput()
+        self.malformed = 0
+        self._clock = clock
+        self._on_message = on_message
+        self._on_malformed = on_malformed
+        self._on_connected = on_connected
+        self._on_lost = on_lost
+        self._idle_timeout_s = idle_timeout_s
+        self._user_timeout_ms = user_timeout_ms
+        self._lines = LineDecoder()
+        self._heard_s = 0.0
+        self._timer: Timer | None = None
+        self._is_open = False
+        self._why_given_up = ""
+
+    @property
+    def dropped_too_long(self) -> int:
+        """Count of lines of more than 16 KiB."""
+        return self._lines.dropped_too_long
+
+    @property
+    def heard_s(self) -> float:
+        """The clock's time of the newest byte from the peer."""
+        return self._heard_s
+
+    def send(self, message: bytes) -> bool:
+        """Send `message` in order; False: there is no link, or 64 KiB wait already."""
+        return self.output.send(message)
+
+    def send_newest(self, message: bytes) -> bool:
+        """Send `message`; of what a slow peer cannot take only the newest is kept."""
+        return self.output.send_newest(message)
+
+    def set_user_timeout(self, milliseconds: int) -> None:
+        """Lose the link when sent bytes stay unacknowledged for so long."""
+        self._user_timeout_ms = milliseconds
+        if self._is_open:
+            set_user_timeout(self.transport, milliseconds)
+
+    def close(self) -> None:
+        """Send what waits and close; a peer that does not take it within 1 s is cut off."""
+        if self._is_open:
+            self._is_open = False
+            self.output.finish()
+            self._schedule(CLOSING_LIMIT_S, self.abort)
+            self.transport.loseConnection()
+
+    def abort(self) -> None:
+        """Cut the connection off at once."""
+        self._is_open = False
+        if self.transport is not None:
+            self.transport.abortConnection()
+
+    def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
+        """Set the socket up and tell that the link is there."""
+        address = self.transport.getPeer()
+        self.peer = f"{address.host}:{address.port}"
+        watch_peer(self.transport, self._user_timeout_ms)
+        self._is_open = True
+        self._heard_s = self._clock.seconds()
+        self.output.start(self.transport)
+        if self._idle_timeout_s is not None:
+            self._schedule(self._idle_timeout_s, self._check_idle)
+        self._on_connected(self)
+
+    def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
+        """Hand on the messages that `data` completes."""
+        self._heard_s = self._clock.seconds()
+        for line in self._lines.feed(data):
+            if not self._is_open:
+                return
+            try:
+                message = decode(line)
+            except MalformedMessage as fault:
+                self.malformed += 1
+                self._on_malformed(self, fault)
+            else:
+                self._on_message(self, message)
+
+    def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
+        """Tell that the link is gone; an unfinished line goes with it."""
+        self._is_open = False
+        self._lines.reset()
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+        self._on_lost(self, self._why_given_up or reason.getErrorMessage())
+
+    def _check_idle(self) -> None:
+        assert self._idle_timeout_s is not None
+        remaining = self._heard_s + self._idle_timeout_s - self._clock.seconds()
+        if remaining > 0:
+            self._schedule(remaining, self._check_idle)
+        else:
+            self._why_given_up = f"nothing heard for {self._idle_timeout_s:g} s"
+            self.abort()
+
+    def _schedule(self, delay_s: float, call: Callable[[], None]) -> None:
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+        self._timer = self._clock.callLater(delay_s, call)

@@ -1,0 +1,114 @@
+"""General Messages on UDP: one object a datagram, answers to the address heard last."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from twisted.internet.error import MessageLengthError
+from twisted.internet.protocol import DatagramProtocol
+
+from up.protocols.general_message import MalformedMessage, decode
+from up.protocols.general_message_link import OnConnected, OnLost, OnMalformed, OnMessage
+from up.system.clock import Clock, Timer
+
+SILENCE_TIMEOUT_S = 3.0
+
+
+class GeneralMessageDatagrams(DatagramProtocol):
+    """One port, one peer: whoever was heard last.
+
+    The callbacks are those of `GeneralMessageProtocol`. The link counts as lost after
+    `idle_timeout_s` without a datagram; then nothing is sent until one comes. An empty datagram
+    is a heartbeat. `malformed` and `dropped` (could not be sent) count.
+    """
+
+    transport: Any
+
+    def __init__(
+        self,
+        clock: Clock,
+        *,
+        on_message: OnMessage,
+        on_malformed: OnMalformed,
+        on_connected: OnConnected,
+        on_lost: OnLost,
+        idle_timeout_s: float = SILENCE_TIMEOUT_S,
+    ) -> None:
+        self.malformed = 0
+        self.dropped = 0
+        self._clock = clock
+        self._on_message = on_message
+        self._on_malformed = on_malformed
+        self._on_connected = on_connected
+        self._on_lost = on_lost
+        self._idle_timeout_s = idle_timeout_s
+        self._address: Any = None
+        self._heard_s = 0.0
+        self._timer: Timer | None = None
+
+    @property
+    def peer(self) -> str:
+        """Host and port heard last; empty while nobody is."""
+        return "" if self._address is None else f"{self._address[0]}:{self._address[1]}"
+
+    @property
+    def heard_s(self) -> float:
+        """The clock's time of the newest datagram."""
+        return self._heard_s
+
+    def send(self, message: bytes) -> bool:
+        """Send one datagram; False: nobody was heard, or the system took it not."""
+        if self._address is None or self.transport is None:
+            self.dropped += 1
+            return False
+        try:
+            self.transport.write(message, self._address)
+        except (OSError, MessageLengthError):
+            # A full socket buffer or a network that is down: datagrams may be lost.
+            self.dropped += 1
+            return False
+        return True
+
+    def send_newest(self, message: bytes) -> bool:
+        """Send one datagram; none ever waits, so the newest wins by itself."""
+        return self.send(message)
+
+    def close(self) -> None:
+        """Give the peer up; the next datagram is a new link."""
+        self._lose("closed")
+
+    def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
+        """Hand on the one message of a datagram."""
+        self._heard_s = self._clock.seconds()
+        is_new = self._address is None
+        self._address = addr
+        if is_new:
+            self._timer = self._clock.callLater(self._idle_timeout_s, self._check_idle)
+            self._on_connected(self)
+        if not datagram.strip(b"\r\n"):
+            return
+        try:
+            message = decode(datagram)
+        except MalformedMessage as fault:
+            self.malformed += 1
+            self._on_malformed(self, fault)
+        else:
+            self._on_message(self, message)
+
+    def stopProtocol(self) -> None:  # noqa: N802 - Twisted's name
+        """The port was closed."""
+        self._lose("the port was closed")
+
+    def _check_idle(self) -> None:
+        remaining = self._heard_s + self._idle_timeout_s - self._clock.seconds()
+        if remaining > 0:
+            self._timer = self._clock.callLater(remaining, self._check_idle)
+        else:
+            self._lose(f"nothing heard for {self._idle_timeout_s:g} s")
+
+    def _lose(self, why: str) -> None:
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+        if self._address is not None:
+            self._address = None
+            self._on_lost(self, why)

@@ -1,0 +1,184 @@
+"""Where orientation from the phone arrives, on TCP and on UDP."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from twisted.internet.interfaces import IAddress
+from twisted.internet.protocol import DatagramProtocol, Factory, Protocol, connectionDone
+from twisted.python.failure import Failure
+
+from up.protocols.orientation_forward import (
+    OrientationDecoder,
+    OrientationFrame,
+    decode_datagram,
+)
+from up.protocols.tcp_options import watch_peer
+from up.system.clock import Clock, Timer
+
+TAKEOVER_SILENCE_S = 1.0
+"""How long a UDP source must be silent before another one is taken over."""
+
+_USER_TIMEOUT_MS = 3000
+
+OnOrientation = Callable[[OrientationFrame, str], object]
+OnSource = Callable[[str], object]
+OnSourceLost = Callable[[str, str], object]
+
+
+@dataclass(slots=True)
+class OrientationCounters:
+    """Frames handed on, frames dropped, sources replaced, datagrams of somebody else."""
+
+    frames: int = 0
+    dropped: int = 0
+    replaced: int = 0
+    foreign: int = 0
+
+
+class OrientationFactory(Factory):
+    """The TCP side: the newest connection is the source, an older one is dropped.
+
+    `on_orientation` gets a frame and the source as text, `on_connected` the source, `on_lost` the
+    source and why. A connection that was replaced is told as lost before the new one connects.
+    """
+
+    noisy = False
+
+    def __init__(
+        self, *, on_orientation: OnOrientation, on_connected: OnSource, on_lost: OnSourceLost
+    ) -> None:
+        self.counters = OrientationCounters()
+        self.on_orientation = on_orientation
+        self._on_connected = on_connected
+        self._on_lost = on_lost
+        self._current: _OrientationConnection | None = None
+
+    def buildProtocol(self, addr: IAddress | None) -> Protocol:  # noqa: N802 - Twisted's name
+        """Return the protocol of a new connection."""
+        return _OrientationConnection(self)
+
+    def connected(self, connection: _OrientationConnection) -> None:
+        """Make `connection` the source."""
+        if self._current is not None:
+            self.counters.replaced += 1
+            older = self._current
+            self.lost(older, "replaced by a newer connection")
+            older.drop()
+        self._current = connection
+        self._on_connected(connection.source)
+
+    def lost(self, connection: _OrientationConnection, why: str) -> None:
+        """Forget `connection` if it is the source."""
+        if connection is self._current:
+            self._current = None
+            self._on_lost(connection.source, why)
+
+    def close(self) -> None:
+        """Drop the source; its port is whoever's who opened it."""
+        if self._current is not None:
+            self._current.drop()
+
+
+class _OrientationConnection(Protocol):
+    """One connection and its unfinished frame."""
+
+    transport: Any
+
+    def __init__(self, server: OrientationFactory) -> None:
+        self.source = ""
+        self._server = server
+        self._decoder = OrientationDecoder()
+        self._is_dropped = False
+
+    def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
+        address = self.transport.getPeer()
+        self.source = f"{address.host}:{address.port}"
+        watch_peer(self.transport, _USER_TIMEOUT_MS)
+        self._server.connected(self)
+
+    def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
+        counters = self._server.counters
+        dropped_before = self._decoder.dropped
+        frames = self._decoder.feed(data)
+        counters.dropped += self._decoder.dropped - dropped_before
+        for values in frames:
+            if self._is_dropped:
+                return
+            counters.frames += 1
+            self._server.on_orientation(OrientationFrame._make(values), self.source)
+
+    def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
+        self._server.lost(self, reason.getErrorMessage())
+
+    def drop(self) -> None:
+        """Cut this connection off; nothing of it is heard any more."""
+        self._is_dropped = True
+        self.transport.abortConnection()
+
+
+class OrientationDatagrams(DatagramProtocol):
+    """The UDP side: the address heard last, until it was silent for 1 s.
+
+    The callbacks are those of `OrientationFactory`. Only a good frame makes or keeps a source.
+    """
+
+    noisy = False
+
+    def __init__(
+        self,
+        clock: Clock,
+        *,
+        on_orientation: OnOrientation,
+        on_connected: OnSource,
+        on_lost: OnSourceLost,
+    ) -> None:
+        self.counters = OrientationCounters()
+        self._clock = clock
+        self._on_orientation = on_orientation
+        self._on_connected = on_connected
+        self._on_lost = on_lost
+        self._address: Any = None
+        self._source = ""
+        self._heard_s = 0.0
+        self._timer: Timer | None = None
+
+    def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
+        """Hand on the frame of a datagram of the one source."""
+        if addr != self._address and self._address is not None:
+            self._check_silence()
+            if self._address is not None:
+                self.counters.foreign += 1
+                return
+        frame = decode_datagram(datagram)
+        if frame is None:
+            self.counters.dropped += 1
+            return
+        self._heard_s = self._clock.seconds()
+        if self._address is None:
+            self._address = addr
+            self._source = f"{addr[0]}:{addr[1]}"
+            self._timer = self._clock.callLater(TAKEOVER_SILENCE_S, self._check_silence)
+            self._on_connected(self._source)
+        self.counters.frames += 1
+        self._on_orientation(frame, self._source)
+
+    def stopProtocol(self) -> None:  # noqa: N802 - Twisted's name
+        """The port was closed."""
+        self._lose("the port was closed")
+
+    def _check_silence(self) -> None:
+        remaining = self._heard_s + TAKEOVER_SILENCE_S - self._clock.seconds()
+        if remaining <= 0:
+            self._lose(f"silent for {TAKEOVER_SILENCE_S:g} s")
+        elif self._timer is None or not self._timer.active():
+            self._timer = self._clock.callLater(remaining, self._check_silence)
+
+    def _lose(self, why: str) -> None:
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+        if self._address is not None:
+            self._address = None
+            self._on_lost(self._source, why)

@@ -1,0 +1,153 @@
+"""One open serial port in the reactor: reads in big pieces, writes each frame at once."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Callable, Hashable
+from typing import Any
+
+from twisted.internet.interfaces import IReadWriteDescriptor
+from twisted.internet.main import CONNECTION_LOST
+from twisted.python.failure import Failure
+from zope.interface import implementer
+
+_READ_SIZE = 65536
+
+
+@implementer(IReadWriteDescriptor)
+class SerialDescriptor:
+    """Hands bytes from and to one descriptor until it fails; then it tells why, once.
+
+    A frame is written at once when nothing waits before it. Commands wait in order, up to
+    `pending_limit` bytes; of each stream only the newest frame waits. It does not own the
+    descriptor: whoever made it closes it.
+    """
+
+    def __init__(
+        self,
+        reactor: Any,
+        number: int,
+        *,
+        on_bytes: Callable[[bytes], object],
+        on_lost: Callable[[str], object],
+        pending_limit: int,
+    ) -> None:
+        self._reactor = reactor
+        self._number = number
+        self._on_bytes = on_bytes
+        self._on_lost = on_lost
+        self._pending_limit = pending_limit
+        self._rest = b""
+        self._frames: deque[bytes] = deque()
+        self._frames_size = 0
+        self._newest: dict[Hashable, bytes] = {}
+        self._is_writing = False
+        self._is_stopped = False
+        self._why_lost = "the port was unplugged or closed by the other side"
+
+    def start(self) -> None:
+        """Begin to read."""
+        self._reactor.addReader(self)
+
+    def stop(self) -> None:
+        """Leave the reactor; nothing is read, written or told any more."""
+        if not self._is_stopped:
+            self._is_stopped = True
+            self._reactor.removeReader(self)
+            self._reactor.removeWriter(self)
+
+    def write(self, frame: bytes) -> bool:
+        """Write or queue a frame; False: too much waits, the frame was not taken."""
+        if not self._is_writing:
+            self._write_now(frame)
+            return True
+        if self._frames_size + len(frame) > self._pending_limit:
+            return False
+        self._frames.append(frame)
+        self._frames_size += len(frame)
+        return True
+
+    def write_newest(self, key: Hashable, frame: bytes) -> bool:
+        """Write a frame, or keep it as the newest of `key`; True: an older one was replaced."""
+        if not self._is_writing:
+            self._write_now(frame)
+            return False
+        # Taken out first, so that streams which wait take turns in the order of their news.
+        is_replacing = self._newest.pop(key, None) is not None
+        self._newest[key] = frame
+        return is_replacing
+
+    def fileno(self) -> int:
+        """Return the descriptor; -1 after `stop`."""
+        return -1 if self._is_stopped else self._number
+
+    def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
+        """Return the name for the reactor's log."""
+        return "serial"
+
+    def doRead(self) -> Exception | None:  # noqa: N802 - Twisted's name
+        """Read what is there."""
+        try:
+            data = os.read(self._number, _READ_SIZE)
+        except BlockingIOError:
+            return None
+        except OSError as error:
+            return self._failed(error)
+        if not data:
+            return CONNECTION_LOST
+        self._on_bytes(data)
+        return None
+
+    def doWrite(self) -> Exception | None:  # noqa: N802 - Twisted's name
+        """Write what waits, as far as the port takes it."""
+        while not self._is_stopped:
+            if not self._rest:
+                self._rest = self._take_next()
+                if not self._rest:
+                    self._is_writing = False
+                    self._reactor.removeWriter(self)
+                    break
+            try:
+                written = os.write(self._number, self._rest)
+            except BlockingIOError:
+                break
+            except OSError as error:
+                return self._failed(error)
+            self._rest = self._rest[written:]
+        return None
+
+    def connectionLost(self, reason: Failure) -> None:  # noqa: N802 - Twisted's name
+        """Tell that the port is gone; the reactor has let go of it already."""
+        if not self._is_stopped:
+            self.stop()
+            self._on_lost(self._why_lost)
+
+    def _write_now(self, frame: bytes) -> None:
+        try:
+            written = os.write(self._number, frame)
+        except BlockingIOError:
+            written = 0
+        except OSError as error:
+            # Told later, as a fault of reading is: never from inside the caller's write.
+            self._failed(error)
+            self._is_writing = True
+            self._reactor.callLater(0, self.connectionLost, None)
+            return
+        if written < len(frame):
+            self._rest = frame[written:]
+            self._is_writing = True
+            self._reactor.addWriter(self)
+
+    def _take_next(self) -> bytes:
+        if self._frames:
+            frame = self._frames.popleft()
+            self._frames_size -= len(frame)
+            return frame
+        if self._newest:
+            return self._newest.pop(next(iter(self._newest)))
+        return b""
+
+    def _failed(self, error: OSError) -> Exception:
+        self._why_lost = f"the port failed: {os.strerror(error.errno or 0)}"
+        return CONNECTION_LOST

@@ -1,0 +1,92 @@
+"""Opening a serial port by termios: raw, 8N1, no flow control, ours alone."""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import os
+import termios
+
+_IFLAG, _OFLAG, _CFLAG, _LFLAG, _ISPEED, _OSPEED, _CC = range(7)
+
+
+class SerialPortError(OSError):
+    """A serial port that cannot be used; its text is one sentence for the user."""
+
+
+def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
+    """Return a non-blocking descriptor of the port, set up; raises SerialPortError.
+
+    With `clear_hupcl` closing the port leaves DTR as it is, so that opening it again does not
+    reset an Arduino that flies. What arrived before is thrown away.
+    """
+    speed = getattr(termios, f"B{baud}", None)
+    if speed is None:
+        raise SerialPortError(f"{path} cannot run at {baud} baud, a speed this system has not")
+    try:
+        descriptor = os.open(path, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK | os.O_CLOEXEC)
+    except (OSError, ValueError) as error:
+        raise SerialPortError(_why_not_opened(path, error)) from None
+    try:
+        _set_up(descriptor, speed, clear_hupcl=clear_hupcl)
+        _claim(descriptor, path)
+        termios.tcflush(descriptor, termios.TCIFLUSH)
+    except SerialPortError:
+        os.close(descriptor)
+        raise
+    except (OSError, termios.error) as error:
+        os.close(descriptor)
+        code = error.args[0]
+        why = "is no serial port" if code == errno.ENOTTY else f"failed: {os.strerror(code)}"
+        raise SerialPortError(f"{path} {why}") from None
+    return descriptor
+
+
+def close_serial(descriptor: int) -> None:
+    """Close the port at once; bytes that it has not sent yet are thrown away.
+
+    A port that is closed with unsent bytes may otherwise hold the program for half a minute.
+    """
+    try:
+        termios.tcflush(descriptor, termios.TCOFLUSH)
+    except termios.error:
+        pass  # A port that was unplugged has nothing to flush.
+    finally:
+        os.close(descriptor)
+
+
+def _set_up(descriptor: int, speed: int, *, clear_hupcl: bool) -> None:
+    """Set HUPCL and everything else in one call, as the first thing done to the port."""
+    attributes = termios.tcgetattr(descriptor)
+    attributes[_IFLAG] = termios.IGNBRK
+    attributes[_OFLAG] = 0
+    attributes[_LFLAG] = 0
+    control = attributes[_CFLAG] | termios.CS8 | termios.CREAD | termios.CLOCAL
+    control &= ~(termios.PARENB | termios.CSTOPB | termios.CRTSCTS)
+    if clear_hupcl:
+        control &= ~termios.HUPCL
+    attributes[_CFLAG] = control
+    attributes[_ISPEED] = attributes[_OSPEED] = speed
+    attributes[_CC][termios.VMIN] = 1
+    attributes[_CC][termios.VTIME] = 0
+    termios.tcsetattr(descriptor, termios.TCSANOW, attributes)
+
+
+def _claim(descriptor: int, path: str) -> None:
+    """Keep others out: a lock for those who ask, exclusive use for those who do not."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise SerialPortError(f"{path} is in use by another program") from None
+    fcntl.ioctl(descriptor, termios.TIOCEXCL)
+
+
+def _why_not_opened(path: str, error: OSError | ValueError) -> str:
+    code = error.errno if isinstance(error, OSError) else errno.EINVAL
+    if code in (errno.ENOENT, errno.ENODEV, errno.ENXIO):
+        return f"{path} is missing: is the Arduino plugged in?"
+    if code == errno.EBUSY:
+        return f"{path} is in use by another program"
+    if code in (errno.EACCES, errno.EPERM):
+        return f"{path} may not be opened: add this user to the group dialout and log in again"
+    return f"{path} cannot be opened: {os.strerror(code or errno.EIO)}"

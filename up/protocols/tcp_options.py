@@ -1,0 +1,41 @@
+"""Socket options that let a link notice quickly that its peer has gone."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+from typing import Any
+
+KEEPALIVE_IDLE_S = 3
+KEEPALIVE_INTERVAL_S = 1
+KEEPALIVE_PROBES = 3
+UNSENT_LIMIT = 4096
+"""Bytes that the kernel takes beyond what it can send; the rest waits where it can be replaced."""
+
+
+def watch_peer(transport: Any, user_timeout_ms: int) -> None:
+    """Send at once, probe a silent peer, hold little back, and give up on unacknowledged bytes.
+
+    Without a user timeout TCP goes on for minutes after a gap and then delivers what is stale.
+    """
+    transport.setTcpNoDelay(True)
+    transport.setTcpKeepAlive(True)
+    set_option(transport, "TCP_KEEPIDLE", KEEPALIVE_IDLE_S)
+    set_option(transport, "TCP_KEEPINTVL", KEEPALIVE_INTERVAL_S)
+    set_option(transport, "TCP_KEEPCNT", KEEPALIVE_PROBES)
+    set_option(transport, "TCP_NOTSENT_LOWAT", UNSENT_LIMIT)
+    set_user_timeout(transport, user_timeout_ms)
+
+
+def set_user_timeout(transport: Any, user_timeout_ms: int) -> None:
+    """Close the connection when sent bytes stay unacknowledged for so long; 0: the system's."""
+    set_option(transport, "TCP_USER_TIMEOUT", user_timeout_ms)
+
+
+def set_option(transport: Any, name: str, value: int) -> None:
+    """Set a TCP option by its name where the platform has it."""
+    option = getattr(socket, name, None)
+    if option is not None:
+        # A peer that has already gone leaves a socket that takes no options.
+        with contextlib.suppress(OSError):
+            transport.getHandle().setsockopt(socket.IPPROTO_TCP, option, value)
