@@ -50,13 +50,13 @@ def traceback_of(event: LogEvent, least: NamedConstant) -> str:
     return str(failure.getTraceback())
 
 
-def is_journal(stream: TextIO, environ: Mapping[str, str]) -> bool:
+def is_journal(stream: TextIO | None, environ: Mapping[str, str]) -> bool:
     """Tell whether the stream leads into systemd's journal (sd-daemon: JOURNAL_STREAM).
 
     The variable outlives a redirection, so its device and inode must be the stream's.
     """
     named = environ.get("JOURNAL_STREAM")
-    if not named:
+    if stream is None or not named:
         return False
     try:
         status = os.fstat(stream.fileno())
@@ -69,10 +69,11 @@ def is_journal(stream: TextIO, environ: Mapping[str, str]) -> bool:
 class TextObserver:
     """Writes every event of level `least` and above to a stream, from whatever thread.
 
-    A stream that refuses to take a line loses that line; nothing is raised.
+    A stream that refuses to take a line loses that line; nothing is raised. A program that was
+    started with its stderr closed has None for a stream.
     """
 
-    def __init__(self, stream: TextIO, least: NamedConstant, journal: bool) -> None:
+    def __init__(self, stream: TextIO | None, least: NamedConstant, journal: bool) -> None:
         self._stream = stream
         self._least = least
         self._journal = journal
@@ -80,9 +81,8 @@ class TextObserver:
 
     def __call__(self, event: LogEvent) -> None:
         """Write the event if it is severe enough."""
-        if level_of(event) < self._least:
-            return
-        self._write("".join(f"{line}\n" for line in self._lines(event)))
+        if self._stream is not None and level_of(event) >= self._least:
+            self._write(self._stream, "".join(f"{line}\n" for line in self._lines(event)))
 
     def _lines(self, event: LogEvent) -> Iterator[str]:
         level = level_of(event)
@@ -96,14 +96,14 @@ class TextObserver:
         for line in traceback_of(event, self._least).splitlines():
             yield f"{head}    {printable(line)}"
 
-    def _write(self, text: str) -> None:
+    def _write(self, stream: TextIO, text: str) -> None:
         with self._lock:
             try:
                 try:
-                    self._stream.write(text)
+                    stream.write(text)
                 except UnicodeEncodeError:
-                    self._stream.write(text.encode("ascii", "backslashreplace").decode())
-                self._stream.flush()
+                    stream.write(text.encode("ascii", "backslashreplace").decode())
+                stream.flush()
             except (OSError, ValueError):
                 # Nobody is left to tell: the stream is full, broken or closed.
                 return
