@@ -1,0 +1,125 @@
+"""Load for the relay benchmark, a process of its own: pairs that send a line and echo it back.
+
+Reads one JSON object from stdin: {"mode": "proxy" | "forward" | "direct", "send": port,
+"echo": port, "pairs": n, "rate_hz": r, "seconds": s, "size": bytes}; prints one JSON object with
+the round trips' percentiles in microseconds. `proxy`: both ends dial the relay and say hello;
+`forward`: the relay dials our echo port; `direct`: no relay.
+"""
+
+import json
+import os
+import select
+import socket
+import sys
+import time
+
+WARM_UP_S = 1.0
+
+
+def dial(port: int, hello: str = "") -> socket.socket:
+    """Connect to a local port, say hello when there is one, wait for the answer."""
+    peer = socket.create_connection(("127.0.0.1", port))
+    peer.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    if hello:
+        peer.sendall(hello.encode("ascii"))
+        answer = peer.recv(4096)
+        if not answer.startswith(b"UP1 ok"):
+            raise RuntimeError(f"the proxy answered {answer!r}")
+    return peer
+
+
+def pairs(job: dict) -> list[tuple[socket.socket, socket.socket]]:
+    """Return the sending and the echoing end of each pair."""
+    found = []
+    listener = None
+    if job["mode"] != "proxy":
+        listener = socket.create_server(("127.0.0.1", job["echo"]), backlog=1024)
+        print(json.dumps({"echo": listener.getsockname()[1]}), flush=True)
+        if job["mode"] == "forward":
+            job["send"] = json.loads(sys.stdin.readline())["send"]
+        else:
+            job["send"] = listener.getsockname()[1]
+    for number in range(job["pairs"]):
+        if listener is None:
+            echo = dial(job["echo"], f"UP1 aircraft=bench-{number}\n")
+            send = dial(job["send"], f"UP1 aircraft=bench-{number} seat=command\n")
+        else:
+            send = dial(job["send"])
+            echo, _ = listener.accept()
+            echo.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        found.append((send, echo))
+    return found
+
+
+def measure(job: dict, ends: list[tuple[socket.socket, socket.socket]]) -> list[int]:
+    """Send at the asked rate, evenly spread over the pairs; return round trips in ns."""
+    poll = select.epoll()
+    echoes = {echo.fileno(): echo for _, echo in ends}
+    senders = {send.fileno(): send for send, _ in ends}
+    for each in (*echoes.values(), *senders.values()):
+        each.setblocking(False)
+        poll.register(each.fileno(), select.EPOLLIN)
+    time.sleep(0.2)
+    for send, _ in ends:  # what the proxy said of seats
+        while True:
+            try:
+                send.recv(65536)
+            except BlockingIOError:
+                break
+    order = [send for send, _ in ends]
+    line = b"x" * (job["size"] - 1) + b"\n"
+    sent_ns = dict.fromkeys(senders, 0)
+    trips: list[int] = []
+    step_ns = int(1e9 / (job["rate_hz"] * len(order)))
+    begin_ns = time.perf_counter_ns()
+    warm_ns = begin_ns + int(WARM_UP_S * 1e9)
+    end_ns = warm_ns + int(job["seconds"] * 1e9)
+    due_ns, turn, warm = begin_ns, 0, False
+    clock = time.perf_counter_ns
+    while True:
+        now_ns = clock()
+        if now_ns >= end_ns:
+            return trips
+        if not warm and now_ns >= warm_ns:
+            warm = True
+            print(json.dumps({"warm": True}), flush=True)
+        if now_ns >= due_ns:
+            peer = order[turn]
+            turn = (turn + 1) % len(order)
+            due_ns += step_ns
+            if not sent_ns[peer.fileno()]:
+                sent_ns[peer.fileno()] = clock()
+                peer.send(line)
+        for descriptor, _ in poll.poll(0):
+            echo = echoes.get(descriptor)
+            if echo is not None:
+                echo.send(echo.recv(65536))
+                continue
+            answer = senders[descriptor].recv(65536)
+            if answer.endswith(b"x\n"):
+                if sent_ns[descriptor] > warm_ns:
+                    trips.append(clock() - sent_ns[descriptor])
+                sent_ns[descriptor] = 0
+
+
+def main() -> None:
+    """Do the job that stdin describes."""
+    job = json.loads(sys.stdin.readline())
+    if "cpu" in job:
+        os.sched_setaffinity(0, {job["cpu"]})
+    ends = pairs(job)
+    print(json.dumps({"ready": True}), flush=True)
+    trips = sorted(measure(job, ends))
+    print(json.dumps({"done": True}), flush=True)
+    sys.stdin.readline()  # the connections stay until the relay's CPU time is read
+    count = len(trips)
+    figures = {
+        "count": count,
+        "p50_us": trips[count // 2] / 1e3,
+        "p99_us": trips[count * 99 // 100] / 1e3,
+    }
+    print(json.dumps(figures), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,104 @@
+"""proxy.yml."""
+
+from dataclasses import dataclass
+
+from up.config import ConfigFile, key, section
+
+
+@dataclass(frozen=True, slots=True)
+class LimitsConfig:
+    """What the proxy bounds, so that no peer harms another."""
+
+    connections: int = key(
+        2000, "Connections on each side.", name="connections per side", minimum=1, maximum=100000
+    )
+    per_address: int = key(
+        200,
+        "Connections on each side from one address (IPv6: from one /64 network).",
+        name="connections per address",
+        minimum=1,
+        maximum=100000,
+    )
+    aircraft: int = key(
+        1000, "Aircraft names at one time.", name="aircraft", minimum=1, maximum=100000
+    )
+    listeners: int = key(
+        64,
+        "Grounds that listen to one aircraft, beside the one that commands.",
+        name="listeners per aircraft",
+        minimum=0,
+        maximum=10000,
+    )
+    queue_bytes: int = key(
+        65536,
+        "What waits for one slow ground before its oldest lines are dropped.",
+        name="queue (bytes)",
+        unit="bytes",
+        minimum=4096,
+        maximum=16777216,
+    )
+    user_timeout_ms: int = key(
+        3000,
+        "A peer that acknowledges nothing for this long is gone (TCP_USER_TIMEOUT).",
+        name="user timeout (ms)",
+        unit="ms",
+        minimum=500,
+        maximum=60000,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class ProxyConfig:
+    """The Ground Station Proxy: the relay between aircraft and ground stations."""
+
+    airborne_port: int = key(
+        3003,
+        "TCP port for aircraft. 0: any free port, said in the log.",
+        name="airborne port",
+        minimum=0,
+        maximum=65535,
+    )
+    ground_port: int = key(
+        3004,
+        "TCP port for ground stations. 0: any free port, said in the log.",
+        name="ground port",
+        minimum=0,
+        maximum=65535,
+    )
+    address: str = key(
+        "",
+        "Address to listen on; empty: every interface, IPv4 and IPv6.",
+        name="address",
+        max_length=64,
+    )
+    i_accept_plain: bool = key(
+        False,
+        "The proxy speaks the plain protocol: whoever reaches its ports can listen, and can take a "
+        "free seat and command. Peers with public addresses are refused until this is true. Set it "
+        "only when a firewall or VPN decides who reaches the ports, or when you accept the risk.",
+    )
+    metrics_port: int = key(
+        9303,
+        "TCP port of the metrics page on 127.0.0.1. 0: any free port, said in the log.",
+        name="metrics port",
+        minimum=0,
+        maximum=65535,
+    )
+    metrics: bool = key(True, "Whether there is a metrics page.")
+    log_level: str = key(
+        "info",
+        "What is logged.",
+        name="log level",
+        choices=("debug", "info", "warning", "error"),
+        ignore_case=True,
+    )
+    log_file: str = key(
+        "",
+        "File for JSON lines, rotated; empty: standard error (the journal) only.",
+        name="log file",
+        max_length=4096,
+    )
+    limits: LimitsConfig = section(LimitsConfig)
+
+
+PROXY = ConfigFile("proxy.yml", ProxyConfig)

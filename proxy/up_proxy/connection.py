@@ -1,0 +1,257 @@
+"""One TCP connection of the relay: its socket, its unfinished line, what waits for it."""
+
+import socket
+from collections.abc import Callable
+from typing import Protocol
+
+from up_proxy.half_line import LINE_MAX_BYTES, HalfLine
+from up_proxy.line_queue import LineQueue
+from up_proxy.poller import PAUSED, READ, WRITE, Poller
+
+IDLE_S = 15.0
+"""A connection without a byte in either direction for this long is closed."""
+PACE_BYTES = 65536
+"""More than this waiting for a paced peer pauses who sends to it."""
+
+_READ_BYTES = 65536
+_KEPT_MAX_BYTES = LINE_MAX_BYTES + 4096
+
+
+class Owner(Protocol):
+    """Who gives a connection its meaning."""
+
+    def on_lines(self, connection: "Connection", lines: bytes) -> None:
+        """Take whole lines; never empty, the last byte is LF."""
+
+    def on_half_line(self, connection: "Connection") -> None:
+        """Look at `connection.half`, a line that has grown and not ended."""
+
+    def on_drained(self, connection: "Connection") -> None:
+        """Hear that nothing waits any more."""
+
+    def on_end(self, connection: "Connection", reason: str) -> None:
+        """Hear that the connection is closed; the reason is for people."""
+
+
+class Connection:
+    """Relays whole lines without blocking and with bounded memory.
+
+    Ground stations are told lines with `relay` and lose the oldest when they are slow; an
+    aircraft is told with `relay_paced` and loses none.
+    """
+
+    __slots__ = (
+        "_closed",
+        "_events",
+        "_poller",
+        "_queue",
+        "_socket",
+        "asked_s",
+        "failure",
+        "half",
+        "heard_s",
+        "host",
+        "number",
+        "owner",
+        "paused_s",
+        "queue_bytes",
+        "speaks_hello",
+        "token",
+        "told_s",
+    )
+
+    def __init__(
+        self,
+        sock: socket.socket,
+        poller: Poller,
+        host: str,
+        owner: Owner,
+        closed: Callable[["Connection"], None],
+        queue_bytes: int,
+    ) -> None:
+        self._socket = sock
+        self._closed = closed
+        self._poller = poller
+        self._queue: LineQueue | None = None
+        self._events = READ
+        self.host = host
+        self.owner = owner
+        self.queue_bytes = queue_bytes
+        self.heard_s = self.told_s = poller.now_s
+        self.asked_s = 0.0
+        self.paused_s: float | None = None
+        self.half: HalfLine | None = None
+        self.failure: str | None = None
+        self.number = 0
+        self.speaks_hello = False
+        self.token = ""
+        poller.watch(sock.fileno(), self)
+
+    @property
+    def waiting_bytes(self) -> int:
+        """Bytes that wait for the peer in this process."""
+        return 0 if self._queue is None else len(self._queue)
+
+    def is_idle(self, now_s: float) -> bool:
+        """Say whether neither direction has carried a byte for IDLE_S."""
+        return now_s - self.heard_s > IDLE_S and now_s - self.told_s > IDLE_S
+
+    def on_ready(self, events: int) -> None:
+        """Read or write what the socket has room for."""
+        if self.failure is not None:
+            return
+        if self.paused_s is None:
+            if events != WRITE:
+                self._read()
+        elif events & ~WRITE:
+            self.fail("gone")
+        if events & WRITE and self.failure is None:
+            self._write()
+
+    def _read(self) -> None:
+        try:
+            chunk = self._socket.recv(_READ_BYTES)
+        except (BlockingIOError, InterruptedError):
+            return
+        except OSError as error:
+            self.fail(error.strerror or "lost")
+            return
+        if not chunk:
+            self.fail("closed by the peer")
+            return
+        self.heard_s = self._poller.now_s
+        if self.half is None and chunk[-1] == 0x0A:
+            self.owner.on_lines(self, chunk)
+        else:
+            self._assemble(chunk)
+
+    def _assemble(self, chunk: bytes) -> None:
+        if self.half is None:
+            self.half = HalfLine()
+        half = self.half
+        lines = half.take(chunk)
+        if not half:
+            self.half = None
+        if lines:
+            self.owner.on_lines(self, lines)
+        if self.half is half and self.failure is None:
+            if len(half) > LINE_MAX_BYTES:
+                self.fail(f"a line longer than {LINE_MAX_BYTES} bytes")
+            else:
+                self.owner.on_half_line(self)
+
+    def relay(self, lines: bytes) -> int:
+        """Send whole lines; return how many old ones were dropped to make room."""
+        queue = self._queue
+        if queue is None:
+            self._send_at_once(lines, self.queue_bytes)
+            return 0 if self._queue is None else self._queue.dropped_lines
+        before = queue.dropped_lines
+        queue.put(lines)
+        return queue.dropped_lines - before
+
+    def relay_paced(self, lines: bytes) -> bool:
+        """Send whole lines and drop none; return whether the sender may go on."""
+        queue = self._queue
+        if queue is None:
+            self._send_at_once(lines, 0)
+            queue = self._queue
+        else:
+            queue.put(lines)
+        return queue is None or len(queue) < PACE_BYTES
+
+    def tell(self, line: bytes) -> None:
+        """Send a control line, between relayed lines."""
+        queue = self._queue
+        if queue is None:
+            self._send_at_once(line, self.queue_bytes)
+            return
+        queue.put_control(line)
+        if queue.kept_bytes > _KEPT_MAX_BYTES:
+            self.fail("does not read")
+
+    def _send_at_once(self, lines: bytes, limit_bytes: int) -> None:
+        if self.failure is not None:
+            return
+        try:
+            sent = self._socket.send(lines)
+        except (BlockingIOError, InterruptedError):
+            sent = 0
+        except OSError as error:
+            self.fail(error.strerror or "lost")
+            return
+        if sent:
+            self.told_s = self._poller.now_s
+        if sent < len(lines):
+            self._queue = LineQueue(limit_bytes)
+            if sent and lines[sent - 1] != 0x0A:
+                self._queue.put_rest(lines[sent:])
+            else:
+                self._queue.put(lines[sent:])
+            self._watch()
+
+    def _write(self) -> None:
+        queue = self._queue
+        if queue is None:
+            return
+        try:
+            sent = self._socket.send(queue.head())
+        except (BlockingIOError, InterruptedError):
+            return
+        except OSError as error:
+            self.fail(error.strerror or "lost")
+            return
+        self.told_s = self._poller.now_s
+        queue.sent(sent)
+        if not queue:
+            self._queue = None
+            self._watch()
+            self.owner.on_drained(self)
+
+    def pause(self) -> None:
+        """Read no more until `resume`: who it sends to is slow."""
+        if self.paused_s is None:
+            self.paused_s = self._poller.now_s
+            self._watch()
+
+    def resume(self) -> None:
+        """Read again."""
+        if self.paused_s is not None:
+            self.paused_s = None
+            self._watch()
+
+    def _watch(self) -> None:
+        events = READ if self.paused_s is None else PAUSED
+        if self._queue is not None:
+            events |= WRITE
+        if events != self._events and self.failure is None:
+            self._events = events
+            self._poller.change(self._socket.fileno(), events)
+
+    def refuse(self, line: bytes, reason: str) -> None:
+        """Send a last line and say no more; the owner ends the connection soon.
+
+        Closing at once would reset the connection where unread bytes wait, and the peer would
+        not read why.
+        """
+        self._send_at_once(line, 0)
+        if self.failure is None:
+            try:
+                self._socket.shutdown(socket.SHUT_WR)
+            except OSError:
+                self.fail(reason)
+
+    def fail(self, reason: str) -> None:
+        """Ask for the end of the connection; the first reason counts."""
+        if self.failure is None:
+            self.failure = reason
+            self._poller.end_later(self)
+
+    def end(self) -> None:
+        """Close the socket and tell the owner."""
+        self._poller.forget(self._socket.fileno())
+        self._socket.close()
+        self._queue = None
+        self.half = None
+        self._closed(self)
+        self.owner.on_end(self, self.failure or "closed")

@@ -1,0 +1,167 @@
+"""One side's port: accepts, limits, judges addresses, ends what idles."""
+
+import errno
+import socket
+from collections import Counter
+from contextlib import suppress
+from dataclasses import dataclass
+
+from up.log import UpLogger
+from up.system.addresses import is_private, neighbourhood, plain
+from up.system.clock import Clock, Timer
+from up_proxy.connection import IDLE_S, Connection
+from up_proxy.hello import ADDRESS, FULL, HelloError, Side, error_line
+from up_proxy.opening import Opening
+from up_proxy.poller import Poller
+
+_ACCEPT_BATCH = 64
+_OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
+_RETRY_S = 1.0
+_log = UpLogger.get_logger("proxy")
+
+
+@dataclass(frozen=True, slots=True)
+class DoorLimits:
+    """How many connections one side takes, and from whom."""
+
+    connections: int
+    per_address: int
+    queue_bytes: int
+    accepts_public: bool
+
+
+class Door:
+    """The listening socket of one side and every connection that came in by it."""
+
+    def __init__(
+        self,
+        listener: socket.socket,
+        opening: Opening,
+        poller: Poller,
+        clock: Clock,
+        side: Side,
+        limits: DoorLimits,
+    ) -> None:
+        self._listener = listener
+        self._opening = opening
+        self._poller = poller
+        self._clock = clock
+        self._side = side
+        self._limits = limits
+        self._sources: Counter[str] = Counter()
+        self._retry: Timer | None = None
+        self._on_closed = self._forget
+        self._public_said = False
+        self.connections: set[Connection] = set()
+        self.accepted = 0
+        self.over_limit = 0
+        self.idle_closed = 0
+        self.refused = opening.refused
+
+    @property
+    def port(self) -> int:
+        """The port that is heard."""
+        return int(self._listener.getsockname()[1])
+
+    def open(self) -> None:
+        """Begin to accept."""
+        self._poller.watch(self._listener.fileno(), self)
+        _log.info("{side} side listens on port {port}", side=self._side.value, port=self.port)
+
+    def close(self) -> None:
+        """Accept no more and end every connection."""
+        if self._retry is not None:
+            self._retry.cancel()
+            self._retry = None
+        self.end()
+        for connection in self.connections:
+            connection.fail("the proxy stops")
+
+    def on_ready(self, events: int) -> None:
+        """Accept who waits."""
+        for _ in range(_ACCEPT_BATCH):
+            try:
+                peer, address = self._listener.accept()
+            except BlockingIOError:
+                return
+            except OSError as error:
+                if error.errno in _OUT_OF_DESCRIPTORS:
+                    self._rest()
+                    return
+                continue  # that one peer gave up before it was accepted
+            self._take(peer, plain(address[0]))
+
+    def fail(self, reason: str) -> None:
+        """Rest a while: a listening socket is not given up for one bad event."""
+        self._rest()
+
+    def end(self) -> None:
+        """Close the listening socket."""
+        self._poller.forget(self._listener.fileno())
+        self._listener.close()
+
+    def is_open(self) -> bool:
+        """Say whether the port is heard or will be in a moment."""
+        return self._listener.fileno() >= 0
+
+    def sweep(self, now_s: float) -> None:
+        """End what has been idle, and let the opening look at its clock."""
+        since_s = now_s - IDLE_S
+        for connection in self.connections:
+            if connection.heard_s < since_s and connection.told_s < since_s:
+                self.idle_closed += 1
+                connection.fail("idle")
+        self._opening.sweep(now_s)
+
+    def _take(self, peer: socket.socket, host: str) -> None:
+        error = self._objection(host)
+        if error is not None:
+            with suppress(OSError):
+                peer.send(error_line(error))
+            peer.close()
+            return
+        peer.setblocking(False)
+        self.accepted += 1
+        self._sources[neighbourhood(host)] += 1
+        connection = Connection(
+            peer, self._poller, host, self._opening, self._on_closed, self._limits.queue_bytes
+        )
+        self.connections.add(connection)
+        self._opening.begin(connection)
+
+    def _objection(self, host: str) -> HelloError | None:
+        if not self._limits.accepts_public and not is_private(host):
+            self.refused[ADDRESS] += 1
+            if not self._public_said:
+                self._public_said = True
+                _log.warn(
+                    "refused {host} on the {side} side: plain traffic over a public network needs "
+                    "'i_accept_plain: true' in proxy.yml (said once)",
+                    host=host,
+                    side=self._side.value,
+                )
+            return HelloError(ADDRESS, "plain connections from public addresses are not accepted")
+        if len(self.connections) >= self._limits.connections:
+            self.over_limit += 1
+            return HelloError(FULL, "this side has as many connections as it may")
+        if self._sources[neighbourhood(host)] >= self._limits.per_address:
+            self.over_limit += 1
+            return HelloError(FULL, "your address has as many connections as it may")
+        return None
+
+    def _forget(self, connection: Connection) -> None:
+        self.connections.discard(connection)
+        source = neighbourhood(connection.host)
+        self._sources[source] -= 1
+        if self._sources[source] <= 0:
+            del self._sources[source]
+
+    def _rest(self) -> None:
+        if self._retry is None and self.is_open():
+            _log.error("{side} side rests: too many open files", side=self._side.value)
+            self._poller.forget(self._listener.fileno())
+            self._retry = self._clock.callLater(_RETRY_S, self._again)
+
+    def _again(self) -> None:
+        self._retry = None
+        self._poller.watch(self._listener.fileno(), self)

@@ -1,0 +1,93 @@
+"""Every aircraft that somebody is connected for, by name."""
+
+from dataclasses import dataclass
+
+from up_proxy.air_side import AirSide
+from up_proxy.aircraft import Aircraft
+from up_proxy.ground_side import GroundSide
+from up_proxy.hello import FULL, HelloError
+from up_proxy.poller import Poller
+
+
+@dataclass(frozen=True, slots=True)
+class Party:
+    """One aircraft and the owners of its connections."""
+
+    aircraft: Aircraft
+    air: AirSide
+    ground: GroundSide
+
+
+@dataclass(slots=True)
+class Totals:
+    """What went through since the start, aircraft that are gone included."""
+
+    air_bytes: int = 0
+    ground_bytes: int = 0
+    dropped_lines: int = 0
+    unheard_lines: int = 0
+
+    def add(self, aircraft: Aircraft) -> None:
+        """Add what one aircraft counted."""
+        self.air_bytes += aircraft.air_bytes
+        self.ground_bytes += aircraft.ground_bytes
+        self.dropped_lines += aircraft.dropped_lines
+        self.unheard_lines += aircraft.unheard_lines
+
+
+class Fleet:
+    """Makes an aircraft when its first connection names it, forgets it when all have left."""
+
+    def __init__(self, poller: Poller, aircraft_max: int, listeners_max: int) -> None:
+        self._poller = poller
+        self._aircraft_max = aircraft_max
+        self._listeners_max = listeners_max
+        self._parties: dict[str, Party] = {}
+        self._gone = Totals()
+
+    def __len__(self) -> int:
+        return len(self._parties)
+
+    def aircraft(self) -> list[Aircraft]:
+        """Return every aircraft that is known now."""
+        return [party.aircraft for party in self._parties.values()]
+
+    def totals(self) -> Totals:
+        """Return the sums over all aircraft since the start."""
+        gone = self._gone
+        totals = Totals(gone.air_bytes, gone.ground_bytes, gone.dropped_lines, gone.unheard_lines)
+        for aircraft in self.aircraft():
+            totals.add(aircraft)
+        return totals
+
+    def party(self, name: str) -> Party:
+        """Return the aircraft of this name, new when nobody named it before.
+
+        Raises HelloError with code `full` when there are too many.
+        """
+        party = self._parties.get(name)
+        if party is None:
+            if len(self._parties) >= self._aircraft_max:
+                raise HelloError(FULL, "the proxy serves as many aircraft as it may")
+            aircraft = Aircraft(name)
+            party = self._parties[name] = Party(
+                aircraft, AirSide(aircraft, self._poller), GroundSide(aircraft, self._poller)
+            )
+        return party
+
+    def check_room(self, aircraft: Aircraft) -> None:
+        """Raise HelloError with code `full` when no further ground may join."""
+        if len(aircraft.grounds) > self._listeners_max:
+            raise HelloError(FULL, "this aircraft has as many grounds as it may")
+
+    def sweep(self, now_s: float) -> None:
+        """Notice who has fallen silent, and forget aircraft that all have left."""
+        for name, party in list(self._parties.items()):
+            aircraft = party.aircraft
+            holder = aircraft.command_seat.occupant
+            if holder is not None and holder.paused_s is not None:
+                party.ground.keep_paused_alive(holder, now_s)
+            aircraft.announce(now_s)
+            if aircraft.is_deserted(now_s):
+                self._gone.add(aircraft)
+                del self._parties[name]

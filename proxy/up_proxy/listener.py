@@ -1,0 +1,55 @@
+"""A listening socket for many short-spoken peers."""
+
+import os
+import socket
+
+LISTEN_BACKLOG = 1024
+SEND_BUFFER_BYTES = 65536
+"""Small on purpose: what the kernel holds for a slow peer is old when it arrives."""
+KEEPALIVE_IDLE_S = 5
+KEEPALIVE_INTERVAL_S = 2
+KEEPALIVE_PROBES = 3
+
+
+class ListenError(OSError):
+    """A port could not be opened; the text is one sentence."""
+
+
+def listen(label: str, address: str, port: int, user_timeout_ms: int) -> socket.socket:
+    """Return a listening, non-blocking TCP socket; accepted sockets inherit its options.
+
+    An empty address hears every interface, IPv4 and IPv6. `user_timeout_ms` bounds how long sent
+    data may stay unacknowledged (RFC 5482). Raises ListenError.
+    """
+    family, host = _family(address)
+    listener = socket.socket(family, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)
+    try:
+        if family == socket.AF_INET6:
+            only = 0 if not address else 1
+            listener.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, only)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
+        for option, value in (
+            (socket.TCP_NODELAY, 1),
+            (socket.TCP_KEEPIDLE, KEEPALIVE_IDLE_S),
+            (socket.TCP_KEEPINTVL, KEEPALIVE_INTERVAL_S),
+            (socket.TCP_KEEPCNT, KEEPALIVE_PROBES),
+            (socket.TCP_USER_TIMEOUT, user_timeout_ms),
+        ):
+            listener.setsockopt(socket.IPPROTO_TCP, option, value)
+        listener.bind((host, port))
+        listener.listen(LISTEN_BACKLOG)
+    except OSError as error:
+        listener.close()
+        what = os.strerror(error.errno) if error.errno else str(error)
+        raise ListenError(f"cannot listen on {label} {port}: {what.lower()}") from None
+    return listener
+
+
+def _family(address: str) -> tuple[socket.AddressFamily, str]:
+    if address:
+        return (socket.AF_INET6 if ":" in address else socket.AF_INET), address
+    if socket.has_dualstack_ipv6():
+        return socket.AF_INET6, "::"
+    return socket.AF_INET, "0.0.0.0"

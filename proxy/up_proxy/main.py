@@ -1,0 +1,137 @@
+"""The program `up-proxy`."""
+
+import argparse
+import gc
+import resource
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+from up.config import ConfigErrors
+from up.log import UpLogger, start_logging
+from up.system.clock import use_monotonic_time
+from up.system.notify import Notifier, WatchdogPinger
+from up.version import VERSION
+from up_proxy.config import PROXY, ProxyConfig
+from up_proxy.listener import ListenError
+
+if TYPE_CHECKING:
+    from up_proxy.proxy import ProxyReactor
+
+EXIT_CANNOT_START = 1
+EXIT_CONFIGURATION = 2
+_SPARE_DESCRIPTORS = 64
+_log = UpLogger.get_logger("proxy")
+
+
+def _port(text: str) -> int:
+    port = int(text) if text.isascii() and text.isdigit() else -1
+    if not 0 <= port <= 65535:
+        raise argparse.ArgumentTypeError(f"a port is a number from 0 to 65535, not {text!r}")
+    return port
+
+
+def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespace:
+    """Return the command line's options; ports are None when not given."""
+    parser = argparse.ArgumentParser(
+        prog="up-proxy",
+        description="Relay between aircraft and ground stations: the Ground Station Proxy.",
+    )
+    parser.add_argument(
+        "--config", type=Path, default=Path("config"), metavar="DIR", help="folder of proxy.yml"
+    )
+    parser.add_argument("--airborne-port", type=_port, metavar="N", help="0: any free port")
+    parser.add_argument("--ground-port", type=_port, metavar="N", help="0: any free port")
+    parser.add_argument("--metrics-port", type=_port, metavar="N", help="0: any free port")
+    parser.add_argument("--log-level", choices=("debug", "info", "warning", "error"))
+    parser.add_argument("--version", action="version", version=f"up-proxy {VERSION}")
+    return parser.parse_args(arguments)
+
+
+def configured(options: argparse.Namespace) -> ProxyConfig:
+    """Return proxy.yml with what the command line overrides; raises ConfigErrors."""
+    config = PROXY.load(options.config)
+    overrides = {
+        name: value
+        for name in ("airborne_port", "ground_port", "metrics_port", "log_level")
+        if (value := getattr(options, name)) is not None
+    }
+    return replace(config, **overrides)
+
+
+def raise_descriptor_limit(config: ProxyConfig) -> None:
+    """Ask for as many descriptors as the limits need, as far as the system grants them."""
+    wanted = 2 * config.limits.connections + _SPARE_DESCRIPTORS
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if soft >= wanted or soft == resource.RLIM_INFINITY:
+        return
+    granted = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (granted, hard))
+    if granted < wanted:
+        _log.warn(
+            "{granted} open files are allowed, the configured limits need {wanted}",
+            granted=granted,
+            wanted=wanted,
+        )
+
+
+def run(reactor: "ProxyReactor", config: ProxyConfig) -> int:
+    """Serve until SIGTERM or SIGINT; return the exit status."""
+    from up_proxy.proxy import PlainRefusedError, Proxy
+
+    proxy = Proxy(reactor, config)
+    try:
+        proxy.start()
+    except ListenError as error:
+        _say(str(error))
+        return EXIT_CANNOT_START
+    except PlainRefusedError as error:
+        _say(str(error))
+        return EXIT_CONFIGURATION
+    notifier = Notifier.from_environment()
+    pinger = WatchdogPinger(reactor, proxy.is_healthy, notifier)
+
+    def on_running() -> None:
+        # What start-up made stays; the collector need not walk it again and again.
+        gc.collect()
+        gc.freeze()
+        ports = f"airborne {proxy.airborne_port}, ground {proxy.ground_port}"
+        notifier.ready(f"relaying, {ports}")
+        pinger.start()
+
+    def on_stop() -> None:
+        notifier.stopping()
+        pinger.stop()
+        proxy.stop()
+        _log.info("stopped")
+
+    reactor.callWhenRunning(on_running)
+    reactor.addSystemEventTrigger("before", "shutdown", on_stop)
+    reactor.run()
+    return 0
+
+
+def _say(text: str) -> None:
+    sys.stderr.write(f"up-proxy: {text}\n")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the program and return its exit status."""
+    options = parse_arguments(arguments)
+    try:
+        config = configured(options)
+    except ConfigErrors as errors:
+        sys.stderr.write(f"{errors}\n")
+        return EXIT_CONFIGURATION
+    start_logging(config.log_level, json_path=Path(config.log_file) if config.log_file else None)
+    raise_descriptor_limit(config)
+    from twisted.internet import reactor
+
+    use_monotonic_time(reactor)
+    return run(cast("ProxyReactor", reactor), config)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

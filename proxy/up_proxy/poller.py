@@ -1,0 +1,144 @@
+"""Waits for many sockets at once, inside Twisted's reactor.
+
+The reactor sees one descriptor, an epoll of our own: a relayed line then costs no reactor
+bookkeeping, and an idle connection no entry in the reactor.
+"""
+
+import select
+import time
+from collections.abc import Callable
+from typing import Protocol
+
+from twisted.internet.interfaces import IReadDescriptor
+from zope.interface import implementer
+
+from up.log import UpLogger
+
+READ = select.EPOLLIN | select.EPOLLRDHUP
+WRITE = select.EPOLLOUT
+PAUSED = select.EPOLLRDHUP
+"""Reads nothing, hears of a peer that is gone."""
+
+_BATCH = 256
+_NEXT_S = 0.001
+_STAY_S = 0.005
+_log = UpLogger.get_logger("proxy")
+
+
+class Handler(Protocol):
+    """A socket that the poller watches."""
+
+    def on_ready(self, events: int) -> None:
+        """Do what the epoll events ask for, without blocking."""
+
+    def end(self) -> None:
+        """Close the socket and tell its owner: called outside the handling of any event."""
+
+    def fail(self, reason: str) -> None:
+        """Ask for the end, with its reason."""
+
+
+class Reactor(Protocol):
+    """What the poller asks of the reactor."""
+
+    def addReader(self, reader: object) -> None:  # noqa: N802 - Twisted's name
+        """Watch a descriptor."""
+
+    def removeReader(self, reader: object) -> object:  # noqa: N802
+        """Watch it no more."""
+
+
+@implementer(IReadDescriptor)
+class Poller:
+    """Dispatches socket events; `now_s` is the monotonic time at which the batch began."""
+
+    def __init__(self, reactor: Reactor, seconds: Callable[[], float] = time.monotonic) -> None:
+        self._reactor = reactor
+        self._seconds = seconds
+        self._epoll = select.epoll()
+        self._handlers: dict[int, Handler] = {}
+        self._ending: list[Handler] = []
+        self.now_s = seconds()
+
+    def start(self) -> None:
+        """Begin to hear events."""
+        self._reactor.addReader(self)
+
+    def stop(self) -> None:
+        """Hear no more and close the epoll; the sockets are their owners' to close."""
+        self._reactor.removeReader(self)
+        self._epoll.close()
+
+    def watch(self, descriptor: int, handler: Handler, events: int = READ) -> None:
+        """Call `handler.on_ready` when one of the events is there."""
+        self._handlers[descriptor] = handler
+        self._epoll.register(descriptor, events)
+
+    def change(self, descriptor: int, events: int) -> None:
+        """Watch a descriptor for other events."""
+        self._epoll.modify(descriptor, events)
+
+    def forget(self, descriptor: int) -> None:
+        """Watch a descriptor no more; to be called before it is closed."""
+        if self._handlers.pop(descriptor, None) is not None:
+            self._epoll.unregister(descriptor)
+
+    def end_later(self, handler: Handler) -> None:
+        """End a handler when the present batch is through.
+
+        Nothing is closed inside a batch: a descriptor's number could come back within it, and
+        whoever sends to many must not see the list of them change.
+        """
+        self._ending.append(handler)
+
+    def tick(self) -> float:
+        """Refresh `now_s` and return it."""
+        self.now_s = self._seconds()
+        return self.now_s
+
+    def reap(self) -> None:
+        """End what asked for its end; an end may ask for others."""
+        while self._ending:
+            handler = self._ending.pop()
+            handler.end()
+
+    def fileno(self) -> int:
+        """Return the epoll's descriptor, for the reactor."""
+        return self._epoll.fileno()
+
+    def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
+        """Return the name that the reactor logs."""
+        return "proxy"
+
+    def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
+        """Do nothing: the reactor calls it when it stops."""
+
+    def doRead(self) -> None:  # noqa: N802 - Twisted's name
+        """Handle the events that are there, and those that follow closely.
+
+        Under load the next line comes before the reactor has finished its round: waiting for it
+        here, never longer than _STAY_S in all, saves that round.
+        """
+        poll = self._epoll.poll
+        events = poll(0, _BATCH)
+        leave_s = self._seconds() + _STAY_S
+        while events:
+            self._handle(events)
+            if self.now_s >= leave_s:
+                return
+            events = poll(_NEXT_S, _BATCH)
+
+    def _handle(self, events: list[tuple[int, int]]) -> None:
+        handlers = self._handlers
+        self.now_s = self._seconds()
+        for descriptor, what in events:
+            handler = handlers.get(descriptor)
+            if handler is None:
+                continue
+            try:
+                handler.on_ready(what)
+            except Exception:  # noqa: BLE001 - a bug costs one connection, never the relay
+                _log.failure("A connection failed on a bug of the proxy")
+                handler.fail("internal error")
+        if self._ending:
+            self.reap()
