@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from up.config.nodes import compose
-from up.config.problems import ConfigErrors, ConfigProblem
+from up.config.problems import ConfigErrors, ConfigProblem, Problems
 from up.config.reading import decode, read_text
 from up.config.scalars import is_null
 from up.config.schema import schema_of
@@ -17,7 +17,6 @@ from up.config.template import template_of
 from up.config.validator import Validator
 
 T = TypeVar("T")
-MAX_PROBLEMS = 100
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +42,7 @@ class ConfigFile(Generic[T]):
         Raises ConfigErrors with every problem of the file.
         """
         path = Path(folder) / self.filename
-        problems = _Problems(path)
+        problems = Problems(path)
         text = read_text(path, problems.report)
         value = self.cls() if text is None else self._parse(text, problems, whole=False)
         problems.raise_if_any()
@@ -55,7 +54,7 @@ class ConfigFile(Generic[T]):
         With `whole` the text must hold something and no map in it may lack one of its values: half
         a set of numbers that belong together is refused.
         """
-        problems = _Problems(Path(path))
+        problems = Problems(Path(path))
         if isinstance(text, bytes):
             text = decode(text, problems.report) or ""
         value = None if problems.found else self._parse(text, problems, whole)
@@ -74,7 +73,7 @@ class ConfigFile(Generic[T]):
         """Return the JSON Schema (draft 2020-12) of the file, for editors."""
         return schema_of(self.filename, self.shape)
 
-    def _parse(self, text: str, problems: _Problems, whole: bool) -> T:
+    def _parse(self, text: str, problems: Problems, whole: bool) -> T:
         root = compose(text, problems.report)
         if root is None or is_null(root):
             if whole and not problems.found:
@@ -106,23 +105,3 @@ def unknown_files(folder: Path, files: Iterable[ConfigFile[Any]]) -> list[Path]:
     except OSError:
         return []
     return [path for path in found if path.suffix in (".yml", ".yaml") and path.name not in known]
-
-
-class _Problems:
-    """Collects the problems of one file, at most MAX_PROBLEMS and a note that there are more."""
-
-    def __init__(self, path: Path) -> None:
-        self.found: list[ConfigProblem] = []
-        self._path = path
-
-    def report(self, line: int, column: int, what: str) -> None:
-        if len(self.found) == MAX_PROBLEMS:
-            what = f"more than {MAX_PROBLEMS} problems, the rest is not shown"
-        if len(self.found) <= MAX_PROBLEMS:
-            self.found.append(ConfigProblem(self._path, line, column, what))
-
-    def raise_if_any(self) -> None:
-        if self.found:
-            raise ConfigErrors(
-                sorted(self.found, key=lambda problem: (problem.line, problem.column))
-            )

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from up.fields import printable
 
+MAX_PROBLEMS = 100
+
 
 @dataclass(frozen=True, slots=True)
 class ConfigProblem:
@@ -28,3 +30,23 @@ class ConfigErrors(Exception):  # noqa: N818 - it carries many, and says so
     def __init__(self, problems: Sequence[ConfigProblem]) -> None:
         super().__init__("\n".join(str(problem) for problem in problems))
         self.problems = list(problems)
+
+
+class Problems:
+    """Collects the problems of one file: at most MAX_PROBLEMS and a note that there are more."""
+
+    def __init__(self, path: Path) -> None:
+        self.found: list[ConfigProblem] = []
+        self._path = path
+
+    def report(self, line: int, column: int, what: str) -> None:
+        """Take one more problem; `line` and `column` count from 1."""
+        if len(self.found) == MAX_PROBLEMS:
+            what = f"more than {MAX_PROBLEMS} problems, the rest is not shown"
+        if len(self.found) <= MAX_PROBLEMS:
+            self.found.append(ConfigProblem(self._path, line, column, what))
+
+    def raise_if_any(self) -> None:
+        """Raise ConfigErrors with what was found, in the order of the file."""
+        if self.found:
+            raise ConfigErrors(sorted(self.found, key=lambda each: (each.line, each.column)))

@@ -10,9 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.up.config.samples import LINK, PATH, Gains, Link, Remote
-from up.config import ConfigFile, section, write_schemas, write_template
+from up.config import ConfigFile, items, mapping, section, write_schemas, write_template
 from up.config.application import APPLICATION, ApplicationConfig
 from up.config.disabled_modules import DISABLED_MODULES, DisabledModulesConfig
+from up.config.shape import ListOf
+from up.fields import Constraint
 
 FILES = [LINK, APPLICATION, DISABLED_MODULES]
 ANY_TEXT = st.text(st.characters(exclude_categories=("Cs",)), max_size=20)
@@ -224,3 +226,21 @@ def test_a_dataclass_without_a_docstring_has_no_head():
     template = ConfigFile("x.yml", Silent).template()
     assert template.startswith("# Said here.\ninner:\n")
     assert not any(a == b == "" for a, b in itertools.pairwise(template.splitlines()))
+
+
+def test_lists_of_maps_and_maps_of_lists_are_rendered_and_read_back():
+    @dataclass(frozen=True)
+    class Nested:
+        remotes: tuple = items(Remote, "All of them.", default=(Remote("a, b", 1), Remote()))
+        groups: dict = mapping(
+            Constraint(str), ListOf(Constraint(str), 3), "By name.", default={"no": ("x", "1.5")}
+        )
+
+    file = ConfigFile("x.yml", Nested)
+    assert file.parse(file.template(), PATH) == Nested()
+    assert file.parse("remotes: []\ngroups: {}\n", PATH) == Nested((), {})
+    assert yaml.safe_load(file.template()) == {
+        "remotes": [{"url": "a, b", "port": 1}, {"url": "", "port": 3003}],
+        "groups": {"no": ["x", "1.5"]},
+    }
+    assert '# For example  - {url: "", port: 3003}\n' in file.template()
