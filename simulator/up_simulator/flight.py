@@ -1,0 +1,58 @@
+"""What the stand-ins ask of whatever flies: its state, its time and its servos."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+Servos = tuple[int, int, int, int]
+"""Servo pulses, us: ailerons, elevator, throttle, rudder."""
+
+NEUTRAL: Servos = (1500, 1500, 1000, 1500)
+
+
+class FlightUnavailableError(Exception):
+    """Nothing can fly: the message is one sentence for the user."""
+
+
+@dataclass(frozen=True, slots=True)
+class FlightState:
+    """The true state of the aircraft at one moment.
+
+    Positive roll is right wing down, positive pitch nose up, positive yaw clockwise from above.
+    Rates are those of the body axes, as a gyroscope feels them. Altitude is above the sea,
+    height above the ground; speed is over the ground, along ``track_deg``.
+    """
+
+    time_s: float
+    roll_deg: float
+    pitch_deg: float
+    yaw_deg: float
+    roll_rate_deg_s: float
+    pitch_rate_deg_s: float
+    yaw_rate_deg_s: float
+    latitude_deg: float
+    longitude_deg: float
+    altitude_m: float
+    height_m: float
+    speed_m_s: float
+    track_deg: float
+    airspeed_m_s: float
+
+
+class Flight(Protocol):
+    """Something that flies in steps of its own time."""
+
+    @property
+    def state(self) -> FlightState:
+        """Return the newest state."""
+
+    @property
+    def servos(self) -> Servos:
+        """Return where the servos stand now, us, which lags behind what was asked."""
+
+    def set_servos(self, pulses_us: Servos) -> None:
+        """Ask the servos to go to these pulses."""
+
+    def advance(self, duration_s: float) -> None:
+        """Fly on for as many whole steps as fit into what has been asked so far."""

@@ -1,0 +1,151 @@
+"""How the phone finds the Raspberry Pi: by configuration, Discovery, or through a runner."""
+
+from __future__ import annotations
+
+import ipaddress
+import json
+from dataclasses import dataclass
+from typing import Any
+
+from twisted.internet.defer import Deferred
+from twisted.internet.endpoints import TCP4ClientEndpoint
+from twisted.internet.error import ConnectError
+from twisted.internet.protocol import DatagramProtocol, Factory
+from twisted.protocols.basic import LineOnlyReceiver
+from twisted.python.failure import Failure
+
+ANSWER_S = 1.5
+SPAWN_S = 20.0
+LONGEST_ANSWER = 65536
+QUESTION = b"Where is Raspilot?"
+
+
+class NotFoundError(Exception):
+    """The Raspberry Pi cannot be found now: the message is one sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class RaspberryPi:
+    """Where the phone's two links go."""
+
+    host: str
+    general_port: int
+    orientation_port: int
+
+
+@dataclass(frozen=True, slots=True)
+class Runner:
+    """A runner to ask for an instance first, and for which aircraft."""
+
+    host: str
+    port: int
+    aircraft: str
+
+
+async def discover(reactor: Any, host: str, port: int) -> str:
+    """Ask Discovery (protocols 7) once and return the Raspberry Pi's address.
+
+    ``host`` may be a broadcast address. Raises ``NotFoundError`` when no answer comes.
+    """
+    question = _Question(host, port)
+    listening = reactor.listenUDP(0, question)
+    limit = reactor.callLater(ANSWER_S, question.give_up)
+    try:
+        return await question.answer
+    finally:
+        if limit.active():
+            limit.cancel()
+        await listening.stopListening()
+
+
+async def spawn(reactor: Any, runner: Runner) -> RaspberryPi:
+    """Ask a runner (protocols 8) for an instance and return where it listens.
+
+    Raises ``NotFoundError`` with the runner's own sentence when nothing runs.
+    """
+    endpoint = TCP4ClientEndpoint(reactor, runner.host, runner.port, timeout=ANSWER_S)
+    try:
+        factory: Any = Factory.forProtocol(_Request)
+        factory.noisy = False
+        protocol: Any = await endpoint.connect(factory)
+    except ConnectError as error:
+        raise NotFoundError(f"no runner at {runner.host}:{runner.port}: {error}") from error
+    protocol.sendLine(json.dumps({"aircraft": runner.aircraft}).encode("ascii"))
+    limit = reactor.callLater(SPAWN_S, protocol.transport.abortConnection)
+    try:
+        answer = await protocol.answer
+    finally:
+        if limit.active():
+            limit.cancel()
+        protocol.transport.loseConnection()
+    return read_spawn_answer(answer, runner.host)
+
+
+def read_spawn_answer(line: bytes, host: str) -> RaspberryPi:
+    """Return the place that a runner's answer names; raises ``NotFoundError``."""
+    try:
+        answer = json.loads(line)
+        if answer["running"] is not True:
+            raise NotFoundError(f"the runner says: {answer.get('error') or answer.get('message')}")
+        ports = answer["ports"]
+        general, orientation = ports["general"], ports["orientation"]
+    except (ValueError, RecursionError, KeyError, TypeError, AttributeError) as error:
+        raise NotFoundError(f"the runner's answer is not understood: {line[:80]!r}") from error
+    if not all(type(each) is int and 1 <= each <= 65535 for each in (general, orientation)):
+        raise NotFoundError(f"the runner's ports are none: {ports}")
+    return RaspberryPi(host, general, orientation)
+
+
+def read_discovery_answer(answer: bytes, source: str) -> str:
+    """Return the address in a Discovery answer, or the answer's source when it holds none."""
+    try:
+        return str(ipaddress.IPv4Address(answer.decode("ascii").strip()))
+    except ValueError:
+        return source
+
+
+class _Question(DatagramProtocol):
+    """One question to Discovery and its first answer."""
+
+    def __init__(self, host: str, port: int) -> None:
+        self._place = (host, port)
+        self.answer: Deferred[str] = Deferred()
+
+    def startProtocol(self) -> None:  # noqa: N802 - Twisted's name
+        """Ask."""
+        transport: Any = self.transport
+        transport.setBroadcastAllowed(True)
+        transport.write(QUESTION, self._place)
+
+    def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802
+        """Take the first answer."""
+        if not self.answer.called:
+            self.answer.callback(read_discovery_answer(datagram, addr[0]))
+
+    def give_up(self) -> None:
+        """Say that nobody answered."""
+        host, port = self._place
+        if not self.answer.called:
+            self.answer.errback(
+                Failure(NotFoundError(f"no answer from Discovery at {host}:{port}"))
+            )
+
+
+class _Request(LineOnlyReceiver):
+    """One request to a runner and its answer of one line."""
+
+    delimiter = b"\n"
+    MAX_LENGTH = LONGEST_ANSWER
+
+    def __init__(self) -> None:
+        self.answer: Deferred[bytes] = Deferred()
+
+    def lineReceived(self, line: bytes) -> None:  # noqa: N802 - Twisted's name
+        """Take the first line."""
+        if not self.answer.called:
+            self.answer.callback(line)
+
+    def connectionLost(self, reason: Any = None) -> None:  # noqa: N802 - Twisted's name
+        """End an unanswered request."""
+        if not self.answer.called:
+            self.answer.errback(Failure(NotFoundError("the runner hung up without an answer")))
