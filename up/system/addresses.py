@@ -51,3 +51,11 @@ def is_wildcard(host: str) -> bool:
 def plain(host: str) -> str:
     """Return the address as people write it: without scope, IPv4 inside IPv6 as IPv4."""
     return str(_parsed(host))
+
+
+def neighbourhood(host: str) -> str:
+    """Return what counts as one source: an IPv4 address, or the /64 network of an IPv6 one."""
+    address = _parsed(host)
+    if isinstance(address, IPv4Address):
+        return str(address)
+    return str(ip_network((int(address) >> 64 << 64, 64)))

@@ -36,6 +36,10 @@ class Notifier:
         """Show one line of text in `systemctl status`; return whether somebody was told."""
         return self._send("", text)
 
+    def variable(self, name: str, value: str) -> bool:
+        """Tell a value of our own, such as bound ports; systemd ignores names with X_."""
+        return self._send(f"{name}={value}".replace("\n", " "), "")
+
     def watchdog(self) -> bool:
         """Say that the program is alive; return whether somebody was told."""
         return self._send("WATCHDOG=1", "")

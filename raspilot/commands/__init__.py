@@ -1,0 +1,1 @@
+"""Raspilot's own commands: every file here is loaded."""

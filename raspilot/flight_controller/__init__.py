@@ -1,0 +1,1 @@
+"""Raspilot's own flight controller: every file here is loaded."""

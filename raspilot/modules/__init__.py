@@ -1,0 +1,1 @@
+"""Raspilot's own modules: every file here is loaded."""

@@ -1,0 +1,94 @@
+"""The base of every module (thesis 3.2.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from twisted.logger import Logger
+
+from up.config import ConfigFile
+from up.context import Context
+from up.mode import IN_EVERY_MODE, Mode
+
+if TYPE_CHECKING:
+    from up.up import Up
+
+
+class BaseModule:
+    """A part of the system with one function; built without arguments by the loader.
+
+    Override ``_execute_initialization`` to take references and subscribe, ``load`` to decide
+    whether to be loaded, ``telemetry_content`` to contribute to telemetry. Declare used modules
+    with ``needs`` and ``wants``, configuration with ``CONFIG``, and with ``MODES`` the modes in
+    which the class is instantiated at all. ``LOAD_ORDER`` breaks ties of the order, lower first.
+    """
+
+    LOAD_ORDER: ClassVar[int] = 0
+    CONFIG: ClassVar[ConfigFile[Any] | None] = None
+    MODES: ClassVar[frozenset[Mode]] = IN_EVERY_MODE
+
+    up: Up
+    context: Context
+
+    def bind(self, context: Context) -> None:
+        """Hand the module what it may use; the loader does so before it asks ``load``."""
+        self.context = context
+
+    def load(self) -> bool:
+        """Return whether the module shall be loaded; may look at mode and configuration."""
+        return True
+
+    def initialize(self, up: Up) -> None:
+        """Enter the initialization phase; the framework calls this once."""
+        self.up = up
+        self._execute_initialization()
+
+    def _execute_initialization(self) -> None:
+        """Take references, subscribe to Commands, read configuration. No sockets, no ports."""
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any] | None:
+        """Return what this module contributes to telemetry, under its module key; or None."""
+        return None
+
+    @property
+    def config(self) -> Any:
+        """Return the values of the module's configuration file, an instance of its dataclass."""
+        if self.CONFIG is None:
+            raise AttributeError(f"{self.class_name} declares no CONFIG")
+        return self.context.config(self.CONFIG)
+
+    @property
+    def class_name(self) -> str:
+        """Return the class's name, which is the module's name for people."""
+        return type(self).__name__
+
+    @property
+    def path(self) -> str:
+        """Return the fully qualified name, as ``disabled_modules.yml`` has it."""
+        return f"{type(self).__module__}.{type(self).__qualname__}"
+
+    @property
+    def logger(self) -> Logger:
+        """Return a logger with this module's name."""
+        return Logger(namespace=self.class_name)
+
+    def is_a(self, name: str) -> bool:
+        """Return whether this module's class, or one that it extends, has that name."""
+        return any(base.__name__ == name for base in type(self).__mro__)
+
+    def _log_debug(self, text: str) -> None:
+        self.logger.debug("{text}", text=text)
+
+    def _log_info(self, text: str) -> None:
+        self.logger.info("{text}", text=text)
+
+    def _log_warning(self, text: str) -> None:
+        self.logger.warn("{text}", text=text)
+
+    def _log_error(self, text: str) -> None:
+        self.logger.error("{text}", text=text)
+
+    def _log_critical(self, text: str) -> None:
+        self.logger.critical("{text}", text=text)

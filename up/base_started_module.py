@@ -1,0 +1,79 @@
+"""A module that is started and stopped (thesis 3.2.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable
+from typing import Any, ClassVar
+
+from up.base_module import BaseModule
+from up.start_result import StartResult
+
+
+class BaseStartedModule(BaseModule):
+    """A module with ports, links or timers.
+
+    Override ``_execute_start`` and ``_execute_stop``; both may be ``async def``. A start returns a
+    StartResult, True (or nothing) for started, or False for failed; raising is failed too. A
+    failed start stops the boot where the class says ``REQUIRED``. An absent peer is no failure.
+    """
+
+    REQUIRED: ClassVar[bool] = False
+    DATA_SOURCE: ClassVar[bool] = False
+    """Whether readings can come through this module; without any, there is nothing to run for."""
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        self._started = False
+        self.silent = silent
+        self.given_config = config
+
+    @property
+    def started(self) -> bool:
+        """Return whether the module is started and not stopped."""
+        return self._started
+
+    @property
+    def is_source_open(self) -> bool:
+        """Return whether a DATA_SOURCE has its port open, so that readings could come."""
+        return self._started
+
+    @property
+    def is_healthy(self) -> bool:
+        """Return whether the module does its work; the watchdog is fed only while all do."""
+        return True
+
+    async def start(self) -> StartResult:
+        """Enter the start phase; the framework calls this once."""
+        outcome = self._execute_start()
+        if isinstance(outcome, Awaitable):
+            outcome = await outcome
+        result = self._judge(outcome)
+        self._started = result is StartResult.STARTED
+        return result
+
+    async def stop(self) -> None:
+        """Enter the stop phase; the framework calls this once, only for what was started."""
+        self._started = False
+        outcome = self._execute_stop()
+        if isinstance(outcome, Awaitable):
+            await outcome
+
+    def _execute_start(self) -> Any:
+        """Open ports, begin links."""
+        return True
+
+    def _execute_stop(self) -> Any:
+        """Close what the start opened."""
+
+    def _judge(self, outcome: Any) -> StartResult:
+        if isinstance(outcome, StartResult):
+            return outcome
+        if outcome is None or outcome is True:
+            return StartResult.STARTED
+        if outcome is False:
+            return self.failure_result
+        raise TypeError(f"{self.class_name}._execute_start returned {outcome!r}")
+
+    @property
+    def failure_result(self) -> StartResult:
+        """Return what a failed start of this class means for the boot."""
+        return StartResult.FAILED_STOP if self.REQUIRED else StartResult.FAILED_GO_ON

@@ -1,0 +1,75 @@
+"""A module with a thread of its own, for work that blocks (thesis 3.2.2)."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from twisted.internet.defer import Deferred
+
+from up.base_started_module import BaseStartedModule
+
+STOP_LIMIT_S = 2.0
+_LOOK_S = 0.01
+_PAUSE_AFTER_FAULT_S = 1.0
+
+
+class BaseThreadModule(BaseStartedModule):
+    """Runs ``_loop`` over and over on a daemon thread until it is stopped.
+
+    The thread's only way back is the reactor: publish Commands (the bus hands them over) or
+    ``call_in_reactor``. ``_loop`` blocks for a while at most and waits with
+    ``self.stop_event.wait(seconds)``; one that raises is logged, counted and, after a second,
+    called again. A thread that has not ended 2 s after the stop does not keep the process alive.
+    """
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.stop_event = threading.Event()
+        self.faults = 0
+        self._thread: threading.Thread | None = None
+
+    async def start(self) -> Any:
+        """Start the module, then its thread."""
+        result = await super().start()
+        if self._started:
+            self.stop_event.clear()
+            self._thread = threading.Thread(
+                target=self._run, name=f"Thread-{self.class_name}", daemon=True
+            )
+            self._thread.start()
+        return result
+
+    async def stop(self) -> None:
+        """Ask the thread to end, wait for it without blocking the reactor, then stop."""
+        self.stop_event.set()
+        deadline_s = self.context.reactor.seconds() + STOP_LIMIT_S
+        while self._thread is not None and self._thread.is_alive():
+            if self.context.reactor.seconds() >= deadline_s:
+                self._log_warning("its thread did not end in time and is left behind")
+                break
+            await self._pause(_LOOK_S)
+        await super().stop()
+
+    def call_in_reactor(self, call: Callable[..., Any], *arguments: Any) -> None:
+        """Let the reactor thread call something."""
+        self.context.reactor.callFromThread(call, *arguments)
+
+    def _loop(self) -> None:
+        """Do a piece of the work."""
+        raise NotImplementedError(f"{self.class_name} does not say what its thread does")
+
+    def _run(self) -> None:
+        while not self.stop_event.is_set():
+            try:
+                self._loop()
+            except Exception:  # noqa: BLE001 - a fault of a module ends neither thread nor program
+                self.faults += 1
+                self.logger.failure("{name} failed in its thread", name=self.class_name)
+                self.stop_event.wait(_PAUSE_AFTER_FAULT_S)
+
+    def _pause(self, seconds: float) -> Deferred[None]:
+        done: Deferred[None] = Deferred()
+        self.context.reactor.callLater(seconds, done.callback, None)
+        return done

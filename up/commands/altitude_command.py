@@ -1,0 +1,22 @@
+"""The altitude of the aircraft, or the altitude that it shall have."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class AltitudeCommand(BaseCommand):
+    """An altitude above sea level, measured (``actual``) or asked for (``required``)."""
+
+    NAME: ClassVar[str] = "up.altitude.change"
+    altitude_m: float = value(key="altitude", minimum=-1000, maximum=30000, unit="m")
+    mode: str = value("actual", choices=("actual", "required"))
+
+    def roles(self) -> frozenset[Role]:
+        """A sensor measures, an operator asks."""
+        return frozenset({Role.OPERATOR if self.mode == "required" else Role.SENSOR})

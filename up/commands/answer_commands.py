@@ -1,0 +1,31 @@
+"""The answers to Commands that carried an id."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+_ANYBODY = frozenset({Role.SENSOR, Role.OBSERVER})
+
+
+@dataclass(frozen=True, slots=True)
+class AckCommand(BaseCommand):
+    """The Command with that id was carried out."""
+
+    NAME: ClassVar[str] = "up.ack"
+    ROLES: ClassVar[frozenset[Role]] = _ANYBODY
+    command_id: str = value(key="id", max_length=64)
+
+
+@dataclass(frozen=True, slots=True)
+class NackCommand(BaseCommand):
+    """The Command with that id was not carried out, and why."""
+
+    NAME: ClassVar[str] = "up.nack"
+    ROLES: ClassVar[frozenset[Role]] = _ANYBODY
+    command_id: str = value(key="id", max_length=64)
+    code: str = value(max_length=32)
+    reason: str = value("", max_length=500)

@@ -1,0 +1,26 @@
+"""Arming and disarming: the motor and the Raspberry Pi's authority."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class ArmCommand(BaseCommand):
+    """Arm; the Arduino decides, and an arming veto or a missing beacon refuses it before."""
+
+    NAME: ClassVar[str] = "up.arm"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
+    NEEDS_BEACON: ClassVar[bool] = True
+
+
+@dataclass(frozen=True, slots=True)
+class DisarmCommand(BaseCommand):
+    """Disarm; refused unless the throttle has been low for 2 s."""
+
+    NAME: ClassVar[str] = "up.disarm"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})

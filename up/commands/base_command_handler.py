@@ -1,0 +1,32 @@
+"""The action of a Command as an object (thesis 4.1.4)."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import Any
+
+from twisted.logger import Logger
+
+from up.commands.command import BaseCommand
+
+
+class BaseCommandHandler(ABC):
+    """Carries out one Command; register it with ``CommandExecutor.register_command``.
+
+    ``COMMAND`` names the Command that a handler in the application's ``commands/`` folder takes;
+    such a handler is registered by itself.
+    """
+
+    COMMAND: type[BaseCommand] | str = ""
+
+    @property
+    def logger(self) -> Logger:
+        """Return a logger with this handler's name."""
+        return Logger(namespace=type(self).__name__)
+
+    @abstractmethod
+    def run_action(self, command: Any) -> Any:
+        """Carry the Command out, on the reactor thread, without blocking.
+
+        Raise CommandRefusedError to refuse; return a Deferred where the outcome comes later.
+        """

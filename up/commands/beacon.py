@@ -1,0 +1,44 @@
+"""Beacons: how old the newest telemetry was that a Command's sender had seen."""
+
+from __future__ import annotations
+
+import secrets
+from collections import deque
+
+from up.system.clock import Clock
+
+KEPT = 4096
+FRESH_S = 2.0
+
+
+class Beacons:
+    """Numbers telemetry frames and judges the number that a Command echoes.
+
+    The first number is drawn at random, so that a number of an earlier run is not taken for one
+    of this run. Age is monotonic seconds since the frame left.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self._first = self._next = secrets.randbelow(2**31)
+        self._times: deque[float] = deque(maxlen=KEPT)
+
+    def draw(self) -> int:
+        """Return the number for a frame that leaves now."""
+        number = self._next
+        self._next += 1
+        if len(self._times) == KEPT:
+            self._first += 1
+        self._times.append(self._clock.seconds())
+        return number
+
+    def age_s(self, number: int) -> float | None:
+        """Return the age of an echoed number; None when it is none of ours or too old to know."""
+        if not self._first <= number < self._next:
+            return None
+        return self._clock.seconds() - self._times[number - self._first]
+
+    def is_fresh(self, number: int) -> bool:
+        """Return whether an echoed number is at most ``FRESH_S`` old."""
+        age = self.age_s(number)
+        return age is not None and age <= FRESH_S

@@ -1,0 +1,44 @@
+"""The Commands that Up itself brings."""
+
+from __future__ import annotations
+
+from up.commands.altitude_command import AltitudeCommand
+from up.commands.answer_commands import AckCommand, NackCommand
+from up.commands.arming_commands import ArmCommand, DisarmCommand
+from up.commands.command import BaseCommand
+from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.heading_command import HeadingCommand
+from up.commands.location_command import LocationCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.output_command import OutputCommand
+from up.commands.panic_command import PanicCommand
+from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
+from up.commands.rx_command import RXCommand
+from up.commands.servo_command import ServoCommand
+from up.commands.setpoint_command import SetpointCommand
+from up.commands.system_commands import LinkStateCommand, SystemStateCommand, SystemStopCommand
+from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
+
+BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
+    AckCommand,
+    AltitudeCommand,
+    ArmCommand,
+    DisarmCommand,
+    FlightModeCommand,
+    HeadingCommand,
+    LinkStateCommand,
+    LocationCommand,
+    NackCommand,
+    OrientationCommand,
+    OutputCommand,
+    PIDTuningsCommand,
+    PIDTuningsValuesCommand,
+    PanicCommand,
+    RXCommand,
+    ServoCommand,
+    SetpointCommand,
+    SystemStateCommand,
+    SystemStopCommand,
+    TelemetryCommand,
+    TelemetryFrequencyCommand,
+)

@@ -1,0 +1,138 @@
+"""The Command: a named, typed and validated message (thesis 4.1.4)."""
+
+from __future__ import annotations
+
+import dataclasses
+import types
+import typing
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, ClassVar, Self, TypeVar
+
+from up.commands.roles import Role
+from up.fields import Constraint
+
+_T = TypeVar("_T", bound="BaseCommand")
+
+
+class InvalidCommandError(ValueError):
+    """A Command's data break its definition; the text names the field."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class BaseCommand:
+    """The base of every Command: subclass it as a frozen, slotted dataclass.
+
+    ``NAME`` is the name on the wire, ``ALIASES`` older names of the same thing, ``ROLES`` the
+    roles that may send it from outside (none: nobody), ``ROUTE`` the link that it is routed to
+    instead of being handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon.
+    """
+
+    NAME: ClassVar[str] = ""
+    ALIASES: ClassVar[tuple[str, ...]] = ()
+    ROLES: ClassVar[frozenset[Role]] = frozenset()
+    ROUTE: ClassVar[str] = ""
+    NEEDS_BEACON: ClassVar[bool] = False
+
+    def roles(self) -> frozenset[Role]:
+        """Return who may send this very Command; override where a field decides."""
+        return self.ROLES
+
+    @property
+    def name(self) -> str:
+        """Return the name on the wire."""
+        return self.NAME
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Return the fields under their names on the wire."""
+        return {key: _plain(getattr(self, name)) for name, key, _ in wire_fields(type(self))}
+
+    @classmethod
+    def from_data(cls, data: Mapping[str, Any]) -> Self:
+        """Build the Command from a message's ``data``.
+
+        Raises InvalidCommandError with one sentence that names the field.
+        """
+        values: dict[str, Any] = {}
+        for name, key, check in wire_fields(cls):
+            try:
+                values[name] = check(data.get(key, _ABSENT))
+            except ValueError as error:
+                raise InvalidCommandError(f"{key} {error}") from None
+        try:
+            return cls(**{n: v for n, v in values.items() if v is not _ABSENT})
+        except ValueError as error:
+            raise InvalidCommandError(str(error)) from None
+
+
+_ABSENT: Any = object()
+_Check = Callable[[Any], Any]
+_plans: dict[type, tuple[tuple[str, str, _Check], ...]] = {}
+
+
+def value(
+    default: Any = dataclasses.MISSING,
+    *,
+    key: str = "",
+    unit: str = "",
+    minimum: float | None = None,
+    maximum: float | None = None,
+    choices: Iterable[Any] | None = None,
+    max_length: int | None = None,
+) -> Any:
+    """Declare a field of a Command: its name on the wire, its unit and its bounds.
+
+    The type comes from the annotation; ``X | None`` allows null. Without a default it is required.
+    """
+    bounds = {
+        "unit": unit,
+        "minimum": minimum,
+        "maximum": maximum,
+        "max_length": max_length,
+        "choices": None if choices is None else tuple(choices),
+    }
+    return dataclasses.field(default=default, metadata={"key": key, "bounds": bounds})
+
+
+def wire_fields(cls: type[BaseCommand]) -> tuple[tuple[str, str, _Check], ...]:
+    """Return (attribute, name on the wire, check) for every field; computed once per class."""
+    plan = _plans.get(cls)
+    if plan is None:
+        hints = typing.get_type_hints(cls)
+        plan = _plans[cls] = tuple(
+            (field.name, field.metadata.get("key") or field.name, _checker(field, hints))
+            for field in dataclasses.fields(cls)
+        )
+    return plan
+
+
+def _checker(field: dataclasses.Field[Any], hints: Mapping[str, Any]) -> _Check:
+    constraint = constraint_of(field, hints)
+    required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+    check = constraint.check
+
+    def checked(given: Any) -> Any:
+        if given is _ABSENT:
+            if required:
+                raise ValueError("is missing")
+            return _ABSENT
+        return check(given)
+
+    return checked
+
+
+def constraint_of(field: dataclasses.Field[Any], hints: Mapping[str, Any]) -> Constraint:
+    """Return the constraint that a field's annotation and bounds make."""
+    hint = hints[field.name]
+    arguments = typing.get_args(hint)
+    nullable = isinstance(hint, types.UnionType) and type(None) in arguments
+    if nullable:
+        hint = next(each for each in arguments if each is not type(None))
+    kind = typing.get_origin(hint) or hint
+    if kind is tuple:
+        kind = list
+    return Constraint(kind, nullable=nullable, **field.metadata.get("bounds", {}))
+
+
+def _plain(given: Any) -> Any:
+    return list(given) if isinstance(given, tuple) else given

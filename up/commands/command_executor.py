@@ -1,0 +1,267 @@
+"""The bus: delivers every Command to those who subscribed to it (thesis 4.1.4)."""
+
+from __future__ import annotations
+
+import threading
+from collections import Counter, deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+from uuid import UUID, uuid4
+
+from twisted.internet.defer import Deferred
+from twisted.logger import Logger
+from twisted.python.failure import Failure
+
+from up.commands.base_command_handler import BaseCommandHandler
+from up.commands.command import BaseCommand
+from up.commands.command_registry import CommandRegistry
+from up.commands.origin import INTERNAL, Origin
+from up.commands.refusal import CommandRefusedError, UnhandledCommandError
+
+Handler = Callable[[Any], Any]
+_LOGGED_NAMES_LIMIT = 100
+
+
+class CommandExecutor:
+    """Publishes Commands to handlers, in order, each isolated from the others' faults.
+
+    Publishing is safe from any thread: on the reactor thread the handlers run at once, from any
+    other the Command is handed to the reactor. A publish from inside a handler waits until the
+    current Command's handlers are done. ``dispatching_since`` (perf_counter seconds, 0: idle) and
+    ``dispatching`` let a monitor thread see who holds the reactor; one look at the clock a Command
+    is all that the bus can afford (``up.system.reactor_monitor`` does the rest).
+    """
+
+    log = Logger()
+
+    __slots__ = (
+        "_call_from_thread",
+        "_handlers",
+        "_logged_names",
+        "_subscribers",
+        "_thread",
+        "_waiting",
+        "counters",
+        "dispatching",
+        "dispatching_since",
+        "on_handler_failed",
+        "origin",
+        "registry",
+    )
+
+    def __init__(self, registry: CommandRegistry, call_from_thread: Callable[..., Any]) -> None:
+        self.registry = registry
+        self.origin: Origin = INTERNAL
+        self.dispatching_since = 0.0
+        self.dispatching: BaseCommand | None = None
+        self.counters: Counter[str] = Counter()
+        self.on_handler_failed: Callable[[str], None] = _ignore
+        self._call_from_thread = call_from_thread
+        self._thread = threading.get_ident()
+        self._subscribers: dict[str, tuple[tuple[UUID, Handler], ...]] = {}
+        self._handlers: dict[str, tuple[Handler, ...]] = {}
+        self._waiting: deque[tuple[BaseCommand | _Asked, Origin]] = deque()
+        self._logged_names: set[str] = set()
+
+    def adopt_thread(self) -> None:
+        """Make the calling thread the reactor thread; the program does so before it runs."""
+        self._thread = threading.get_ident()
+
+    def register_command(
+        self, command: type[BaseCommand] | str, handler: BaseCommandHandler | Handler
+    ) -> UUID:
+        """Subscribe ``handler`` to a Command, by class or by name; return the handle.
+
+        Raises TypeError when the handler is neither a BaseCommandHandler nor callable.
+        """
+        name = self._name_of(command)
+        if isinstance(handler, BaseCommandHandler):
+            call: Handler = handler.run_action
+        elif callable(handler):
+            call = handler
+        else:
+            raise TypeError(f"{handler!r} cannot handle {name}: it is not callable")
+        handle = uuid4()
+        self._subscribers[name] = (*self._subscribers.get(name, ()), (handle, call))
+        self._rebuild(name)
+        return handle
+
+    def unregister_command(self, command: type[BaseCommand] | str, handle: UUID) -> None:
+        """Undo a subscription; raises KeyError when the handle is not one of this Command's."""
+        name = self._name_of(command)
+        left = tuple(each for each in self._subscribers.get(name, ()) if each[0] != handle)
+        if len(left) == len(self._subscribers.get(name, ())):
+            raise KeyError(f"no handler {handle} for {name}")
+        self._subscribers[name] = left
+        self._rebuild(name)
+
+    def has_handlers(self, command: type[BaseCommand] | str) -> bool:
+        """Return whether anybody subscribed to a Command."""
+        return bool(self._handlers.get(self._name_of(command)))
+
+    def execute_command(
+        self,
+        command: BaseCommand,
+        origin: Origin = INTERNAL,
+        _get_ident: Callable[[], int] = threading.get_ident,
+        _now: Callable[[], float] = perf_counter,
+    ) -> None:
+        """Publish a Command; returns nothing, and no handler's fault reaches the caller."""
+        if self.dispatching_since or _get_ident() != self._thread:
+            self._postpone(command, origin)
+            return
+        self.origin = origin
+        self.dispatching = command
+        self.dispatching_since = _now()
+        try:
+            handlers = self._handlers[command.NAME]
+        except KeyError:
+            handlers = ()
+            self._count_unhandled(command.NAME)
+        for handler in handlers:
+            try:
+                result = handler(command)
+                if result is not None:
+                    self._settle(handler, command, result)
+            except Exception:  # noqa: BLE001 - the bus isolates every handler from the others
+                self._failed(Failure(), handler, command)
+        self.dispatching_since = 0.0
+        if self._waiting:
+            self._drain()
+
+    publish = execute_command
+
+    def execute_for_outcome(self, command: BaseCommand, origin: Origin) -> Deferred[None]:
+        """Publish a Command from the reactor thread; the result tells what became of it.
+
+        Fires with None when every handler did its work, fails with the first handler's fault.
+        A Command that nobody handles fails with UnhandledCommandError. Asked for from inside a
+        handler, the Command waits its turn like any other.
+        """
+        done: Deferred[None] = Deferred()
+        if self.dispatching_since:
+            self._waiting.append((_Asked(command, done), origin))
+        else:
+            self._execute_asked(command, done, origin)
+        return done
+
+    def _execute_asked(self, command: BaseCommand, done: Deferred[None], origin: Origin) -> None:
+        handlers = self._handlers.get(command.NAME, ())
+        if not handlers:
+            self._count_unhandled(command.NAME)
+            done.errback(Failure(UnhandledCommandError(command.NAME)))
+            return
+        faults: list[Failure] = []
+        waiting: list[Deferred[Any]] = []
+        self.origin = origin
+        self.dispatching = command
+        self.dispatching_since = perf_counter()
+        for handler in handlers:
+            try:
+                result = handler(command)
+            except Exception:  # noqa: BLE001 - the bus isolates every handler from the others
+                faults.append(Failure())
+                self._failed(faults[-1], handler, command)
+            else:
+                if isinstance(result, Deferred):
+                    waiting.append(result)
+        self.dispatching_since = 0.0
+        _join(waiting, faults, done)
+        if self._waiting:
+            self._drain()
+
+    def _postpone(self, command: BaseCommand, origin: Origin) -> None:
+        if threading.get_ident() == self._thread:
+            self._waiting.append((command, origin))
+        else:
+            self._call_from_thread(self.execute_command, command, origin)
+
+    def _drain(self) -> None:
+        waiting = self._waiting
+        while waiting and not self.dispatching_since:
+            command, origin = waiting.popleft()
+            if isinstance(command, _Asked):
+                self._execute_asked(command.command, command.done, origin)
+            else:
+                self.execute_command(command, origin)
+
+    def _name_of(self, command: type[BaseCommand] | str) -> str:
+        if isinstance(command, str):
+            return self.registry.primary_name(command)
+        self.registry.add(command)
+        return command.NAME
+
+    def _rebuild(self, name: str) -> None:
+        self._handlers[name] = tuple(call for _, call in self._subscribers[name])
+
+    def _count_unhandled(self, name: str) -> None:
+        self.counters["unhandled"] += 1
+        if name not in self._logged_names and len(self._logged_names) < _LOGGED_NAMES_LIMIT:
+            self._logged_names.add(name)
+            self.log.debug("nobody handles {name}", name=name)
+
+    def _failed(self, failure: Failure, handler: Handler, command: BaseCommand) -> None:
+        owner = owner_of(handler)
+        if failure.check(CommandRefusedError):
+            self.counters["refused"] += 1
+            self.log.info(
+                "{owner} refused {name}: {reason}",
+                owner=owner,
+                name=command.NAME,
+                reason=failure.getErrorMessage(),
+            )
+            return
+        self.counters["failed_handlers"] += 1
+        self.log.failure(
+            "{owner} failed while handling {name}", failure, owner=owner, name=command.NAME
+        )
+        self.on_handler_failed(owner)
+
+    def _settle(self, handler: Handler, command: BaseCommand, result: Any) -> None:
+        if isinstance(result, Deferred):
+            result.addErrback(self._failed, handler, command)
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """A Command whose outcome somebody waits for, waiting for its turn."""
+
+    command: BaseCommand
+    done: Deferred[None]
+
+
+def _ignore(owner: str) -> None:
+    """Do nothing about a failed handler but what the bus does itself."""
+
+
+def owner_of(handler: Handler) -> str:
+    """Return the class or function that a handler belongs to, for people."""
+    owner = getattr(handler, "__self__", None)
+    if owner is not None:
+        return type(owner).__name__
+    return getattr(handler, "__qualname__", None) or type(handler).__name__
+
+
+def _join(waiting: list[Deferred[Any]], faults: list[Failure], done: Deferred[None]) -> None:
+    left = len(waiting)
+
+    def finish() -> None:
+        if faults:
+            done.errback(faults[0])
+        else:
+            done.callback(None)
+
+    def settled(result: Any) -> None:
+        nonlocal left
+        left -= 1
+        if isinstance(result, Failure):
+            faults.append(result)
+        if left == 0:
+            finish()
+
+    if not waiting:
+        finish()
+    for each in waiting:
+        each.addBoth(settled)

@@ -1,0 +1,152 @@
+"""The mediator between the outside and the bus (thesis 3.2.1, 4.1.4)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from typing import Any
+
+from twisted.internet.defer import Deferred, TimeoutError
+from twisted.logger import Logger
+from twisted.python.failure import Failure
+
+from up.commands.beacon import Beacons
+from up.commands.command import BaseCommand, InvalidCommandError
+from up.commands.command_executor import CommandExecutor
+from up.commands.command_link import CommandLink
+from up.commands.origin import INTERNAL, Origin
+from up.commands.refusal import Code, CommandRefusedError, UnhandledCommandError
+from up.protocols.general_message import GeneralMessage, MalformedMessage
+
+OUTCOME_LIMIT_S = 2.0
+_LOGGED_LIMIT = 100
+Route = Callable[[BaseCommand, CommandLink, str | None], "Deferred[None] | None"]
+
+
+class CommandReceiver:
+    """Decodes, validates and judges what comes from outside, and answers what carried an id.
+
+    Default deny: a Command that is not of the executor's registry, whose fields break their
+    bounds, whose link's role may not send it, or that echoes an old beacon never reaches the bus.
+    """
+
+    log = Logger()
+
+    def __init__(self, executor: CommandExecutor, beacons: Beacons, clock: Any) -> None:
+        self.counters: Counter[str] = Counter()
+        self._executor = executor
+        self._beacons = beacons
+        self._clock = clock
+        self._routes: dict[str, Route] = {}
+        self._logged: set[tuple[str, str]] = set()
+
+    def execute_command(self, command: BaseCommand, origin: Origin = INTERNAL) -> None:
+        """Publish a Command that a module of this program made (the prototype's name)."""
+        self._executor.execute_command(command, origin)
+
+    def register_route(self, name: str, route: Route) -> None:
+        """Say who carries Commands with this ``ROUTE`` away; one module a route."""
+        if name in self._routes:
+            raise ValueError(f"the route {name!r} is taken")
+        self._routes[name] = route
+
+    def receive(self, message: GeneralMessage, link: CommandLink) -> None:
+        """Take one message from a link: publish it, route it, or refuse it."""
+        self.counters["received"] += 1
+        cls = self._executor.registry.get(message.name)
+        if message.id is not None and link.is_repeated(message.id):
+            self.counters["repeated"] += 1
+            return
+        if cls is None:
+            self._refuse(link, message, Code.UNKNOWN, f"no Command {message.name[:64]!r}")
+            return
+        try:
+            command = cls.from_data(message.data)
+        except InvalidCommandError as error:
+            self._refuse(link, message, Code.INVALID, f"{cls.NAME}: {error}")
+            return
+        if link.origin.role.includes.isdisjoint(command.roles()):
+            self._refuse(link, message, Code.FORBIDDEN, self._forbidden(command, link))
+            return
+        refusal = self._judge_beacon(command, message)
+        if refusal is not None:
+            self._refuse(link, message, *refusal)
+            return
+        self._carry_out(command, message, link)
+
+    def receive_malformed(self, malformed: MalformedMessage, link: CommandLink) -> None:
+        """Count a line that is no General Message; nack it when its id could be read."""
+        self.counters["malformed"] += 1
+        self._log_once(link, "malformed", f"dropped a malformed message: {malformed.reason}")
+        link.nack(malformed.id, Code.MALFORMED, malformed.reason)
+
+    def _judge_beacon(
+        self, command: BaseCommand, message: GeneralMessage
+    ) -> tuple[Code, str] | None:
+        if message.beacon is None:
+            if command.NEEDS_BEACON:
+                return Code.NO_BEACON, f"{command.NAME} must echo the newest telemetry's beacon"
+            return None
+        if not self._beacons.is_fresh(message.beacon):
+            return Code.STALE, "the echoed beacon is older than 2 s"
+        return None
+
+    def _carry_out(self, command: BaseCommand, message: GeneralMessage, link: CommandLink) -> None:
+        if command.ROUTE:
+            done = self._route(command, message, link)
+        elif message.id is None:
+            self._executor.execute_command(command, link.origin)
+            return
+        else:
+            done = self._executor.execute_for_outcome(command, link.origin)
+        if done is None:
+            return
+        done.addTimeout(OUTCOME_LIMIT_S, self._clock)
+        done.addCallbacks(
+            lambda _: link.ack(message.id), self._refused_later, errbackArgs=(message, link)
+        )
+
+    def _route(
+        self, command: BaseCommand, message: GeneralMessage, link: CommandLink
+    ) -> Deferred[None] | None:
+        route = self._routes.get(command.ROUTE)
+        if route is None:
+            self._refuse(
+                link, message, Code.UNAVAILABLE, f"nobody carries Commands to {command.ROUTE}"
+            )
+            return None
+        try:
+            return route(command, link, message.id)
+        except CommandRefusedError as error:
+            self._refuse(link, message, error.code, error.reason)
+            return None
+
+    def _refused_later(self, failure: Failure, message: GeneralMessage, link: CommandLink) -> None:
+        error = failure.value
+        if isinstance(error, CommandRefusedError):
+            self._refuse(link, message, error.code, error.reason)
+        elif isinstance(error, UnhandledCommandError):
+            self._refuse(link, message, Code.UNAVAILABLE, f"no module handles {message.name}")
+        elif isinstance(error, TimeoutError):
+            self._refuse(link, message, Code.TIMEOUT, "no answer from whoever carries it out")
+        else:
+            self._refuse(link, message, Code.FAILED, "carrying it out failed; the log says where")
+
+    def _forbidden(self, command: BaseCommand, link: CommandLink) -> str:
+        wanted = " or ".join(sorted(role.value for role in command.roles())) or "nobody"
+        reason = f"{command.NAME} is for {wanted}; this link is {link.origin.role.value}"
+        if command.roles() and link.role_key:
+            reason += f" ({link.role_key})"
+        return reason
+
+    def _refuse(self, link: CommandLink, message: GeneralMessage, code: Code, reason: str) -> None:
+        self.counters[code.value] += 1
+        self._log_once(link, f"{code.value} {message.name}", f"refused: {reason}")
+        link.nack(message.id, code, reason)
+
+    def _log_once(self, link: CommandLink, what: str, text: str) -> None:
+        key = (link.name, what[:96])
+        if key in self._logged or len(self._logged) >= _LOGGED_LIMIT:
+            return
+        self._logged.add(key)
+        self.log.warn("{link} {text} (said once, then counted)", link=link.name, text=text)

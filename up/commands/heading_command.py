@@ -1,0 +1,22 @@
+"""The heading of the aircraft, or the heading that it shall have."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class HeadingCommand(BaseCommand):
+    """A heading clockwise from north, measured (``actual``) or asked for (``required``)."""
+
+    NAME: ClassVar[str] = "up.heading.change"
+    heading_deg: float = value(key="heading", minimum=-360, maximum=360, unit="deg")
+    mode: str = value(choices=("actual", "required"))
+
+    def roles(self) -> frozenset[Role]:
+        """A sensor measures, an operator asks."""
+        return frozenset({Role.OPERATOR if self.mode == "required" else Role.SENSOR})

@@ -1,0 +1,26 @@
+"""Where the aircraft is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class LocationCommand(BaseCommand):
+    """A position from a satellite receiver (thesis 3.3.5), WGS 84."""
+
+    NAME: ClassVar[str] = "up.location.update"
+    ALIASES: ClassVar[tuple[str, ...]] = ("up.location.change",)
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
+    latitude_deg: float = value(key="latitude", minimum=-90, maximum=90, unit="deg")
+    longitude_deg: float = value(key="longitude", minimum=-180, maximum=180, unit="deg")
+    altitude_m: float | None = value(None, key="altitude", minimum=-1000, maximum=100000, unit="m")
+    accuracy_m: float | None = value(None, key="accuracy", minimum=0, unit="m")
+    speed_m_s: float | None = value(None, key="speed", minimum=0, unit="m/s")
+    bearing_deg: float | None = value(None, key="bearing", minimum=-360, maximum=360, unit="deg")
+    distance_from_home_m: float | None = value(None, key="distance_from_home", unit="m")
+    required_bearing_deg: float | None = value(None, key="required_bearing", unit="deg")

@@ -1,0 +1,33 @@
+"""The attitude of the aircraft."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class OrientationCommand(BaseCommand):
+    """An attitude and, where the source knows them, the rotation rates.
+
+    ``sequence`` is the Arduino's number of the frame, which an Output computed from it echoes.
+    """
+
+    NAME: ClassVar[str] = "up.orientation.update"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR, Role.BOARD})
+    roll_deg: float = value(key="roll", minimum=-360, maximum=360, unit="deg")
+    pitch_deg: float = value(key="pitch", minimum=-360, maximum=360, unit="deg")
+    yaw_deg: float = value(key="yaw", minimum=-360, maximum=360, unit="deg")
+    roll_rate_deg_s: float | None = value(
+        None, key="roll_rate", minimum=-4000, maximum=4000, unit="deg/s"
+    )
+    pitch_rate_deg_s: float | None = value(
+        None, key="pitch_rate", minimum=-4000, maximum=4000, unit="deg/s"
+    )
+    yaw_rate_deg_s: float | None = value(
+        None, key="yaw_rate", minimum=-4000, maximum=4000, unit="deg/s"
+    )
+    sequence: int | None = value(None, minimum=0, maximum=65535)

@@ -1,0 +1,23 @@
+"""Where a Command came from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """The link that a Command came on.
+
+    ``link`` names it ("arduino", "android", "mission_control"); providers use the name as the
+    source of a reading, and ``priority`` to choose between sources (the higher wins).
+    """
+
+    link: str
+    role: Role
+    priority: int = 0
+
+
+INTERNAL = Origin("internal", Role.INTERNAL)

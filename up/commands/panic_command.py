@@ -1,0 +1,21 @@
+"""Panic Mode: the load is too high, everybody shall send less (thesis 3.2.5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+
+
+@dataclass(frozen=True, slots=True)
+class PanicCommand(BaseCommand):
+    """Enters or leaves Panic Mode; ``delay_ms`` is the period that every sender shall keep."""
+
+    NAME: ClassVar[str] = "up.panic"
+    ALIASES: ClassVar[tuple[str, ...]] = ("load_guard.panic",)
+    panic: bool = value()
+    delay_ms: int = value(minimum=10, maximum=1000, unit="ms")
+    utilization_percent: float | None = value(
+        None, key="utilization", minimum=0, maximum=100, unit="percent"
+    )

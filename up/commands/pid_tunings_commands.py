@@ -1,0 +1,55 @@
+"""The gains: asked for, set, and told (thesis 4.2.4)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+from up.flight_controller.gains import GainSet, gain_set_from_data, gain_set_to_data
+
+
+@dataclass(frozen=True, slots=True)
+class PIDTuningsCommand(BaseCommand):
+    """Asks for the gains (``request``) or sets all of them (``pids``); a request wins."""
+
+    NAME: ClassVar[str] = "arduino.pids.tunings"
+    request: bool | None = value(None)
+    pids: dict[str, Any] | None = value(None)
+
+    def __post_init__(self) -> None:
+        if self.request:
+            return
+        if self.pids is None:
+            raise ValueError("either request or pids is needed")
+        gain_set_from_data(self.pids)
+
+    def roles(self) -> frozenset[Role]:
+        """Looking is for observers, setting for pilots."""
+        return frozenset({Role.OBSERVER if self.request else Role.PILOT})
+
+    @property
+    def gains(self) -> GainSet | None:
+        """Return the set to fly with, or None when this is a request."""
+        if self.request or self.pids is None:
+            return None
+        return gain_set_from_data(self.pids)
+
+
+@dataclass(frozen=True, slots=True)
+class PIDTuningsValuesCommand(BaseCommand):
+    """The gains that fly now, in full precision, in the form that PIDTuningsCommand takes."""
+
+    NAME: ClassVar[str] = "arduino.pids.values"
+    pids: dict[str, Any] = value()
+
+    @classmethod
+    def of(cls, gains: GainSet) -> PIDTuningsValuesCommand:
+        """Build the Command of a set."""
+        return cls(gain_set_to_data(gains))
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Return the set itself: there is no outer key."""
+        return self.pids

@@ -1,0 +1,33 @@
+"""Why a Command was not carried out."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Code(Enum):
+    """The codes of ``up.nack`` (protocols page, section 4)."""
+
+    MALFORMED = "malformed"
+    UNKNOWN = "unknown"
+    INVALID = "invalid"
+    FORBIDDEN = "forbidden"
+    STALE = "stale"
+    NO_BEACON = "no_beacon"
+    REFUSED = "refused"
+    UNAVAILABLE = "unavailable"
+    TIMEOUT = "timeout"
+    FAILED = "failed"
+
+
+class CommandRefusedError(Exception):
+    """Raised by a handler that understood a Command and will not carry it out."""
+
+    def __init__(self, reason: str, code: Code = Code.REFUSED) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.code = code
+
+
+class UnhandledCommandError(LookupError):
+    """Nobody subscribed to the Command whose outcome was asked for."""

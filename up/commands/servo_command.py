@@ -1,0 +1,21 @@
+"""Where the servos stand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class ServoCommand(BaseCommand):
+    """The four servo outputs that the Arduino drives now, in microseconds of pulse."""
+
+    NAME: ClassVar[str] = "up.servo.update"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    ailerons_us: int = value(key="ailerons", minimum=0, maximum=3000, unit="us")
+    elevator_us: int = value(key="elevator", minimum=0, maximum=3000, unit="us")
+    throttle_us: int = value(key="throttle", minimum=0, maximum=3000, unit="us")
+    rudder_us: int = value(key="rudder", minimum=0, maximum=3000, unit="us")

@@ -1,0 +1,36 @@
+"""The system as a whole: its state, its links, its end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+
+
+@dataclass(frozen=True, slots=True)
+class SystemStateCommand(BaseCommand):
+    """The state of the system (thesis 3.3.5), published once a second."""
+
+    NAME: ClassVar[str] = "up.system.state"
+    utilization_percent: float = value(key="utilization", unit="percent")
+    memory_percent: float = value(key="memory", unit="percent")
+    providers: tuple[str, ...] = value()
+    arduino_connected: bool = value()
+    mode: str = value()
+
+
+@dataclass(frozen=True, slots=True)
+class SystemStopCommand(BaseCommand):
+    """Stops the program; for nobody outside the machine."""
+
+    NAME: ClassVar[str] = "up.system.stop"
+
+
+@dataclass(frozen=True, slots=True)
+class LinkStateCommand(BaseCommand):
+    """A link came or went: ``link`` is its name, the one that origins carry."""
+
+    NAME: ClassVar[str] = "up.link.state"
+    link: str = value(max_length=64)
+    connected: bool = value()

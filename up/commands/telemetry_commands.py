@@ -1,0 +1,35 @@
+"""Telemetry and its period."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+FASTEST_MS = 20
+SLOWEST_MS = 10_000
+
+
+@dataclass(frozen=True, slots=True)
+class TelemetryCommand(BaseCommand):
+    """One frame of telemetry (thesis 4.1.5) and its beacon number."""
+
+    NAME: ClassVar[str] = "up.telemetry.update"
+    content: dict[str, Any] = value()
+    beacon: int = value(minimum=0)
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Return the merged content; the beacon travels beside it, at the message's top level."""
+        return self.content
+
+
+@dataclass(frozen=True, slots=True)
+class TelemetryFrequencyCommand(BaseCommand):
+    """The period of telemetry that the ground wants; the prototype called it a frequency."""
+
+    NAME: ClassVar[str] = "up.telemetry.frequency"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    period_ms: float = value(key="frequency", minimum=FASTEST_MS, maximum=SLOWEST_MS, unit="ms")

@@ -1,0 +1,40 @@
+"""What every module is handed before it is asked anything."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from up.config import ConfigFile
+from up.config.application import APPLICATION, ApplicationConfig
+from up.mode import Mode
+
+_T = TypeVar("_T")
+
+
+@dataclass(slots=True)
+class Context:
+    """The reactor, its clock, the mode and the configuration of this run.
+
+    Modules take all that they use of the outside from this object, so that a test can hand in its
+    own: a ``task.Clock`` is a reactor whose time stands still.
+    """
+
+    reactor: Any
+    mode: Mode
+    config_folder: Path
+    values: dict[ConfigFile[Any], Any] = field(default_factory=dict)
+    instance: str = ""
+
+    def config(self, file: ConfigFile[_T]) -> _T:
+        """Return the values of a configuration file, read once; raises ConfigErrors."""
+        if file not in self.values:
+            self.values[file] = file.load(self.config_folder)
+        value: _T = self.values[file]
+        return value
+
+    @property
+    def application(self) -> ApplicationConfig:
+        """Return the values of config.yml."""
+        return self.config(APPLICATION)

@@ -1,0 +1,1 @@
+"""The abstract Flight Controller and its gains (thesis 3.2.3)."""

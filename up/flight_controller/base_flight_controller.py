@@ -1,0 +1,55 @@
+"""The abstract Flight Controller (thesis 3.2.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from up.base_started_module import BaseStartedModule
+from up.needs import needs
+from up.providers.base_provider import BaseProvider
+from up.providers.base_rx_provider import BaseRXProvider
+from up.providers.up_orientation_provider import UpOrientationProvider
+
+
+class BaseFlightController(BaseStartedModule):
+    """Combines readings into servo outputs; extend it in an application's ``flight_controller/``.
+
+    ``FLIGHT_MODES`` says for each mode which readings it needs and how old each may be, in
+    seconds: a mode is offered only while all of them are valid.
+    """
+
+    FLIGHT_MODES: ClassVar[Mapping[str, Mapping[str, float]]] = {}
+
+    rx = needs(BaseRXProvider)
+    orientation = needs(UpOrientationProvider)
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.flight_mode: str | None = None
+
+    def _execute_initialization(self) -> None:
+        self._providers: dict[str, BaseProvider[Any]] = {
+            provider.READING: provider for provider in self.up.get_modules(BaseProvider)
+        }
+
+    @property
+    def offered_modes(self) -> list[str]:
+        """Return the modes whose readings are valid and fresh now."""
+        return [mode for mode in self.FLIGHT_MODES if self.is_offered(mode)]
+
+    def is_offered(self, mode: str) -> bool:
+        """Return whether a mode's readings are valid and fresh now; an unknown mode is not."""
+        wanted = self.FLIGHT_MODES.get(mode)
+        return wanted is not None and all(
+            self._is_usable(reading, max_age_s) for reading, max_age_s in wanted.items()
+        )
+
+    def missing_for(self, mode: str) -> list[str]:
+        """Return the readings that keep a mode from being offered."""
+        wanted = self.FLIGHT_MODES.get(mode, {})
+        return [each for each, max_age_s in wanted.items() if not self._is_usable(each, max_age_s)]
+
+    def _is_usable(self, reading: str, max_age_s: float) -> bool:
+        provider = self._providers.get(reading)
+        return provider is not None and provider.usable(max_age_s) is not None

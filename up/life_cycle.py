@@ -1,0 +1,128 @@
+"""Starts the modules, keeps them running, stops them in reverse (thesis 4.1.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable
+from typing import Any
+
+from twisted.internet.defer import Deferred, TimeoutError
+from twisted.logger import Logger
+
+from up.base_module import BaseModule
+from up.base_started_module import BaseStartedModule
+from up.config import ConfigErrors
+from up.loading.order import needed_by
+from up.start_result import StartFailedError, StartResult
+from up.up import Up
+
+START_LIMIT_S = 10.0
+STOP_LIMIT_S = 1.5
+_LEAST_STOP_S = 0.2
+
+
+class BootStoppedError(Exception):
+    """The start came to an end that the system must not run with; the text is one sentence."""
+
+
+class LifeCycle:
+    """Takes an initialized Up through start and stop, each module guarded and bounded in time.
+
+    What needs a module that failed is not started either. A failure is an arming veto by name.
+    """
+
+    log = Logger()
+
+    def __init__(self, up: Up) -> None:
+        self._up = up
+        self._reactor = up.context.reactor
+        self.started: list[BaseStartedModule] = []
+        self._failed: list[BaseModule] = []
+
+    async def start(self) -> None:
+        """Start every module in order; raises BootStoppedError with the reason of the end."""
+        for module in self._up.modules:
+            if not isinstance(module, BaseStartedModule):
+                self._skip_if_need_failed(module)
+                continue
+            if self._skip_if_need_failed(module):
+                continue
+            result = await self._start_one(module)
+            if result is StartResult.FAILED_STOP:
+                raise BootStoppedError(
+                    f"{module.class_name} did not start, and without it the system does not run"
+                )
+        self._check_sources()
+
+    async def stop(self) -> None:
+        """Stop what was started, in reverse; one that hangs or raises does not keep the others."""
+        deadline_s = self._reactor.seconds() + STOP_LIMIT_S
+        while self.started:
+            module = self.started.pop()
+            limit_s = max(_LEAST_STOP_S, deadline_s - self._reactor.seconds())
+            try:
+                await self._bounded(module.stop(), limit_s)
+            except TimeoutError:
+                self.log.error("{name} did not stop in time", name=module.class_name)
+            except Exception:  # noqa: BLE001 - a module's fault must not keep the others running
+                self.log.failure("{name} failed to stop", name=module.class_name)
+
+    @property
+    def is_healthy(self) -> bool:
+        """Return whether every started module says that it does its work."""
+        for module in self.started:
+            try:
+                if not module.is_healthy:
+                    return False
+            except Exception:  # noqa: BLE001 - a module that cannot say is not healthy
+                return False
+        return True
+
+    async def _start_one(self, module: BaseStartedModule) -> StartResult:
+        reason = ""
+        try:
+            result: StartResult = await self._bounded(module.start(), START_LIMIT_S)
+        except TimeoutError:
+            result, reason = module.failure_result, f"not started within {START_LIMIT_S:.0f} s"
+        except (StartFailedError, ConfigErrors) as error:
+            result, reason = module.failure_result, str(error)
+        except Exception as error:  # noqa: BLE001 - a module that raises has failed, no more
+            self.log.failure("{name} failed to start", name=module.path)
+            result, reason = module.failure_result, f"{type(error).__name__}: {error}"
+        if result is StartResult.STARTED:
+            self.started.append(module)
+        else:
+            self._note_failure(module, reason or "its start says that it failed")
+        return result
+
+    def _skip_if_need_failed(self, module: BaseModule) -> bool:
+        missing = next((each for each in needed_by(module) if each in self._failed), None)
+        if missing is None:
+            return False
+        self._note_failure(module, f"needs {missing.class_name}, which did not start")
+        return True
+
+    def _note_failure(self, module: BaseModule, reason: str) -> None:
+        self._failed.append(module)
+        self._up.vetoes.set(module.path, f"did not start: {reason}")
+        self.log.error(
+            "{name} did not start: {reason}; the boot goes on", name=module.path, reason=reason
+        )
+
+    def _check_sources(self) -> None:
+        sources = [
+            module
+            for module in self._up.modules
+            if isinstance(module, BaseStartedModule) and module.DATA_SOURCE
+        ]
+        if sources and not any(
+            module in self.started and module.is_source_open for module in sources
+        ):
+            names = " nor ".join(module.class_name for module in sources)
+            raise BootStoppedError(
+                f"neither {names} has its port open: no data could come, so there is nothing to run"
+            )
+
+    async def _bounded(self, work: Awaitable[Any], limit_s: float) -> Any:
+        task: Deferred[Any] = Deferred.fromCoroutine(work)  # type: ignore[arg-type]
+        task.addTimeout(limit_s, self._reactor)
+        return await task

@@ -1,0 +1,94 @@
+"""Chooses among the classes that were found: mode, ``load()``, disabled list, overrides."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from up.base_module import BaseModule
+from up.context import Context
+from up.loading.discovery import Discovered
+from up.loading.plan import BootError, Plan, Rejected
+from up.loading.problem import problem_of
+
+
+def select(
+    found: Discovered,
+    builtins: Sequence[type[BaseModule]],
+    context: Context,
+    disabled: Iterable[str],
+) -> Plan:
+    """Return the plan with the chosen modules, not yet ordered.
+
+    Raises BootError when two unrelated modules replace one provider.
+    """
+    plan = Plan(problems=list(found.problems))
+    refused = set(disabled)
+    chosen: list[BaseModule] = []
+    for cls in (*builtins, *found.modules):
+        plan.origins[_path(cls)] = found.origins.get(cls, "built in")
+        reason = _reason_against(cls, context, refused)
+        if reason:
+            plan.rejected.append(Rejected(_path(cls), reason))
+            continue
+        module = _build(cls, context, plan)
+        if module is not None:
+            chosen.append(module)
+    plan.modules = _without_overridden(chosen, builtins, plan)
+    return plan
+
+
+def _reason_against(cls: type[BaseModule], context: Context, disabled: set[str]) -> str:
+    if _path(cls) in disabled or cls.__module__ in disabled:
+        return "listed in disabled_modules.yml"
+    if context.mode not in cls.MODES:
+        return f"not for the mode {context.mode.value!r}"
+    return ""
+
+
+def _build(cls: type[BaseModule], context: Context, plan: Plan) -> BaseModule | None:
+    from up.config import ConfigErrors
+
+    try:
+        module = cls()
+        module.bind(context)
+        wanted = module.load()
+    except ConfigErrors:
+        raise
+    except Exception as error:  # noqa: BLE001 - a broken module must not keep the rest from flying
+        plan.problems.append(problem_of(_path(cls), Path(inspect.getfile(cls)), error))
+        return None
+    if not wanted:
+        plan.rejected.append(Rejected(_path(cls), "its load() says no"))
+        return None
+    return module
+
+
+def _without_overridden(
+    modules: list[BaseModule], builtins: Sequence[type[BaseModule]], plan: Plan
+) -> list[BaseModule]:
+    kept: list[BaseModule] = []
+    for module in modules:
+        over = [each for each in modules if _extends(each, module)]
+        if over:
+            reason = f"replaced by {over[-1].path}"
+            plan.rejected.append(Rejected(module.path, reason))
+        else:
+            kept.append(module)
+    for builtin in builtins:
+        heirs = [each for each in kept if isinstance(each, builtin)]
+        if len(heirs) > 1:
+            names = " and ".join(each.path for each in heirs)
+            raise BootError(
+                f"{names} both replace {builtin.__name__}: list one of them in disabled_modules.yml"
+            )
+    return kept
+
+
+def _extends(module: BaseModule, base: BaseModule) -> bool:
+    return type(module) is not type(base) and isinstance(module, type(base))
+
+
+def _path(cls: type) -> str:
+    return f"{cls.__module__}.{cls.__qualname__}"

@@ -1,0 +1,22 @@
+"""The operation modes (thesis 2.4.7)."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Mode(Enum):
+    """How the system runs; ``AUTO`` is Flight Controller Mode until no Arduino answers."""
+
+    AUTO = "auto"
+    FLIGHT_CONTROLLER = "flight controller"
+    BLACK_BOX = "black box"
+
+    @property
+    def may_control(self) -> bool:
+        """Return whether an Arduino is expected and the aircraft can be controlled."""
+        return self is not Mode.BLACK_BOX
+
+
+IN_EVERY_MODE = frozenset(Mode)
+WITH_ARDUINO = frozenset({Mode.AUTO, Mode.FLIGHT_CONTROLLER})

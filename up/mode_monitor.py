@@ -1,0 +1,81 @@
+"""Which mode the system is in, and what the ground is told of it (thesis 2.4.7, 4.1.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from up.base_started_module import BaseStartedModule
+from up.commands.system_commands import LinkStateCommand
+from up.mode import Mode
+from up.system.clock import Timer
+
+PATIENCE_S = 5.0
+BOARD_LINK = "arduino"
+
+
+class ModeMonitor(BaseStartedModule):
+    """Says Black Box Mode provisionally while no frame of the Arduino comes, in mode ``auto``.
+
+    Flight Controller Mode comes back by itself when the Arduino answers. Without the wish
+    ``auto`` the mode is what the configuration says.
+    """
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.is_provisional = False
+        self._timer: Timer | None = None
+
+    @property
+    def shown(self) -> str:
+        """Return the mode as telemetry shows it."""
+        if self.context.mode is Mode.BLACK_BOX:
+            return Mode.BLACK_BOX.value
+        if self.is_provisional:
+            return f"{Mode.BLACK_BOX.value} (provisional)"
+        return Mode.FLIGHT_CONTROLLER.value
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the mode."""
+        return {"mode": self.shown}
+
+    def _execute_initialization(self) -> None:
+        if self.context.mode is Mode.AUTO:
+            self.up.command_executor.register_command(LinkStateCommand, self._on_link)
+
+    def _execute_start(self) -> bool:
+        if self.context.mode is Mode.AUTO:
+            self._wait()
+        return True
+
+    def _execute_stop(self) -> None:
+        self._forget()
+
+    def _on_link(self, command: LinkStateCommand) -> None:
+        if command.link != BOARD_LINK:
+            return
+        if not command.connected:
+            self._wait()
+            return
+        self._forget()
+        if self.is_provisional:
+            self.is_provisional = False
+            self._log_warning("the Arduino answers: back in Flight Controller Mode")
+
+    def _wait(self) -> None:
+        if self._timer is None and not self.is_provisional:
+            self._timer = self.context.reactor.callLater(PATIENCE_S, self._give_up)
+
+    def _forget(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+
+    def _give_up(self) -> None:
+        self._timer = None
+        self.is_provisional = True
+        self._log_error(
+            f"no frame from the Arduino for {PATIENCE_S:.0f} s: provisionally in Black Box Mode,"
+            " orientation from the phone; nothing is controlled from here"
+        )

@@ -1,0 +1,55 @@
+"""How a module says which other modules it uses; the loader orders and fills in by it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+if TYPE_CHECKING:
+    from up.base_module import BaseModule
+
+_M = TypeVar("_M")
+
+
+@dataclass(slots=True, eq=False)
+class Need:
+    """A declared reference to the loaded module of a class; ``optional``: None where absent."""
+
+    wanted: type[BaseModule]
+    optional: bool
+    attribute: str = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.attribute = name
+
+    def __get__(self, instance: Any, owner: type) -> Any:
+        if instance is None:
+            return self
+        try:
+            return instance.__dict__["_references"][self.attribute]
+        except KeyError:
+            raise AttributeError(
+                f"{owner.__name__}.{self.attribute} is there from initialization on"
+            ) from None
+
+
+def needs(module: type[_M]) -> _M:
+    """Declare a module that this one cannot do without: ``serial = needs(SerialProvider)``.
+
+    The needed module is initialized and started before, stopped after, and its absence is an
+    error of the boot.
+    """
+    return cast(_M, Need(cast(Any, module), optional=False))
+
+
+def wants(module: type[_M]) -> _M | None:
+    """Declare a module that this one uses where it is loaded, and does without where not."""
+    return cast("_M | None", Need(cast(Any, module), optional=True))
+
+
+def declared_needs(cls: type) -> tuple[Need, ...]:
+    """Return what a module class declared, its base classes' declarations among them."""
+    found: dict[str, Need] = {}
+    for base in reversed(cls.__mro__):
+        found.update({n: each for n, each in vars(base).items() if isinstance(each, Need)})
+    return tuple(found.values())

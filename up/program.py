@@ -1,0 +1,193 @@
+"""A program that runs an application on Up: from the command line to the exit status."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from twisted.internet.defer import Deferred
+from twisted.logger import Logger
+
+from up.config import ConfigErrors, load_all
+from up.context import Context
+from up.life_cycle import BootStoppedError, LifeCycle
+from up.loading.application import Application, NoApplicationError
+from up.loading.discovery import CogImportError
+from up.loading.files import config_files
+from up.loading.plan import BootError
+from up.log import start_logging
+from up.mode import Mode
+from up.system.garbage import QuietCollector
+from up.system.notify import Notifier, WatchdogPinger
+from up.system.reactor_monitor import ReactorMonitor
+from up.system.scheduling import use_realtime_priority
+from up.up import Up
+from up.up_loader import UpLoader
+
+EXIT_OK = 0
+EXIT_STOPPED = 1
+EXIT_CONFIG = 2
+FORCED_AFTER_S = 3.0
+USER_ERRORS = (ConfigErrors, NoApplicationError, CogImportError, BootError)
+
+
+class Program:
+    """Runs one application on the reactor until a signal, a Command or a failed boot ends it."""
+
+    log = Logger()
+
+    def __init__(self, up: Up, environ: Mapping[str, str] = os.environ) -> None:
+        self._up = up
+        self._reactor = up.context.reactor
+        self._life = LifeCycle(up)
+        self._notifier = Notifier.from_environment(environ)
+        self._watchdog = WatchdogPinger(
+            self._reactor, lambda: self._life.is_healthy, self._notifier, environ
+        )
+        self._collector = QuietCollector(
+            self._reactor, lambda: not up.command_executor.dispatching_since
+        )
+        self._monitor = ReactorMonitor(up.command_executor, self._reactor.callFromThread)
+        self._exit_status = EXIT_OK
+        self._stopping = False
+        self._running = False
+        self._signals = 0
+
+    def run(self) -> int:
+        """Start the modules, run the reactor, stop the modules; return the exit status."""
+        from up.commands.system_commands import SystemStopCommand
+
+        self._up.command_executor.adopt_thread()
+        self._up.command_executor.register_command(
+            SystemStopCommand, lambda _: self.stop("a module asked for it")
+        )
+        for number in (signal.SIGTERM, signal.SIGINT):
+            signal.signal(number, self._on_signal)
+        self._reactor.callWhenRunning(self._begin)
+        self._reactor.run(installSignalHandlers=False)
+        return self._exit_status
+
+    def stop(self, why: str) -> None:
+        """Stop everything and then the reactor; a second call changes nothing."""
+        if self._stopping:
+            return
+        self._stopping = True
+        self.log.info("stopping: {why}", why=why)
+        self._notifier.stopping(why)
+        forced = threading.Timer(FORCED_AFTER_S, _force, (self._exit_status or EXIT_STOPPED,))
+        forced.daemon = True
+        forced.start()
+        done = Deferred.fromCoroutine(self._end())
+        done.addErrback(lambda failure: self.log.failure("stopping failed", failure))
+        done.addCallback(self._ended, forced)
+
+    def _ended(self, result: None, forced: threading.Timer) -> None:
+        forced.cancel()
+        self._reactor.stop()
+
+    def _begin(self) -> None:
+        self._monitor.start()
+        self._watchdog.start()
+        Deferred.fromCoroutine(self._start()).addErrback(self._boot_failed)
+
+    async def _start(self) -> None:
+        await self._life.start()
+        if self._stopping:
+            return
+        self._running = True
+        self._up.on_ports_changed = self._tell_ports
+        self._tell_ports()
+        self._notifier.ready(f"{len(self._life.started)} modules run")
+        self._collector.start()
+        self.log.info("{count} modules run", count=len(self._life.started))
+        if self._up.vetoes.own:
+            self.log.warn("arming is refused: {vetoes}", vetoes="; ".join(self._up.vetoes.own))
+
+    def _tell_ports(self) -> None:
+        ports = " ".join(f"{name}:{port}" for name, port in sorted(self._up.ports.items()))
+        self._notifier.variable("X_UP_PORTS", ports)
+
+    def _boot_failed(self, failure: Any) -> None:
+        self._exit_status = EXIT_STOPPED
+        if failure.check(BootStoppedError):
+            print(failure.getErrorMessage(), file=sys.stderr)  # noqa: T201 - the last word
+            self.stop("the boot was stopped")
+        else:
+            self.log.failure("the boot failed", failure)
+            self.stop("the boot failed")
+
+    async def _end(self) -> None:
+        self._watchdog.stop()
+        await self._life.stop()
+        self._monitor.stop()
+        if self._running:
+            self._collector.stop()
+
+    def _on_signal(self, number: int, frame: object) -> None:
+        self._signals += 1
+        if self._signals > 1:
+            _force(128 + number)
+        self._reactor.callFromThread(self.stop, signal.Signals(number).name)
+
+
+def run_application(
+    start: Path, config_folder: Path | None = None, environ: Mapping[str, str] = os.environ
+) -> int:
+    """Run the application that a folder belongs to; return the exit status.
+
+    What a user can mend is one sentence a problem on stderr and exit status 2.
+    """
+    from twisted.internet import reactor
+
+    from up.system.clock import use_monotonic_time
+
+    use_monotonic_time(reactor)
+    try:
+        application = Application.find(start)
+        context = make_context(application, reactor, config_folder, environ)
+        _start_log(context)
+        use_realtime_priority(context.application.realtime_priority)
+        loader = UpLoader(application, context)
+        plan = loader.plan()
+        load_all(context.config_folder, config_files(plan.modules))
+        up = Up(plan, context)
+        up.initialize()
+    except USER_ERRORS as error:
+        print(error, file=sys.stderr)  # noqa: T201 - the user's answer
+        return EXIT_CONFIG
+    return Program(up, environ).run()
+
+
+def make_context(
+    application: Application,
+    reactor: Any,
+    config_folder: Path | None,
+    environ: Mapping[str, str] = os.environ,
+) -> Context:
+    """Return the context of a run; raises ConfigErrors or BootError for a wrong UP_MODE."""
+    folder = application.config_folder if config_folder is None else config_folder.resolve()
+    if config_folder is not None and not folder.is_dir():
+        raise BootError(f"--config {config_folder}: no such folder")
+    context = Context(reactor, Mode.AUTO, folder, instance=environ.get("UP_INSTANCE", ""))
+    wanted = environ.get("UP_MODE") or context.application.mode
+    try:
+        context.mode = Mode(wanted.strip().lower())
+    except ValueError:
+        words = ", ".join(mode.value for mode in Mode)
+        raise BootError(f"UP_MODE={wanted!r} is no mode; the modes are: {words}") from None
+    return context
+
+
+def _start_log(context: Context) -> None:
+    values = context.application
+    json_path = Path(values.log_file) if values.log_file else None
+    start_logging(values.log_level, sys.stderr, json_path)
+
+
+def _force(status: int) -> None:
+    os._exit(status)

@@ -1,0 +1,47 @@
+"""The connection with the ground station, whatever it is made of (thesis 4.1.5, 4.2.3)."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Any
+
+from up.base_started_module import BaseStartedModule
+from up.commands.command import BaseCommand
+from up.commands.telemetry_commands import TelemetryCommand
+from up.protocols.general_message import encode
+
+
+class BaseMissionControlProvider(BaseStartedModule):
+    """Sends telemetry and Commands to the ground; extend it to say how.
+
+    Telemetry is newest-wins: ``_transmit_newest`` may replace a frame that has not left yet.
+    Commands keep their order: ``_transmit_data``.
+    """
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.unsent = 0
+
+    def _execute_initialization(self) -> None:
+        self.up.command_executor.register_command(TelemetryCommand, self.transmit_telemetry)
+
+    def transmit_telemetry(self, command: TelemetryCommand) -> None:
+        """Send a frame of telemetry; the frame before it is dropped if it has not left."""
+        self._transmit_newest(encode(command.NAME, command.content, None, command.beacon))
+
+    send_telemetry = transmit_telemetry
+
+    def send_command(self, command: BaseCommand, command_id: str | None = None) -> bool:
+        """Send a Command to the ground; returns whether it left or waits in order to leave."""
+        sent = self._transmit_data(encode(command.NAME, command.data, command_id))
+        if not sent:
+            self.unsent += 1
+        return sent
+
+    @abstractmethod
+    def _transmit_data(self, message: bytes) -> bool:
+        """Send one encoded message in order; return whether it was taken."""
+
+    @abstractmethod
+    def _transmit_newest(self, message: bytes) -> None:
+        """Send one encoded message that replaces its unsent predecessor."""

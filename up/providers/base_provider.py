@@ -1,0 +1,102 @@
+"""The base of the providers that a Command feeds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar, Generic, TypeVar
+
+from up.base_started_module import BaseStartedModule
+from up.commands.command import BaseCommand
+from up.config.providers import PROVIDERS
+from up.providers.reading import Reading
+from up.providers.source_arbiter import SourceArbiter
+
+_T = TypeVar("_T")
+
+
+class BaseProvider(BaseStartedModule, Generic[_T]):
+    """Keeps the newest reading of one kind from the source that it follows.
+
+    Subclasses name the ``READING`` (its key in ``age_ms`` and ``source`` of telemetry), the
+    ``COMMAND`` that feeds it and ``MAX_AGE_S``, after which a source is not fresh any more; they
+    turn the Command into the value in ``_value_of`` and hear of changes in ``_on_changed``.
+    """
+
+    CONFIG = PROVIDERS
+    READING: ClassVar[str] = ""
+    COMMAND: ClassVar[type[BaseCommand]] = BaseCommand
+    MAX_AGE_S: ClassVar[float] = 1.0
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self._reading: Reading[_T] | None = None
+        self._arbiter = SourceArbiter(self.MAX_AGE_S, self._on_switch)
+        self._priorities: Mapping[str, int] = {}
+
+    def _execute_initialization(self) -> None:
+        wanted = self.config.order_of(self.READING)
+        self._priorities = {name: 1000 - place for place, name in enumerate(wanted)}
+        self._seconds = self.context.reactor.seconds
+        self.up.command_executor.register_command(self.COMMAND, self._on_command)
+
+    @property
+    def reading(self) -> Reading[_T] | None:
+        """Return the newest reading of the followed source, however old; None: there was none."""
+        return self._reading
+
+    def usable(self, max_age_s: float) -> Reading[_T] | None:
+        """Return the newest reading when it is valid and at most ``max_age_s`` old."""
+        reading = self._reading
+        if reading is None or not reading.is_usable(self._seconds(), max_age_s):
+            return None
+        return reading
+
+    @property
+    def value(self) -> _T | None:
+        """Return the newest value, whatever its age: for showing, never for control."""
+        return None if self._reading is None else self._reading.value
+
+    @property
+    def age_ms(self) -> int | None:
+        """Return the age of the newest reading in milliseconds."""
+        if self._reading is None:
+            return None
+        return round(self._reading.age_s(self._seconds()) * 1000)
+
+    def _value_of(self, command: Any) -> _T | None:
+        """Return the value that a Command carries; None when it is not for this reading."""
+        raise NotImplementedError
+
+    def _is_valid(self, command: Any) -> bool:
+        """Return whether the source calls the value valid."""
+        return True
+
+    def _on_changed(self, reading: Reading[_T]) -> None:
+        """Hear of a new reading."""
+
+    def _on_command(self, command: Any) -> None:
+        value = self._value_of(command)
+        if value is None:
+            return
+        now_s = self._seconds()
+        origin = self.up.command_executor.origin
+        valid = self._is_valid(command)
+        if valid:
+            priority = self._priorities.get(origin.link, origin.priority)
+            if not self._arbiter.accepts(origin.link, priority, now_s):
+                return
+        elif self._arbiter.current not in ("", origin.link):
+            return
+        self._reading = Reading(value, origin.link, now_s, valid)
+        self._on_changed(self._reading)
+
+    def _on_switch(self, previous: str, source: str) -> None:
+        if previous:
+            self._log_warning(f"{self.READING} now comes from {source}, no longer from {previous}")
+        else:
+            self._log_info(f"{self.READING} comes from {source}")
+
+    def _ages(self) -> dict[str, Any]:
+        """Return the part of telemetry that every reading has."""
+        source = None if self._reading is None else self._reading.source
+        return {"age_ms": {self.READING: self.age_ms}, "source": {self.READING: source}}

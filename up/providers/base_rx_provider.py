@@ -1,0 +1,44 @@
+"""What the pilot's receiver says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from up.commands.command import BaseCommand
+from up.commands.rx_command import ALL_VALID, RXCommand
+from up.providers.base_provider import BaseProvider
+
+CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
+
+
+class BaseRXProvider(BaseProvider[RXCommand]):
+    """Makes the receiver's inputs available, us of pulse; valid while every channel is."""
+
+    READING = "rx"
+    COMMAND: ClassVar[type[BaseCommand]] = RXCommand
+    MAX_AGE_S = 0.5
+
+    def get_channels(self) -> dict[str, int] | None:
+        """Return the newest inputs by channel, us; None before the first."""
+        newest = self.value
+        if newest is None:
+            return None
+        return {name: getattr(newest, f"{name}_us") for name in CHANNELS}
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the inputs; absent as long as no peer sent any."""
+        channels = self.get_channels()
+        return self._ages() if channels is None else {"rx": channels, **self._ages()}
+
+    def _value_of(self, command: Any) -> RXCommand:
+        value: RXCommand = command
+        return value
+
+    def _is_valid(self, command: Any) -> bool:
+        return bool(command.valid == ALL_VALID)
+
+
+class UpRXProvider(BaseRXProvider):
+    """The receiver's inputs, from whichever link brings them."""

@@ -1,0 +1,46 @@
+"""The altitude of the aircraft."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from up.commands.altitude_command import AltitudeCommand
+from up.commands.command import BaseCommand
+from up.providers.base_provider import BaseProvider
+from up.providers.reading import Reading
+
+
+class UpAltitudeProvider(BaseProvider[float]):
+    """Makes the altitude available, m above sea level, and the altitude that is asked for."""
+
+    READING = "altitude"
+    COMMAND: ClassVar[type[BaseCommand]] = AltitudeCommand
+    MAX_AGE_S = 1.5
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.required_altitude: float | None = None
+
+    @property
+    def altitude(self) -> float | None:
+        """Return the newest altitude, m."""
+        return self.value
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the altitude."""
+        return {"altitude": self.altitude, **self._ages()}
+
+    def _value_of(self, command: Any) -> float | None:
+        if command.mode == "required":
+            self.required_altitude = command.altitude_m
+            return None
+        altitude: float = command.altitude_m
+        return altitude
+
+    def _on_changed(self, reading: Reading[float]) -> None:
+        self._on_altitude_changed()
+
+    def _on_altitude_changed(self) -> None:
+        """Hear of a new altitude."""

@@ -1,0 +1,53 @@
+"""The heading of the aircraft."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from up.commands.command import BaseCommand
+from up.commands.heading_command import HeadingCommand
+from up.providers.base_provider import BaseProvider
+from up.providers.reading import Reading
+
+
+class UpHeadingProvider(BaseProvider[float]):
+    """Makes the actual and the required heading available, deg clockwise from north."""
+
+    READING = "heading"
+    COMMAND: ClassVar[type[BaseCommand]] = HeadingCommand
+    MAX_AGE_S = 1.5
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.required_heading: float | None = None
+
+    @property
+    def actual_heading(self) -> float | None:
+        """Return the newest measured heading, deg."""
+        return self.value
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return both headings."""
+        return {
+            "heading": {"actual": self.actual_heading, "required": self.required_heading},
+            **self._ages(),
+        }
+
+    def _value_of(self, command: Any) -> float | None:
+        heading: float = command.heading_deg % 360.0
+        if command.mode == "required":
+            self.required_heading = heading
+            self._on_required_heading_changed()
+            return None
+        return heading
+
+    def _on_changed(self, reading: Reading[float]) -> None:
+        self._on_actual_heading_changed()
+
+    def _on_actual_heading_changed(self) -> None:
+        """Hear of a new measured heading."""
+
+    def _on_required_heading_changed(self) -> None:
+        """Hear of a new heading that is asked for."""

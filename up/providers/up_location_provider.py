@@ -1,0 +1,82 @@
+"""The location of the aircraft, and its way home."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from up.commands.command import BaseCommand
+from up.commands.location_command import LocationCommand
+from up.earth import bearing_deg, distance_m
+from up.providers.base_provider import BaseProvider
+from up.providers.reading import Reading
+
+
+class UpLocationProvider(BaseProvider[LocationCommand]):
+    """Makes the position (WGS 84) available, and distance and bearing to the first one."""
+
+    READING = "location"
+    COMMAND: ClassVar[type[BaseCommand]] = LocationCommand
+    MAX_AGE_S = 1.5
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.home: LocationCommand | None = None
+
+    def _value_of(self, command: Any) -> LocationCommand:
+        value: LocationCommand = command
+        return value
+
+    @property
+    def latitude(self) -> float | None:
+        """Return the newest latitude, deg."""
+        return None if self._reading is None else self._reading.value.latitude_deg
+
+    @property
+    def longitude(self) -> float | None:
+        """Return the newest longitude, deg."""
+        return None if self._reading is None else self._reading.value.longitude_deg
+
+    @property
+    def altitude(self) -> float | None:
+        """Return the newest altitude that came with a position, m."""
+        return None if self._reading is None else self._reading.value.altitude_m
+
+    @property
+    def distance_from_home(self) -> float | None:
+        """Return the distance to the first position, m."""
+        if self._reading is None or self.home is None:
+            return None
+        return distance_m(*_point(self._reading.value), *_point(self.home))
+
+    @property
+    def required_bearing(self) -> float | None:
+        """Return the bearing that leads to the first position, deg clockwise from north."""
+        if self._reading is None or self.home is None:
+            return None
+        return bearing_deg(*_point(self._reading.value), *_point(self.home))
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return location and home."""
+        return {
+            "location": {
+                "latitude": self.latitude,
+                "longitude": self.longitude,
+                "altitude": self.altitude,
+            },
+            "home": {"distance": self.distance_from_home, "bearing": self.required_bearing},
+            **self._ages(),
+        }
+
+    def _on_changed(self, reading: Reading[LocationCommand]) -> None:
+        if self.home is None:
+            self.home = reading.value
+        self._on_location_changed()
+
+    def _on_location_changed(self) -> None:
+        """Hear of a new location."""
+
+
+def _point(location: LocationCommand) -> tuple[float, float]:
+    return location.latitude_deg, location.longitude_deg

@@ -1,0 +1,51 @@
+"""The orientation of the aircraft."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from up.commands.command import BaseCommand
+from up.commands.orientation_command import OrientationCommand
+from up.providers.base_provider import BaseProvider
+
+
+class UpOrientationProvider(BaseProvider[OrientationCommand]):
+    """Makes attitude (deg) and rates (deg/s) available, from the Arduino or the phone."""
+
+    READING = "orientation"
+    COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand
+    MAX_AGE_S = 0.5
+
+    def _value_of(self, command: Any) -> OrientationCommand:
+        value: OrientationCommand = command
+        return value
+
+    @property
+    def roll(self) -> float | None:
+        """Return the newest roll angle, deg."""
+        return None if self._reading is None else self._reading.value.roll_deg
+
+    @property
+    def pitch(self) -> float | None:
+        """Return the newest pitch angle, deg."""
+        return None if self._reading is None else self._reading.value.pitch_deg
+
+    @property
+    def yaw(self) -> float | None:
+        """Return the newest yaw angle, deg."""
+        return None if self._reading is None else self._reading.value.yaw_deg
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return orientation and rates."""
+        newest = None if self._reading is None else self._reading.value
+        return {
+            "orientation": {"yaw": self.yaw, "pitch": self.pitch, "roll": self.roll},
+            "rates": {
+                "yaw": newest and newest.yaw_rate_deg_s,
+                "pitch": newest and newest.pitch_rate_deg_s,
+                "roll": newest and newest.roll_rate_deg_s,
+            },
+            **self._ages(),
+        }

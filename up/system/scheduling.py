@@ -1,0 +1,32 @@
+"""Real-time priority, where the system permits it."""
+
+from __future__ import annotations
+
+import os
+
+from twisted.logger import Logger
+
+log = Logger()
+
+
+def use_realtime_priority(priority: int) -> bool:
+    """Run this process under SCHED_FIFO with a priority of 1 to 99; 0 leaves it as it is.
+
+    Returns whether the system permitted it; a refusal is said with the way to permit it.
+    """
+    if priority == 0:
+        return False
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+    except PermissionError:
+        log.warn(
+            "real-time priority {priority} is not permitted: run as root, or let systemd do it"
+            " (CPUSchedulingPolicy=fifo) or 'ulimit -r'; going on without",
+            priority=priority,
+        )
+        return False
+    except OSError as error:
+        log.warn("real-time priority is not to be had: {error}; going on without", error=error)
+        return False
+    log.info("real-time priority {priority} (SCHED_FIFO)", priority=priority)
+    return True

@@ -1,0 +1,125 @@
+"""Asks every module for its telemetry, merges it and sends it (thesis 4.1.2, 4.1.5)."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar
+
+from up.base_module import BaseModule
+from up.base_started_module import BaseStartedModule
+from up.commands.panic_command import PanicCommand
+from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
+from up.merge import merge
+from up.system.clock import Timer
+
+DEFAULT_PERIOD_MS = 100.0
+
+
+class TelemetryController(BaseStartedModule):
+    """Publishes a TelemetryCommand every period; the ground sets the period, panic lengthens it.
+
+    A module whose ``telemetry_content`` raises contributes nothing to that frame; a conflict drops
+    the later module's key. Each is named once and counted.
+    """
+
+    LOAD_ORDER: ClassVar[int] = sys.maxsize
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.wanted_period_ms = DEFAULT_PERIOD_MS
+        self.panic_delay_ms = 0
+        self.frames = 0
+        self.conflicts = 0
+        self.faults = 0
+        self._named: set[str] = set()
+        self._timer: Timer | None = None
+        self._due_s = 0.0
+
+    @property
+    def period_ms(self) -> float:
+        """Return the period that is kept now."""
+        return max(self.wanted_period_ms, float(self.panic_delay_ms))
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the counters of telemetry itself."""
+        counters = {"frames": self.frames, "conflicts": self.conflicts, "faults": self.faults}
+        return {"counters": {"telemetry": counters}}
+
+    def collect(self) -> dict[str, Any]:
+        """Return the merged content of this moment."""
+        return merge(self._contents(), self._on_conflict)
+
+    def _execute_initialization(self) -> None:
+        executor = self.up.command_executor
+        executor.register_command(TelemetryFrequencyCommand, self._on_period)
+        executor.register_command(PanicCommand, self._on_panic)
+
+    def _execute_start(self) -> bool:
+        self._due_s = self.context.reactor.seconds()
+        self._schedule()
+        return True
+
+    def _execute_stop(self) -> None:
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+
+    def _on_period(self, command: TelemetryFrequencyCommand) -> None:
+        self.wanted_period_ms = command.period_ms
+        self._log_info(f"telemetry every {command.period_ms:.0f} ms")
+        self._reschedule()
+
+    def _on_panic(self, command: PanicCommand) -> None:
+        self.panic_delay_ms = command.delay_ms if command.panic else 0
+        self._reschedule()
+
+    def _reschedule(self) -> None:
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+            self._due_s = self.context.reactor.seconds()
+            self._schedule()
+
+    def _schedule(self) -> None:
+        now_s = self.context.reactor.seconds()
+        period_s = self.period_ms / 1000
+        self._due_s = max(self._due_s + period_s, now_s)
+        self._timer = self.context.reactor.callLater(self._due_s - now_s, self._transmit)
+
+    def _transmit(self) -> None:
+        self._schedule()
+        self.frames += 1
+        content = self.collect()
+        self.up.command_executor.execute_command(TelemetryCommand(content, self.up.beacons.draw()))
+
+    def _contents(self) -> Iterator[tuple[str, Mapping[str, Any]]]:
+        yield "Up", self.up.telemetry_content
+        for module in self.up.modules:
+            content = self._content_of(module)
+            if content:
+                yield module.class_name, content
+
+    def _content_of(self, module: BaseModule) -> Mapping[str, Any] | None:
+        try:
+            content = module.telemetry_content
+        except Exception:  # noqa: BLE001 - a module's fault must not cost the whole frame
+            self.faults += 1
+            if module.path not in self._named:
+                self._named.add(module.path)
+                self.logger.failure("the telemetry of {name} failed", name=module.class_name)
+            return None
+        return content if isinstance(content, Mapping) else None
+
+    def _on_conflict(self, key: str, first: str, later: str) -> None:
+        self.conflicts += 1
+        name = f"{key} {first} {later}"
+        if name in self._named:
+            return
+        self._named.add(name)
+        if first == later:
+            self._log_error(f"{later} gives telemetry {key} a value that JSON does not have")
+        else:
+            self._log_error(
+                f"telemetry {key}: {first} and {later} give it different values; the one of"
+                f" {later} is dropped"
+            )

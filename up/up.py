@@ -1,0 +1,142 @@
+"""The assembled system: modules, bus, and what they share (thesis 3.2.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar, cast
+
+from twisted.logger import Logger
+
+from up.base_module import BaseModule
+from up.commands.base_command_handler import BaseCommandHandler
+from up.commands.beacon import Beacons
+from up.commands.builtin import BUILTIN_COMMANDS
+from up.commands.command_executor import CommandExecutor
+from up.commands.command_link import CommandLink
+from up.commands.command_receiver import CommandReceiver
+from up.commands.command_registry import CommandRegistry
+from up.context import Context
+from up.loading.plan import Plan
+from up.vetoes import Vetoes
+
+_M = TypeVar("_M")
+
+
+class Up:
+    """Everything that modules reach: each other, the bus, the receiver, the vetoes.
+
+    Built by UpLoader; ``initialize`` takes the modules through the initialization phase, and
+    LifeCycle starts and stops them.
+    """
+
+    log = Logger()
+
+    def __init__(self, plan: Plan, context: Context) -> None:
+        self.context = context
+        self.vetoes = Vetoes()
+        self.beacons = Beacons(context.reactor)
+        registry = CommandRegistry((*BUILTIN_COMMANDS, *plan.commands))
+        self.command_executor = CommandExecutor(registry, context.reactor.callFromThread)
+        self.command_receiver = CommandReceiver(
+            self.command_executor, self.beacons, context.reactor
+        )
+        self.ports: dict[str, int] = {}
+        self.on_ports_changed: Callable[[], object] = lambda: None
+        self._modules = list(plan.modules)
+        self._handlers: Sequence[BaseCommandHandler] = plan.handlers
+        self.started_at_s = context.reactor.seconds()
+        for problem in plan.problems:
+            self.log.error("{problem}", problem=str(problem))
+            self.vetoes.set(problem.name, problem.what)
+
+    @property
+    def modules(self) -> Sequence[BaseModule]:
+        """Return the loaded modules in their order."""
+        return self._modules
+
+    def get_module(self, cls: type[_M]) -> _M | None:
+        """Return the first module that is an instance of a class, or None."""
+        return next((cast(_M, each) for each in self._modules if isinstance(each, cls)), None)
+
+    def get_modules(self, cls: type[_M]) -> list[_M]:
+        """Return every module that is an instance of a class."""
+        return [cast(_M, each) for each in self._modules if isinstance(each, cls)]
+
+    @property
+    def telemetry_controller(self) -> Any:
+        """Return the telemetry controller, or None."""
+        from up.telemetry_controller import TelemetryController
+
+        return self.get_module(TelemetryController)
+
+    @property
+    def mission_control_provider(self) -> Any:
+        """Return the connection with the ground, or None."""
+        from up.providers.base_mission_control_provider import BaseMissionControlProvider
+
+        return self.get_module(BaseMissionControlProvider)
+
+    @property
+    def rx_provider(self) -> Any:
+        """Return the provider of the receiver's inputs, or None."""
+        from up.providers.base_rx_provider import BaseRXProvider
+
+        return self.get_module(BaseRXProvider)
+
+    @property
+    def flight_control(self) -> Any:
+        """Return the flight controller on this machine, or None."""
+        from up.flight_controller.base_flight_controller import BaseFlightController
+
+        return self.get_module(BaseFlightController)
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return what the system itself contributes to telemetry."""
+        executor = self.command_executor
+        return {
+            "vetoes": self.vetoes.all,
+            "system": {"uptime_s": round(self.context.reactor.seconds() - self.started_at_s)},
+            "counters": {
+                "bus": dict(executor.counters),
+                "receiver": dict(self.command_receiver.counters),
+            },
+        }
+
+    def advertise_port(self, name: str, port: int) -> None:
+        """Say which port a module really bound; the log and a supervisor are told."""
+        self.ports[name] = port
+        self.log.info("{name} listens on port {port}", name=name, port=port)
+        self.on_ports_changed()
+
+    def open_link(self, name: str, role: Any, send: Any, **more: Any) -> CommandLink:
+        """Return the Command Receiver's view of a link that a module opens."""
+        return CommandLink(name, role, send, self.context.reactor, **more)
+
+    def initialize(self) -> None:
+        """Take every module, then every handler, through the initialization phase.
+
+        A module that raises is taken out, with what needs it; it becomes an arming veto by name.
+        """
+        from up.loading.order import needed_by
+
+        failed: list[BaseModule] = []
+        for module in self._modules:
+            missing = next((each for each in needed_by(module) if each in failed), None)
+            if missing is not None:
+                self._exclude(module, f"needs {missing.class_name}, which failed")
+                failed.append(module)
+                continue
+            try:
+                module.initialize(self)
+            except Exception as error:  # noqa: BLE001 - one module must not keep the rest from flying
+                self.log.failure("{name} failed to initialize", name=module.path)
+                self._exclude(module, f"failed to initialize: {type(error).__name__}: {error}")
+                failed.append(module)
+        self._modules = [module for module in self._modules if module not in failed]
+        for handler in self._handlers:
+            self.command_executor.register_command(handler.COMMAND, handler)
+
+    def _exclude(self, module: BaseModule, reason: str) -> None:
+        self.log.error("{name} is left out: {reason}", name=module.path, reason=reason)
+        self.vetoes.set(module.path, reason)

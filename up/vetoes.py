@@ -1,0 +1,44 @@
+"""What forbids arming, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+
+class Vetoes:
+    """The reasons against arming: those of this program, and those that others report.
+
+    Only this program's own are told to the Arduino; both are shown to the ground.
+    """
+
+    def __init__(self) -> None:
+        self._own: dict[str, str] = {}
+        self._reported: dict[str, tuple[str, ...]] = {}
+        self.on_changed: Callable[[], object] = lambda: None
+
+    def set(self, name: str, reason: str) -> None:
+        """Forbid arming under a name until it is cleared."""
+        if self._own.get(name) != reason:
+            self._own[name] = reason
+            self.on_changed()
+
+    def clear(self, name: str) -> None:
+        """Take a veto back; one that is not there is no error."""
+        if self._own.pop(name, None) is not None:
+            self.on_changed()
+
+    def report(self, who: str, reasons: tuple[str, ...]) -> None:
+        """Note what another part (the Arduino) says forbids arming."""
+        self._reported[who] = reasons
+
+    @property
+    def own(self) -> dict[str, str]:
+        """Return this program's vetoes: name to reason."""
+        return dict(self._own)
+
+    @property
+    def all(self) -> list[str]:
+        """Return every reason, for people."""
+        own = [f"{name}: {reason}" for name, reason in self._own.items()]
+        others = [f"{who}: {each}" for who, some in self._reported.items() for each in some]
+        return own + others
