@@ -1,0 +1,143 @@
+"""pids.yml: the gains, in physical units, as they were saved last."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from up.config import ConfigFile, LearnedFile, key, section
+from up.flight_controller.gains import GREATEST, Gains, GainSet, LoopGains
+
+_RATE_UNIT = "1.25 us per deg/s"
+_STABILIZE_UNIT = "deg/s per deg"
+
+
+@dataclass(frozen=True, slots=True)
+class Controller:
+    """The gains of one PID controller."""
+
+    p: float = key(0.0, "Proportional gain.", minimum=0, maximum=GREATEST)
+    i: float = key(0.0, "Integral gain.", minimum=0, maximum=GREATEST)
+    d: float = key(0.0, "Derivative gain.", minimum=0, maximum=GREATEST)
+
+
+@dataclass(frozen=True, slots=True)
+class AileronsRate(Controller):
+    """Roll rate."""
+
+    p: float = key(2.1, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
+
+
+@dataclass(frozen=True, slots=True)
+class ElevatorRate(Controller):
+    """Pitch rate."""
+
+    p: float = key(1.0, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
+
+
+@dataclass(frozen=True, slots=True)
+class RudderRate(Controller):
+    """Yaw rate, washed out: a damper."""
+
+    p: float = key(0.5, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
+
+
+@dataclass(frozen=True, slots=True)
+class AileronsStabilize(Controller):
+    """Roll angle."""
+
+    p: float = key(2.0, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=GREATEST)
+
+
+@dataclass(frozen=True, slots=True)
+class ElevatorStabilize(Controller):
+    """Pitch angle."""
+
+    p: float = key(4.1, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=GREATEST)
+
+
+@dataclass(frozen=True, slots=True)
+class Rate:
+    """The rate loop: rotation rate to servo."""
+
+    ailerons: AileronsRate = section(AileronsRate)
+    elevator: ElevatorRate = section(ElevatorRate)
+    rudder: RudderRate = section(RudderRate)
+
+
+@dataclass(frozen=True, slots=True)
+class Stabilize:
+    """The stabilize loop: angle to rotation rate. The rudder has no angle to hold."""
+
+    ailerons: AileronsStabilize = section(AileronsStabilize)
+    elevator: ElevatorStabilize = section(ElevatorStabilize)
+    rudder: Controller = section(Controller)
+
+
+@dataclass(frozen=True, slots=True)
+class PidsConfig:
+    """The gains of the flight controller, saved when the ground sets them.
+
+    The prototype's gains counted the gyro in other units; a file without "units" is not used.
+    """
+
+    units: str = key(
+        "degrees per second",
+        "Says that the gains are in the units of these comments.",
+        choices=("degrees per second",),
+    )
+    rate: Rate = section(Rate)
+    stabilize: Stabilize = section(Stabilize)
+
+
+PIDS = ConfigFile("pids.yml", PidsConfig)
+
+
+class PidsFile:
+    """Loads and saves a GainSet; a corrupt file never stops a flight."""
+
+    def __init__(self, folder: Path) -> None:
+        self._file = LearnedFile(folder / PIDS.filename, PIDS)
+
+    def load(self) -> tuple[GainSet, str | None]:
+        """Return the saved set, or the last good one, or the defaults, and why."""
+        values, problem = self._file.load()
+        return gain_set_of(values), problem
+
+    def save(self, gains: GainSet) -> None:
+        """Save a set atomically; a set without a rudder keeps the saved rudder.
+
+        Raises OSError when the disk refuses.
+        """
+        whole = gains.completed(self.load()[0])
+        self._file.save(_config_of(whole))
+
+
+def gain_set_of(values: PidsConfig) -> GainSet:
+    """Return the gains that a configuration holds."""
+
+    def gains(controller: Controller) -> Gains:
+        return Gains(controller.p, controller.i, controller.d)
+
+    rate, stabilize = values.rate, values.stabilize
+    return GainSet(
+        LoopGains(gains(rate.ailerons), gains(rate.elevator), gains(rate.rudder)),
+        LoopGains(gains(stabilize.ailerons), gains(stabilize.elevator), gains(stabilize.rudder)),
+    )
+
+
+def _config_of(gains: GainSet) -> PidsConfig:
+    rate, stabilize = gains.rate, gains.stabilize
+    zero = Gains(0.0)
+    return PidsConfig(
+        rate=Rate(
+            AileronsRate(*rate.ailerons),
+            ElevatorRate(*rate.elevator),
+            RudderRate(*(rate.rudder or zero)),
+        ),
+        stabilize=Stabilize(
+            AileronsStabilize(*stabilize.ailerons),
+            ElevatorStabilize(*stabilize.elevator),
+            Controller(*(stabilize.rudder or zero)),
+        ),
+    )
