@@ -1,0 +1,53 @@
+"""What the runner answers: one JSON line (docs/protocols.md, section 8)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+SPAWNED = "Raspilot spawned"
+ALREADY_RUNNING = "Raspilot already running"
+NOT_RUNNING = "Raspilot not running"
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """The truth about one instance at the moment of the answer.
+
+    `spawned` is true only when the asker's own request started what runs. `pid` and `ports` are
+    None while nothing runs; `error` is one sentence or None.
+    """
+
+    instance: str | None
+    pid: int | None = None
+    ports: Mapping[str, int] | None = None
+    spawned: bool = False
+    error: str | None = None
+
+    @property
+    def running(self) -> bool:
+        """Say whether the instance runs with its ports bound."""
+        return self.pid is not None
+
+    @property
+    def message(self) -> str:
+        """Return the prototype's words."""
+        if not self.running:
+            return NOT_RUNNING
+        return SPAWNED if self.spawned else ALREADY_RUNNING
+
+    def encode(self, my_address: str, proxy: Mapping[str, object] | None) -> bytes:
+        """Return the line for the asker at `my_address`, its line feed included."""
+        answer = {
+            "message": self.message,
+            "spawned": self.spawned,
+            "error": self.error,
+            "myAddress": my_address,
+            "running": self.running,
+            "pid": self.pid,
+            "instance": self.instance,
+            "ports": None if self.ports is None else dict(self.ports),
+            "proxy": proxy,
+        }
+        return json.dumps(answer, ensure_ascii=True, allow_nan=False).encode("ascii") + b"\n"

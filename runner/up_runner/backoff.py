@@ -1,0 +1,44 @@
+"""How long to wait before an instance is started again, and when to give it up."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class RestartPolicy:
+    """Delays and limits, in seconds; a `limit` of None never gives up."""
+
+    delay_s: float
+    longest_delay_s: float
+    limit: int | None
+    period_s: float
+
+
+class Backoff:
+    """Counts the ends of one instance within the policy's period."""
+
+    def __init__(self, policy: RestartPolicy) -> None:
+        self._policy = policy
+        self._ends: deque[float] = deque(maxlen=1000)
+
+    @property
+    def count(self) -> int:
+        """Return how many ends lay within the period when the last one came."""
+        return len(self._ends)
+
+    def next_delay_s(self, now_s: float) -> float | None:
+        """Note an end at `now_s` and return the delay before the restart, None for no more.
+
+        An end that is older than the period is forgotten: the delays begin anew.
+        """
+        policy = self._policy
+        while self._ends and now_s - self._ends[0] >= policy.period_s:
+            self._ends.popleft()
+        self._ends.append(now_s)
+        if policy.limit is not None and len(self._ends) > policy.limit:
+            return None
+        # 2**30 periods are longer than any bound; more would only overflow.
+        doublings = min(len(self._ends) - 1, 30)
+        return min(policy.delay_s * 2.0**doublings, policy.longest_delay_s)

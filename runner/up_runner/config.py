@@ -1,0 +1,283 @@
+"""runner.yml: what the runner spawns, for whom and within which limits."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from up.config import ConfigFile, items, key, mapping, section
+from up.config.shape import ListOf
+from up.fields import Constraint
+from up_runner.request import NAME
+
+FILE_NAME = Constraint(str, max_length=64)
+KEY_NAME = Constraint(str, max_length=64)
+PLAIN_FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.yml", re.ASCII)
+NEVER_SETTABLE = frozenset(
+    ("disabled_modules.yml", "external_modules.yml", "registered_modules.yml", "runner.yml")
+)
+NEVER_SETTABLE_KEY = re.compile(
+    r"path|folder|\bfile\b|port\b|url|host|address|command|python|module|accept|role", re.I
+)
+
+
+@dataclass(frozen=True, slots=True)
+class ProxyPlace:
+    """Where the ground finds its proxy; the answer to a request repeats it."""
+
+    host: str = key(
+        "", "Public name or address of the proxy. Empty: the answer names none.", max_length=255
+    )
+    airborne_port: int = key(
+        3003, "TCP port of its airborne side.", name="airborne port", minimum=1, maximum=65535
+    )
+    ground_port: int = key(
+        3004, "TCP port of its ground side.", name="ground port", minimum=1, maximum=65535
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Autostart:
+    """An instance that is started with the runner, as on an aeroplane that nobody asks."""
+
+    aircraft: str = key("", "Name of the aircraft. Empty: wait for requests.", max_length=32)
+    profile: str = key("", "Its profile. Empty: the plain configuration.", max_length=32)
+
+
+@dataclass(frozen=True, slots=True)
+class Logs:
+    """Bounds of what instances write to their standard output and error."""
+
+    size: int = key(
+        1_000_000,
+        "Size at which an instance's log is moved aside. It is looked at twice a second.",
+        unit="bytes",
+        minimum=1000,
+        maximum=1_000_000_000,
+    )
+    keep: int = key(2, "Older logs of an instance that are kept.", minimum=0, maximum=100)
+
+
+@dataclass(frozen=True, slots=True)
+class Restarts:
+    """What happens when an instance that was running ends by itself."""
+
+    delay_s: float = key(
+        0.25, "First delay; each further one is doubled.", name="delay", unit="s", minimum=0
+    )
+    longest_delay_s: float = key(
+        10.0, "Longest delay.", name="longest delay", unit="s", minimum=0, maximum=3600
+    )
+    limit: int = key(
+        5,
+        "Restarts within the period after which a black box is given up; 0 means never start "
+        "again. A flight controller is never given up.",
+        minimum=0,
+        maximum=1000,
+    )
+    period_s: float = key(
+        60.0,
+        "The period, and the time after which all is well.",
+        name="period",
+        unit="s",
+        minimum=1,
+        maximum=86400,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Connections:
+    """Limits of the request port."""
+
+    limit: int = key(
+        256,
+        "Connections at once. When all are taken the one that was silent longest makes room.",
+        minimum=1,
+        maximum=100_000,
+    )
+    address_limit: int = key(
+        32,
+        "Connections at once from one address.",
+        name="address limit",
+        minimum=1,
+        maximum=100_000,
+    )
+    idle_s: float = key(
+        15.0,
+        "A connection that says nothing for so long is closed.",
+        name="idle",
+        unit="s",
+        minimum=1,
+        maximum=3600,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class RunnerConfig:
+    """The runner: it spawns Raspilot when a phone asks, and watches what it spawned."""
+
+    port: int = key(3002, "TCP port of requests. 0: any free port.", minimum=0, maximum=65535)
+    address: str = key(
+        "", "Address to listen on. Empty: every IPv4 address; '::': every address.", max_length=64
+    )
+    i_accept_plain: bool = key(
+        False,
+        "Requests are not authenticated: anybody who reaches the port can start instances. Peers "
+        "with public addresses are therefore turned away; true lets them in (a server that phones "
+        "reach over the mobile network needs it).",
+    )
+    mode: Literal["black box", "flight controller", "auto"] = key(
+        "black box",
+        "The mode of the instances. A phone that is gone stops an instance in black box mode "
+        "only: the others may be flying.",
+    )
+    application_root: str = key(
+        "",
+        "Folder of the application. Empty: the one that this program came with.",
+        name="application root",
+        max_length=4096,
+    )
+    script_path: str = key(
+        "main.py",
+        "The program to run, relative to the application root.",
+        name="script path",
+        max_length=4096,
+    )
+    python: str = key(
+        "", "The Python interpreter. Empty: the one that runs the runner.", max_length=4096
+    )
+    instance_config: str = key(
+        "",
+        "Configuration folder that every instance starts from. Empty: the folder blackbox/ beside "
+        "this file in black box mode, else this file's own folder.",
+        name="instance config",
+        max_length=4096,
+    )
+    profiles_folder: str = key(
+        "",
+        "Folder with a folder of configuration files for each profile. Empty: profiles/ beside "
+        "this file.",
+        name="profiles folder",
+        max_length=4096,
+    )
+    run_folder: str = key(
+        "",
+        "Folder for sockets and state, private to this user. Empty: RUNTIME_DIRECTORY, else "
+        "XDG_RUNTIME_DIR/up-runner, else /tmp/up-runner-<user id>.",
+        name="run folder",
+        max_length=4096,
+    )
+    instances_folder: str = key(
+        "",
+        "Folder for the instances' configuration, with what they learned. Empty: STATE_DIRECTORY, "
+        "else the run folder.",
+        name="instances folder",
+        max_length=4096,
+    )
+    logs_folder: str = key(
+        "",
+        "Folder for the instances' logs. Empty: LOGS_DIRECTORY, else .logs/ in the run folder.",
+        name="logs folder",
+        max_length=4096,
+    )
+    instances: int = key(8, "Instances at once.", minimum=1, maximum=1000)
+    kept_instances: int = key(
+        32,
+        "Ended instances whose configuration and logs are kept, the latest ones.",
+        name="kept instances",
+        minimum=0,
+        maximum=10_000,
+    )
+    start_limit_s: float = key(
+        10.0,
+        "Time in which an instance must have bound its ports.",
+        name="start limit",
+        unit="s",
+        minimum=0.1,
+        maximum=600,
+    )
+    watchdog_s: float = key(
+        2.0,
+        "An instance that gives no sign of life for so long is killed. 0: never.",
+        name="watchdog",
+        unit="s",
+        minimum=0,
+        maximum=600,
+    )
+    exit_on_connection_lost: bool = key(
+        True, "Whether a black box stops when its phone is gone.", name="exit on connection lost"
+    )
+    exit_delay_s: float = key(
+        60.0,
+        "How long the phone may be gone.",
+        name="exit delay",
+        unit="s",
+        minimum=0,
+        maximum=86400,
+    )
+    stop_instances_on_exit: bool | None = key(
+        None,
+        "Whether the instances end with the runner. null: no under a service manager, where the "
+        "runner may be restarted in flight; yes when a person started it.",
+        name="stop instances on exit",
+    )
+    proxy: ProxyPlace = section(ProxyPlace)
+    autostart: Autostart = section(Autostart)
+    restarts: Restarts = section(Restarts)
+    logs: Logs = section(Logs)
+    connections: Connections = section(Connections)
+    dynamic_ports: dict[str, tuple[str, ...]] = mapping(
+        FILE_NAME,
+        ListOf(KEY_NAME, 16),
+        "Ports of a black box that are 0, any free one, unless its configuration names another.",
+        default={"android.yml": ("general port", "orientation port")},
+        name="dynamic ports",
+        max_length=32,
+    )
+    settable: dict[str, tuple[str, ...]] = mapping(
+        FILE_NAME,
+        ListOf(KEY_NAME, 64),
+        "Which keys of which files a request may set. Anybody who reaches the port may set them: "
+        "only harmless ones belong here, never paths, commands or what is loaded.",
+        default={
+            "android.yml": ("forward interval for onboard device (ms)",),
+            "load_guard.yml": ("interval", "panic threshold", "calm down threshold"),
+        },
+        max_length=32,
+    )
+    learned_files: tuple[str, ...] = items(
+        FILE_NAME,
+        "Files that an instance learns. They are kept from run to run, as long as the profile is "
+        "the same.",
+        default=("pids.yml",),
+        name="learned files",
+        max_length=32,
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what no single key shows: the attribute and what is wrong with it."""
+        for attribute, names in (
+            ("settable", self.settable),
+            ("dynamic_ports", self.dynamic_ports),
+            ("learned_files", self.learned_files),
+        ):
+            for name in names:
+                if not PLAIN_FILE.fullmatch(name):
+                    yield attribute, f"{name!r} is not the name of a YAML file"
+        for name, keys in self.settable.items():
+            if name in NEVER_SETTABLE:
+                yield "settable", f"a request may never set anything of {name}"
+            for each in keys:
+                if NEVER_SETTABLE_KEY.search(each):
+                    yield "settable", f"a request may never set a path, port or address: {each!r}"
+        for attribute, value in (
+            ("aircraft", self.autostart.aircraft),
+            ("profile", self.autostart.profile),
+        ):
+            if value and not NAME.fullmatch(value):
+                yield "autostart", f"{attribute} is not a name of A-Z a-z 0-9 _ . -: {value!r}"
+
+
+RUNNER = ConfigFile("runner.yml", RunnerConfig)

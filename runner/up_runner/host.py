@@ -1,0 +1,172 @@
+"""The runner's machine as its instances use it: folders, logs, sockets, processes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from twisted.internet.defer import Deferred, DeferredLock
+from twisted.internet.threads import deferToThreadPool
+from twisted.logger import Logger
+
+from up_runner import record
+from up_runner.instance_config import InstanceConfig
+from up_runner.listening_ports import listening_ports
+from up_runner.log_keeper import LogKeeper
+from up_runner.notification import Notification
+from up_runner.notify_socket import NotifySocket
+from up_runner.process import Process, sessions_with
+from up_runner.record import Record
+from up_runner.request import NAME, Request
+from up_runner.run_folder import RunFolder
+
+NOTIFY = "notify"
+OURS_ALONE = (
+    "NOTIFY_SOCKET",
+    "WATCHDOG_USEC",
+    "WATCHDOG_PID",
+    "INVOCATION_ID",
+    "JOURNAL_STREAM",
+    "LISTEN_FDS",
+    "LISTEN_PID",
+    "LISTEN_FDNAMES",
+    "MAINPID",
+    "RUNTIME_DIRECTORY",
+    "STATE_DIRECTORY",
+    "LOGS_DIRECTORY",
+    "UPSTART_JOB",
+    "UPSTART_EVENTS",
+    "UPSTART_INSTANCE",
+)
+"""What a service manager told the runner about itself and no instance may take for its own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Application:
+    """What is run: interpreter, script, working folder, mode; `watchdog_s` of None: unwatched."""
+
+    python: Path
+    script: Path
+    root: Path
+    mode: str
+    watchdog_s: float | None
+
+
+class Host:
+    """Does for instances what touches the machine; what may wait for the disk, in threads.
+
+    `folder` holds the instances' configuration, `run_folder` their sockets and records.
+    """
+
+    def __init__(
+        self,
+        reactor: Any,
+        application: Application,
+        run_folder: RunFolder,
+        folder: Path,
+        config: InstanceConfig,
+        logs: LogKeeper,
+        environ: Mapping[str, str],
+    ) -> None:
+        self.reactor = reactor
+        self.run_folder = run_folder
+        self.folder = folder
+        self.logs = logs
+        self.on_change: Callable[[str], None] = lambda name: None
+        self._application = application
+        self._config = config
+        self._environ = {name: text for name, text in environ.items() if name not in OURS_ALONE}
+        self._disk = DeferredLock()
+        self._log = Logger(namespace="runner")
+
+    def prepare(self, request: Request) -> Deferred[tuple[Path, int]]:
+        """Give the instance's configuration folder and a descriptor for its log.
+
+        Fails with ConfigurationRefused or OSError.
+        """
+        return self.on_disk(self._prepare, request)
+
+    def listen(
+        self, name: str, on_notification: Callable[[int, Notification], None]
+    ) -> NotifySocket:
+        """Bind the instance's notify socket; raises OSError."""
+        self.run_folder.instance(name).mkdir(mode=0o700, exist_ok=True)
+        socket = NotifySocket(self.reactor, self._notify_path(name), on_notification)
+        socket.open()
+        return socket
+
+    def spawn(self, name: str, config: Path, log: int) -> Process:
+        """Start the application and close the log's descriptor; raises OSError."""
+        application = self._application
+        environ = dict(
+            self._environ,
+            NOTIFY_SOCKET=str(self._notify_path(name)),
+            UP_INSTANCE=name,
+            UP_MODE=application.mode,
+            PYTHONUNBUFFERED="1",
+        )
+        if application.watchdog_s is not None:
+            environ["WATCHDOG_USEC"] = str(round(application.watchdog_s * 1e6))
+        try:
+            if not application.script.is_file():
+                raise FileNotFoundError(f"there is no script {application.script}")
+            return Process.spawn(
+                self.reactor,
+                [str(application.python), str(application.script), "--config", str(config)],
+                cwd=application.root,
+                environ=environ,
+                log=log,
+            )
+        finally:
+            os.close(log)
+
+    def open_ports(self, pid: int) -> Deferred[frozenset[int] | None]:
+        """Ask the kernel which ports a process has open."""
+        return self.in_thread(listening_ports, pid)
+
+    def last_line(self, name: str) -> Deferred[str | None]:
+        """Read the end of the instance's log."""
+        return self.in_thread(self.logs.last_line, name)
+
+    def save(self, kept: Record) -> None:
+        """Write what the next runner must know; says it when the disk refuses."""
+        try:
+            kept.save(self.run_folder.instance(kept.request.aircraft))
+        except OSError as error:
+            self._log.error("the state of an instance cannot be kept: {error}", error=error)
+
+    def forget(self, name: str) -> None:
+        """Let the next runner not start the instance again."""
+        record.forget(self.run_folder.instance(name))
+
+    def load(self, name: str) -> Record | None:
+        """Return what the runner before wrote about an instance."""
+        return record.load(self.run_folder.instance(name))
+
+    def running(self) -> Iterator[tuple[str, int]]:
+        """Yield name and number of the processes that were started from this run folder.
+
+        It finds them without any record: by the notify socket in their environment.
+        """
+        for pid, socket in sessions_with("NOTIFY_SOCKET", f"{self.run_folder.path}/"):
+            name = Path(socket).parent.name
+            if NAME.fullmatch(name) and socket == str(self._notify_path(name)):
+                yield name, pid
+
+    def on_disk(self, function: Callable[..., Any], *arguments: Any) -> Deferred[Any]:
+        """Run in a thread what must not meet another change of the instances' folders."""
+        return self._disk.run(self.in_thread, function, *arguments)
+
+    def in_thread(self, function: Callable[..., Any], *arguments: Any) -> Deferred[Any]:
+        """Run in a thread what may wait."""
+        return deferToThreadPool(self.reactor, self.reactor.getThreadPool(), function, *arguments)
+
+    def _prepare(self, request: Request) -> tuple[Path, int]:
+        config = self._config.build(request, self.folder / request.aircraft)
+        return config, self.logs.open(request.aircraft)
+
+    def _notify_path(self, name: str) -> Path:
+        return self.run_folder.instance(name) / NOTIFY

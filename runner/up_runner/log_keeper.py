@@ -1,0 +1,111 @@
+"""Bounded logs of instances that write to their files themselves.
+
+An instance outlives its runner, so its output cannot go through a pipe that the runner reads: it
+would die of the broken pipe, or lose its log, in flight. It holds its file open for appending, and
+the runner copies the file's end aside and cuts it to nothing when it has grown too long.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+_LINE_END = 4096
+_SHOWN = 200
+
+
+class LogKeeper:
+    """The logs of all instances: `<name>.log` and up to `keep` older ones, `.1` the newest.
+
+    Each is at most `size` bytes, and as much more as an instance writes between two calls of
+    `rotate`. Every method may wait for the disk: call them from a thread.
+    """
+
+    def __init__(self, folder: Path, size: int, keep: int) -> None:
+        self.folder = folder
+        self._size = size
+        self._keep = keep
+
+    def path(self, name: str) -> Path:
+        """Return where an instance's log is."""
+        return self.folder / f"{name}.log"
+
+    def open(self, name: str) -> int:
+        """Return a descriptor that appends to an instance's log; raises OSError."""
+        self.folder.mkdir(mode=0o750, parents=True, exist_ok=True)
+        flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW
+        return os.open(self.path(name), flags, 0o640)
+
+    def rotate(self, name: str) -> bool:
+        """Move the log aside when it is too long and return whether it was; raises OSError.
+
+        It is cut even when the disk is too full for a copy: that is what makes room.
+        """
+        path = self.path(name)
+        try:
+            size = path.stat().st_size
+        except FileNotFoundError:
+            return False
+        if size < self._size:
+            return False
+        try:
+            if self._keep:
+                self._copy_end(path)
+        finally:
+            os.truncate(path, 0)
+        return True
+
+    def last_line(self, name: str) -> str | None:
+        """Return the last line that says something, to explain why an instance ended."""
+        try:
+            with self.path(name).open("rb") as file:
+                end = file.seek(0, os.SEEK_END)
+                file.seek(max(0, end - _LINE_END))
+                text = file.read().decode("utf-8", "replace")
+        except OSError:
+            return None
+        lines = [line.strip() for line in text.splitlines() if line.strip()]
+        if not lines:
+            return None
+        shown = "".join(letter if letter.isprintable() else "?" for letter in lines[-1])
+        return shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "..."
+
+    def names(self) -> set[str]:
+        """Return the instances that have a log."""
+        if not self.folder.is_dir():
+            return set()
+        found = (re.fullmatch(r"(.+)\.log(?:\.[0-9]+)?", each.name) for each in self._files())
+        return {match[1] for match in found if match}
+
+    def newest_s(self, name: str) -> float:
+        """Return when an instance's log was written last, by the wall clock; 0 without a log."""
+        try:
+            return self.path(name).stat().st_mtime
+        except OSError:
+            return 0.0
+
+    def remove(self, name: str) -> None:
+        """Remove all logs of an instance that does not run."""
+        pattern = re.compile(re.escape(name) + r"\.log(\.[0-9]+)?")
+        for path in list(self._files()):
+            if pattern.fullmatch(path.name):
+                with contextlib.suppress(OSError):
+                    path.unlink()
+
+    def _files(self) -> Iterable[Path]:
+        return self.folder.iterdir() if self.folder.is_dir() else ()
+
+    def _copy_end(self, path: Path) -> None:
+        for number in range(self._keep - 1, 0, -1):
+            with contextlib.suppress(FileNotFoundError):
+                self._older(path, number).replace(self._older(path, number + 1))
+        with path.open("rb") as source:
+            end = source.seek(0, os.SEEK_END)
+            source.seek(max(0, end - self._size))
+            self._older(path, 1).write_bytes(source.read(self._size))
+
+    def _older(self, path: Path, number: int) -> Path:
+        return path.with_name(f"{path.name}.{number}")

@@ -1,0 +1,110 @@
+"""The socket on which one instance tells how it is."""
+
+from __future__ import annotations
+
+import array
+import contextlib
+import os
+import socket
+import struct
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from up_runner.notification import MAX_BYTES, Notification, parse
+
+_CREDENTIALS = struct.Struct("3i")
+_MOST_AT_ONCE = 100
+
+
+class NotifySocket:
+    """Receives an instance's datagrams and hands them to `on_notification` with the sender's pid.
+
+    The kernel vouches for the sender. A new socket at the same path takes over: an instance sends
+    by path and does not notice that the runner was restarted.
+    """
+
+    def __init__(
+        self, reactor: Any, path: Path, on_notification: Callable[[int, Notification], None]
+    ) -> None:
+        self.path = path
+        self.dropped = 0
+        self._reactor = reactor
+        self._on_notification = on_notification
+        self._socket: socket.socket | None = None
+
+    def open(self) -> None:
+        """Bind the path, whatever socket lay there; raises OSError."""
+        line = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM | socket.SOCK_NONBLOCK)
+        try:
+            # Before the bind, so that no datagram comes without its sender.
+            line.setsockopt(socket.SOL_SOCKET, socket.SO_PASSCRED, 1)
+            self.path.unlink(missing_ok=True)
+            line.bind(str(self.path))
+            self.path.chmod(0o600)
+        except OSError:
+            line.close()
+            raise
+        self._socket = line
+        self._reactor.addReader(self)
+
+    def close(self, *, remove: bool) -> None:
+        """Hear no more; the path stays for the next runner unless `remove`."""
+        line, self._socket = self._socket, None
+        if line is None:
+            return
+        self._reactor.removeReader(self)
+        line.close()
+        if remove:
+            with contextlib.suppress(OSError):
+                self.path.unlink()
+
+    def drain(self) -> None:
+        """Hear now what waits in the socket: asked before anybody is called silent."""
+        for _ in range(_MOST_AT_ONCE):
+            if self._socket is None or not self._receive(self._socket):
+                return
+
+    def fileno(self) -> int:
+        """Return the socket's descriptor."""
+        return -1 if self._socket is None else self._socket.fileno()
+
+    def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
+        """Return how Twisted calls it."""
+        return f"notify {self.path.parent.name}"
+
+    def doRead(self) -> None:  # noqa: N802 - Twisted's name
+        """Hear one heap of datagrams."""
+        self.drain()
+
+    def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
+        """Do nothing: a datagram socket has no connection, `close` ends it."""
+
+    def _receive(self, line: socket.socket) -> bool:
+        room = socket.CMSG_SPACE(_CREDENTIALS.size) + socket.CMSG_SPACE(64)
+        try:
+            data, extra, flags, _ = line.recvmsg(MAX_BYTES, room, socket.MSG_CMSG_CLOEXEC)
+        except OSError:
+            return False
+        pid = _sender(extra)
+        if pid is None or flags & socket.MSG_TRUNC:
+            self.dropped += 1
+        else:
+            self._on_notification(pid, parse(data))
+        return True
+
+
+def _sender(extra: list[tuple[int, int, bytes]]) -> int | None:
+    pid: int | None = None
+    for level, kind, data in extra:
+        if level != socket.SOL_SOCKET:
+            continue
+        if kind == socket.SCM_CREDENTIALS:
+            pid = _CREDENTIALS.unpack(data)[0]
+        elif kind == socket.SCM_RIGHTS:
+            # Nobody is asked for descriptors; kept, they would use up ours.
+            descriptors = array.array("i")
+            descriptors.frombytes(data[: len(data) // 4 * 4])
+            for descriptor in descriptors:
+                os.close(descriptor)
+    return pid

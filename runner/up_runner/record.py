@@ -1,0 +1,90 @@
+"""What a runner leaves for the next one about an instance."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from up_runner.process import Identity
+from up_runner.request import MalformedRequest, Request, parse
+
+NAME = "state.json"
+_VERSION = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """An instance as its runner last saw it.
+
+    `identity` is None between two lives, while a restart is awaited. `keep` says that it shall be
+    started again when it is gone; `ready` that its ports were bound. `phone` is None as long as
+    the instance has not said whether its phone is there.
+    """
+
+    request: Request
+    identity: Identity | None = None
+    keep: bool = False
+    ready: bool = False
+    ports: dict[str, int] | None = None
+    phone: bool | None = None
+
+    def save(self, folder: Path) -> None:
+        """Write it into the instance's folder, whole or not at all; raises OSError."""
+        # Not synced: nothing that it speaks of outlives a power cut, and a slow disk must not
+        # hold the reactor.
+        temporary = folder / f".{NAME}.tmp"
+        temporary.write_text(json.dumps(self._as_json(), indent=1, allow_nan=False) + "\n")
+        temporary.replace(folder / NAME)
+
+    def _as_json(self) -> dict[str, Any]:
+        who = self.identity
+        return {
+            "version": _VERSION,
+            "request": {
+                "aircraft": self.request.aircraft,
+                "profile": self.request.profile,
+                "configuration": {
+                    file: dict(keys) for file, keys in self.request.configuration.items()
+                },
+            },
+            "process": who and [who.pid, who.start_ticks, who.boot_id],
+            "keep": self.keep,
+            "ready": self.ready,
+            "ports": self.ports,
+            "phone": self.phone,
+        }
+
+
+def load(folder: Path) -> Record | None:
+    """Return the record in an instance's folder; None when there is none that can be used."""
+    try:
+        found = json.loads((folder / NAME).read_text("utf-8"))
+        if found["version"] != _VERSION:
+            return None
+        request = parse(json.dumps(found["request"]).encode())
+        if request.aircraft != folder.name:
+            return None
+        who = found["process"]
+        record = Record(
+            request=request,
+            identity=None if who is None else Identity(int(who[0]), int(who[1]), str(who[2])),
+            keep=bool(found["keep"]),
+            ready=bool(found["ready"]),
+            phone=None if found["phone"] is None else bool(found["phone"]),
+        )
+        if found["ports"] is not None:
+            ports = {str(name): int(port) for name, port in found["ports"].items()}
+            record = replace(record, ports=ports)
+    except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, MalformedRequest):
+        # Whatever a broken record looks like, it says nothing; the processes still tell who lives.
+        return None
+    return record
+
+
+def forget(folder: Path) -> None:
+    """Remove the record: the instance ended and shall not come back."""
+    with contextlib.suppress(OSError):
+        (folder / NAME).unlink()

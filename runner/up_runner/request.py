@@ -1,0 +1,140 @@
+"""What a phone asks of the runner: one JSON line to a Request (docs/protocols.md, section 8)."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, NoReturn
+
+MAX_LINE = 64 * 1024
+"""Longest request in bytes, its line feed not counted."""
+DEFAULT_NAME = "default"
+"""The instance that all nameless clients share."""
+NAME = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9_.-]{0,31}", re.ASCII)
+_MAX_TEXT = 256
+_MAX_WORD = 64
+
+Scalar = bool | int | float | str
+Configuration = Mapping[str, Mapping[str, Scalar]]
+
+
+class MalformedRequest(ValueError):  # noqa: N818 - it names what came, not a fault of ours
+    """A line that is no request; the text is the sentence for the answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """A request: for which aircraft, with which profile and settings, to spawn or only to tell."""
+
+    aircraft: str = DEFAULT_NAME
+    profile: str | None = None
+    configuration: Configuration = field(default_factory=dict)
+    action: Literal["spawn", "status"] = "spawn"
+
+    @property
+    def wants_configuration(self) -> bool:
+        """Say whether it asks for anything but what is there."""
+        return self.profile is not None or bool(self.configuration)
+
+    def same_configuration(self, other: Request) -> bool:
+        """Say whether both ask for the same profile and settings."""
+        return self.profile == other.profile and self.configuration == other.configuration
+
+
+def parse(line: bytes) -> Request:
+    """Return the request in a line, its end left off or not.
+
+    Unknown keys are ignored. Raises MalformedRequest with one sentence for anything else than a
+    request of at most MAX_LINE bytes.
+    """
+    line = line.strip(b" \t\r\n")
+    if len(line) > MAX_LINE:
+        raise MalformedRequest(f"the request is longer than {MAX_LINE} bytes")
+    found = _decode(line)
+    if not isinstance(found, dict):
+        raise MalformedRequest("the request is not a JSON object")
+    action = found.get("action")
+    if action not in (None, "spawn", "status"):
+        raise MalformedRequest("action must be spawn or status")
+    return Request(
+        aircraft=_name(found, "aircraft") or DEFAULT_NAME,
+        profile=_name(found, "profile"),
+        configuration=_configuration(found.get("configuration")),
+        action="status" if action == "status" else "spawn",
+    )
+
+
+def _decode(line: bytes) -> Any:
+    try:
+        return json.loads(
+            line.decode("utf-8"), object_pairs_hook=_unique, parse_constant=_refuse_constant
+        )
+    except UnicodeDecodeError:
+        raise MalformedRequest("the request is not UTF-8 text") from None
+    except RecursionError:
+        raise MalformedRequest("the request is nested too deep") from None
+    except MalformedRequest:
+        raise
+    except ValueError:
+        raise MalformedRequest("the request is not valid JSON") from None
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise MalformedRequest("the request names a key twice")
+    return found
+
+
+def _refuse_constant(text: str) -> NoReturn:
+    raise MalformedRequest("the request holds a number that is not finite")
+
+
+def _name(found: Mapping[str, Any], key: str) -> str | None:
+    value = found.get(key)
+    if value is None:
+        return None
+    if not isinstance(value, str) or not NAME.fullmatch(value):
+        raise MalformedRequest(
+            f"{key} must be 1 to 32 of A-Z a-z 0-9 _ . - and not begin with a dot"
+        )
+    return value
+
+
+def _configuration(value: Any) -> dict[str, dict[str, Scalar]]:
+    if value is None:
+        return {}
+    if not isinstance(value, dict):
+        raise MalformedRequest("configuration must be an object of files")
+    for file, settings in value.items():
+        _check_word(file)
+        if not isinstance(settings, dict):
+            raise MalformedRequest(f"configuration of {file!a} must be an object of keys")
+        for key, setting in settings.items():
+            _check_word(key)
+            _check_setting(f"{file!a} {key!a}", setting)
+    return value
+
+
+def _check_setting(where: str, value: Any) -> None:
+    if isinstance(value, str):
+        if len(value) > _MAX_TEXT or not value.isprintable() or "/" in value or "\\" in value:
+            raise MalformedRequest(
+                f"{where} must be at most {_MAX_TEXT} printable characters without slashes"
+            )
+    elif isinstance(value, float):
+        if not math.isfinite(value):
+            raise MalformedRequest(f"{where} must be a finite number")
+    elif isinstance(value, int):
+        if not -(2**63) <= value < 2**63:
+            raise MalformedRequest(f"{where} must be a number of at most 64 bits")
+    else:
+        raise MalformedRequest(f"{where} must be a number, a text, true or false")
+
+
+def _check_word(text: str) -> None:
+    if not text or len(text) > _MAX_WORD:
+        raise MalformedRequest(f"a file or key must have 1 to {_MAX_WORD} characters")

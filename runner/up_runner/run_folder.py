@@ -1,0 +1,102 @@
+"""The folder that belongs to one runner at a time: its lock, its sockets, its records."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import stat
+from collections.abc import Mapping
+from pathlib import Path
+
+LOCK = ".lock"
+# sun_path holds 108 bytes with the closing zero; the longest path is <folder>/<32>/notify.
+LONGEST = 107 - len("/notify") - 33
+
+
+class RunFolderError(Exception):
+    """The folder cannot be used; the text is one sentence for the user."""
+
+
+def default_run_folder(environ: Mapping[str, str], uid: int) -> Path:
+    """Return where sockets and state go when the configuration does not say."""
+    # systemd may name several, separated by colons.
+    runtime = environ.get("RUNTIME_DIRECTORY", "").split(":")[0]
+    if runtime:
+        return Path(runtime)
+    if environ.get("XDG_RUNTIME_DIR"):
+        return Path(environ["XDG_RUNTIME_DIR"], "up-runner")
+    return Path(f"/tmp/up-runner-{uid}")
+
+
+class RunFolder:
+    """A private folder held by an exclusive lock until `release` or the end of the process."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = Path(path).absolute()
+        self._lock: int | None = None
+
+    def take(self) -> None:
+        """Make the folder, check that it is ours alone and lock it.
+
+        Raises RunFolderError when its path is too long for a socket, when it belongs to somebody
+        else or is open to others, or when another runner holds it.
+        """
+        if len(os.fsencode(self.path)) > LONGEST:
+            raise RunFolderError(
+                f"the run folder {self.path} has a longer path than {LONGEST} bytes, too long for "
+                "the sockets in it"
+            )
+        try:
+            self.path.mkdir(mode=0o700, parents=True, exist_ok=True)
+            self._check_owner()
+            self._take_lock()
+        except OSError as error:
+            raise RunFolderError(
+                f"the run folder {self.path} cannot be used: {error.strerror or error}"
+            ) from None
+
+    def instance(self, name: str) -> Path:
+        """Return the folder of one instance; `name` is a checked name and has no leading dot."""
+        return self.path / name
+
+    def names(self) -> list[str]:
+        """Return the instances that have a folder, sorted."""
+        return sorted(
+            each.name
+            for each in self.path.iterdir()
+            if not each.name.startswith(".") and each.is_dir() and not each.is_symlink()
+        )
+
+    def release(self) -> None:
+        """Give the folder to the next runner."""
+        lock, self._lock = self._lock, None
+        if lock is not None:
+            os.close(lock)
+
+    def _check_owner(self) -> None:
+        found = os.lstat(self.path)
+        if not stat.S_ISDIR(found.st_mode):
+            raise RunFolderError(f"the run folder {self.path} is not a folder")
+        if found.st_uid != os.geteuid():
+            raise RunFolderError(f"the run folder {self.path} belongs to user {found.st_uid}")
+        if found.st_mode & 0o077:
+            # A service manager makes it 0755; nobody else may have put anything in it yet.
+            if found.st_mode & 0o022:
+                raise RunFolderError(f"the run folder {self.path} can be written by other users")
+            self.path.chmod(0o700)
+
+    def _take_lock(self) -> None:
+        lock = os.open(
+            self.path / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600
+        )
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            holder = os.pread(lock, 32, 0).decode("ascii", "replace").strip()
+            os.close(lock)
+            raise RunFolderError(
+                f"another runner (process {holder}) uses the run folder {self.path}"
+            ) from None
+        os.ftruncate(lock, 0)
+        os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
+        self._lock = lock

@@ -1,0 +1,221 @@
+"""The runner as a service: it listens, keeps the instances and tells its own supervisor."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from twisted.internet.defer import Deferred
+from twisted.internet.error import CannotListenError
+from twisted.logger import Logger
+from twisted.python.failure import Failure
+
+from up.system.addresses import is_private, is_wildcard
+from up.system.notify import Notifier, WatchdogPinger
+from up_runner.answer import Answer
+from up_runner.backoff import RestartPolicy
+from up_runner.config import RunnerConfig
+from up_runner.host import Application, Host
+from up_runner.house import Policy
+from up_runner.instance_config import InstanceConfig
+from up_runner.instances import Instances
+from up_runner.log_keeper import LogKeeper
+from up_runner.places import Places
+from up_runner.request import Request
+from up_runner.request_server import RequestServer
+from up_runner.run_folder import RunFolder, RunFolderError
+
+KILL_DELAY_S = 5.0
+_SUPERVISED = ("NOTIFY_SOCKET", "INVOCATION_ID", "UPSTART_JOB")
+
+
+class CannotStart(Exception):  # noqa: N818 - the text is the message
+    """The runner cannot start; the text is one sentence for the user."""
+
+
+class Runner:
+    """Everything that one runner is made of, wired."""
+
+    def __init__(
+        self,
+        reactor: Any,
+        config: RunnerConfig,
+        config_folder: Path,
+        environ: Mapping[str, str] = os.environ,
+    ) -> None:
+        self._reactor = reactor
+        self._config = config
+        self._places = Places.of(config, config_folder, environ, os.geteuid())
+        self._stops_instances = config.stop_instances_on_exit
+        if self._stops_instances is None:
+            self._stops_instances = not any(environ.get(name) for name in _SUPERVISED)
+        self._log = Logger(namespace="runner")
+        self._notifier = Notifier.from_environment(environ)
+        self._pinger = WatchdogPinger(reactor, lambda: True, self._notifier, environ)
+        self._run_folder = RunFolder(self._places.run)
+        self.instances = Instances(
+            self._host(environ),
+            policy_of(config),
+            limit=config.instances,
+            kept=config.kept_instances,
+            on_change=self._on_change,
+        )
+        self.server = RequestServer(
+            reactor,
+            self._ask,
+            self._encode,
+            limit=config.connections.limit,
+            address_limit=config.connections.address_limit,
+            idle_s=config.connections.idle_s,
+            accept_public=config.i_accept_plain,
+        )
+        self._port: Any = None
+
+    @property
+    def port(self) -> int:
+        """Return the TCP port that it listens on."""
+        return int(self._port.getHost().port)
+
+    def start(self) -> None:
+        """Take the run folder, listen, find older instances; raises CannotStart."""
+        self._check()
+        try:
+            self._run_folder.take()
+        except RunFolderError as error:
+            raise CannotStart(str(error)) from None
+        try:
+            self._port = self._reactor.listenTCP(
+                self._config.port, self.server, interface=self._config.address
+            )
+        except CannotListenError as error:
+            self._run_folder.release()
+            raise CannotStart(
+                f"port {self._config.port} cannot be listened on: {error.socketError}; "
+                "port in runner.yml or --port names another"
+            ) from None
+        self._log.info("listens on port {port}", port=self.port)
+        self.instances.open()
+        self._notifier.ready(self.instances.summary())
+        self._pinger.start()
+        if self._config.autostart.aircraft:
+            self._autostart()
+
+    async def stop(self) -> None:
+        """Close the port, and stop the instances or leave them to the next runner."""
+        self._notifier.stopping()
+        if self._port is not None:
+            await self._port.stopListening()
+            self.server.close()
+            if self._stops_instances and len(self.instances):
+                self._log.info("stops its instances")
+                await self.instances.stop_all()
+            elif len(self.instances):
+                self._log.info("leaves its instances running: {all}", all=self.instances.summary())
+            self.instances.close()
+        self._pinger.stop()
+        self._run_folder.release()
+
+    def _host(self, environ: Mapping[str, str]) -> Host:
+        config, places = self._config, self._places
+        black_box = config.mode == "black box"
+        application = Application(
+            places.python, places.script, places.root, config.mode, config.watchdog_s or None
+        )
+        instance_config = InstanceConfig(
+            places.base,
+            places.profiles,
+            config.settable,
+            # Aboard, the phone knows its Raspberry Pi's ports by heart.
+            config.dynamic_ports if black_box else {},
+            config.learned_files,
+        )
+        logs = LogKeeper(places.logs, config.logs.size, config.logs.keep)
+        return Host(
+            self._reactor,
+            application,
+            self._run_folder,
+            places.instances,
+            instance_config,
+            logs,
+            environ,
+        )
+
+    def _check(self) -> None:
+        address = self._config.address
+        try:
+            public = not is_wildcard(address) and not is_private(address)
+        except ValueError:
+            raise CannotStart(f"address in runner.yml is no address: {address!r}") from None
+        if public and not self._config.i_accept_plain:
+            raise CannotStart(
+                f"{address} is a public address and requests are not authenticated; "
+                "i_accept_plain: true in runner.yml accepts that"
+            )
+        if not self._places.script.is_file():
+            raise CannotStart(
+                f"there is no script {self._places.script}; "
+                "application root and script path in runner.yml name it"
+            )
+        if not self._places.base.is_dir():
+            self._log.warn(
+                "there is no folder {base}: instances start with their defaults",
+                base=self._places.base,
+            )
+
+    def _autostart(self) -> None:
+        wanted = self._config.autostart
+        request = Request(wanted.aircraft, wanted.profile or None)
+        starting = Deferred.fromCoroutine(self.instances.spawn(request, keep=True))
+        starting.addCallbacks(self._on_autostart, self._on_bug)
+
+    def _on_autostart(self, answer: Answer) -> None:
+        if answer.error:
+            self._log.error("{name}: {error}", name=answer.instance, error=answer.error)
+
+    def _on_bug(self, failure: Failure) -> None:
+        self._log.failure("a bug in the runner", failure)
+
+    def _ask(self, request: Request) -> Deferred[Answer]:
+        if request.action == "status":
+            answered: Deferred[Answer] = Deferred()
+            answered.callback(self.instances.status(request.aircraft))
+            return answered
+        return Deferred.fromCoroutine(self.instances.spawn(request))
+
+    def _encode(self, answer: Answer, host: str) -> bytes:
+        proxy = self._config.proxy
+        where = {
+            "host": proxy.host,
+            "airborne": proxy.airborne_port,
+            "ground": proxy.ground_port,
+        }
+        return answer.encode(host, where if proxy.host else None)
+
+    def _on_change(self) -> None:
+        self._notifier.status(self.instances.summary())
+
+
+def policy_of(config: RunnerConfig) -> Policy:
+    """Return what a configuration asks of every instance.
+
+    Only a black box stops with its phone or is given up: the others may be flying.
+    """
+    black_box = config.mode == "black box"
+    restarts = config.restarts
+    return Policy(
+        start_limit_s=config.start_limit_s,
+        watchdog_s=config.watchdog_s or None,
+        exit_delay_s=(
+            config.exit_delay_s if black_box and config.exit_on_connection_lost else None
+        ),
+        kill_delay_s=KILL_DELAY_S,
+        restarts=RestartPolicy(
+            restarts.delay_s,
+            restarts.longest_delay_s,
+            restarts.limit if black_box else None,
+            restarts.period_s,
+        ),
+        always_restart=not black_box,
+    )
