@@ -1,0 +1,208 @@
+import json
+import math
+import time
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.up.protocols.golden import vectors
+from up.protocols.general_message import GeneralMessage, MalformedMessage, decode, encode
+
+DEEP = 30
+
+
+def refused(line):
+    with pytest.raises(MalformedMessage) as caught:
+        decode(line)
+    return caught.value
+
+
+@pytest.mark.parametrize("vector", vectors("general_message.json"), ids=lambda v: v["name"])
+def test_messages_are_written_and_read_as_the_vectors_say(vector):
+    message = decode(vector["line"].encode())
+    assert message == GeneralMessage(vector["name"], vector["data"], vector["id"], vector["beacon"])
+    assert encode(message.name, message.data, message.id, message.beacon) == vector["line"].encode()
+
+
+@pytest.mark.parametrize("vector", vectors("general_message_read.json"), ids=lambda v: v["line"])
+def test_messages_are_read_or_refused_as_the_vectors_say(vector):
+    line = vector["line"].encode()
+    if "malformed" in vector:
+        assert refused(line).reason
+    else:
+        expected = GeneralMessage(vector["name"], vector["data"], vector["id"], vector["beacon"])
+        assert decode(line) == expected
+
+
+@pytest.mark.parametrize(
+    ("rest", "reason"),
+    [
+        (b'"data": {"x": NaN}', "NaN"),
+        (b'"data": {"x": -Infinity}', "-Infinity"),
+        (b'"data": {"x": 1e999}', "1e999"),
+        (b'"data": {"x": ' + b"9" * 400 + b".0}", "too large"),
+        (b'"data": {"x": ' + b"9" * 5000 + b"}", "more than 20"),
+        (b'"data": {"x": 1, "x": 2}', "'x' is repeated"),
+        (b'"data": {"x": "\\uD800"}', "surrogate"),
+        (b'"data": {"\\udfff": 1}', "surrogate"),
+        (b'"data": {"x": ' + b"[" * 40 + b"]" * 40 + b"}", "nested"),
+        (b'"data": [1]', "data"),
+        (b'"beacon": "1"', "beacon"),
+        (b'"beacon": true', "beacon"),
+        (b'"beacon": 1.5', "beacon"),
+    ],
+)
+def test_what_is_refused_still_gives_its_id_for_the_nack(rest, reason):
+    fault = refused(b'{"name": "up.arm", "id": "i-7", ' + rest + b"}")
+    assert reason in fault.reason
+    assert fault.id == "i-7"
+
+
+def test_an_id_that_cannot_be_told_is_not_guessed():
+    assert refused(b'{"name": "a", "id": "1", "id": "2"}').id is None
+    assert refused(b'{"name": "a", "id": "\\ud800"}').id is None
+    assert refused(b'{"name": "a", "id": true, "data": NaN}').id is None
+    assert refused(b'{"name": "", "id": "' + b"x" * 65 + b'"}').id is None
+    assert refused(b'{"name": "a", "id": "1"').id is None
+
+
+@pytest.mark.parametrize("bad", [b"true", b"{}", b"[]", b'""', b'"' + b"x" * 65 + b'"'])
+def test_an_id_is_text_or_a_number(bad):
+    assert "id" in refused(b'{"name": "a", "id": ' + bad + b"}").reason
+
+
+def test_a_number_is_taken_as_the_ids_text():
+    assert decode(b'{"name": "a", "id": 7}').id == "7"
+    assert decode(b'{"name": "a", "id": 7.5}').id == "7.5"
+    assert decode(b'{"name": "a", "id": "' + b"x" * 64 + b'"}').id == "x" * 64
+
+
+def test_names_have_1_to_128_characters():
+    assert decode(b'{"name": "' + b"n" * 128 + b'"}').name == "n" * 128
+    refused(b'{"name": "' + b"n" * 129 + b'"}')
+
+
+def test_16_kib_with_the_lf_and_no_more():
+    empty = len(b'{"name": "a", "data": {"x": ""}, "id": null}\n')
+    line = encode("a", {"x": "y" * (16384 - empty)})
+    assert len(line) == 16384
+    assert decode(line).name == "a"
+    with pytest.raises(ValueError, match="16385 bytes"):
+        encode("a", {"x": "y" * (16385 - empty)})
+    assert "longer than" in refused(b" " + line).reason
+
+
+def nested(depth):
+    return b'{"name": "a", "data": {"x": ' + b"[" * (depth - 2) + b"]" * (depth - 2) + b"}}"
+
+
+def test_32_levels_are_read_and_33_are_not():
+    assert decode(nested(32))
+    assert "nested" in refused(nested(33)).reason
+
+
+@pytest.mark.parametrize("opening", [b"[", b'{"a":', b'[{"a":', b'["\\"",'])
+def test_hostile_nesting_is_refused_without_a_recursion_error(opening):
+    head = b'{"name": "a", "data": '
+    fault = refused(head + opening * ((16000 - len(head)) // len(opening)))
+    assert "nested" in fault.reason
+
+
+def test_brackets_in_text_are_no_nesting():
+    text = "[{" * 500 + '"\\'
+    assert decode(encode("a", {"x": text})).data == {"x": text}
+
+
+def test_quotes_without_end_take_no_time_to_refuse():
+    line = b'{"name": "a"' + b"[" * 40 + b'"' + b'\\"' * 8000
+    began = time.process_time()
+    refused(line)
+    # Quadratic matching would take more than 100 times as long.
+    assert time.process_time() - began < 1.0
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        (b"\xff\xfe{}", "UTF-8"),
+        ('{"name": "a"}'.encode("utf-16"), "UTF-8"),
+        (b"\xef\xbb\xbf" + b'{"name": "a"}', "JSON"),
+        (b'{"name": "\xed\xa0\x80"}', "UTF-8"),
+        (b'{"name": "a\x01"}', "JSON"),
+        (b"{'name': 'a'}", "JSON"),
+        (b"", "JSON"),
+        (b"null", "object"),
+        (b'"text"', "object"),
+    ],
+)
+def test_what_is_no_general_message(line, reason):
+    assert reason in refused(line).reason
+
+
+@pytest.mark.parametrize(
+    ("data", "path"),
+    [
+        ({"orientation": {"roll": math.nan}}, "data.orientation.roll is nan"),
+        ({"gains": [1.0, math.inf]}, r"data.gains\[1\] is inf"),
+        ({"a": (1, {"b": -math.inf})}, r"data.a\[1\].b is -inf"),
+        ({"a": {"b": b"bytes"}}, "data.a.b is a bytes"),
+        ({"a": "\ud800"}, "surrogate"),
+    ],
+)
+def test_what_may_not_leave_is_refused_by_its_key(data, path):
+    with pytest.raises(ValueError, match=path):
+        encode("up.telemetry.update", data)
+
+
+def test_data_that_holds_itself_is_refused():
+    data = {}
+    data["again"] = data
+    with pytest.raises(ValueError, match="nested"):
+        encode("a", data)
+
+
+json_values = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers(-(2**63), 2**63)
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.text(max_size=20),
+    lambda inner: (
+        st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=8), inner, max_size=4)
+    ),
+    max_leaves=12,
+)
+
+
+@given(
+    st.text(min_size=1, max_size=128),
+    st.dictionaries(st.text(max_size=10), json_values, max_size=5),
+    st.none() | st.text(min_size=1, max_size=64),
+    st.none() | st.integers(0, 2**63),
+)
+def test_what_is_written_is_read_back(name, data, id_, beacon):
+    line = encode(name, data, id_, beacon)
+    assert line.endswith(b"\n")
+    assert line.isascii()
+    assert decode(line) == GeneralMessage(name, data, id_, beacon)
+
+
+@given(st.binary(max_size=200) | st.text(max_size=100).map(str.encode))
+def test_any_bytes_are_read_or_refused_by_name(line):
+    try:
+        message = decode(line)
+    except MalformedMessage as fault:
+        assert fault.reason
+    else:
+        assert json.loads(line)["name"] == message.name
+
+
+@given(st.dictionaries(st.sampled_from(["name", "data", "id", "beacon", "x"]), json_values))
+def test_any_object_is_read_or_refused_by_name(fields):
+    try:
+        message = decode(json.dumps(fields).encode())
+    except MalformedMessage:
+        return
+    assert message.name == fields["name"]
+    assert message.data == (fields.get("data") or {})
