@@ -44,7 +44,7 @@ class Proxy:
     def __init__(self, reactor: ProxyReactor, config: ProxyConfig) -> None:
         self._reactor = reactor
         self._config = config
-        self._poller = Poller(reactor)
+        self._poller = Poller(reactor, reactor.seconds)
         limits = config.limits
         self.fleet = Fleet(self._poller, limits.aircraft, limits.listeners)
         self._doors: list[Door] = []

@@ -1,0 +1,166 @@
+"""Whole lines, whoever is slow, whoever leaves in the middle of one."""
+
+import pytest
+
+from tests.proxy.virtual import Bench
+from up_proxy.connection import PACE_BYTES
+from up_proxy.half_line import LINE_MAX_BYTES
+from up_proxy.listener import SEND_BUFFER_BYTES
+
+
+@pytest.fixture
+def bench():
+    with Bench() as bench:
+        yield bench
+
+
+def numbered(first, count, width=200):
+    return b"".join(b"%08d" % n + b"." * (width - 9) + b"\n" for n in range(first, first + count))
+
+
+def test_half_a_line_waits_for_its_end(bench):
+    air, _ = bench.hello_air()
+    ground, _ = bench.hello_ground()
+    air.say("half")
+    bench.settle()
+    assert ground.heard == b""
+    air.say(" and half\nnext")
+    assert ground.line() == "half and half\n"
+    assert ground.heard == b""
+
+
+def test_the_aircraft_never_sees_the_halves_of_two_grounds_glued(bench):
+    air, _ = bench.hello_air()
+    old, token = bench.hello_ground()
+    old.say('{"old": ')
+    new, _ = bench.hello_ground(extra=f" token={token}")
+    old.expect_closed()
+    new.say('"new"}\n')
+    assert air.line() == '"new"}\n'
+
+
+def test_a_half_line_of_a_broken_connection_is_never_relayed(bench):
+    air, token = bench.hello_air()
+    ground, _ = bench.hello_ground()
+    air.say("torn")
+    air.close()
+    again, _ = bench.hello_air(extra=f" token={token}")
+    again.say("whole\n")
+    ground.expect("UP1 aircraft online\n")
+    assert ground.line() == "whole\n"
+
+
+def test_a_new_listener_begins_at_the_beginning_of_a_line(bench):
+    air, _ = bench.hello_air()
+    air.say("begun ")
+    ground, _ = bench.hello_ground()
+    air.say("and ended\n")
+    assert ground.line() == "begun and ended\n"
+
+
+def test_an_aircraft_cannot_speak_as_the_proxy(bench):
+    air, _ = bench.hello_air()
+    ground, _ = bench.hello_ground()
+    air.say("UP1 seat listen\nreal UP1 \nUP1 ")
+    air.say("seat holder=none\n{}\n")
+    assert ground.line() == "real UP1 \n"
+    assert ground.line() == "{}\n"
+
+
+@pytest.mark.parametrize("side", ["air", "ground"])
+def test_a_line_without_end_closes_its_connection(bench, side):
+    air, _ = bench.hello_air()
+    ground, _ = bench.hello_ground()
+    sender = air if side == "air" else ground
+    sender.say(b"x" * (LINE_MAX_BYTES - 1) + b"\n")
+    bench.settle()
+    assert not sender.closed
+    sender.socket.setblocking(False)
+    with pytest.raises((BlockingIOError, ConnectionError)):
+        for _ in range(10_000):
+            sender.socket.send(b"x" * 65536)
+            bench.pump()
+            if sender.closed:
+                raise ConnectionResetError
+    sender.expect_closed()
+
+
+def test_a_stalled_listener_loses_old_lines_and_the_good_ones_lose_nothing(bench):
+    air, _ = bench.hello_air()
+    good, _ = bench.hello_ground()
+    stalled, _ = bench.hello_ground(asks="listen")
+    bench.peers.remove(stalled)
+    expected = b""
+    total = 4_000
+    for first in range(0, total, 100):
+        lines = numbered(first, 100)
+        expected += lines
+        air.say(lines)
+        ground = next(g for g in bench.aircraft().grounds if g.number == 2)
+        assert ground.waiting_bytes <= 65536
+    bench.until(lambda: good.heard == expected, "every line at the good ground")
+    assert bench.aircraft().dropped_lines > 0
+    bench.peers.append(stalled)
+    bench.until(lambda: numbered(total - 1, 1) in stalled.heard, "the newest line")
+    lines = stalled.heard.split(b"\n")[:-1]
+    numbers = [int(line[:8]) for line in lines]
+    assert all(line[8:] == b"." * 191 for line in lines)
+    assert numbers == sorted(set(numbers))
+    assert len(numbers) + bench.aircraft().dropped_lines == total
+
+
+def test_control_lines_stand_between_relayed_lines_behind_a_stall(bench):
+    air, _ = bench.hello_air()
+    holder, _ = bench.hello_ground()
+    asker, _ = bench.hello_ground(gets="listen")
+    bench.peers.remove(holder)
+    for first in range(0, 3_000, 100):
+        air.say(numbered(first, 100))
+    asker.say("UP1 seat request\n")
+    air.say(numbered(3_000, 1))
+    bench.peers.append(holder)
+    bench.until(lambda: numbered(3_000, 1) in holder.heard, "the newest line")
+    lines = holder.heard.split(b"\n")[:-1]
+    assert lines.count(b"UP1 seat asked by=2") == 1
+    assert all(len(line) == 199 for line in lines if not line.startswith(b"UP1 "))
+
+
+def test_a_slow_aircraft_slows_the_ground_that_commands_and_loses_nothing(bench):
+    air, _ = bench.hello_air()
+    ground, _ = bench.hello_ground()
+    bench.peers.remove(air)
+    sent, total = b"", 0
+    while True:
+        lines = numbered(total, 100)
+        try:
+            count = ground.socket.send(lines)
+        except BlockingIOError:
+            break
+        sent += lines[:count]
+        total += 100
+        bench.pump()
+        if count < len(lines):
+            break
+        assert len(sent) < 500_000_000
+    waiting = bench.aircraft().air_seat.occupant.waiting_bytes
+    assert PACE_BYTES <= waiting <= 3 * PACE_BYTES
+    bench.pass_time(10)
+    assert bench.aircraft().command_seat.holder(bench.reactor.seconds()) is not None
+    bench.peers.append(air)
+    whole = sent[: sent.rfind(b"\n") + 1]
+    bench.until(lambda: len(air.heard) >= len(whole), "every line at the aircraft")
+    assert air.heard == whole
+    ground.say((sent[len(whole) :] and b"\n") or b"")
+    assert len(sent) > SEND_BUFFER_BYTES
+
+
+def test_a_listener_may_flood_without_being_relayed_or_kept(bench):
+    air, _ = bench.hello_air()
+    holder, _ = bench.hello_ground()
+    flooder, _ = bench.hello_ground(gets="listen")
+    for _ in range(50):
+        flooder.say(b"x" * 60_000 + b"\n")
+    holder.say("good\n")
+    assert air.line() == "good\n"
+    assert air.heard == b""
+    assert bench.aircraft().unheard_lines == 50
