@@ -37,8 +37,12 @@ class ModeMonitor(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the mode."""
-        return {"mode": self.shown}
+        """Return the mode, and where the control loop runs."""
+        controller = self.context.application.flight_controller
+        return {
+            "mode": self.shown,
+            "flight_controller": controller if self.context.mode.may_control else None,
+        }
 
     def _execute_initialization(self) -> None:
         if self.context.mode is Mode.AUTO:

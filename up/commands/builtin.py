@@ -7,6 +7,7 @@ from up.commands.answer_commands import AckCommand, NackCommand
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.command import BaseCommand
 from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
@@ -25,6 +26,7 @@ BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     ArmCommand,
     DisarmCommand,
     FlightModeCommand,
+    FlightStateCommand,
     HeadingCommand,
     LinkStateCommand,
     LocationCommand,

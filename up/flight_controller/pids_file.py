@@ -75,6 +75,15 @@ class Stabilize:
 
 
 @dataclass(frozen=True, slots=True)
+class Navigation:
+    """The navigation loop: heading to angle. It runs on the Raspberry Pi only."""
+
+    ailerons: Controller = section(Controller)
+    elevator: Controller = section(Controller)
+    rudder: Controller = section(Controller)
+
+
+@dataclass(frozen=True, slots=True)
 class PidsConfig:
     """The gains of the flight controller, saved when the ground sets them.
 
@@ -88,6 +97,7 @@ class PidsConfig:
     )
     rate: Rate = section(Rate)
     stabilize: Stabilize = section(Stabilize)
+    navigation: Navigation | None = section(Navigation, optional=True)
 
 
 PIDS = ConfigFile("pids.yml", PidsConfig)
@@ -115,19 +125,23 @@ class PidsFile:
 
 def gain_set_of(values: PidsConfig) -> GainSet:
     """Return the gains that a configuration holds."""
-
-    def gains(controller: Controller) -> Gains:
-        return Gains(controller.p, controller.i, controller.d)
-
-    rate, stabilize = values.rate, values.stabilize
+    navigation = values.navigation
     return GainSet(
-        LoopGains(gains(rate.ailerons), gains(rate.elevator), gains(rate.rudder)),
-        LoopGains(gains(stabilize.ailerons), gains(stabilize.elevator), gains(stabilize.rudder)),
+        _loop_of(values.rate),
+        _loop_of(values.stabilize),
+        None if navigation is None else _loop_of(navigation),
     )
 
 
+def _loop_of(loop: Rate | Stabilize | Navigation) -> LoopGains:
+    def gains(controller: Controller) -> Gains:
+        return Gains(controller.p, controller.i, controller.d)
+
+    return LoopGains(gains(loop.ailerons), gains(loop.elevator), gains(loop.rudder))
+
+
 def _config_of(gains: GainSet) -> PidsConfig:
-    rate, stabilize = gains.rate, gains.stabilize
+    rate, stabilize, navigation = gains.rate, gains.stabilize, gains.navigation
     zero = Gains(0.0)
     return PidsConfig(
         rate=Rate(
@@ -139,5 +153,12 @@ def _config_of(gains: GainSet) -> PidsConfig:
             AileronsStabilize(*stabilize.ailerons),
             ElevatorStabilize(*stabilize.elevator),
             Controller(*(stabilize.rudder or zero)),
+        ),
+        navigation=None
+        if navigation is None
+        else Navigation(
+            Controller(*navigation.ailerons),
+            Controller(*navigation.elevator),
+            Controller(*(navigation.rudder or zero)),
         ),
     )

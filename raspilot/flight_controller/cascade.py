@@ -1,0 +1,56 @@
+"""Two PID controllers after one another: angle to rotation rate to servo (thesis 3.3.2)."""
+
+from __future__ import annotations
+
+from simple_pid import PID
+
+from up.flight_controller.gains import Gains
+
+US_PER_UNIT = 1.25
+OUTPUT_LIMIT = 400.0
+
+
+def limited_pid(gains: Gains, limit: float) -> PID:
+    """Return a controller towards 0 with symmetric limits that is called with its own dt."""
+    return PID(
+        gains.p, gains.i, gains.d, setpoint=0.0, sample_time=None, output_limits=(-limit, limit)
+    )
+
+
+class Cascade:
+    """Stabilize PID and Rate PID of one axis.
+
+    The Stabilize PID turns an angle error (deg) into a wanted rate (deg/s, limited); the Rate PID
+    turns the rate error into servo units of 1.25 us, limited to 400 of them (500 us). Derivatives
+    are on the measurement and the limits stop the integrals. Inputs must be finite: the provider
+    guarantees it.
+    """
+
+    __slots__ = ("_rate", "_stabilize")
+
+    def __init__(self, rate: Gains, stabilize: Gains, rate_limit_deg_s: float) -> None:
+        self._stabilize = limited_pid(stabilize, rate_limit_deg_s)
+        self._rate = limited_pid(rate, OUTPUT_LIMIT)
+
+    def tune(self, rate: Gains, stabilize: Gains) -> None:
+        """Take other gains, with what the integrals hold."""
+        self._rate.tunings = tuple(rate)
+        self._stabilize.tunings = tuple(stabilize)
+
+    def reset(self) -> None:
+        """Forget the past: after a pause its integrals mean nothing."""
+        self._rate.reset()
+        self._stabilize.reset()
+
+    def hold_angle(
+        self, wanted_deg: float, angle_deg: float, rate_deg_s: float, dt_s: float
+    ) -> float:
+        """Return the servo deflection, us, that leads to an angle."""
+        self._stabilize.setpoint = wanted_deg
+        wanted_rate = self._stabilize(angle_deg, dt=dt_s) or 0.0
+        return self.hold_rate(wanted_rate, rate_deg_s, dt_s)
+
+    def hold_rate(self, wanted_deg_s: float, rate_deg_s: float, dt_s: float) -> float:
+        """Return the servo deflection, us, that leads to a rotation rate."""
+        self._rate.setpoint = wanted_deg_s
+        return US_PER_UNIT * (self._rate(rate_deg_s, dt=dt_s) or 0.0)

@@ -1,0 +1,193 @@
+"""Raspilot's flight controller on the Raspberry Pi (thesis 3.2.3, 3.3.2, 4.4.6)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from raspilot.flight_controller import sticks
+from raspilot.flight_controller.cascade import Cascade
+from raspilot.flight_controller.yaw_damper import YawDamper
+from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.flight_state_command import FlightStateCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.output_command import OutputCommand
+from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
+from up.flight_controller.base_flight_controller import BaseFlightController
+from up.flight_controller.gains import Gains, GainSet
+from up.flight_controller.pids_file import PidsFile
+from up.mode import WITH_ARDUINO, Mode
+from up.needs import wants
+from up.providers.base_mission_control_provider import BaseMissionControlProvider
+
+ROLL_RATE_LIMIT_DEG_S = 120.0
+PITCH_RATE_LIMIT_DEG_S = 80.0
+SHORTEST_STEP_S, LONGEST_STEP_S = 1e-4, 0.1
+ASK_AGAIN_S = 1.0
+LOWEST_US, HIGHEST_US = 1000, 2000
+STICK_THROTTLE = 0
+_NO_GAINS = Gains(0.0)
+
+
+class RaspilotFlightController(BaseFlightController):
+    """Computes an Output from every orientation frame while the board lets the Pi fly.
+
+    FBW: the sticks ask for bank and pitch, the rudder is stick plus yaw damper. ACRO: the sticks
+    pass through, where orientation is missing. The throttle is always the stick's. Without a valid
+    receiver nothing is sent: the board's own failsafe acts. Loaded with ``flight controller:
+    raspberry``.
+    """
+
+    MODES: ClassVar[frozenset[Mode]] = WITH_ARDUINO
+    FLIGHT_MODES: ClassVar[Mapping[str, Mapping[str, float]]] = {
+        "FBW": {"rx": 0.25, "orientation": 0.1},
+        "ACRO": {"rx": 0.25},
+    }
+
+    mission_control = wants(BaseMissionControlProvider)
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.outputs = 0
+        self._is_asked = True
+        self._is_board_ready = False
+        self._asked_at_s = float("-inf")
+        self._computed_at_s = float("-inf")
+
+    def load(self) -> bool:
+        """Only where the configuration moved the control loop to the Raspberry Pi."""
+        return self.context.application.flight_controller == "raspberry"
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return what is flown and what is missing."""
+        return {
+            "flight_control": {
+                "mode": self.flight_mode if self._is_board_ready else None,
+                "offered": self.offered_modes,
+                "missing": self.missing_for("FBW"),
+            },
+            "counters": {"flight_control": {"outputs": self.outputs}},
+        }
+
+    def _execute_initialization(self) -> None:
+        super()._execute_initialization()
+        self._pids = PidsFile(self.context.config_folder)
+        self.gains, problem = self._pids.load()
+        if problem:
+            self._log_error(problem)
+            self.up.vetoes.set("pids.yml", problem)
+        self._build(self.gains)
+        executor = self.up.command_executor
+        executor.register_command(OrientationCommand, self._on_orientation)
+        executor.register_command(FlightStateCommand, self._on_flight_state)
+        executor.register_command(FlightModeCommand, self._on_flight_mode)
+        executor.register_command(PIDTuningsCommand, self._on_tunings)
+
+    def _build(self, gains: GainSet) -> None:
+        rate, stabilize = gains.rate, gains.stabilize
+        self._roll = Cascade(rate.ailerons, stabilize.ailerons, ROLL_RATE_LIMIT_DEG_S)
+        self._pitch = Cascade(rate.elevator, stabilize.elevator, PITCH_RATE_LIMIT_DEG_S)
+        self._yaw = YawDamper(rate.rudder or _NO_GAINS)
+
+    def _on_orientation(self, command: OrientationCommand) -> None:
+        if not self._is_board_ready or command.sequence is None:
+            return
+        rx = self.rx.usable(self.FLIGHT_MODES["ACRO"]["rx"])
+        if rx is None:
+            return
+        reading = self.orientation.reading
+        if reading is None or reading.value is not command:
+            return
+        now_s = reading.time_s
+        dt_s = now_s - self._computed_at_s
+        self._computed_at_s = now_s
+        if dt_s > LONGEST_STEP_S:
+            self._reset()
+            dt_s = LONGEST_STEP_S
+        if command.roll_rate_deg_s is None:
+            self.flight_mode = "ACRO"
+            output = _pass_through(command.sequence, rx.value)
+        else:
+            self.flight_mode = "FBW"
+            output = self._fly_by_wire(command, rx.value, max(dt_s, SHORTEST_STEP_S))
+        self.outputs += 1
+        self.up.command_executor.execute_command(output)
+
+    def _fly_by_wire(self, attitude: OrientationCommand, rx: Any, dt_s: float) -> OutputCommand:
+        ailerons_us = self._roll.hold_angle(
+            sticks.roll_deg(rx.ailerons_us),
+            attitude.roll_deg,
+            attitude.roll_rate_deg_s or 0.0,
+            dt_s,
+        )
+        elevator_us = self._pitch.hold_angle(
+            sticks.pitch_deg(rx.elevator_us),
+            attitude.pitch_deg,
+            attitude.pitch_rate_deg_s or 0.0,
+            dt_s,
+        )
+        damping_us = self._yaw.deflection_us(attitude.yaw_rate_deg_s or 0.0, dt_s)
+        return OutputCommand(
+            _pulse(sticks.CENTRE_US + ailerons_us),
+            _pulse(sticks.CENTRE_US + elevator_us),
+            STICK_THROTTLE,
+            _pulse(rx.rudder_us + damping_us),
+            attitude.sequence or 0,
+        )
+
+    def _reset(self) -> None:
+        self._roll.reset()
+        self._pitch.reset()
+        self._yaw.reset()
+
+    def _on_flight_state(self, command: FlightStateCommand) -> None:
+        ready = command.flight_mode == "OUTPUT"
+        if ready != self._is_board_ready:
+            self._is_board_ready = ready
+            self._log_info("flies" if ready else "does not fly: the board does not let it")
+        if command.is_auto and not ready and self._is_asked:
+            self._ask_for_control()
+
+    def _ask_for_control(self) -> None:
+        now_s = self.context.reactor.seconds()
+        if now_s - self._asked_at_s >= ASK_AGAIN_S:
+            self._asked_at_s = now_s
+            self.up.command_executor.execute_command(FlightModeCommand("AUTO"))
+
+    def _on_flight_mode(self, command: FlightModeCommand) -> None:
+        self._is_asked = command.mode == "AUTO"
+
+    def _on_tunings(self, command: PIDTuningsCommand) -> None:
+        gains = command.gains
+        if gains is not None:
+            self.gains = gains.completed(self.gains)
+            self._roll.tune(self.gains.rate.ailerons, self.gains.stabilize.ailerons)
+            self._pitch.tune(self.gains.rate.elevator, self.gains.stabilize.elevator)
+            self._yaw.tune(self.gains.rate.rudder or _NO_GAINS)
+            self._log_info("flies with other gains")
+            self._save()
+        elif self.mission_control is not None:
+            self.mission_control.send_command(PIDTuningsValuesCommand.of(self.gains))
+
+    def _save(self) -> None:
+        try:
+            self._pids.save(self.gains)
+        except OSError as error:
+            self._log_error(f"the gains cannot be saved: {error.strerror or error}")
+        else:
+            self.up.vetoes.clear("pids.yml")
+
+
+def _pass_through(sequence: int, rx: Any) -> OutputCommand:
+    return OutputCommand(
+        _pulse(rx.ailerons_us),
+        _pulse(rx.elevator_us),
+        STICK_THROTTLE,
+        _pulse(rx.rudder_us),
+        sequence,
+    )
+
+
+def _pulse(us: float) -> int:
+    return round(min(HIGHEST_US, max(LOWEST_US, us)))

@@ -1,0 +1,21 @@
+"""Who flies now, as the board that drives the servos says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class FlightStateCommand(BaseCommand):
+    """The flight mode that acts, whether the motor is armed, whether the switch is at AUTO."""
+
+    NAME: ClassVar[str] = "up.flight.state"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    flight_mode: str | None = value(max_length=16)
+    is_armed: bool = value(key="armed")
+    is_auto: bool = value(key="auto")
+    is_failsafe: bool = value(key="failsafe")
