@@ -52,13 +52,10 @@ def crc16(data: bytes) -> int:
 def cobs_encode(plain: bytes) -> bytes:
     """Return ``plain`` without zero bytes (Cheshire and Baker 1999), without an end mark."""
     encoded = bytearray()
-    blocks = plain.split(b"\0")
-    for index, block in enumerate(blocks):
+    for block in plain.split(b"\0"):
         while len(block) >= 254:
             encoded += b"\xff" + block[:254]
             block = block[254:]
-            if not block and index == len(blocks) - 1:
-                return bytes(encoded)
         encoded.append(len(block) + 1)
         encoded += block
     return bytes(encoded)
