@@ -1,0 +1,229 @@
+"""How fast the codecs are, beside peers that are measured in the same run.
+
+All figures are CPU time of this process for one frame, the best of several rounds in which ours
+and the peers take turns. The garbage collector waits meanwhile, as it does in the daemon.
+"""
+
+import gc
+import math
+import random
+import struct
+import time
+from collections.abc import Callable, Iterable
+from importlib import import_module
+
+from bench.table import Row, print_table
+from up.protocols.checked_framing import CheckedDecoder, CheckedEncoder
+from up.protocols.orientation_forward import OrientationDecoder
+
+FRAMES = 6000
+ROUNDS = 25
+READ_SIZE = 4096
+TCP_READ_SIZE = 65536
+CHECKED_TARGET_US = 0.6
+PYMAVLINK_TARGET = 7.0
+ORIENTATION_TARGET = 6.0
+
+# What an Arduino sends in each period: outputs, inputs, orientation.
+SIZES = {ord("r"): 8, ord("i"): 13, ord("O"): 26}
+
+Work = Callable[[], int]
+
+
+def cpu_us(*works: Work) -> list[float]:
+    """Return the CPU time in us that each work takes for one of the frames that it counts."""
+    best = [math.inf] * len(works)
+    gc.collect()
+    gc.disable()
+    try:
+        for _ in range(ROUNDS):
+            for index, work in enumerate(works):
+                began = time.process_time()
+                frames = work()
+                best[index] = min(best[index], (time.process_time() - began) / frames * 1e6)
+    finally:
+        gc.enable()
+    return best
+
+
+def serial_payloads() -> list[tuple[int, bytes]]:
+    """Return what is on a serial line in flight."""
+    draws = random.Random(1)
+    payloads: list[tuple[int, bytes]] = []
+    for number in range(FRAMES // 3):
+        pulses = [draws.randint(1000, 2000) for _ in range(6)]
+        angles = [draws.uniform(-90, 90) for _ in range(6)]
+        payloads.append((ord("r"), struct.pack(">4H", *pulses[:4])))
+        payloads.append((ord("i"), struct.pack(">6HB", *pulses, 0x3F)))
+        payloads.append((ord("O"), struct.pack(">H6f", number, *angles)))
+    return payloads
+
+
+def cut(data: bytes, size: int) -> list[bytes]:
+    """Return `data` in the pieces that reads hand over."""
+    return [data[start : start + size] for start in range(0, len(data), size)]
+
+
+def checked_work(payloads: list[tuple[int, bytes]]) -> Work:
+    """Return the parsing of checked frames, CRC and all."""
+    encoder = CheckedEncoder()
+    pieces = cut(b"".join(encoder.encode(*each) for each in payloads), READ_SIZE)
+
+    def work() -> int:
+        decoder = CheckedDecoder(SIZES)
+        frames = sum(len(decoder.feed(piece)) for piece in pieces)
+        if frames != len(payloads):
+            raise AssertionError("our decoder lost frames")
+        return frames
+
+    return work
+
+
+def table_work(payloads: list[tuple[int, bytes]]) -> Work:
+    """Return the parsing of bare frames by a table of sizes: no check, no resynchronisation."""
+    pieces = cut(b"".join(bytes((type_,)) + payload for type_, payload in payloads), READ_SIZE)
+
+    def work() -> int:
+        tail = b""
+        count = 0
+        for piece in pieces:
+            buffer = tail + piece
+            end = len(buffer)
+            position = 0
+            frames = []
+            while position < end:
+                following = position + 1 + SIZES[buffer[position]]
+                if following > end:
+                    break
+                frames.append((buffer[position], buffer[position + 1 : following]))
+                position = following
+            tail = buffer[position:]
+            count += len(frames)
+        return count
+
+    return work
+
+
+def pymavlink_work() -> Work | None:
+    """Return the parsing of MAVLink 2 ATTITUDE (28 bytes) by pymavlink; None: not installed."""
+    try:
+        common = import_module("pymavlink.dialects.v20.common")
+    except ImportError:
+        return None
+    draws = random.Random(2)
+    sender = common.MAVLink(None, srcSystem=1, srcComponent=1)
+    messages = (
+        common.MAVLink_attitude_message(number, *[draws.uniform(-1, 1) for _ in range(6)])
+        for number in range(FRAMES // 3)
+    )
+    wire: list[bytes] = []
+    for message in messages:
+        wire.append(bytes(message.pack(sender)))
+        sender.seq = (sender.seq + 1) % 256
+    pieces = cut(b"".join(wire), READ_SIZE)
+
+    def work() -> int:
+        receiver = common.MAVLink(None)
+        frames = sum(len(receiver.parse_buffer(piece) or ()) for piece in pieces)
+        if frames != len(wire):
+            raise AssertionError("pymavlink lost frames")
+        return frames
+
+    return work
+
+
+def orientation_wire(count: int) -> bytes:
+    """Return `count` Orientation Forward frames."""
+    draws = random.Random(3)
+    return b"".join(
+        struct.pack(">6f", *[draws.uniform(-180, 180) for _ in range(6)]) for _ in range(count)
+    )
+
+
+def orientation_work(pieces: list[bytes]) -> Work:
+    """Return our decoding, limits checked."""
+
+    def work() -> int:
+        decoder = OrientationDecoder()
+        return sum(len(decoder.feed(piece)) for piece in pieces)
+
+    return work
+
+
+def prototype_work(pieces: list[bytes]) -> Work:
+    """Return the prototype's way: cut each frame off the front of the buffer, nothing checked."""
+
+    def work() -> int:
+        buffer = b""
+        count = 0
+        for piece in pieces:
+            buffer += piece
+            frames = []
+            while len(buffer) >= 24:
+                frames.append(struct.unpack("!ffffff", buffer[:24]))
+                buffer = buffer[24:]
+            count += len(frames)
+        return count
+
+    return work
+
+
+def serial_rows() -> Iterable[Row]:
+    """Yield the rows of the serial line."""
+    payloads = serial_payloads()
+    mavlink = pymavlink_work()
+    works = [checked_work(payloads), table_work(payloads)] + ([mavlink] if mavlink else [])
+    ours, table, *others = cpu_us(*works)
+    yield Row(
+        "checked serial frame, parse",
+        f"{ours:.2f} us",
+        "table parser, unchecked",
+        f"{table:.2f} us",
+        f"{ours / table:.1f}x slower",
+        f"<= {CHECKED_TARGET_US} us",
+        ours <= CHECKED_TARGET_US,
+    )
+    target = f">= {PYMAVLINK_TARGET:g}x faster"
+    what = "checked serial frame, parse"
+    if not others:
+        yield Row(what, f"{ours:.2f} us", "pymavlink", "not installed", "", target)
+        return
+    yield Row(
+        what,
+        f"{ours:.2f} us",
+        "pymavlink",
+        f"{others[0]:.2f} us",
+        f"{others[0] / ours:.1f}x faster",
+        target,
+        others[0] / ours >= PYMAVLINK_TARGET,
+    )
+
+
+def orientation_rows() -> Iterable[Row]:
+    """Yield the rows of Orientation Forward: a full read, and frame by frame for comparison."""
+    for what, size, is_target in (
+        (f"orientation over TCP, reads of {TCP_READ_SIZE // 1024} KiB", TCP_READ_SIZE, True),
+        ("orientation over TCP, a frame a read", 24, False),
+    ):
+        pieces = cut(orientation_wire(FRAMES if size == 24 else 4 * size // 24), size)
+        ours, naive = cpu_us(orientation_work(pieces), prototype_work(pieces))
+        ratio = naive / ours
+        yield Row(
+            what,
+            f"{ours:.3f} us",
+            "the prototype's way",
+            f"{naive:.3f} us",
+            f"{ratio:.1f}x faster" if ratio >= 1 else f"{1 / ratio:.1f}x slower",
+            f">= {ORIENTATION_TARGET:g}x faster" if is_target else "",
+            ratio >= ORIENTATION_TARGET if is_target else None,
+        )
+
+
+def rows() -> Iterable[Row]:
+    """Yield the codecs' rows of the table."""
+    yield from serial_rows()
+    yield from orientation_rows()
+
+
+if __name__ == "__main__":
+    print_table(rows())
