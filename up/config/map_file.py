@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from up.config.nodes import compose
-from up.config.problems import ConfigErrors, ConfigProblem
+from up.config.problems import Problems
 from up.config.reading import read_text
 from up.config.scalars import is_null
 from up.config.shape import MapOf, shape_of
@@ -32,18 +32,13 @@ class MapFile(Generic[V]):
         Raises ConfigErrors with every problem of the file.
         """
         path = Path(folder) / self.filename
-        problems: list[ConfigProblem] = []
-
-        def report(line: int, column: int, what: str) -> None:
-            problems.append(ConfigProblem(path, line, column, what))
-
-        text = read_text(path, report)
+        problems = Problems(path)
+        text = read_text(path, problems.report)
         entries: dict[str, V] = {}
         if text is not None:
-            root = compose(text, report)
+            root = compose(text, problems.report)
             if root is not None and not is_null(root):
                 spec: Any = MapOf(self.key, shape_of(self.cls), _GREATEST_LENGTH)
-                entries = Validator(report, {}).read(spec, root)
-        if problems:
-            raise ConfigErrors(problems)
+                entries = Validator(problems.report, {}).read(spec, root)
+        problems.raise_if_any()
         return entries

@@ -1,9 +1,10 @@
 import pytest
 
-from tests.up.config.samples import LINK, Link
+from tests.up.config.samples import LINK, Link, Remote
 from up.config import ConfigErrors, load_all, unknown_files
 from up.config.application import APPLICATION, ApplicationConfig
 from up.config.disabled_modules import DISABLED_MODULES
+from up.config.map_file import MapFile
 
 FILES = [LINK, APPLICATION, DISABLED_MODULES]
 
@@ -36,3 +37,17 @@ def test_files_that_nobody_reads_are_listed(tmp_path):
         (tmp_path / name).write_text("")
     assert [path.name for path in unknown_files(tmp_path, FILES)] == ["lnik.yml", "x.yaml"]
     assert unknown_files(tmp_path / "nowhere", FILES) == []
+
+
+def test_a_file_that_is_one_free_map_has_its_problems_told_alike(tmp_path):
+    cogs = MapFile("Cogs.yml", Remote)
+    assert cogs.load(tmp_path) == {}
+    (tmp_path / "Cogs.yml").write_text("a:\n  url: x\nb:\n")
+    assert cogs.load(tmp_path) == {"a": Remote("x"), "b": Remote()}
+    (tmp_path / "Cogs.yml").write_text("a: {prt: 1}\nb: 2\n" + "c: {x: 1, y: 2}\n" * 200)
+    with pytest.raises(ConfigErrors) as caught:
+        cogs.load(tmp_path)
+    first, second, *_, last = caught.value.problems
+    assert first.what == "a: unknown key \"prt\", did you mean 'port'?"
+    assert second.what == 'b: must be a map of keys, not "2"'
+    assert last.what == "more than 100 problems, the rest is not shown"

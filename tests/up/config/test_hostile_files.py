@@ -99,7 +99,9 @@ def test_deep_block_nesting_is_refused():
 
 
 def test_a_very_large_number_is_refused():
-    assert len(problems_of(f"stop delay (s): {'9' * 100_000}\n")) == 1
+    start = "1:17: stop delay (s): must be a number between 0 and 3600 s, not"
+    assert problems_of(f"stop delay (s): {'9' * 100_000}\n") == [f'{start} "{"9" * 40}..."']
+    assert problems_of(f"stop delay (s): {'9' * 399}\n") == [f"{start} a huge number"]
     assert len(problems_of(f"labels: {{a: {'9' * 399}}}\n")) == 1
     assert problems_of("limit: 1e999\n") == ["1:8: limit: must be a finite number, not inf"]
 
