@@ -15,6 +15,12 @@ class ListenError(OSError):
     """A port could not be opened; the text is one sentence."""
 
 
+def cannot_listen(label: str, port: int, error: OSError) -> ListenError:
+    """Return the sentence that says why a port could not be opened."""
+    what = os.strerror(error.errno) if error.errno else str(error)
+    return ListenError(f"cannot listen on {label} {port}: {what.lower()}")
+
+
 def listen(label: str, address: str, port: int, user_timeout_ms: int) -> socket.socket:
     """Return a listening, non-blocking TCP socket; accepted sockets inherit its options.
 
@@ -42,8 +48,7 @@ def listen(label: str, address: str, port: int, user_timeout_ms: int) -> socket.
         listener.listen(LISTEN_BACKLOG)
     except OSError as error:
         listener.close()
-        what = os.strerror(error.errno) if error.errno else str(error)
-        raise ListenError(f"cannot listen on {label} {port}: {what.lower()}") from None
+        raise cannot_listen(label, port, error) from None
     return listener
 
 

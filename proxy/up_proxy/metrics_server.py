@@ -8,7 +8,7 @@ from twisted.web.http import Request
 from twisted.web.resource import Resource
 from twisted.web.server import Site
 
-from up_proxy.listener import ListenError
+from up_proxy.listener import cannot_listen
 from up_proxy.metrics_page import CONTENT_TYPE
 
 HOST = "127.0.0.1"
@@ -52,5 +52,4 @@ def serve_metrics(reactor: TcpReactor, port: int, page: Callable[[], str]) -> An
     try:
         return reactor.listenTCP(port, site, interface=HOST)
     except CannotListenError as error:
-        text = str(error.socketError).lower()
-        raise ListenError(f"cannot listen on metrics port {port}: {text}") from None
+        raise cannot_listen("metrics port", port, error.socketError) from None

@@ -1,0 +1,143 @@
+"""The program `up-proxy` as a user starts it, and plain blocking clients for it."""
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+DEADLINE_S = 30.0
+UP_PROXY = Path(sys.executable).with_name("up-proxy")
+
+
+def until(condition, what, deadline_s=DEADLINE_S):
+    end_s = time.monotonic() + deadline_s
+    while not (value := condition()):
+        assert time.monotonic() < end_s, f"never came: {what}"
+        time.sleep(0.01)
+    return value
+
+
+class Program:
+    """A running up-proxy; `log` grows while it runs. Ends it when the test ends."""
+
+    def __init__(self, folder, text="", arguments=(), ports=(0, 0, 0), environ=None, prefix=()):
+        folder.mkdir(exist_ok=True)
+        (folder / "proxy.yml").write_text(text, encoding="utf-8")
+        command = [*prefix, str(UP_PROXY), "--config", str(folder)]
+        for option, port in zip(
+            ("--airborne-port", "--ground-port", "--metrics-port"), ports, strict=True
+        ):
+            if port is not None:
+                command += [option, str(port)]
+        self.last = "ground side" if "metrics: false" in text else "metrics page"
+        self.log = ""
+        self.process = subprocess.Popen(
+            [*command, *arguments],
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, **(environ or {})},
+        )
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _read(self):
+        for line in self.process.stderr:
+            self.log += line
+
+    def __enter__(self):
+        until(self.is_up, f"the start of up-proxy; log {self.log}")
+        return self
+
+    def __exit__(self, *_):
+        self.end()
+
+    def is_up(self):
+        assert self.process.poll() is None or "listens" in self.log, self.log
+        # The last line of the start is the one of the metrics page, where there is one.
+        return self._port(self.last)
+
+    def _port(self, who):
+        found = re.search(rf"{who} listens on port (\d+)\n", self.log)
+        return int(found[1]) if found else 0
+
+    @property
+    def airborne_port(self):
+        return self._port("airborne side")
+
+    @property
+    def ground_port(self):
+        return self._port("ground side")
+
+    @property
+    def metrics_port(self):
+        return self._port("metrics page")
+
+    @property
+    def pid(self):
+        return self.process.pid
+
+    def rss_bytes(self):
+        pages = int(Path(f"/proc/{self.pid}/statm").read_text(encoding="ascii").split()[1])
+        return pages * os.sysconf("SC_PAGE_SIZE")
+
+    def wait(self):
+        status = self.process.wait(DEADLINE_S)
+        self._reader.join(DEADLINE_S)
+        self.process.stderr.close()
+        return status
+
+    def end(self, how=signal.SIGTERM):
+        if self.process.poll() is None:
+            self.process.send_signal(how)
+        return self.wait() if not self.process.stderr.closed else self.process.returncode
+
+
+class Client:
+    """A blocking client that reads lines."""
+
+    def __init__(self, port, first="", host="127.0.0.1"):
+        self.socket = socket.create_connection((host, port), timeout=DEADLINE_S)
+        self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.file = self.socket.makefile("rb")
+        if first:
+            self.say(first)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        self.file.close()
+        self.socket.close()
+
+    def say(self, data):
+        self.socket.sendall(data.encode("ascii") if isinstance(data, str) else data)
+        return self
+
+    def line(self):
+        """Return the next line; empty at the end of the connection, however it ended."""
+        try:
+            return self.file.readline().decode("ascii")
+        except ConnectionError:
+            return ""
+
+    def expect(self, text):
+        """Read lines until one contains `text`; heartbeats and news in between are skipped."""
+        while text not in (line := self.line()):
+            assert line, f"closed before {text!r} came"
+        return line
+
+
+def accepted(port, hello):
+    """Return a client whose hello was accepted, and its token."""
+    client = Client(port, hello)
+    answer = client.line()
+    assert answer.startswith("UP1 ok "), answer
+    return client, answer.split("token=")[1].strip()
