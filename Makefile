@@ -1,0 +1,58 @@
+# Up and Raspilot. `make help` lists what there is.
+PYTHON ?= python3
+VENV ?= .venv
+BIN := $(VENV)/bin
+PY := $(BIN)/python
+PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground simulator/up_simulator
+COGS := $(wildcard cogs/*_cog)
+SETUPS := setup.py pyproject.toml $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
+TEST ?=
+
+.PHONY: help run test check bench format schemas clean
+
+help:
+	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
+	@echo 'make test     set up everything and run every test (TEST=tests/up for some)'
+	@echo 'make check    lint, types, import contracts'
+	@echo 'make bench    the performance table'
+	@echo 'make format   put the code into the project'"'"'s form'
+	@echo 'make schemas  JSON Schema of every configuration file, into build/schemas'
+	@echo 'make clean    remove what the others made'
+
+$(PY):
+	@tools/make_venv $(PYTHON) $(VENV)
+
+# What a user needs: the program, the simulator, the cogs of the Cogfile.
+$(VENV)/.run-ready: $(SETUPS) | $(PY)
+	@tools/install $(PY) sim
+	@touch $@
+
+# What a developer needs besides.
+$(VENV)/.dev-ready: $(SETUPS) | $(PY)
+	@tools/install $(PY) dev,sim
+	@touch $@ $(VENV)/.run-ready
+
+run: $(VENV)/.run-ready
+	@$(PY) -m up_simulator.showcase
+
+test: $(VENV)/.dev-ready
+	$(PY) -m pytest $(TEST)
+
+check: $(VENV)/.dev-ready
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy main.py tools/import_contracts.py $(PACKAGES)
+	@for cog in $(COGS); do echo "mypy $$cog"; $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
+	$(PY) tools/import_contracts.py
+
+bench: $(VENV)/.dev-ready
+	$(PY) -m bench
+
+format: $(VENV)/.dev-ready
+	$(BIN)/ruff check --fix . ; $(BIN)/ruff format .
+
+schemas: $(VENV)/.run-ready
+	$(BIN)/up schemas build/schemas
+
+clean:
+	rm -rf build dist run $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info

@@ -1,0 +1,1 @@
+"""Panic Mode under load, and the state of the system."""

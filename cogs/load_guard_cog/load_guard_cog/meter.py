@@ -1,0 +1,36 @@
+"""How loaded the machine and this process are."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import psutil
+
+
+class Meter(Protocol):
+    """Something that measures load."""
+
+    def load_percent(self) -> float:
+        """Return the load since the last call, 0 to 100."""
+
+    def memory_percent(self) -> float:
+        """Return the part of the memory that is used, 0 to 100."""
+
+
+class PsutilMeter:
+    """Measures with psutil; the first load after construction covers the time since then."""
+
+    def __init__(self) -> None:
+        self._process = psutil.Process()
+        self.load_percent()
+
+    def load_percent(self) -> float:
+        """Return the greater of the machine's load and this process's share of one core."""
+        machine: float = psutil.cpu_percent(interval=None)
+        own: float = self._process.cpu_percent(interval=None)
+        return min(100.0, max(machine, own))
+
+    def memory_percent(self) -> float:
+        """Return the part of the machine's memory that is in use."""
+        used: float = psutil.virtual_memory().percent
+        return used

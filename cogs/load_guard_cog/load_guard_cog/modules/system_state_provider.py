@@ -1,0 +1,86 @@
+"""Publishes and keeps the state of the system (thesis 3.3.5)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from load_guard_cog.modules.load_guard import LoadGuard
+from up.base_started_module import BaseStartedModule
+from up.commands.system_commands import LinkStateCommand, SystemStateCommand
+from up.mode_monitor import BOARD_LINK, ModeMonitor
+from up.needs import needs, wants
+from up.providers.base_mission_control_provider import BaseMissionControlProvider
+from up.providers.base_provider import BaseProvider
+from up.system.clock import Timer
+
+PERIOD_S = 1.0
+
+
+class SystemStateProvider(BaseStartedModule):
+    """Publishes a SystemStateCommand every second and tells the ground when it changes in kind.
+
+    Whoever publishes a newer state (a companion computer, say) is believed: what telemetry shows
+    is the newest Command, not this module's own view.
+    """
+
+    load_guard = needs(LoadGuard)
+    mode_monitor = needs(ModeMonitor)
+    mission_control = wants(BaseMissionControlProvider)
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.state: SystemStateCommand | None = None
+        self._is_arduino_connected = False
+        self._told: tuple[Any, ...] = ()
+        self._timer: Timer | None = None
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return which providers have fresh data."""
+        return {"system": {"providers": None if self.state is None else self.state.providers}}
+
+    def _execute_initialization(self) -> None:
+        executor = self.up.command_executor
+        executor.register_command(LinkStateCommand, self._on_link)
+        executor.register_command(SystemStateCommand, self._on_state)
+
+    def _execute_start(self) -> bool:
+        self._publish()
+        return True
+
+    def _execute_stop(self) -> None:
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+
+    def _on_link(self, command: LinkStateCommand) -> None:
+        if command.link == BOARD_LINK:
+            self._is_arduino_connected = command.connected
+
+    def _on_state(self, command: SystemStateCommand) -> None:
+        self.state = command
+        kind = (command.providers, command.arduino_connected, command.mode)
+        if kind != self._told and self.mission_control is not None:
+            self._told = kind
+            self.mission_control.send_command(command)
+
+    def _publish(self) -> None:
+        self._timer = self.context.reactor.callLater(PERIOD_S, self._publish)
+        self.up.command_executor.execute_command(
+            SystemStateCommand(
+                utilization_percent=self.load_guard.cpu_utilization,
+                memory_percent=self.load_guard.ram,
+                providers=self._present_providers(),
+                arduino_connected=self._is_arduino_connected,
+                mode=self.mode_monitor.shown,
+            )
+        )
+
+    def _present_providers(self) -> tuple[str, ...]:
+        return tuple(
+            sorted(
+                provider.READING
+                for provider in self.up.get_modules(BaseProvider)
+                if provider.usable(provider.MAX_AGE_S) is not None
+            )
+        )

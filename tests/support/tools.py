@@ -1,0 +1,30 @@
+"""What to do where a tool is missing: skip for a developer, fail where everything must run."""
+
+from __future__ import annotations
+
+import os
+import shutil
+
+import pytest
+
+
+def need_tool(name: str, package: str = "") -> str:
+    """Return the path of a program; skip the test without it, or fail with UP_REQUIRE_TOOLS."""
+    path = shutil.which(name)
+    if path is None:
+        unavailable(f"{name} is not installed (Debian package {package or name})")
+    assert path is not None
+    return path
+
+
+def unavailable(reason: str) -> None:
+    """Skip the running test for a reason of the machine, or fail with UP_REQUIRE_TOOLS set."""
+    if os.environ.get("UP_REQUIRE_TOOLS"):
+        pytest.fail(f"nothing may be skipped here: {reason}")
+    pytest.skip(reason)
+
+
+def need_root() -> None:
+    """Skip the running test where it may not make network namespaces."""
+    if os.geteuid() != 0:
+        pytest.skip("needs root")

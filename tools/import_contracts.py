@@ -1,0 +1,95 @@
+"""Checks that the arrows between the packages point one way.
+
+The contracts are generated: what a cog may import besides Up is what its ``setup.py`` lists, and
+the arrows between the programs are the table below.
+"""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+# Which of our packages each may import; nothing imports a cog but a cog that lists it.
+ARROWS: dict[str, set[str]] = {
+    "up": set(),
+    "raspilot": {"up"},
+    "up_runner": {"up"},
+    "up_ground": {"up"},
+    "up_proxy": {"up"},
+    "up_simulator": set(),
+}
+# The parts of Up that a program on another machine may use: the proxy knows no modules, no bus.
+PROXY_MAY_USE = {"config", "log", "system", "fields", "version"}
+
+
+def cogs() -> dict[str, set[str]]:
+    """Return what every in-tree cog may import, read from its ``setup.py``."""
+    found: dict[str, set[str]] = {}
+    for setup in sorted(ROOT.glob("cogs/*_cog/setup.py")):
+        required = _install_requires(setup)
+        others = {
+            name.removeprefix("raspilot-").replace("-", "_")
+            for name in required
+            if name.startswith("raspilot-")
+        }
+        found[setup.parent.name] = {"up"} | others
+    return found
+
+
+def _install_requires(setup: Path) -> list[str]:
+    for node in ast.walk(ast.parse(setup.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.keyword) and node.arg == "install_requires":
+            listed: list[str] = ast.literal_eval(node.value)
+            return listed
+    return []
+
+
+def contracts() -> str:
+    """Return the configuration of import-linter."""
+    arrows = {**ARROWS, **cogs()}
+    lines = ["[importlinter]", "root_packages ="]
+    lines += [f"    {name}" for name in arrows]
+    for name, allowed in arrows.items():
+        forbidden = sorted(set(arrows) - allowed - {name})
+        if name == "up_proxy":
+            forbidden += _parts_of_up_the_proxy_may_not_use()
+        lines += _contract(name, forbidden)
+    return "\n".join(lines) + "\n"
+
+
+def _parts_of_up_the_proxy_may_not_use() -> Iterator[str]:
+    for path in sorted((ROOT / "up").iterdir()):
+        is_package = (path / "__init__.py").is_file()
+        if (is_package or path.suffix == ".py") and path.stem not in {*PROXY_MAY_USE, "__init__"}:
+            yield f"up.{path.stem}"
+
+
+def _contract(name: str, forbidden: list[str]) -> list[str]:
+    return [
+        f"[importlinter:contract:{name}]",
+        f"name = {name} imports only what it may",
+        "type = forbidden",
+        f"source_modules = {name}",
+        "forbidden_modules =",
+        *(f"    {each}" for each in forbidden),
+    ]
+
+
+def main() -> int:
+    """Run import-linter on the generated contracts; return its exit status."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "contracts.ini")
+        path.write_text(contracts(), encoding="utf-8")
+        program = Path(sys.executable).with_name("lint-imports")
+        return subprocess.run(
+            [str(program), "--config", str(path), "--no-cache"], cwd=ROOT, check=False
+        ).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())
