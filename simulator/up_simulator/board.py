@@ -90,6 +90,7 @@ class Board:
     def data_received(self, data: bytes) -> None:
         """Take bytes from the line."""
         now_s = self._clock.seconds()
+        self._listen(now_s)
         if self.is_thesis:
             self._hear_thesis(data, now_s)
             return
@@ -106,8 +107,7 @@ class Board:
         """Listen to the receiver, move the servos, send what is due."""
         now_s = self._clock.seconds()
         self._meter.tick(now_s)
-        if self._receiver.listen(now_s):
-            self.authority.on_pulses(now_s)
+        self._listen(now_s)
         self.flight.set_servos(self.authority.servos(now_s))
         self._checked.expire(now_s)
         if self._thesis.expire(now_s) and self.is_thesis:
@@ -137,6 +137,10 @@ class Board:
     def orientation_age_s(self, sequence: int, now_s: float) -> float:
         """Return how long ago the orientation with this sequence was sent."""
         return now_s - self._orientation_sent_s.get(sequence, float("-inf"))
+
+    def _listen(self, now_s: float) -> None:
+        if self._receiver.listen(now_s):
+            self.authority.on_pulses(now_s)
 
     def _carry_out(self, command: Command, now_s: float) -> None:
         try:

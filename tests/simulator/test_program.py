@@ -1,0 +1,182 @@
+"""The whole program with a board: a real process, a real pty, real time."""
+
+import csv
+import os
+import signal
+import struct
+import time
+
+import pytest
+
+from tests.simulator.pi import GAINS, pulses_for
+from tests.simulator.program import Line, Program
+
+
+def board(tmp_path, *arguments):
+    return Program("--no-phone", "--pty-link", tmp_path / "board", *arguments)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_it_makes_its_link_and_a_signal_removes_it_within_a_second(tmp_path, number):
+    with board(tmp_path) as program:
+        program.wait_for(f"board on {tmp_path / 'board'}\n")
+        assert (tmp_path / "board").is_symlink()
+        status, took_s, error = program.end(number)
+    assert (status, error) == (0, "")
+    assert took_s < 1.0 + 4.0  # the second is the program's, the rest a loaded machine's
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_a_link_it_names_the_pty():
+    with Program("--no-phone") as program:
+        program.wait_for("board on /dev/pts/")
+        assert program.end()[0] == 0
+
+
+def test_it_answers_on_its_real_line(tmp_path):
+    with board(tmp_path) as program:
+        program.wait_for("board on")
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            confirmed = line.wait_for_type("K")
+            assert confirmed.payload == b"s\0"
+            numbers = [
+                struct.unpack(">H", line.wait_for_type("O").payload[:2])[0] for _ in range(50)
+            ]
+            assert numbers == list(range(numbers[0], numbers[0] + 50))
+            line.send("G")
+            assert len(line.wait_for_type("G").payload) == 72
+            assert line.wait_for_type("x").payload[1:2] == b"a"
+        assert program.end()[0] == 0
+
+
+def test_the_line_may_be_closed_and_opened_again(tmp_path):
+    with board(tmp_path) as program:
+        program.wait_for("board on")
+        for _ in range(3):
+            with Line(tmp_path / "board") as line:
+                line.send("s")
+                assert line.wait_for_type("K").payload[:1] == b"s"
+                line.wait_for_type("O")
+        assert program.end()[0] == 0
+
+
+def test_streams_come_in_real_time(tmp_path):
+    with board(tmp_path) as program:
+        program.wait_for("board on")
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            first, began_s = line.wait_for_type("O"), time.monotonic()
+            first_number = struct.unpack(">H", first.payload[:2])[0]
+            while time.monotonic() - began_s < 3.0:
+                newest = line.wait_for_type("O")
+            passed_s = time.monotonic() - began_s
+            count = struct.unpack(">H", newest.payload[:2])[0] - first_number
+        # Late is allowed on a loaded machine, early is not.
+        assert 0.5 * passed_s / 0.02 < count < passed_s / 0.02 + 15
+
+
+def test_outputs_fly_the_aircraft_and_the_log_is_the_truth(tmp_path):
+    """Stabilise over the wire: the board's own words must be the model's, and it stays level."""
+    log = tmp_path / "truth.csv"
+    with board(tmp_path, "--state-log", log, "--sticks", "t=0 aux2=1000") as program:
+        program.wait_for("board on")
+        said = []
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            until_s = time.monotonic() + 8.0
+            while time.monotonic() < until_s:
+                sequence, *values = struct.unpack(">H6f", line.wait_for_type("O").payload)
+                yaw, pitch, roll, yaw_rate, pitch_rate, roll_rate = values
+                rates = (roll_rate, pitch_rate, yaw_rate)
+                ailerons, elevator, rudder = pulses_for((roll, pitch, rates), GAINS)
+                line.send("u", struct.pack(">5H", ailerons, elevator, 0, rudder, sequence))
+                said.append((roll, pitch, yaw))
+            assert line.wait_for_type("x").payload[1:2] == b"u"
+        program.wait_for("following the Raspberry Pi")
+        assert program.end()[0] == 0
+    with log.open() as file:
+        rows = list(csv.DictReader(file))
+    truth = [tuple(float(row[key]) for key in ("roll_deg", "pitch_deg", "yaw_deg")) for row in rows]
+    assert len(said) > 100
+    assert all(abs(roll) < 25 and abs(pitch) < 25 for roll, pitch, _ in said[100:])
+    for each in said[10::20]:
+        nearest = min(
+            max(abs((a - b + 180) % 360 - 180) for a, b in zip(each, true, strict=True))
+            for true in truth
+        )
+        assert nearest < 2.0
+    assert any(abs(int(row["ailerons_us"]) - 1500) > 20 for row in rows)
+    times = [float(row["time_s"]) for row in rows]
+    assert all(0.0199 < b - a < 0.3 for a, b in zip(times, times[1:], strict=False))
+
+
+def test_nobody_reading_does_no_harm(tmp_path):
+    with board(tmp_path) as program:
+        program.wait_for("board on")
+        file = os.open(tmp_path / "board", os.O_RDWR | os.O_NOCTTY)
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            line.wait_for_type("K")
+        began_s = time.monotonic()
+        while time.monotonic() - began_s < 2.0:
+            time.sleep(0.05)  # an open line that nobody reads for two seconds: that is the test
+        with Line(tmp_path / "board") as line:
+            line.listener.feed(line.read())
+            line.listener.take()
+            line.send("m")
+            assert line.wait_for_type("m").payload == b"a"
+        os.close(file)
+        assert program.end()[0] == 0
+
+
+def test_thesis_framing_over_the_line(tmp_path):
+    arguments = ("--framing", "thesis", "--boot-text", "IMU connection failed", "--old-confirms")
+    with board(tmp_path, *arguments) as program:
+        program.wait_for("board on")
+        with Line(tmp_path / "board") as line:
+            stream, deadline = b"", time.monotonic() + 20.0
+            os.write(line.file, b"h\x01\x2c")
+            while b"h\x01\x2c" not in stream or stream.count(b"o") < 10:
+                stream += line.read()
+                assert time.monotonic() < deadline
+        assert stream.startswith(b"IMU connection failed\r\n")
+        assert program.end()[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--no-board", "--no-phone"), "leave nothing to do"),
+        (("--sticks", "flaps=1500"), "not understood"),
+        (("--wind", "fast"), "wind is 0 to 25"),
+        (("--wind", "nan"), "wind is 0 to 25"),
+        (("--general-port", "65536"), "a port is 1 to 65535"),
+        (("--runner", "nowhere"), "is not HOST:PORT"),
+        (("--turbulence", "9"), "invalid choice"),
+        (("--aircraft", "airbus"), "invalid choice"),
+    ],
+)
+def test_wrong_options_are_one_sentence(arguments, sentence):
+    with Program(*arguments) as program:
+        assert program.process.wait(30) == 2
+        error = program.error()
+    assert sentence in error
+    assert "Traceback" not in error
+
+
+def test_what_is_in_the_way_is_one_sentence(tmp_path):
+    (tmp_path / "board").write_text("precious")
+    with board(tmp_path) as program:
+        assert program.process.wait(30) == 1
+        error = program.error()
+    assert (
+        error == f"up_simulator: {tmp_path / 'board'} exists and is no symbolic link: left alone\n"
+    )
+
+
+def test_help_teaches():
+    with Program("--help") as program:
+        program.wait_for("Ctrl-C stops everything.")
+        assert program.process.wait(30) == 0
+        assert all(word in program.output for word in ("AUTO", "t=SECONDS", "examples:"))
