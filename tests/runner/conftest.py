@@ -1,0 +1,32 @@
+"""Fixtures of the runner's tests."""
+
+import shutil
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from tests.runner.runners import RunnerProcess
+
+
+@pytest.fixture
+def short_path():
+    """A folder with a path short enough for sockets in it."""
+    folder = Path(tempfile.mkdtemp(prefix="upr-"))
+    yield folder
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+@pytest.fixture
+def runners(short_path):
+    """Make real runners, each with a folder of its own; all are gone afterwards."""
+    made = []
+
+    def make(**config):
+        runner = RunnerProcess(short_path / str(len(made)), **config)
+        made.append(runner)
+        return runner
+
+    yield make
+    for runner in made:
+        runner.clean()

@@ -1,0 +1,231 @@
+"""A real runner in a process of its own, and ways to talk to it and to what it started."""
+
+import contextlib
+import json
+import os
+import re
+import select
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import yaml
+
+APPLICATION = Path(__file__).parents[1] / "fixtures" / "runner" / "application.py"
+LIMIT_S = 30.0
+
+
+def wait_until(condition, what, limit_s=LIMIT_S):
+    """Return the first true value of a condition; fail after a generous time."""
+    deadline = time.monotonic() + limit_s
+    while not (value := condition()):
+        if time.monotonic() > deadline:
+            raise AssertionError(f"not within {limit_s} s: {what}")
+        time.sleep(0.01)
+    return value
+
+
+def is_alive(pid):
+    try:
+        text = Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return False
+    return text[text.rindex(")") + 2] not in "ZX"
+
+
+def can_connect(port):
+    try:
+        socket.create_connection(("127.0.0.1", port), 5).close()
+    except OSError:
+        return False
+    return True
+
+
+class Talk:
+    """One connection that speaks lines."""
+
+    def __init__(self, port, source="127.0.0.1"):
+        self.socket = socket.create_connection(
+            ("127.0.0.1", port), LIMIT_S, source_address=(source, 0)
+        )
+        self.lines = self.socket.makefile("rb")
+
+    def say(self, line):
+        data = line if isinstance(line, bytes) else json.dumps(line).encode() + b"\n"
+        self.socket.sendall(data)
+
+    def hear(self):
+        line = self.lines.readline()
+        assert line.endswith(b"\n"), f"the connection ended: {line!r}"
+        return json.loads(line)
+
+    def ask(self, line):
+        self.say(line)
+        return self.hear()
+
+    def order(self, text):
+        """Let the fixture application do something and return what it says."""
+        self.socket.sendall(text.encode() + b"\n")
+        return self.lines.readline().decode().strip()
+
+    def ended(self):
+        """Wait for the other side to end the connection; what still comes is thrown away."""
+        with contextlib.suppress(ConnectionResetError):
+            while self.socket.recv(65536):
+                pass
+        return True
+
+    def close(self):
+        self.lines.close()
+        self.socket.close()
+
+
+class RunnerProcess:
+    """`up-runner` with a configuration of its own; everything it started ends with `clean`."""
+
+    def __init__(self, folder, **config):
+        self.folder = folder
+        self.config_folder = folder / "config"
+        self.run_folder = folder / "run"
+        self.logs_folder = folder / "logs"
+        (self.config_folder / "blackbox").mkdir(parents=True)
+        self.settings = {
+            "port": 0,
+            "script path": str(APPLICATION),
+            "run folder": str(self.run_folder),
+            "logs folder": str(self.logs_folder),
+            **config,
+        }
+        self.environ = {}
+        self.process = None
+        self.port = None
+        self.pids = set()
+        self._talks = []
+
+    def write(self, name, settings):
+        """Write a file below the configuration folder."""
+        path = self.config_folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(yaml.safe_dump(settings))
+
+    def close_gate(self):
+        """Let every instance wait, before it binds its ports, for the file that is returned."""
+        gate = self.folder / "gate"
+        self.write("blackbox/behaviour.yml", {"waits for": str(gate)})
+        return gate
+
+    def launch(self, *options, under_systemd=True):
+        """Start the program and return at once."""
+        self.write("runner.yml", self.settings)
+        environ = {
+            name: value
+            for name, value in os.environ.items()
+            if name not in ("NOTIFY_SOCKET", "INVOCATION_ID", "UPSTART_JOB", "WATCHDOG_USEC")
+        }
+        if under_systemd:
+            environ["INVOCATION_ID"] = "0" * 32
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "up_runner.main", "--config", str(self.config_folder), *options],
+            env=environ | self.environ,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+        )
+        os.set_blocking(self.process.stderr.fileno(), False)
+        self.said = ""
+        return self
+
+    def start(self, *options, under_systemd=True):
+        """Start the program and wait until it listens."""
+        self.launch(*options, under_systemd=under_systemd)
+        match = wait_until(
+            lambda: re.search(r"listens on port (\d+)", self.output()), "the runner listens"
+        )
+        self.port = int(match[1])
+        return self
+
+    def output(self):
+        """Return all that the program said until now."""
+        while select.select([self.process.stderr], [], [], 0)[0]:
+            data = self.process.stderr.read()
+            if not data:
+                break
+            self.said += data.decode()
+        return self.said
+
+    def says(self, text):
+        """Wait until the program said something."""
+        return wait_until(lambda: text in self.output(), f"the runner says {text!r}")
+
+    def talk(self, port=None, source="127.0.0.1"):
+        talk = Talk(port or self.port, source)
+        self._talks.append(talk)
+        return talk
+
+    def ask(self, **request):
+        """Ask on a connection of its own."""
+        talk = Talk(self.port)
+        try:
+            answer = talk.ask(request)
+        finally:
+            talk.close()
+        if answer["pid"]:
+            self.pids.add(answer["pid"])
+        return answer
+
+    def spawn(self, aircraft="glider-1", **request):
+        """Ask for an instance that must come to run."""
+        answer = self.ask(aircraft=aircraft, **request)
+        assert answer["running"], answer
+        return answer
+
+    def status(self, aircraft="glider-1"):
+        return self.ask(aircraft=aircraft, action="status")
+
+    def kill(self):
+        """End the runner as a crash would."""
+        self.process.kill()
+        self._finish()
+
+    def terminate(self):
+        """Stop the runner as a service manager would; return the exit status."""
+        self.process.terminate()
+        return self._finish()
+
+    def wait(self):
+        """Wait for the end of a runner that ends by itself; return the exit status."""
+        return self._finish()
+
+    def _finish(self):
+        status = self.process.wait(LIMIT_S)
+        self.output()
+        self.process.stderr.close()
+        self.process = None
+        return status
+
+    def log(self, name="glider-1"):
+        return (self.logs_folder / f"{name}.log").read_text()
+
+    def instances(self):
+        """Return the processes that carry this run folder in their environment."""
+        wanted = f"NOTIFY_SOCKET={self.run_folder}/".encode()
+        found = []
+        for entry in Path("/proc").iterdir():
+            if entry.name.isdigit():
+                with contextlib.suppress(OSError):
+                    environ = (entry / "environ").read_bytes().split(b"\0")
+                    if any(word.startswith(wanted) for word in environ):
+                        found.append(int(entry.name))
+        return [pid for pid in found if is_alive(pid)]
+
+    def clean(self):
+        for talk in self._talks:
+            talk.close()
+        if self.process is not None:
+            self.kill()
+        for pid in self.instances():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        wait_until(lambda: not self.instances(), "all instances ended")

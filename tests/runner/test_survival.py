@@ -1,0 +1,242 @@
+"""A runner that ends or dies, and the one that comes after it."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from tests.runner.runners import is_alive, wait_until
+from tests.runner.test_watching import ANY_PORTS, QUICK, restarted
+
+
+@pytest.mark.parametrize("end", ["kill", "terminate"])
+def test_instances_survive_their_runner_and_are_taken_over(runners, end):
+    runner = runners(**QUICK).start()
+    before = [runner.spawn("a"), runner.spawn("b")]
+    getattr(runner, end)()
+    assert all(is_alive(answer["pid"]) for answer in before)
+    runner.start()
+    for answer in before:
+        now = runner.ask(aircraft=answer["instance"])
+        assert now == answer | {"message": "Raspilot already running", "spawned": False}
+    assert sorted(runner.instances()) == sorted(answer["pid"] for answer in before)
+
+
+def test_a_taken_over_instance_is_watched_as_any_other(runners):
+    runner = runners(**QUICK).start()
+    first = runner.spawn()
+    runner.kill()
+    runner.start()
+    os.kill(first["pid"], signal.SIGKILL)
+    second = restarted(runner, first)
+    runner.says("unknown how")
+    runner.kill()
+    runner.start()
+    talk = runner.talk(second["ports"]["general"])
+    talk.order("phone 1")
+    talk.socket.sendall(b"hang\n")
+    restarted(runner, second)
+    runner.says("Raspilot hung")
+
+
+def test_an_instance_that_ended_while_no_runner_watched_is_started_again(runners):
+    runner = runners(**QUICK).start()
+    first = runner.spawn(configuration={"load_guard.yml": {"interval": 3}})
+    runner.kill()
+    os.kill(first["pid"], signal.SIGKILL)
+    wait_until(lambda: not runner.instances(), "it ended")
+    runner.start()
+    second = restarted(runner, first)
+    config = runner.run_folder / "glider-1" / "config" / "load_guard.yml"
+    assert "interval: 3" in config.read_text()
+    assert runner.instances() == [second["pid"]]
+
+
+def test_one_that_ended_for_good_is_not_started_again(runners):
+    runner = runners(**QUICK).start()
+    first = runner.spawn()
+    os.kill(first["pid"], signal.SIGTERM)
+    runner.says("ended: Raspilot ended with exit status 0")
+    runner.kill()
+    runner.start()
+    assert runner.status()["error"] is None and runner.instances() == []
+
+
+def test_the_phones_absence_is_known_to_the_next_runner(runners):
+    runner = runners(**{"exit delay": 1.0}).start()
+    first = runner.spawn()
+    runner.talk(first["ports"]["general"]).order("phone 1")
+    record = runner.run_folder / "glider-1" / "state.json"
+    wait_until(lambda: json.loads(record.read_text())["phone"] is True, "it is written down")
+    runner.kill()
+    runner.start()
+    talk = runner.talk(first["ports"]["general"])
+    talk.order("nap 1.5")
+    assert runner.status()["pid"] == first["pid"]
+    talk.order("phone 0")
+    runner.says("its phone was gone for 1 s")
+
+
+def test_one_that_was_starting_when_its_runner_died_is_taken_over(runners):
+    runner = runners(**QUICK).start()
+    gate = runner.close_gate()
+    runner.talk().say({"aircraft": "glider-1"})
+    (pid,) = wait_until(runner.instances, "it starts")
+    runner.kill()
+    runner.start()
+    assert runner.status()["error"] == "Raspilot is starting"
+    gate.touch()
+    answer = runner.ask(aircraft="glider-1")
+    assert answer["pid"] == pid and answer["spawned"] is False and answer["ports"]
+    assert runner.instances() == [pid]
+
+
+@pytest.mark.parametrize("damage", ["", "{", "[]", '{"version": 1}', None])
+def test_a_lost_or_broken_record_orphans_nobody(runners, damage):
+    runner = runners(**QUICK, **{"start limit": 1.0}).start()
+    first = runner.spawn()
+    runner.kill()
+    record = runner.run_folder / "glider-1" / "state.json"
+    record.unlink() if damage is None else record.write_text(damage)
+    runner.start()
+    # Nothing tells whether it is ready: it is killed when it does not say so again.
+    wait_until(lambda: not is_alive(first["pid"]), "the process without a record ended")
+    wait_until(lambda: runner.status()["error"] is None, "it is forgotten")
+    second = runner.spawn()
+    assert second["spawned"] is True
+    assert runner.instances() == [second["pid"]]
+
+
+def test_a_number_that_was_used_again_is_nobodys(runners):
+    runner = runners(**QUICK).start()
+    first = runner.spawn()
+    runner.kill()
+    os.kill(first["pid"], signal.SIGKILL)
+    wait_until(lambda: not runner.instances(), "it ended")
+    stranger = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(3600)"])
+    try:
+        record = runner.run_folder / "glider-1" / "state.json"
+        state = json.loads(record.read_text())
+        state["process"][0] = stranger.pid
+        record.write_text(json.dumps(state))
+        runner.start()
+        second = restarted(runner, first)
+        assert second["pid"] != stranger.pid and stranger.poll() is None
+        runner.terminate()
+        assert stranger.poll() is None
+    finally:
+        stranger.kill()
+        stranger.wait()
+
+
+def test_a_runner_killed_again_and_again_doubles_nobody(runners):
+    runner = runners(**QUICK).start()
+    first = runner.spawn()
+    for _ in range(5):
+        runner.kill()
+        runner.start()
+    assert runner.spawn()["pid"] == first["pid"]
+    assert runner.instances() == [first["pid"]]
+
+
+def test_killed_at_any_moment_of_a_start_it_doubles_nobody(runners):
+    runner = runners(**QUICK, **{"start limit": 2.0})
+    for delay_s in (0.0, 0.002, 0.004, 0.008, 0.016, 0.032, 0.064):
+        runner.start()
+        runner.talk().say({"aircraft": "glider-1"})
+        time.sleep(delay_s)  # no wait for luck: any moment must do
+        runner.kill()
+        runner.start()
+        answer = runner.ask(aircraft="glider-1")
+        if not answer["running"]:
+            # The runner died before the process could say that it was ready.
+            wait_until(lambda: runner.spawn()["running"], "it runs")
+        assert len(runner.instances()) == 1
+        runner.terminate()
+
+
+def test_under_a_service_manager_the_end_of_the_runner_is_not_theirs(runners):
+    runner = runners().start()
+    first = runner.spawn()
+    assert runner.terminate() == 0
+    assert "leaves its instances running" in runner.said
+    assert is_alive(first["pid"])
+
+
+def test_a_runner_that_a_person_started_takes_its_instances_along(runners):
+    runner = runners().start(under_systemd=False)
+    first = runner.spawn()
+    assert runner.terminate() == 0
+    assert not is_alive(first["pid"])
+    runner.start(under_systemd=False)
+    assert runner.status()["error"] is None
+
+
+def test_stop_instances_on_exit_decides_first(runners):
+    runner = runners(**{"stop instances on exit": True}).start()
+    runner.write("blackbox/behaviour.yml", {"deaf": True})
+    first = runner.spawn()
+    began_s = time.monotonic()
+    assert runner.terminate() == 0
+    assert not is_alive(first["pid"])
+    assert time.monotonic() - began_s < 25
+
+
+def test_a_second_signal_does_not_wait(runners):
+    runner = runners(**{"stop instances on exit": True}).start()
+    runner.write("blackbox/behaviour.yml", {"deaf": True})
+    runner.spawn()
+    runner.process.send_signal(signal.SIGINT)
+    runner.says("stops its instances")
+    runner.process.send_signal(signal.SIGINT)
+    assert runner.wait() == 128 + signal.SIGINT
+
+
+def test_a_second_runner_on_the_same_folder_is_refused(runners):
+    runner = runners().start()
+    first = runner.spawn()
+    second = runners(**{"run folder": str(runner.run_folder)}).launch()
+    assert second.wait() == 1
+    assert second.said.splitlines()[-1] == (
+        f"up-runner: another runner (process {runner.process.pid}) uses the run folder "
+        f"{runner.run_folder}"
+    )
+    assert runner.status()["pid"] == first["pid"]
+
+
+def test_an_aircraft_can_be_started_with_the_runner(runners):
+    runner = runners(
+        mode="flight controller",
+        autostart={"aircraft": "glider-1", "profile": "cub"},
+        **QUICK,
+    )
+    runner.write("android.yml", ANY_PORTS)
+    runner.write("profiles/cub/load_guard.yml", {"interval": 4})
+    runner.start()
+    answer = runner.ask(aircraft="glider-1")
+    assert answer["running"] is True and answer["spawned"] is False
+    folder = runner.run_folder / "glider-1" / "config"
+    assert (folder / "load_guard.yml").read_text() == "interval: 4\n"
+    assert (folder / "android.yml").read_text() == (
+        runner.config_folder / "android.yml"
+    ).read_text()
+    assert not (folder / "runner.yml").exists()
+
+
+def test_an_aircraft_started_with_the_runner_is_tried_for_ever(runners):
+    runner = runners(
+        mode="flight controller",
+        autostart={"aircraft": "glider-1"},
+        restarts={"delay": 0.01, "longest delay": 0.02, "limit": 1},
+    )
+    runner.write("behaviour.yml", {"complaint": "no serial port"})
+    runner.write("android.yml", ANY_PORTS)
+    runner.start()
+    log = runner.logs_folder / "glider-1.log"
+    wait_until(lambda: log.exists() and log.read_text().count("no serial port") > 4, "it is tried")
+    runner.write("behaviour.yml", {})
+    wait_until(lambda: runner.status()["running"], "it runs once it can")

@@ -1,0 +1,235 @@
+"""What a real runner does about instances that end, hang, or lose their phone."""
+
+import os
+import signal
+
+import pytest
+
+from tests.runner.runners import can_connect, is_alive, wait_until
+
+ANY_PORTS = {"general port": 0, "orientation port": 0}
+QUICK = {"restarts": {"delay": 0.05, "limit": 3}}
+
+
+def restarted(runner, old):
+    """Wait until the instance runs as another process and return its answer."""
+
+    def look():
+        answer = runner.status()
+        return answer if answer["running"] and answer["pid"] != old["pid"] else None
+
+    return wait_until(look, "it was started again")
+
+
+def test_a_killed_instance_is_started_again(runners):
+    runner = runners(**QUICK).start()
+    first = runner.spawn()
+    os.kill(first["pid"], signal.SIGKILL)
+    second = restarted(runner, first)
+    assert can_connect(second["ports"]["general"])
+    assert runner.instances() == [second["pid"]]
+    runner.says("Raspilot was ended by SIGKILL; starts again in 0.05 s")
+
+
+def test_an_instance_that_fails_is_started_again(runners):
+    runner = runners(**QUICK).start()
+    first = runner.spawn()
+    runner.talk(first["ports"]["general"]).socket.sendall(b"exit 3\n")
+    restarted(runner, first)
+    runner.says("Raspilot ended with exit status 3")
+
+
+def test_an_instance_that_fails_too_often_is_given_up(runners):
+    runner = runners(**QUICK).start()
+    answer = runner.spawn()
+    for _ in range(3):
+        os.kill(answer["pid"], signal.SIGKILL)
+        answer = restarted(runner, answer)
+    os.kill(answer["pid"], signal.SIGKILL)
+    runner.says("given up after 3 restarts")
+    assert runner.status()["running"] is False and runner.status()["error"] is None
+    assert not (runner.run_folder / "glider-1" / "state.json").exists()
+    assert runner.spawn()["spawned"] is True
+
+
+def test_an_instance_that_cannot_come_back_is_given_up(runners):
+    runner = runners(**QUICK).start()
+    first = runner.spawn()
+    runner.write("blackbox/behaviour.yml", {"complaint": "no good"})
+    os.kill(first["pid"], signal.SIGKILL)
+    runner.says("the last line of its log: no good; given up after 3 restarts")
+    assert runner.instances() == []
+
+
+def test_while_it_waits_to_start_again_askers_hear_why(runners):
+    runner = runners(restarts={"delay": 600, "longest delay": 600}).start()
+    first = runner.spawn()
+    os.kill(first["pid"], signal.SIGKILL)
+    wait_until(lambda: runner.status()["error"], "it waits")
+    assert runner.status()["error"] == "Raspilot is waiting to start again"
+    answer = runner.ask(aircraft="glider-1")
+    assert answer["running"] is False and answer["spawned"] is False
+    assert answer["error"] == "Raspilot was ended by SIGKILL; it is being started again"
+
+
+def test_a_black_box_that_ends_by_itself_stays_ended(runners):
+    runner = runners(**QUICK).start()
+    first = runner.spawn()
+    os.kill(first["pid"], signal.SIGTERM)
+    runner.says("ended: Raspilot ended with exit status 0")
+    assert runner.status()["running"] is False
+    assert runner.spawn()["spawned"] is True
+
+
+def test_a_flight_controller_comes_back_whatever_its_exit_status(runners):
+    runner = runners(mode="flight controller", **QUICK)
+    runner.write("android.yml", ANY_PORTS)
+    first = runner.start().spawn()
+    os.kill(first["pid"], signal.SIGTERM)
+    second = restarted(runner, first)
+    assert runner.talk(second["ports"]["general"]).order("environ UP_MODE") == "flight controller"
+
+
+def test_a_hanging_instance_is_killed_and_started_again(runners):
+    runner = runners(watchdog=1.0, **QUICK).start()
+    first = runner.spawn()
+    runner.talk(first["ports"]["general"]).socket.sendall(b"hang\n")
+    second = restarted(runner, first)
+    assert not is_alive(first["pid"]) and is_alive(second["pid"])
+    runner.says("Raspilot hung: no sign of life for 1 s; it is killed")
+
+
+def test_a_stopped_process_counts_as_hanging(runners):
+    runner = runners(watchdog=1.0, **QUICK).start()
+    first = runner.spawn()
+    os.kill(first["pid"], signal.SIGSTOP)
+    restarted(runner, first)
+
+
+def test_a_runner_that_was_held_itself_kills_nobody(runners):
+    runner = runners(watchdog=0.5, **QUICK).start()
+    first = runner.spawn()
+    log = runner.logs_folder / "glider-1.log"
+    os.kill(runner.process.pid, signal.SIGSTOP)
+    try:
+        # Longer than the watchdog, by the instance's own clock.
+        talk = runner.talk(first["ports"]["general"])
+        for _ in range(30):
+            talk.order("nap 0.05")
+    finally:
+        os.kill(runner.process.pid, signal.SIGCONT)
+    assert runner.status()["pid"] == first["pid"]
+    talk.order("nap 0.6")
+    assert runner.status()["pid"] == first["pid"], log.read_text()
+
+
+def test_the_exit_delay_begins_when_the_phone_goes(runners):
+    runner = runners(**{"exit delay": 1.0}).start()
+    first = runner.spawn()
+    talk = runner.talk(first["ports"]["general"])
+    talk.order("phone 1")
+    talk.order("nap 1.5")
+    assert runner.status()["pid"] == first["pid"]
+    talk.order("phone 0")
+    runner.says("its phone was gone for 1 s (ended with exit status 0)")
+    assert not is_alive(first["pid"])
+    assert not can_connect(first["ports"]["general"])
+    assert not can_connect(first["ports"]["orientation"])
+    assert runner.status()["running"] is False
+    assert "started as glider-1" in runner.log()
+    assert runner.spawn()["spawned"] is True
+
+
+def test_an_instance_whose_phone_never_comes_stops(runners):
+    runner = runners(**{"exit delay": 0.5}).start()
+    runner.spawn()
+    runner.says("its phone was gone for 0.5 s")
+    wait_until(lambda: not runner.instances(), "it ended")
+
+
+def test_one_that_does_not_obey_is_killed_with_its_helpers(runners):
+    runner = runners(**{"exit delay": 1.0}).start()
+    runner.write("blackbox/behaviour.yml", {"deaf": True})
+    first = runner.spawn()
+    talk = runner.talk(first["ports"]["general"])
+    talk.order("phone 1")
+    helper = int(talk.order("helper"))
+    assert is_alive(helper)
+    talk.order("phone 0")
+    runner.says("its phone was gone for 1 s (was ended by SIGKILL)")
+    wait_until(lambda: not is_alive(helper), "its helper ended")
+    assert not can_connect(first["ports"]["general"])
+
+
+def test_a_request_while_it_stops_waits_and_starts_a_new_one(runners):
+    runner = runners(**{"exit delay": 0.5}).start()
+    runner.write("blackbox/behaviour.yml", {"deaf": True})
+    first = runner.spawn()
+    runner.says("stops: its phone was gone")
+    runner.write("blackbox/behaviour.yml", {})
+    second = runner.spawn()
+    assert second["spawned"] is True and second["pid"] != first["pid"]
+    assert not is_alive(first["pid"])
+
+
+@pytest.mark.parametrize("mode", ["flight controller", "auto"])
+def test_a_gone_phone_never_stops_a_flight_controller(runners, mode):
+    runner = runners(mode=mode, **{"exit delay": 0.2})
+    runner.write("android.yml", ANY_PORTS)
+    first = runner.start().spawn()
+    talk = runner.talk(first["ports"]["general"])
+    talk.order("phone 1")
+    talk.order("phone 0")
+    talk.order("nap 1")
+    assert runner.status()["pid"] == first["pid"]
+
+
+def test_exit_on_connection_lost_can_be_switched_off(runners):
+    runner = runners(**{"exit delay": 0.2, "exit on connection lost": False}).start()
+    first = runner.spawn()
+    runner.talk(first["ports"]["general"]).order("nap 1")
+    assert runner.status()["pid"] == first["pid"]
+
+
+def test_the_word_of_another_process_is_not_the_instances(runners):
+    runner = runners().start()
+    first = runner.spawn()
+    talk = runner.talk(first["ports"]["general"])
+    talk.order("phone 1")
+    assert talk.order("stranger X_UP_PORTS=general:1") == "done"
+    assert runner.status()["ports"] == first["ports"]
+
+
+def test_logs_are_bounded_while_the_instance_writes(runners):
+    runner = runners(logs={"size": 10_000, "keep": 2}).start()
+    first = runner.spawn()
+    talk = runner.talk(first["ports"]["general"])
+    log = runner.logs_folder / "glider-1.log"
+    for number in range(4):
+        talk.order("write 12000")
+        wait_until(lambda: log.stat().st_size < 10_000, f"log {number} was moved aside")
+    older = sorted(path.name for path in runner.logs_folder.iterdir())
+    assert older == ["glider-1.log", "glider-1.log.1", "glider-1.log.2"]
+    assert (runner.logs_folder / "glider-1.log.1").stat().st_size == 10_000
+    talk.order("write 10")
+    assert log.read_bytes() == b"x" * 10 + b"\n"
+    assert runner.status()["pid"] == first["pid"]
+
+
+def test_only_the_latest_ended_instances_leave_traces(runners):
+    runner = runners(**{"kept instances": 2, "exit delay": 0}).start()
+    for number in range(5):
+        runner.ask(aircraft=f"plane-{number}")
+        wait_until(lambda: not runner.instances(), "it ended")
+    wait_until(
+        lambda: (
+            sorted(path.name for path in runner.logs_folder.iterdir())
+            == ["plane-3.log", "plane-4.log"]
+        ),
+        "older ones are removed",
+    )
+    assert sorted(path.name for path in runner.run_folder.iterdir()) == [
+        ".lock",
+        "plane-3",
+        "plane-4",
+    ]
