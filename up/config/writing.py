@@ -21,12 +21,18 @@ def write_template(file: ConfigFile[Any], folder: Path) -> bool:
 
     The folder is made. Raises OSError when the disk refuses.
     """
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / file.filename
+    return create_text(Path(folder) / file.filename, file.template())
+
+
+def create_text(path: Path, text: str) -> bool:
+    """Write a text, whole, unless something has its name; tell whether it wrote.
+
+    The folder is made. Raises OSError when the disk refuses.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
     if os.path.lexists(path):
         return False
-    return _create(path, file.template().encode())
+    return _create(path, text.encode())
 
 
 def write_schemas(files: Iterable[ConfigFile[Any]], folder: Path) -> list[Path]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from up.config import items, key
 from up.config.map_file import MapFile
-from up.fields import Constraint
 
 EXTERNAL_MODULES_FILE = "external_modules.yml"
 
@@ -24,6 +24,13 @@ class ModuleEntry:
         """Return the fully qualified name."""
         return f"{self.prefix}.{self.class_name}"
 
+    def problems(self) -> Iterable[tuple[str, str]]:
+        """Yield what keeps the entry from naming a class."""
+        if not self.class_name.isidentifier():
+            yield "class_name", "must be the name of a class"
+        if not all(part.isidentifier() for part in self.prefix.split(".")):
+            yield "prefix", "must be the name of a Python module, like my_cog.modules.my_module"
+
 
 @dataclass(frozen=True, slots=True)
 class CogEntry:
@@ -31,8 +38,8 @@ class CogEntry:
 
     modules: tuple[ModuleEntry, ...] = items(ModuleEntry, "Classes that are loaded.")
     source: Literal["cogfile", "manual"] = key("manual", "Who registered the cog.")
-    recorders: tuple[Any, ...] = items(
-        Constraint(dict), "Of old cogs; recorders became Thread Modules and are ignored."
+    recorders: tuple[ModuleEntry, ...] = items(
+        ModuleEntry, "Of old cogs; recorders became Thread Modules and are ignored."
     )
 
 

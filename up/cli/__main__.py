@@ -1,0 +1,8 @@
+"""Lets ``python -m up.cli`` be the command ``up``."""
+
+import sys
+
+from up.cli.main import main
+
+if __name__ == "__main__":
+    sys.exit(main())

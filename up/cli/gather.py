@@ -1,0 +1,14 @@
+"""``up gather``."""
+
+from __future__ import annotations
+
+import argparse
+
+from up.cli.place import application_of
+from up.cogs.gather import gather
+
+
+def run(values: argparse.Namespace) -> int:
+    """Install and register what the Cogfile asks for."""
+    gather(application_of(values), may_install=not values.no_install)
+    return 0

@@ -1,0 +1,49 @@
+"""The command line ``up``: which verbs there are, and what comes of their errors."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from up.cli.cli_error import CliError
+from up.cli.parser import make_parser
+from up.cogs.cog_error import CogError
+from up.config import ConfigErrors
+from up.loading.application import NoApplicationError
+
+EXIT_OK = 0
+EXIT_FAILED = 1
+EXIT_CONFIG = 2
+EXIT_INTERRUPTED = 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Carry out one command; return the exit status.
+
+    0: done; 1: not done, with one sentence on stderr; 2: mistakes in configuration or arguments.
+    """
+    parser = make_parser()
+    values = parser.parse_args(arguments)
+    if getattr(values, "carry_out", None) is None:
+        (getattr(values, "parser", None) or parser).print_help()
+        return EXIT_FAILED
+    try:
+        status: int = values.carry_out(values)
+    except ConfigErrors as errors:
+        return _fail(str(errors), EXIT_CONFIG)
+    except (CliError, CogError, NoApplicationError) as error:
+        return _fail(str(error), EXIT_FAILED)
+    except BrokenPipeError:
+        # The reader, such as 'head', has seen enough; nothing more can be written.
+        sys.stderr.close()
+        return EXIT_FAILED
+    except OSError as error:
+        return _fail(f"up: {error}", EXIT_FAILED)
+    except KeyboardInterrupt:
+        return _fail("interrupted", EXIT_INTERRUPTED)
+    return status
+
+
+def _fail(text: str, status: int) -> int:
+    print(text, file=sys.stderr)  # noqa: T201 - the user's answer
+    return status

@@ -1,0 +1,22 @@
+"""Which application a verb works on."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from up.cli.cli_error import CliError
+from up.loading.application import UP_FILE, Application
+
+
+def application_of(values: argparse.Namespace) -> Application:
+    """Return the application that ``--file`` or the current folder belongs to.
+
+    Raises NoApplicationError or ConfigErrors, CliError for a ``--file`` that leads nowhere.
+    """
+    start = Path(values.file) if values.file else Path.cwd()
+    if start.name == UP_FILE and start.is_file():
+        start = start.parent
+    if not start.is_dir():
+        raise CliError(f"--file {values.file}: neither an application's folder nor its {UP_FILE}")
+    return Application.find(start)

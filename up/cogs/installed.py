@@ -1,0 +1,99 @@
+"""Whether a cog is installed, and from where the Cogfile wants it."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import json
+import urllib.parse
+from importlib.metadata import Distribution, PackageNotFoundError, distribution
+from pathlib import Path
+from typing import Any
+
+from up.cogs.cogfile import WantedCog
+from up.cogs.source_tree import distribution_name
+
+
+def is_installed(wanted: WantedCog) -> bool:
+    """Return whether the cog can be imported and comes from where the Cogfile says."""
+    importlib.invalidate_caches()
+    if _package_folder(wanted.cog) is None:
+        return False
+    if wanted.folder is not None:
+        return _is_from_folder(wanted.cog, wanted.folder)
+    found = _distribution_of(wanted.cog, wanted.spec.pypi)
+    if found is None:
+        return False
+    if wanted.spec.url:
+        return _is_from_git(found, wanted.spec.url, wanted.spec.revision)
+    return not wanted.spec.version or _same(found.version, wanted.spec.version)
+
+
+def _is_from_folder(cog: str, folder: Path) -> bool:
+    name = distribution_name(folder)
+    found = _distribution_of(cog, name)
+    if found is None:
+        return False
+    package = _package_folder(cog)
+    if package is not None and package.is_relative_to(folder):
+        return True
+    address = urllib.parse.urlsplit(str(_direct_url(found).get("url", "")))
+    return address.scheme == "file" and Path(urllib.parse.unquote(address.path)) == folder
+
+
+def _is_from_git(found: Distribution, url: str, revision: str) -> bool:
+    origin = _direct_url(found)
+    details = origin.get("vcs_info")
+    if not isinstance(details, dict) or origin.get("url") != url.removeprefix("git+"):
+        return False
+    commit = str(details.get("commit_id", ""))
+    return not revision or details.get("requested_revision") == revision or commit == revision
+
+
+def _package_folder(cog: str) -> Path | None:
+    try:
+        spec = importlib.util.find_spec(cog)
+    except (ImportError, ValueError):
+        return None
+    if spec is None or spec.origin is None:
+        return None
+    return Path(spec.origin).resolve().parent
+
+
+def _distribution_of(cog: str, name: str) -> Distribution | None:
+    """Return the distribution of that name, or the one that says it brings the package."""
+    for each in (name, cog, f"raspilot-{cog}"):
+        try:
+            return distribution(each)
+        except (PackageNotFoundError, ValueError):
+            continue
+    return _bringing(cog)
+
+
+def _bringing(cog: str) -> Distribution | None:
+    from importlib.metadata import distributions
+
+    for each in distributions():
+        if cog in (each.read_text("top_level.txt") or "").split():
+            return each
+    return None
+
+
+def _direct_url(found: Distribution) -> dict[str, Any]:
+    """Return where pip took the distribution from (PEP 610); nothing for the index."""
+    try:
+        origin = json.loads(found.read_text("direct_url.json") or "{}")
+    except ValueError:
+        return {}
+    return origin if isinstance(origin, dict) else {}
+
+
+def _same(version: str, wanted: str) -> bool:
+    return _plain(version) == _plain(wanted)
+
+
+def _plain(version: str) -> str:
+    text = version.lower()
+    while text.endswith(".0"):
+        text = text[:-2]
+    return text

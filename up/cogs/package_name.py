@@ -1,0 +1,16 @@
+"""What a cog is called."""
+
+from __future__ import annotations
+
+from up.cogs.cog_error import CogError
+
+
+def package_name(label: str) -> str:
+    """Return the Python package that a cog's label means: ``android-cog`` is ``android_cog``.
+
+    Raises CogError when no package can have that name.
+    """
+    name = label.strip().replace("-", "_")
+    if not name.isidentifier():
+        raise CogError(f'"{label}" is no name of a cog: a cog is called like its Python package')
+    return name

@@ -1,0 +1,132 @@
+"""One call of pip that installs all missing cogs into this interpreter's environment."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import subprocess
+import sys
+import sysconfig
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from up.cogs.cog_error import CogError
+from up.cogs.cogfile import WantedCog
+from up.cogs.say import Say
+from up.cogs.source_tree import distribution_name, neighbours, normal_name
+
+FRAMEWORK = "raspilot"
+_SHOWN_LINES = 12
+
+
+def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], tell: Say) -> None:
+    """Install cogs; raises CogError with pip's last lines and one sentence.
+
+    ``in_tree`` are all the path cogs of the Cogfile: their names, and those of the folders beside
+    them, are never fetched from the index, whoever depends on them.
+    """
+    check_environment()
+    explicit = {each.folder for each in missing if each.folder is not None}
+    with tempfile.TemporaryDirectory(prefix="up-gather-") as scratch:
+        constraints = Path(scratch, "constraints.txt")
+        constraints.write_text(_constraints(in_tree, explicit), encoding="utf-8")
+        command = [sys.executable, "-m", "pip", "install", "--no-input", "--progress-bar", "off"]
+        command += ["--disable-pip-version-check", "--use-pep517", "--constraint", str(constraints)]
+        if _can_build():
+            command.append("--no-build-isolation")
+        for each in missing:
+            command += _arguments(each)
+        run_pip(command, tell)
+
+
+def run_pip(command: Sequence[str], tell: Say) -> None:
+    """Run a pip command; raises CogError with its last lines and one sentence."""
+    environ = {**os.environ, "PIP_NO_COLOR": "1", "GIT_TERMINAL_PROMPT": "0"}
+    try:
+        done = subprocess.run(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            env=environ,
+            check=False,
+        )
+    except OSError as error:
+        raise CogError(f"pip cannot be run: {error}") from error
+    if done.returncode != 0:
+        for line in done.stdout.rstrip().splitlines()[-_SHOWN_LINES:]:
+            tell(f"  pip: {line}")
+        raise CogError(f"pip could not install what is missing (exit status {done.returncode})")
+
+
+def check_environment() -> None:
+    """Raise CogError where nothing can be installed into this interpreter's environment."""
+    place = Path(sysconfig.get_path("purelib"))
+    if sys.prefix == sys.base_prefix:
+        marker = Path(sysconfig.get_path("stdlib"), "EXTERNALLY-MANAGED")
+        if marker.exists():
+            raise CogError(
+                "this Python belongs to the operating system, which does not let pip change it:"
+                " make a virtual environment (python3 -m venv) and run 'up' from there"
+            )
+    if not os.access(place, os.W_OK):
+        raise CogError(
+            f"{place} cannot be written: run 'up gather' as the owner of that environment"
+        )
+    try:
+        importlib.metadata.distribution(FRAMEWORK)
+    except importlib.metadata.PackageNotFoundError:
+        raise CogError(
+            f"Up itself is not installed in {sys.prefix}, and pip would look for it on the"
+            " package index: install it first, with 'pip install -e .' in its folder"
+        ) from None
+
+
+def _arguments(wanted: WantedCog) -> list[str]:
+    if wanted.folder is not None:
+        return ["--editable", str(wanted.folder)]
+    if wanted.spec.url:
+        address = "git+" + wanted.spec.url.removeprefix("git+")
+        return [f"{address}@{wanted.spec.revision}" if wanted.spec.revision else address]
+    version = f"=={wanted.spec.version}" if wanted.spec.version else ""
+    return [f"{wanted.spec.pypi}{version}"]
+
+
+def _constraints(in_tree: Sequence[WantedCog], explicit: set[Path]) -> str:
+    """Return pip constraints that bind every name of the tree to its folder."""
+    known: dict[str, Path] = {}
+    for each in in_tree:
+        if each.folder is not None:
+            known.update(neighbours(each.folder))
+    framework = Path(__file__).resolve().parents[2] / "cogs"
+    if framework.is_dir():
+        known.update(neighbours(framework / "_"))
+    given = {normal_name(distribution_name(folder)) for folder in explicit}
+    lines = [
+        f"{name} @ {folder.as_uri()}"
+        for name, folder in sorted(known.items())
+        if name not in given and not _is_there(name)
+    ]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _is_there(name: str) -> bool:
+    try:
+        importlib.metadata.distribution(name)
+    except importlib.metadata.PackageNotFoundError:
+        return False
+    return True
+
+
+def _can_build() -> bool:
+    """Return whether setuptools is here to build with, so that no network is needed for it."""
+    try:
+        version = importlib.metadata.version("setuptools")
+    except importlib.metadata.PackageNotFoundError:
+        return False
+    numbers = [int(part) for part in version.split(".")[:2] if part.isdigit()]
+    # Before 70.1 setuptools left the making of wheels to another distribution.
+    return numbers >= [70, 1] or _is_there("wheel")

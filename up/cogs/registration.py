@@ -1,0 +1,101 @@
+"""Finds the Registrant of a cog and lets it do its work."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import importlib.util
+import inspect
+from typing import Any
+
+from up.cogs.cog_error import CogError
+from up.cogs.registry import Registry, Source
+from up.cogs.say import Say, say
+from up.cogs.up_registrant import UpRegistrant
+from up.config import ConfigErrors
+from up.loading.application import Application
+from up.registrar import UpRegistrar
+
+REGISTRANT_MODULE = "registrar"
+REGISTRANT_CLASSES = ("Registrant", "Registrar")
+
+
+def register(cog: str, application: Application, source: Source, tell: Say = say) -> None:
+    """Register an installed cog with an application.
+
+    Raises CogError with one sentence or ConfigErrors with the places of the mistakes.
+    """
+    found = find_registrant(cog)
+    try:
+        if issubclass(found, UpRegistrant):
+            registrant = found(tell)
+            _check_importable(registrant, application)
+            registrant.register(application, source)
+        else:
+            _register_old(found, cog, application, source, tell)
+    except (CogError, ConfigErrors):
+        raise
+    except OSError as error:
+        raise CogError(f"the cog {cog} cannot be registered: {error}") from error
+    except Exception as error:
+        raise CogError(
+            f"the Registrant of the cog {cog} failed: {type(error).__name__}: {error}"
+        ) from error
+
+
+def unregister(cog: str, application: Application, tell: Say = say) -> bool:
+    """Take a cog out of an application, installed or not; tell whether it was in."""
+    changed = Registry(application.root).remove(cog)
+    tell(f"{cog}: {'unregistered' if changed else 'was not registered'}")
+    return changed
+
+
+def find_registrant(cog: str) -> type[Any]:
+    """Return the Registrant class of an installed cog; raises CogError."""
+    name = f"{cog}.{REGISTRANT_MODULE}"
+    try:
+        module = importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name == cog:
+            raise CogError(
+                f"no cog {cog} is installed: list it in Cogfile.yml and run 'up gather'"
+            ) from None
+        if error.name == name:
+            raise CogError(f"{cog} is no cog: it has no {REGISTRANT_MODULE}.py") from None
+        raise CogError(f"{name} cannot be imported: {error}") from error
+    except Exception as error:
+        raise CogError(f"{name} cannot be imported: {type(error).__name__}: {error}") from error
+    for wanted in REGISTRANT_CLASSES:
+        found = getattr(module, wanted, None)
+        if inspect.isclass(found) and issubclass(found, UpRegistrant | UpRegistrar):
+            return found
+    raise CogError(f"{name} has no class Registrant that extends UpRegistrant")
+
+
+def _check_importable(registrant: UpRegistrant, application: Application) -> None:
+    """Refuse a manifest that would stop the boot; what is registered already was checked."""
+    modules = registrant.manifest.modules
+    known = Registry(application.root).entries().get(registrant.cog_name)
+    if known is not None and known.modules == modules:
+        return
+    for each in modules:
+        try:
+            getattr(importlib.import_module(each.prefix), each.class_name)
+        except Exception as error:
+            raise CogError(
+                f"the cog {registrant.cog_name} lists {each.path}, which cannot be imported:"
+                f" {type(error).__name__}: {error}"
+            ) from error
+
+
+def _register_old(
+    found: type[Any], cog: str, application: Application, source: Source, tell: Say
+) -> None:
+    # Old Registrars look for the application where they are run.
+    with contextlib.chdir(application.root):
+        registrar = found()
+        registrar.source = source
+        if registrar.register() is False:
+            raise CogError(f"the Registrar of the cog {cog} says that it failed")
+    changed = registrar.finish()
+    tell(f"{cog}: {'registered' if changed else 'is registered'}")

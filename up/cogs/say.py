@@ -1,0 +1,12 @@
+"""How the utilities tell what they do: one line each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+Say = Callable[[str], None]
+
+
+def say(text: str) -> None:
+    """Show a line to the user."""
+    print(text, flush=True)  # noqa: T201 - the utilities talk to a person

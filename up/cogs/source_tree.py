@@ -1,0 +1,53 @@
+"""What a source folder says of its distribution, read without running it."""
+
+from __future__ import annotations
+
+import ast
+import tomllib
+from pathlib import Path
+
+
+def distribution_name(folder: Path) -> str:
+    """Return the name of the distribution that a folder builds; empty where it is not plain."""
+    return _name_in_project(folder / "pyproject.toml") or _name_in_setup(folder / "setup.py")
+
+
+def normal_name(name: str) -> str:
+    """Return a distribution's name as every tool compares it: lower case, single dashes."""
+    return "-".join(part for part in name.lower().replace("_", "-").replace(".", "-").split("-"))
+
+
+def neighbours(folder: Path) -> dict[str, Path]:
+    """Return the distributions of a folder and of those beside it, by normal name."""
+    found: dict[str, Path] = {}
+    for each in sorted(folder.parent.iterdir()):
+        name = distribution_name(each) if each.is_dir() else ""
+        if name:
+            found[normal_name(name)] = each
+    return found
+
+
+def _name_in_project(path: Path) -> str:
+    try:
+        project = tomllib.loads(path.read_text(encoding="utf-8")).get("project", {})
+    except (OSError, ValueError):
+        return ""
+    return str(project.get("name", "")) if isinstance(project, dict) else ""
+
+
+def _name_in_setup(path: Path) -> str:
+    try:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, SyntaxError):
+        return ""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and _is_setup(node.func):
+            for each in node.keywords:
+                if each.arg == "name" and isinstance(each.value, ast.Constant):
+                    return str(each.value.value)
+    return ""
+
+
+def _is_setup(function: ast.expr) -> bool:
+    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+    return name == "setup"

@@ -1,0 +1,75 @@
+"""The base of every cog's Registrant (thesis 4.3.2)."""
+
+from __future__ import annotations
+
+import inspect
+from pathlib import Path
+from typing import Any, ClassVar
+
+from up.cogs.manifest import MANIFEST_FILE, Manifest, load_manifest
+from up.cogs.registry import Registry, Source
+from up.cogs.say import Say, say
+from up.config import ConfigFile, write_template
+from up.loading.application import Application
+
+
+class UpRegistrant:
+    """Integrates a cog into an application; extend it as ``Registrant`` in ``registrar.py``.
+
+    It enters the modules that ``registered_modules.yml`` lists into the application's
+    ``external_modules.yml`` and creates the configuration files that the cog reads.
+    ``CONFIG_FILES`` names them; one that is there already is never touched. Override
+    ``prepare`` for anything else that the cog wants to find, such as data files.
+    """
+
+    CONFIG_FILES: ClassVar[tuple[ConfigFile[Any], ...]] = ()
+
+    def __init__(self, tell: Say = say) -> None:
+        self.tell = tell
+
+    @property
+    def cog_name(self) -> str:
+        """Return the cog's package, the one that ``registrar.py`` lies in."""
+        return type(self).__module__.rpartition(".")[0]
+
+    @property
+    def folder(self) -> Path:
+        """Return the folder of the cog's package."""
+        return Path(inspect.getfile(type(self))).resolve().parent
+
+    @property
+    def manifest(self) -> Manifest:
+        """Return what the cog wants to have loaded; raises CogError or ConfigErrors."""
+        return load_manifest(self.folder, self.cog_name)
+
+    def register(self, application: Application, source: Source = "manual") -> bool:
+        """Integrate the cog; tell whether it was not before.
+
+        Raises CogError or ConfigErrors for what a user can mend, OSError when the disk refuses.
+        """
+        manifest = self.manifest
+        if manifest.recorders:
+            self.tell(
+                f"{self.cog_name}: {MANIFEST_FILE} lists recorders; they are ignored, make them"
+                " Thread Modules"
+            )
+        changed = Registry(application.root).add(self.cog_name, manifest.modules, source)
+        self.tell(f"{self.cog_name}: {'registered' if changed else 'is registered'}")
+        self.create_configuration(application)
+        self.prepare(application)
+        return changed
+
+    def unregister(self, application: Application) -> bool:
+        """Take the cog out; tell whether it was in. Its configuration stays: it is the user's."""
+        changed = Registry(application.root).remove(self.cog_name)
+        self.tell(f"{self.cog_name}: {'unregistered' if changed else 'was not registered'}")
+        return changed
+
+    def create_configuration(self, application: Application) -> None:
+        """Create the cog's configuration files that are not there."""
+        for file in self.CONFIG_FILES:
+            if write_template(file, application.config_folder):
+                self.tell(f"{self.cog_name}: created {application.config_folder / file.filename}")
+
+    def prepare(self, application: Application) -> None:
+        """Create whatever else the cog needs."""
