@@ -2,10 +2,8 @@
 
 import secrets
 from collections.abc import Callable
-from typing import Protocol
 
 from up_proxy.connection import Connection, Owner
-from up_proxy.control import PREFIX
 from up_proxy.fleet import Fleet
 from up_proxy.hello import (
     CODES,
@@ -24,69 +22,14 @@ from up_proxy.hello import (
     ok_line,
     parse_hello,
 )
+from up_proxy.leaving import Leaving
 from up_proxy.poller import Poller
-
-LEAVE_S = 2.0
-"""A refused connection has this long to read why."""
+from up_proxy.silent import Silent
 
 
 def new_token() -> str:
     """Return a resume token that nobody guesses."""
     return secrets.token_hex(16)
-
-
-class Leaving:
-    """Owns refused connections: hears nothing more from them."""
-
-    def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Ignore them."""
-
-    def on_half_line(self, connection: Connection) -> None:
-        """Ignore it."""
-        connection.half = None
-
-    def on_drained(self, connection: Connection) -> None:
-        """Nothing follows."""
-
-    def on_end(self, connection: Connection, reason: str) -> None:
-        """Nothing was held."""
-
-
-class Seated(Owner, Protocol):
-    """An owner in whose hands a connection stays."""
-
-
-class Silent:
-    """Owns a connection that was taken for a thesis client because it said nothing.
-
-    A hello that the network delayed past the silence is still heard: it is then the first thing
-    that the connection says.
-    """
-
-    def __init__(self, seated: Seated, opening: "Opening") -> None:
-        self._seated = seated
-        self._opening = opening
-
-    def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Go on as what the first line shows."""
-        if lines.startswith(PREFIX):
-            self._seated.on_end(connection, "said hello late")
-            self._opening.begin(connection)
-            self._opening.on_lines(connection, lines)
-        else:
-            connection.owner = self._seated
-            self._seated.on_lines(connection, lines)
-
-    def on_half_line(self, connection: Connection) -> None:
-        """Wait for the rest of the line."""
-
-    def on_drained(self, connection: Connection) -> None:
-        """Pass it on."""
-        self._seated.on_drained(connection)
-
-    def on_end(self, connection: Connection, reason: str) -> None:
-        """Pass it on."""
-        self._seated.on_end(connection, reason)
 
 
 class Opening:
@@ -105,7 +48,6 @@ class Opening:
         self._draw_token = draw_token
         self._leaving = Leaving()
         self._since_s: dict[Connection, float] = {}
-        self._left_s: dict[Connection, float] = {}
         self.refused = dict.fromkeys(CODES, 0)
 
     def begin(self, connection: Connection) -> None:
@@ -161,17 +103,11 @@ class Opening:
                 self._refuse(
                     connection, HelloError(MALFORMED, f"no hello within {HELLO_TIMEOUT_S:g} s")
                 )
-        for connection, left_s in list(self._left_s.items()):
-            if connection.failure is not None:
-                del self._left_s[connection]
-            elif now_s - left_s >= LEAVE_S:
-                connection.fail("refused")
+        self._leaving.sweep(now_s)
 
     def _refuse(self, connection: Connection, error: HelloError) -> None:
         self.refused[error.code] += 1
-        connection.owner = self._leaving
-        connection.half = None
-        self._left_s[connection] = self._poller.now_s
+        self._leaving.begin(connection, self._poller.now_s)
         connection.refuse(error_line(error), error.reason)
 
     def _admit(self, connection: Connection, hello: Hello) -> None:
@@ -203,7 +139,7 @@ class Opening:
     def _admit_thesis(self, connection: Connection, silent: bool) -> None:
         try:
             party = self._fleet.party(THESIS_AIRCRAFT)
-            seated: Seated
+            seated: Owner
             if self._side is Side.AIRBORNE:
                 if not party.aircraft.air_seat.is_free(self._poller.now_s):
                     raise HelloError(TAKEN, "an aircraft of this name is connected")
@@ -217,7 +153,7 @@ class Opening:
         except HelloError as error:
             # A thesis client would take an error line for a broken message: it gets none.
             self.refused[error.code] += 1
-            connection.owner = self._leaving
+            self._leaving.begin(connection, self._poller.now_s)
             connection.fail(error.reason)
             return
         connection.owner = Silent(seated, self) if silent else seated

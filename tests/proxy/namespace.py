@@ -1,0 +1,76 @@
+"""A network of one's own, where packets vanish and addresses are public: needs root."""
+
+import os
+import shutil
+import subprocess
+from contextlib import contextmanager
+
+NAMESPACE = f"up-proxy-{os.getpid()}"
+HERE, THERE = "10.217.31.1", "10.217.31.2"
+
+
+def run(*command):
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def must(*command):
+    done = run(*command)
+    assert done.returncode == 0, f"{command}: {done.stderr}"
+    return done.stdout
+
+
+def may_make_namespaces():
+    if os.geteuid() != 0 or not (shutil.which("ip") and shutil.which("nft")):
+        return False
+    made = run("ip", "netns", "add", f"{NAMESPACE}-probe").returncode == 0
+    run("ip", "netns", "del", f"{NAMESPACE}-probe")
+    return made
+
+
+@contextmanager
+def network():
+    """A namespace behind a veth pair; yields the prefix of a command that runs inside."""
+    link, peer = f"upx{os.getpid() % 100000}", f"upy{os.getpid() % 100000}"
+    try:
+        must("ip", "netns", "add", NAMESPACE)
+        must("ip", "link", "add", link, "type", "veth", "peer", "name", peer)
+        must("ip", "link", "set", peer, "netns", NAMESPACE)
+        must("ip", "addr", "add", f"{HERE}/24", "dev", link)
+        must("ip", "link", "set", link, "up")
+        inside = ("ip", "netns", "exec", NAMESPACE)
+        must(*inside, "ip", "addr", "add", f"{THERE}/24", "dev", peer)
+        must(*inside, "ip", "link", "set", peer, "up")
+        must(*inside, "ip", "link", "set", "lo", "up")
+        yield inside
+    finally:
+        run("ip", "link", "del", link)
+        run("ip", "netns", "del", NAMESPACE)
+
+
+def blackhole(inside):
+    """Swallow every packet between the namespace and the world."""
+    must(*inside, "nft", "add", "table", "inet", "hole")
+    for hook, way in (("input", "iifname"), ("output", "oifname")):
+        chain = f"{{ type filter hook {hook} priority 0; policy accept; }}"
+        must(*inside, "nft", "add", "chain", "inet", "hole", hook, chain)
+        must(*inside, "nft", "add", "rule", "inet", "hole", hook, way, "!=", "lo", "drop")
+
+
+def light(inside):
+    """Let packets through again."""
+    must(*inside, "nft", "delete", "table", "inet", "hole")
+
+
+def python(inside, program):
+    """Run a small program inside and return what it wrote."""
+    return must(*inside, "python3", "-c", program)
+
+
+def page(inside, port):
+    """Return the metrics page of a proxy inside."""
+    return python(
+        inside,
+        "import sys, urllib.request; "
+        f"sys.stdout.write(urllib.request.urlopen('http://127.0.0.1:{port}/metrics')"
+        ".read().decode())",
+    )

@@ -1,0 +1,193 @@
+"""Peers that idle, flood, stall and lie, beside a pair that must not notice."""
+
+import random
+import socket
+import threading
+
+import pytest
+
+from tests.proxy.program import Client, Program, accepted, until
+from tests.proxy.test_metrics import scrape, value
+from up_proxy.hello import HelloError, Side, parse_hello
+
+LIMITS = "limits:\n  connections per side: 1500\n  connections per address: 1500\n"
+GROWTH_BYTES = 24_000_000
+
+
+@pytest.fixture
+def proxy(tmp_path):
+    with Program(tmp_path, LIMITS) as proxy:
+        yield proxy
+        assert proxy.end() == 0
+    assert "Traceback" not in proxy.log
+
+
+class GoodPair:
+    """An aircraft and its ground that relay to and fro; every line must come, in order."""
+
+    def __init__(self, proxy):
+        self.air, _ = accepted(proxy.airborne_port, "UP1 aircraft=good\n")
+        self.ground, _ = accepted(proxy.ground_port, "UP1 aircraft=good seat=command\n")
+        self.count = 0
+
+    def round_trips(self, number):
+        for _ in range(number):
+            self.count += 1
+            self.air.say(f"telemetry {self.count}\n")
+            assert self.ground.expect("telemetry") == f"telemetry {self.count}\n"
+            self.ground.say(f"command {self.count}\n")
+            assert self.air.expect("command") == f"command {self.count}\n"
+
+    def close(self):
+        self.air.close()
+        self.ground.close()
+
+
+@pytest.fixture
+def pair(proxy):
+    pair = GoodPair(proxy)
+    yield pair
+    pair.close()
+
+
+def test_a_thousand_idle_sockets(proxy, pair):
+    before = proxy.rss_bytes()
+    idle = [socket.create_connection(("127.0.0.1", proxy.ground_port)) for _ in range(500)]
+    idle += [socket.create_connection(("127.0.0.1", proxy.airborne_port)) for _ in range(500)]
+    pair.round_trips(100)
+    assert proxy.rss_bytes() - before < GROWTH_BYTES
+
+    def all_gone():
+        pair.round_trips(1)
+        page = scrape(proxy)
+        sides = ("airborne", "ground")
+        return all(value(page, f'up_proxy_connections{{side="{side}"}}') == 1 for side in sides)
+
+    until(all_gone, "the end of every idle socket", deadline_s=60)
+    for each in idle:
+        each.close()
+
+
+@pytest.mark.parametrize("start", [b"", b"{", b"UP1 aircraft=liar\n", b"UP1 aircraft=good\n"])
+@pytest.mark.parametrize("side", ["airborne", "ground"])
+def test_a_line_of_a_gigabyte(proxy, pair, side, start):
+    before = proxy.rss_bytes()
+    port = proxy.airborne_port if side == "airborne" else proxy.ground_port
+    sent = 0
+    with socket.create_connection(("127.0.0.1", port)) as peer:
+        peer.settimeout(30)
+        chunk = b"x" * 1_000_000
+        try:
+            peer.sendall(start)
+            while sent < 1_000_000_000:
+                peer.sendall(chunk)
+                sent += len(chunk)
+        except ConnectionError:
+            pass
+    assert sent < 1_000_000_000
+    pair.round_trips(10)
+    assert proxy.rss_bytes() - before < GROWTH_BYTES
+
+
+def test_readers_that_stall(proxy, pair):
+    stalled = [accepted(proxy.ground_port, "UP1 aircraft=good seat=listen\n")[0] for _ in range(20)]
+    before = proxy.rss_bytes()
+    line = "x" * 1000 + "\n"
+    for _ in range(300):
+        for _ in range(50):
+            pair.air.say(line)
+        for _ in range(50):
+            pair.ground.expect("xxx")
+        pair.round_trips(1)
+    assert value(scrape(proxy), "up_proxy_dropped_lines_total") > 0
+    assert proxy.rss_bytes() - before < GROWTH_BYTES
+    for client in stalled:
+        client.close()
+
+
+def test_listeners_that_flood(proxy, pair):
+    stop = threading.Event()
+
+    def flood():
+        client, _ = accepted(proxy.ground_port, "UP1 aircraft=good seat=command\n")
+        data = (b"UP1 seat request\n" + b"x" * 999 + b"\n") * 50
+        while not stop.is_set():
+            client.say(data)
+        client.close()
+
+    floods = [threading.Thread(target=flood) for _ in range(3)]
+    for each in floods:
+        each.start()
+    try:
+        pair.round_trips(200)
+    finally:
+        stop.set()
+        for each in floods:
+            each.join()
+    assert value(scrape(proxy), "up_proxy_unheard_lines_total") > 0
+
+
+SEEDS = (
+    b"UP1 aircraft=good seat=command token=00112233445566778899aabbccddeeff\n",
+    b"UP1 aircraft=good\n",
+    b"UP1 aircraft=other seat=listen x=1\nUP1 seat request\n",
+    b'{"name": "up.arm", "data": {}}\n',
+)
+
+
+def mutated(chance):
+    line = bytearray(chance.choice(SEEDS))
+    for _ in range(chance.randrange(1, 6)):
+        where = chance.randrange(len(line) + 1)
+        what = chance.randrange(4)
+        if what == 0:
+            line[where:where] = chance.randbytes(chance.choice((1, 2, 8, 600)))
+        elif what == 1:
+            del line[where : where + chance.randrange(1, 9)]
+        elif what == 2 and where < len(line):
+            line[where] ^= 1 << chance.randrange(8)
+        else:
+            line[where:where] = chance.choice((b"\n", b" ", b"=", b"UP1 ", b"token=", b"\0"))
+    return bytes(line)
+
+
+def test_a_hundred_thousand_mutated_hellos():
+    chance = random.Random(2026)
+    understood = 0
+    for _ in range(100_000):
+        line = mutated(chance).partition(b"\n")[0] + b"\n"
+        for side in Side:
+            try:
+                parse_hello(line, side)
+                understood += 1
+            except HelloError as error:
+                assert error.code == "malformed"
+    assert 0 < understood < 200_000
+
+
+def test_mutated_hellos_over_real_sockets(proxy, pair):
+    chance = random.Random(7)
+    for number in range(3000):
+        with socket.create_connection(("127.0.0.1", proxy.ground_port)) as peer:
+            peer.sendall(mutated(chance))
+            if number % 3 == 0:
+                peer.shutdown(socket.SHUT_WR)
+        if number % 100 == 0:
+            pair.round_trips(1)
+    pair.round_trips(10)
+
+
+def test_public_peers_and_limits_are_judged_at_the_door(tmp_path):
+    with Program(tmp_path, "limits:\n  connections per address: 2\n") as proxy:
+        clients = [Client(proxy.ground_port) for _ in range(2)]
+        with Client(proxy.ground_port) as third:
+            assert third.line().startswith("UP1 error code=full ")
+            assert third.line() == ""
+        clients.pop().close()
+
+        def admitted():
+            with Client(proxy.ground_port, "UP1 aircraft=a seat=listen\n") as client:
+                return client.line().startswith("UP1 ok")
+
+        until(admitted, "room after one has left")
+        clients.pop().close()

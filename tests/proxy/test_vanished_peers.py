@@ -1,0 +1,106 @@
+"""Peers that vanish without a word: a network that swallows every packet."""
+
+import subprocess
+import time
+
+import pytest
+
+from tests.proxy.namespace import (
+    THERE,
+    blackhole,
+    light,
+    may_make_namespaces,
+    network,
+)
+from tests.proxy.program import Client, Program, until
+from tests.proxy.test_metrics import value
+
+pytestmark = pytest.mark.skipif(
+    not may_make_namespaces(), reason="needs root, ip and nft for a network namespace"
+)
+
+
+@pytest.fixture
+def proxy(tmp_path):
+    with network() as inside, Program(tmp_path, prefix=inside) as proxy:
+        proxy.inside = inside
+        yield proxy
+
+
+def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
+    air, token = accepted_at(proxy.airborne_port, "UP1 aircraft=a\n")
+    ground, _ = accepted_at(proxy.ground_port, "UP1 aircraft=a seat=command\n")
+    assert (
+        value(page(proxy.inside, proxy.metrics_port), 'up_proxy_aircraft_online{aircraft="a"}') == 1
+    )
+    blackhole(proxy.inside)
+    begin_s = time.monotonic()
+    until(
+        lambda: (
+            value(page(proxy.inside, proxy.metrics_port), 'up_proxy_aircraft_online{aircraft="a"}')
+            == 0
+        ),
+        "offline",
+    )
+    until(
+        lambda: (
+            value(
+                page(proxy.inside, proxy.metrics_port), 'up_proxy_aircraft_commanded{aircraft="a"}'
+            )
+            == 0
+        ),
+        "no holder",
+    )
+    assert time.monotonic() - begin_s > 2
+    light(proxy.inside)
+    # Half-open: neither old connection has ended, the new ones take their places.
+    successor, _ = accepted_at(proxy.ground_port, "UP1 aircraft=a seat=command\n")
+    again, same = accepted_at(proxy.airborne_port, f"UP1 aircraft=a token={token}\n")
+    assert same == token
+    again.say("telemetry\n")
+    successor.expect("telemetry")
+    successor.say("command\n")
+    assert again.expect("command") == "command\n"
+    for client in (air, ground, again, successor):
+        client.close()
+
+
+def test_what_is_sent_to_a_vanished_peer_ends_its_connection(proxy):
+    listener, _ = accepted_at(proxy.ground_port, "UP1 aircraft=local seat=listen\n")
+    connections = 'up_proxy_connections{side="ground"}'
+    assert value(page(proxy.inside, proxy.metrics_port), connections) == 1
+    feeder = subprocess.Popen(
+        [
+            *proxy.inside, "python3", "-c",
+            "import socket, time\n"
+            f"air = socket.create_connection(('127.0.0.1', {proxy.airborne_port}))\n"
+            "air.sendall(b'UP1 aircraft=local\\n')\n"
+            "while True:\n"
+            "    air.sendall(b'telemetry\\n')\n"
+            "    time.sleep(0.05)\n",
+        ]
+    )  # fmt: skip
+    try:
+        listener.expect("telemetry")
+        blackhole(proxy.inside)
+        until(
+            lambda: value(page(proxy.inside, proxy.metrics_port), connections) == 0,
+            "the end of the listener",
+        )
+        assert (
+            value(
+                page(proxy.inside, proxy.metrics_port), 'up_proxy_idle_closed_total{side="ground"}'
+            )
+            == 0
+        )
+    finally:
+        feeder.kill()
+        feeder.wait()
+        listener.close()
+
+
+def accepted_at(port, hello):
+    client = Client(port, hello, THERE)
+    answer = client.line()
+    assert answer.startswith("UP1 ok "), answer
+    return client, answer.split("token=")[1].strip()
