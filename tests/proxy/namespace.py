@@ -5,6 +5,8 @@ import shutil
 import subprocess
 from contextlib import contextmanager
 
+from tests.proxy.test_metrics import value
+
 NAMESPACE = f"up-proxy-{os.getpid()}"
 HERE, THERE = "10.217.31.1", "10.217.31.2"
 
@@ -66,11 +68,8 @@ def python(inside, program):
     return must(*inside, "python3", "-c", program)
 
 
-def page(inside, port):
-    """Return the metrics page of a proxy inside."""
-    return python(
-        inside,
-        "import sys, urllib.request; "
-        f"sys.stdout.write(urllib.request.urlopen('http://127.0.0.1:{port}/metrics')"
-        ".read().decode())",
-    )
+def figure(inside, proxy, name):
+    """Return one figure of the metrics page of a proxy inside."""
+    url = f"http://127.0.0.1:{proxy.metrics_port}/metrics"
+    program = f"import urllib.request as r; print(r.urlopen('{url}').read().decode())"
+    return value(python(inside, program), name)

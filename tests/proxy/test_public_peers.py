@@ -2,9 +2,8 @@
 
 import pytest
 
-from tests.proxy.namespace import may_make_namespaces, must, network, page, python
+from tests.proxy.namespace import figure, may_make_namespaces, must, network, python
 from tests.proxy.program import Program
-from tests.proxy.test_metrics import value
 
 pytestmark = pytest.mark.skipif(
     not may_make_namespaces(), reason="needs root, ip and nft for a network namespace"
@@ -34,9 +33,7 @@ def test_a_public_peer_is_let_in_only_when_plain_traffic_is_accepted(tmp_path, a
         for answer in answers.splitlines():
             expected = ("UP1 ok ",) if accepts else ("UP1 error code=address ", "reset")
             assert answer.startswith(expected), answers
-        counted = value(
-            page(inside, proxy.metrics_port), 'up_proxy_refused_total{side="ground",code="address"}'
-        )
+        counted = figure(inside, proxy, 'up_proxy_refused_total{side="ground",code="address"}')
         assert counted == (0 if accepts else 2)
         private = python(inside, KNOCK.format(ports=ports[:2], host="127.0.0.1"))
         if not accepts:

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from tests.proxy.namespace import (
+from tests.proxy.namespace import (, figure, network
     THERE,
     blackhole,
     light,
@@ -13,7 +13,6 @@ from tests.proxy.namespace import (
     network,
 )
 from tests.proxy.program import Client, Program, until
-from tests.proxy.test_metrics import value
 
 pytestmark = pytest.mark.skipif(
     not may_make_namespaces(), reason="needs root, ip and nft for a network namespace"
@@ -31,21 +30,20 @@ def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
     air, token = accepted_at(proxy.airborne_port, "UP1 aircraft=a\n")
     ground, _ = accepted_at(proxy.ground_port, "UP1 aircraft=a seat=command\n")
     assert (
-        value(page(proxy.inside, proxy.metrics_port), 'up_proxy_aircraft_online{aircraft="a"}') == 1
+        figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}') == 1
     )
     blackhole(proxy.inside)
     begin_s = time.monotonic()
     until(
         lambda: (
-            value(page(proxy.inside, proxy.metrics_port), 'up_proxy_aircraft_online{aircraft="a"}')
+            figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}')
             == 0
         ),
         "offline",
     )
     until(
         lambda: (
-            value(
-                page(proxy.inside, proxy.metrics_port), 'up_proxy_aircraft_commanded{aircraft="a"}'
+            figure(proxy.inside, proxy, 'up_proxy_aircraft_commanded{aircraft="a"}'
             )
             == 0
         ),
@@ -68,7 +66,7 @@ def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
 def test_what_is_sent_to_a_vanished_peer_ends_its_connection(proxy):
     listener, _ = accepted_at(proxy.ground_port, "UP1 aircraft=local seat=listen\n")
     connections = 'up_proxy_connections{side="ground"}'
-    assert value(page(proxy.inside, proxy.metrics_port), connections) == 1
+    assert figure(proxy.inside, proxy, connections) == 1
     feeder = subprocess.Popen(
         [
             *proxy.inside, "python3", "-c",
@@ -84,12 +82,11 @@ def test_what_is_sent_to_a_vanished_peer_ends_its_connection(proxy):
         listener.expect("telemetry")
         blackhole(proxy.inside)
         until(
-            lambda: value(page(proxy.inside, proxy.metrics_port), connections) == 0,
+            lambda: figure(proxy.inside, proxy, connections) == 0,
             "the end of the listener",
         )
         assert (
-            value(
-                page(proxy.inside, proxy.metrics_port), 'up_proxy_idle_closed_total{side="ground"}'
+            figure(proxy.inside, proxy, 'up_proxy_idle_closed_total{side="ground"}'
             )
             == 0
         )
