@@ -5,13 +5,7 @@ import time
 
 import pytest
 
-from tests.proxy.namespace import (, figure, network
-    THERE,
-    blackhole,
-    light,
-    may_make_namespaces,
-    network,
-)
+from tests.proxy.namespace import THERE, blackhole, figure, light, may_make_namespaces, network
 from tests.proxy.program import Client, Program, until
 
 pytestmark = pytest.mark.skipif(
@@ -29,24 +23,15 @@ def proxy(tmp_path):
 def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
     air, token = accepted_at(proxy.airborne_port, "UP1 aircraft=a\n")
     ground, _ = accepted_at(proxy.ground_port, "UP1 aircraft=a seat=command\n")
-    assert (
-        figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}') == 1
-    )
+    assert figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}') == 1
     blackhole(proxy.inside)
     begin_s = time.monotonic()
     until(
-        lambda: (
-            figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}')
-            == 0
-        ),
+        lambda: figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}') == 0,
         "offline",
     )
     until(
-        lambda: (
-            figure(proxy.inside, proxy, 'up_proxy_aircraft_commanded{aircraft="a"}'
-            )
-            == 0
-        ),
+        lambda: figure(proxy.inside, proxy, 'up_proxy_aircraft_commanded{aircraft="a"}') == 0,
         "no holder",
     )
     assert time.monotonic() - begin_s > 2
@@ -85,11 +70,7 @@ def test_what_is_sent_to_a_vanished_peer_ends_its_connection(proxy):
             lambda: figure(proxy.inside, proxy, connections) == 0,
             "the end of the listener",
         )
-        assert (
-            figure(proxy.inside, proxy, 'up_proxy_idle_closed_total{side="ground"}'
-            )
-            == 0
-        )
+        assert figure(proxy.inside, proxy, 'up_proxy_idle_closed_total{side="ground"}') == 0
     finally:
         feeder.kill()
         feeder.wait()
