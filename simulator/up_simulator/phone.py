@@ -70,7 +70,6 @@ class Phone:
     def connected(self, send: Callable[[bytes], None]) -> None:
         """Begin to send on a new link: everything at once, then each in its period."""
         self.send = send
-        self.panic_s = 0.0
         for stream in self._streams:
             stream.due_s = 0.0
 

@@ -9,7 +9,7 @@ from twisted.application.internet import ClientService
 from twisted.internet.defer import Deferred
 from twisted.internet.endpoints import TCP4ClientEndpoint
 from twisted.internet.error import ConnectError
-from twisted.internet.interfaces import IPushProducer, IStreamClientEndpoint
+from twisted.internet.interfaces import IStreamClientEndpoint
 from twisted.internet.protocol import DatagramProtocol, Factory, Protocol
 from twisted.protocols.basic import LineOnlyReceiver
 from zope.interface import implementer
@@ -17,6 +17,7 @@ from zope.interface import implementer
 from up_simulator.general_message import LONGEST_LINE
 from up_simulator.phone import Phone
 from up_simulator.phone_address import NotFoundError, RaspberryPi
+from up_simulator.valve import Valve
 
 CONNECT_S = 2.0
 FIRST_RETRY_S, LAST_RETRY_S = 0.5, 2.0
@@ -134,34 +135,6 @@ class _FoundEndpoint:
             raise
 
 
-@implementer(IPushProducer)
-class _Valve:
-    """Tells whether a transport takes more: what it does not take is dropped."""
-
-    def __init__(self, transport: Any) -> None:
-        self._transport = transport
-        self._is_open = True
-        transport.setTcpNoDelay(True)
-        transport.registerProducer(self, True)
-
-    def write(self, data: bytes) -> None:
-        """Write unless the transport is full."""
-        if self._is_open:
-            self._transport.write(data)
-
-    def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Close."""
-        self._is_open = False
-
-    def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Open."""
-        self._is_open = True
-
-    def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Close for ever."""
-        self._is_open = False
-
-
 class _GeneralLink(LineOnlyReceiver):
     """One connection of the General Message link."""
 
@@ -178,7 +151,7 @@ class _GeneralLink(LineOnlyReceiver):
         peer = transport.getPeer()
         self._link.say(f"connected to {peer.host}:{peer.port}")
         self._link.live.add(transport)
-        self._phone.connected(_Valve(transport).write)
+        self._phone.connected(Valve(transport).write)
 
     def lineReceived(self, line: bytes) -> None:  # noqa: N802 - Twisted's name
         """Hand a line on."""
@@ -201,7 +174,7 @@ class _OrientationLink(Protocol):
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
         """Begin to send."""
         self._link.live.add(self.transport)
-        self._phone.send_orientation = _Valve(self.transport).write
+        self._phone.send_orientation = Valve(self.transport).write
 
     def connectionLost(self, reason: Any = None) -> None:  # noqa: N802 - Twisted's name
         """Stop sending."""

@@ -1,5 +1,6 @@
 """Every Command of protocols 2.3 and its answer."""
 
+import itertools
 import math
 import struct
 
@@ -80,7 +81,7 @@ def test_its_frames_count_up_without_a_gap():
     bench.run(3.0)
     numbers = [each.sequence for each in bench.listener.take()]
     assert len(numbers) > 256
-    assert all((b - a) % 256 == 1 for a, b in zip(numbers, numbers[1:], strict=False))
+    assert all((b - a) % 256 == 1 for a, b in itertools.pairwise(numbers))
 
 
 def test_streams_have_their_periods():

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_simulator.receiver import POWERED, SOARING, Receiver, SticksError, StickMove, read_sticks
+from up_simulator.receiver import POWERED, SOARING, Receiver, StickMove, SticksError, read_sticks
 
 
 def test_a_script_is_read():

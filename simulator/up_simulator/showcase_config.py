@@ -1,0 +1,70 @@
+"""The configuration that the showcase writes: everything on this machine, the Pi controls."""
+
+from __future__ import annotations
+
+import socket
+from dataclasses import astuple, dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True, slots=True)
+class Ports:
+    """The TCP ports of a run."""
+
+    airborne: int = 3003
+    ground: int = 3004
+    orientation: int = 50000
+    general: int = 50001
+    discovery: int = 3001
+    metrics: int = 9303
+
+
+def choose_ports(any_ports: bool = False) -> Ports:
+    """Return the usual ports where they are free, any free ones where not."""
+    held: list[socket.socket] = []
+    try:
+        return Ports(*(_free_port(port, any_ports, held) for port in astuple(Ports())))
+    finally:
+        for each in held:
+            each.close()
+
+
+def _free_port(wanted: int, any_port: bool, held: list[socket.socket]) -> int:
+    for port in (0,) if any_port else (wanted, 0):
+        probe = socket.socket()
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("", port))
+        except OSError:
+            probe.close()
+            continue
+        held.append(probe)
+        bound: int = probe.getsockname()[1]
+        return bound
+    raise OSError("no port is free")
+
+
+def write_config(folder: Path, board: Path, ports: Ports) -> None:
+    """Write the files of a run; gains that an earlier run saved stay."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {
+        "config.yml": "flight controller: raspberry\n",
+        "arduino.yml": f"port: {board}\n",
+        "android.yml": f"general port: {ports.general}\norientation port: {ports.orientation}\n",
+        "discovery.yml": f"port: {ports.discovery}\n",
+        "mission_control.yml": (
+            "remote_server:\n"
+            "  url: 127.0.0.1\n"
+            f"  port: {ports.airborne}\n"
+            "# On loopback nobody else listens: the ground may arm and tune.\n"
+            "role: pilot\n"
+        ),
+        "proxy.yml": (
+            f"airborne port: {ports.airborne}\n"
+            f"ground port: {ports.ground}\n"
+            f"metrics port: {ports.metrics}\n"
+        ),
+    }
+    for name, text in files.items():
+        head = "# Written by 'make run', at every start.\n"
+        (folder / name).write_text(head + text, encoding="utf-8")
