@@ -12,7 +12,7 @@ from twisted.python.failure import Failure
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
 from up.protocols.line_decoder import LineDecoder
 from up.protocols.link_output import LinkOutput
-from up.protocols.tcp_options import set_user_timeout, watch_peer
+from up.protocols.tcp_options import set_user_timeout, watch_peer, why_lost
 from up.system.clock import Clock, Timer
 
 USER_TIMEOUT_MS = 1500
@@ -150,7 +150,7 @@ class GeneralMessageProtocol(Protocol):
         self._lines.reset()
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
-        self._on_lost(self, self._why_given_up or reason.getErrorMessage())
+        self._on_lost(self, self._why_given_up or why_lost(reason))
 
     def _check_idle(self) -> None:
         assert self._idle_timeout_s is not None

@@ -12,10 +12,12 @@ from up.protocols.general_message_link import OnConnected, OnLost, OnMalformed, 
 from up.system.clock import Clock, Timer
 
 SILENCE_TIMEOUT_S = 3.0
+MAX_PACKET_SIZE = 65536
+"""For `listenUDP`: with its default of 8 KiB longer messages would arrive cut off."""
 
 
 class GeneralMessageDatagrams(DatagramProtocol):
-    """One port, one peer: whoever was heard last.
+    """One port, one peer: whoever was heard last. Listen with `MAX_PACKET_SIZE`.
 
     The callbacks are those of `GeneralMessageProtocol`. The link counts as lost after
     `idle_timeout_s` without a datagram; then nothing is sent until one comes. An empty datagram

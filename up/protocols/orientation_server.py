@@ -15,7 +15,7 @@ from up.protocols.orientation_forward import (
     OrientationFrame,
     decode_datagram,
 )
-from up.protocols.tcp_options import watch_peer
+from up.protocols.tcp_options import watch_peer, why_lost
 from up.system.clock import Clock, Timer
 
 TAKEOVER_SILENCE_S = 1.0
@@ -111,7 +111,7 @@ class _OrientationConnection(Protocol):
             self._server.on_orientation(OrientationFrame._make(values), self.source)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
-        self._server.lost(self, reason.getErrorMessage())
+        self._server.lost(self, why_lost(reason))
 
     def drop(self) -> None:
         """Cut this connection off; nothing of it is heard any more."""

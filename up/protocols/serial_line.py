@@ -79,9 +79,10 @@ class SerialLine:
 
     def start(self) -> bool:
         """Try to open the port now, and go on trying; return whether it is open already."""
-        self._is_started = True
-        self._delay_s = FIRST_DELAY_S
-        self._open()
+        if not self._is_started:
+            self._is_started = True
+            self._delay_s = FIRST_DELAY_S
+            self._open()
         return self.is_open
 
     def stop(self) -> None:

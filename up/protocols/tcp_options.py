@@ -6,6 +6,9 @@ import contextlib
 import socket
 from typing import Any
 
+from twisted.internet.error import ConnectionAborted, ConnectionDone
+from twisted.python.failure import Failure
+
 KEEPALIVE_IDLE_S = 3
 KEEPALIVE_INTERVAL_S = 1
 KEEPALIVE_PROBES = 3
@@ -39,3 +42,12 @@ def set_option(transport: Any, name: str, value: int) -> None:
         # A peer that has already gone leaves a socket that takes no options.
         with contextlib.suppress(OSError):
             transport.getHandle().setsockopt(socket.IPPROTO_TCP, option, value)
+
+
+def why_lost(reason: Failure) -> str:
+    """Return in a few words why a connection ended; Twisted's own are for programmers."""
+    if reason.check(ConnectionDone):
+        return "closed"
+    if reason.check(ConnectionAborted):
+        return "cut off by this side"
+    return "the connection broke"

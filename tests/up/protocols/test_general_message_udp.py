@@ -5,7 +5,7 @@ from twisted.internet.task import Clock
 
 from tests.support.reactor import reactor, run_in_reactor, until
 from up.protocols.general_message import encode
-from up.protocols.general_message_udp import GeneralMessageDatagrams
+from up.protocols.general_message_udp import MAX_PACKET_SIZE, GeneralMessageDatagrams
 
 
 class Notes:
@@ -30,7 +30,9 @@ def client():
 def with_port(scenario):
     async def run():
         notes = Notes(Clock())
-        port = reactor.listenUDP(0, notes.link, interface="127.0.0.1", maxPacketSize=65536)
+        port = reactor.listenUDP(
+            0, notes.link, interface="127.0.0.1", maxPacketSize=MAX_PACKET_SIZE
+        )
         address = ("127.0.0.1", port.getHost().port)
         try:
             with client() as first, client() as second:
@@ -68,9 +70,9 @@ def test_one_object_a_datagram_and_nothing_joins_two():
         first.sendto(b"\n", address)
         first.sendto(b"", address)
         first.sendto(b'{"name": "big", "data": {"x": "' + b"y" * 20000 + b'"}}', address)
-        first.sendto(b'{"name": "d"}', address)
+        first.sendto(encode("long", {"x": "y" * 16000}), address)
         await until(lambda: notes.messages)
-        assert [message.name for message in notes.messages] == ["d"]
+        assert [message.name for message in notes.messages] == ["long"]
         assert len(notes.faults) == notes.link.malformed == 4
 
     with_port(scenario)

@@ -62,6 +62,7 @@ def test_an_unfinished_frame_dies_with_its_connection():
             client.sendall(frame(1) + frame(9)[:10])
             await until(lambda: notes.rolls)
         await until(lambda: len(notes.events) == 2)
+        assert notes.events[1][2] == "closed"
         with socket.create_connection(address) as client:
             client.sendall(frame(2))
             await until(lambda: len(notes.rolls) == 2)

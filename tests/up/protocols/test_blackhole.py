@@ -1,0 +1,39 @@
+"""A peer that is there and hears nothing, as behind a cellular gap; needs root and nftables."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).with_name("blackhole.py")
+TOOLS = ("unshare", "nft", "ip")
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(
+        os.geteuid() != 0 or not all(shutil.which(tool) for tool in TOOLS),
+        reason="network namespaces need root, unshare, nft and ip",
+    ),
+]
+
+
+@pytest.mark.parametrize("way", ["sending", "idle"])
+def test_a_blackhole_is_noticed_long_before_the_system_would(way):
+    environment = {**os.environ, "PYTHONPATH": str(SCRIPT.parents[3])}
+    result = subprocess.run(
+        ["unshare", "-n", sys.executable, str(SCRIPT), way],
+        capture_output=True,
+        text=True,
+        timeout=90,
+        env=environment,
+        check=False,
+    )
+    if "unshare" in result.stderr:
+        pytest.skip(result.stderr.strip())
+    seconds, _, why = result.stdout.partition(" ")
+    assert why == "the connection broke\n", result.stderr
+    # 1.5 s without an acknowledgement; an idle link is first probed after 3 s.
+    assert float(seconds) < 20
