@@ -89,7 +89,7 @@ class InstanceConfig:
                 settings[port] = 0
         for key, value in requested.items():
             settings[key] = _like(settings.get(key), value, f"{key!a} of {name}")
-        return (_HEAD + yaml.safe_dump(settings, sort_keys=False, allow_unicode=True)).encode()
+        return (_HEAD + yaml.safe_dump(settings, sort_keys=False)).encode()
 
     def _same_profile(self, request: Request, folder: Path) -> bool:
         try:

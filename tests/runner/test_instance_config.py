@@ -1,0 +1,155 @@
+"""Base, profile and request make one configuration folder."""
+
+import pytest
+import yaml
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from up_runner.instance_config import ConfigurationRefused, InstanceConfig
+from up_runner.request import Request
+
+
+@pytest.fixture
+def config(tmp_path):
+    (tmp_path / "base").mkdir()
+    (tmp_path / "profiles" / "cub").mkdir(parents=True)
+    return InstanceConfig(
+        tmp_path / "base",
+        tmp_path / "profiles",
+        settable={"load_guard.yml": ("interval",), "new.yml": ("name",)},
+        dynamic_ports={"android.yml": ("general port",)},
+        learned=("pids.yml",),
+    )
+
+
+def build(config, tmp_path, *arguments):
+    folder = config.build(Request("a", *arguments), tmp_path / "a")
+    return {path.name: path.read_text() for path in folder.iterdir()}
+
+
+def read(text):
+    return yaml.safe_load(text)
+
+
+def test_without_anything_only_the_ports_are_set(config, tmp_path):
+    built = build(config, tmp_path)
+    assert {name: read(text) for name, text in built.items()} == {
+        "android.yml": {"general port": 0}
+    }
+
+
+def test_an_untouched_file_is_copied_byte_for_byte(config, tmp_path):
+    text = "# a comment\nremote_server: {url: 'x'}   # another\n"
+    (config.base / "mission_control.yml").write_text(text)
+    assert build(config, tmp_path)["mission_control.yml"] == text
+
+
+def test_a_configured_port_stays(config, tmp_path):
+    (config.base / "android.yml").write_text("general port: 50001\n")
+    assert read(build(config, tmp_path)["android.yml"]) == {"general port": 50001}
+    (config.base / "android.yml").write_text("general port:\n")
+    assert read(build(config, tmp_path)["android.yml"]) == {"general port": 0}
+
+
+def test_the_profile_lies_over_the_base_key_by_key(config, tmp_path):
+    (config.base / "pids.yml").write_text("rate: {ailerons: {p: 1, i: 2}, elevator: {p: 3}}\n")
+    (config.profiles / "cub" / "pids.yml").write_text("rate: {ailerons: {p: 9}}\n")
+    (config.profiles / "cub" / "only.yml").write_text("a: 1\n")
+    built = build(config, tmp_path, "cub")
+    assert read(built["pids.yml"]) == {"rate": {"ailerons": {"p": 9, "i": 2}, "elevator": {"p": 3}}}
+    assert built["only.yml"] == "a: 1\n"
+
+
+def test_what_a_former_profile_left_is_removed(config, tmp_path):
+    (config.profiles / "cub" / "only.yml").write_text("a: 1\n")
+    assert "only.yml" in build(config, tmp_path, "cub")
+    assert "only.yml" not in build(config, tmp_path)
+
+
+def test_a_file_for_other_programs_is_left_out(config, tmp_path):
+    for name in ("runner.yml", "proxy.yml", "notes.txt"):
+        (config.base / name).write_text("port: 1\n")
+    assert set(build(config, tmp_path)) == {"android.yml"}
+
+
+def test_a_request_sets_what_it_may(config, tmp_path):
+    (config.base / "load_guard.yml").write_text("interval: 0.5\n")
+    built = build(config, tmp_path, None, {"load_guard.yml": {"interval": 2}})
+    assert read(built["load_guard.yml"]) == {"interval": 2}
+    built = build(config, tmp_path, None, {"new.yml": {"name": "x: y # no comment"}})
+    assert read(built["new.yml"]) == {"name": "x: y # no comment"}
+
+
+@pytest.mark.parametrize(
+    ("present", "wanted", "refused"),
+    [
+        ("0.5", True, "must be a number"),
+        ("0.5", "1", "must be a number"),
+        ("true", 1, "must be true or false"),
+        ("word", 1, "must be a text"),
+        ("[1]", 1, "cannot be set by a request"),
+        ("{a: 1}", 1, "cannot be set by a request"),
+    ],
+)
+def test_another_kind_of_value_is_refused(config, tmp_path, present, wanted, refused):
+    (config.base / "load_guard.yml").write_text(f"interval: {present}\n")
+    with pytest.raises(ConfigurationRefused, match=f"'interval' of load_guard.yml {refused}"):
+        build(config, tmp_path, None, {"load_guard.yml": {"interval": wanted}})
+
+
+@pytest.mark.parametrize(
+    "configuration",
+    [
+        {"android.yml": {"general port": 1}},
+        {"load_guard.yml": {"other": 1}},
+        {"../../evil.yml": {"interval": 1}},
+        {"pids.yml": {}},
+    ],
+)
+def test_what_is_not_listed_is_refused_and_nothing_is_written(config, tmp_path, configuration):
+    with pytest.raises(ConfigurationRefused, match="a request may not set"):
+        build(config, tmp_path, None, configuration)
+    assert not (tmp_path / "a").exists()
+
+
+def test_a_profile_that_is_not_there_is_refused(config, tmp_path):
+    with pytest.raises(ConfigurationRefused, match="no profile ufo"):
+        build(config, tmp_path, "ufo")
+
+
+@pytest.mark.parametrize("text", ["a: [", "- a\n", "a: 1\n\tb: 2\n", "!!python/object:os.x {}\n"])
+def test_a_file_that_cannot_be_merged_is_named(config, tmp_path, text):
+    (config.base / "load_guard.yml").write_text(text)
+    with pytest.raises(ConfigurationRefused, match=r"load_guard.yml is not"):
+        build(config, tmp_path, None, {"load_guard.yml": {"interval": 1}})
+
+
+def test_a_file_that_cannot_be_read_is_named(config, tmp_path):
+    (config.base / "load_guard.yml").write_bytes(b"\xff\xfe")
+    with pytest.raises(ConfigurationRefused, match=r"load_guard.yml is not UTF-8"):
+        build(config, tmp_path)
+
+
+def test_what_was_learned_stays_with_its_good_copy(config, tmp_path):
+    (config.base / "pids.yml").write_text("p: 1\n")
+    build(config, tmp_path)
+    folder = tmp_path / "a" / "config"
+    (folder / "pids.yml").write_text("p: 2\n")
+    (folder / "pids.yml.good").write_text("p: 2\n")
+    built = build(config, tmp_path)
+    assert built["pids.yml"] == built["pids.yml.good"] == "p: 2\n"
+    built = build(config, tmp_path, "cub")
+    assert built["pids.yml"] == "p: 1\n" and "pids.yml.good" not in built
+
+
+scalars = st.booleans() | st.integers(-(2**63), 2**63 - 1) | st.text(max_size=50)
+
+
+@settings(max_examples=300)
+@given(st.text(min_size=1, max_size=20), scalars)
+def test_every_value_arrives_as_it_was_sent(tmp_path_factory, key, value):
+    folder = tmp_path_factory.mktemp("c")
+    config = InstanceConfig(folder, folder, settable={"a.yml": (key,)})
+    built = config.build(Request("a", None, {"a.yml": {key: value}}), folder / "a")
+    found = yaml.safe_load((built / "a.yml").read_text("utf-8"))
+    assert found == {key: value} and type(found[key]) is type(value)

@@ -1,0 +1,96 @@
+"""Logs that stay small while somebody writes them, and traces that do not pile up."""
+
+import os
+
+import pytest
+
+from up_runner.keeping import prune
+from up_runner.log_keeper import LogKeeper
+
+
+def files(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_a_writer_goes_on_at_the_beginning_after_a_rotation(tmp_path):
+    keeper = LogKeeper(tmp_path, 10, 2)
+    log = keeper.open("a")
+    assert keeper.rotate("a") is False
+    for number in range(4):
+        os.write(log, b"%d" % number * 12)
+        assert keeper.rotate("a") is True
+        assert keeper.rotate("a") is False
+    os.write(log, b"new")
+    os.close(log)
+    # Only the end of what was too long, and no hole at the beginning of the new one.
+    assert files(tmp_path) == {"a.log": b"new", "a.log.1": b"3" * 10, "a.log.2": b"2" * 10}
+
+
+def test_with_none_to_keep_the_log_is_only_cut(tmp_path):
+    keeper = LogKeeper(tmp_path, 10, 0)
+    os.write(log := keeper.open("a"), b"x" * 10)
+    os.close(log)
+    assert keeper.rotate("a") is True
+    assert files(tmp_path) == {"a.log": b""}
+
+
+def test_a_disk_that_takes_no_copy_still_gets_its_room_back(tmp_path):
+    keeper = LogKeeper(tmp_path, 10, 1)
+    os.write(log := keeper.open("a"), b"x" * 10)
+    os.close(log)
+    (tmp_path / "a.log.1").mkdir()
+    with pytest.raises(OSError, match="directory"):
+        keeper.rotate("a")
+    assert (tmp_path / "a.log").read_bytes() == b""
+
+
+def test_a_log_that_is_a_link_is_not_followed(tmp_path):
+    (tmp_path / "a.log").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(OSError, match="symbolic links"):
+        LogKeeper(tmp_path, 10, 1).open("a")
+    assert not (tmp_path / "elsewhere").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        (b"", None),
+        (b"\n \n", None),
+        (b"one\ntwo\n\n", "two"),
+        (b"x" * 5000, "x" * 197 + "..."),
+        (b"\x1b[31mred\xff", "?[31mred\ufffd"),
+    ],
+)
+def test_the_last_line_is_for_people(tmp_path, text, line):
+    (tmp_path / "a.log").write_bytes(text)
+    assert LogKeeper(tmp_path, 10, 1).last_line("a") == line
+
+
+def test_no_log_has_no_last_line(tmp_path):
+    assert LogKeeper(tmp_path / "nowhere", 10, 1).last_line("a") is None
+
+
+def test_names_with_dots_are_told_apart(tmp_path):
+    for name in ("a.log", "a.log.1", "a.log.1.log", "a.log.log.2", "a.b.log", "other.txt"):
+        (tmp_path / name).write_text("")
+    keeper = LogKeeper(tmp_path, 10, 1)
+    assert keeper.names() == {"a", "a.log.1", "a.log", "a.b"}
+    keeper.remove("a")
+    assert sorted(files(tmp_path)) == ["a.b.log", "a.log.1.log", "a.log.log.2", "other.txt"]
+
+
+def test_the_oldest_traces_are_removed_those_in_use_stay(tmp_path):
+    run, state, logs = tmp_path / "run", tmp_path / "state", LogKeeper(tmp_path / "logs", 10, 1)
+    for age, name in enumerate(["a", "b", "c", "d", "e"]):
+        os.close(logs.open(name))
+        for folder in (run, state):
+            (folder / name).mkdir(parents=True)
+            (folder / name / "file").write_text("")
+            os.utime(folder / name, (1000 + age, 1000 + age))
+        os.utime(logs.path(name), (1000 + age, 1000 + age))
+    (run / ".lock").write_text("")
+    assert prune([run, state], logs, {"a", "c"}, 1) == ["b", "d"]
+    assert sorted(path.name for path in run.iterdir()) == [".lock", "a", "c", "e"]
+    assert sorted(path.name for path in state.iterdir()) == ["a", "c", "e"]
+    assert logs.names() == {"a", "c", "e"}
+    assert prune([run, state], logs, {"a", "c"}, 1) == []

@@ -1,0 +1,176 @@
+"""Real processes, held by descriptors."""
+
+import os
+import signal
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.support.reactor import reactor, run_in_reactor, until
+from up_runner.process import (
+    Identity,
+    Process,
+    ProcessGone,
+    boot_id,
+    describe_status,
+    identity_of,
+    sessions_with,
+)
+
+SLEEP = "import time; time.sleep(3600)"
+
+
+def spawn(code, log=None, **environ):
+    descriptor = os.open(log or os.devnull, os.O_WRONLY | os.O_APPEND | os.O_CREAT)
+    try:
+        process = Process.spawn(
+            reactor,
+            [sys.executable, "-c", code],
+            cwd=Path.cwd(),
+            environ=dict(os.environ, **environ),
+            log=descriptor,
+        )
+    finally:
+        os.close(descriptor)
+    ends = []
+    process.on_end = ends.append
+    return process, ends
+
+
+def gone(pid):
+    try:
+        identity_of(pid)
+    except ProcessGone:
+        return True
+    return False
+
+
+@pytest.mark.parametrize(
+    ("code", "status"),
+    [("raise SystemExit(3)", 3), ("pass", 0), ("import os; os.abort()", -signal.SIGABRT)],
+)
+def test_the_exit_status_of_a_child_is_told_once(code, status):
+    async def body():
+        process, ends = spawn(code)
+        await until(lambda: ends)
+        assert ends == [status] and process.fileno() == -1
+
+    run_in_reactor(body)
+
+
+def test_terminate_asks_and_kill_does_not():
+    async def body():
+        first, first_ends = spawn(SLEEP)
+        first.terminate()
+        second, second_ends = spawn(SLEEP)
+        second.kill()
+        await until(lambda: first_ends and second_ends)
+        assert (first_ends, second_ends) == ([-signal.SIGTERM], [-signal.SIGKILL])
+        # It is over: nothing is done to whoever has the number now.
+        first.terminate()
+        second.kill()
+
+    run_in_reactor(body)
+
+
+def test_what_a_child_left_running_ends_with_it(tmp_path):
+    async def body():
+        helper = (
+            "import subprocess, sys;"
+            f"print(subprocess.Popen([sys.executable, '-c', '{SLEEP}']).pid, flush=True)"
+        )
+        _, ends = spawn(helper, tmp_path / "log")
+        await until(lambda: ends)
+        pid = int((tmp_path / "log").read_text())
+        await until(lambda: gone(pid))
+
+    run_in_reactor(body)
+
+
+def test_an_adopted_process_is_watched_without_its_status():
+    async def body():
+        child = subprocess.Popen([sys.executable, "-c", SLEEP])
+        with child:
+            process = Process.adopt(reactor, identity_of(child.pid))
+            ends = []
+            process.on_end = ends.append
+            process.terminate()
+            await until(lambda: ends)
+            assert ends == [None]
+
+    run_in_reactor(body)
+
+
+def test_a_closed_one_is_left_alone():
+    async def body():
+        process, ends = spawn(SLEEP)
+        process.close()
+        process.close()
+        process.kill()
+        process.terminate()
+        assert not gone(process.pid) and ends == []
+        os.kill(process.pid, signal.SIGKILL)
+        os.waitpid(process.pid, 0)
+        process._child.returncode = 0
+
+    run_in_reactor(body)
+
+
+def test_another_process_of_the_same_number_is_not_adopted():
+    async def body():
+        me = identity_of(os.getpid())
+        for other in (replace(me, start_ticks=me.start_ticks + 1), replace(me, boot_id="another")):
+            with pytest.raises(ProcessGone):
+                Process.adopt(reactor, other)
+        with pytest.raises(ProcessGone):
+            Process.adopt(reactor, Identity(2**22 + 1, 1, boot_id()))
+
+    run_in_reactor(body)
+
+
+def test_a_dead_child_that_nobody_waited_for_is_gone():
+    child = subprocess.Popen([sys.executable, "-c", "pass"])
+    with child:
+        os.waitid(os.P_PID, child.pid, os.WEXITED | os.WNOWAIT)
+        assert gone(child.pid)
+
+
+def test_names_with_parentheses_do_not_hide_the_start():
+    code = (
+        "import ctypes, sys; ctypes.CDLL(None).prctl(15, b'a) R (b', 0, 0, 0);"
+        "print('named', flush=True); sys.stdin.read()"
+    )
+    before = identity_of(os.getpid())
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as child:
+        assert child.stdout.readline() == b"named\n"
+        assert identity_of(child.pid).start_ticks >= before.start_ticks
+        child.stdin.close()
+
+
+def test_session_leaders_are_found_by_their_environment(short_path):
+    async def body():
+        process, ends = spawn(SLEEP, NOTIFY_SOCKET=f"{short_path}/a/notify")
+        found = await until(lambda: list(sessions_with("NOTIFY_SOCKET", f"{short_path}/")))
+        assert found == [(process.pid, f"{short_path}/a/notify")]
+        assert list(sessions_with("NOTIFY_SOCKET", f"{short_path}/b")) == []
+        process.kill()
+        await until(lambda: ends)
+
+    run_in_reactor(body)
+
+
+def test_a_program_that_is_not_there_is_an_os_error():
+    with pytest.raises(FileNotFoundError):
+        Process.spawn(reactor, ["/nowhere"], cwd=Path.cwd(), environ={}, log=2)
+
+
+def test_ends_in_words():
+    assert describe_status(0) == "ended with exit status 0"
+    assert describe_status(-9) == "was ended by SIGKILL"
+    assert describe_status(-63) == "was ended by signal 63"
+    assert "earlier runner" in describe_status(None)

@@ -1,0 +1,110 @@
+"""The private folder of one runner."""
+
+import os
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from up_runner.run_folder import LONGEST, RunFolder, RunFolderError, default_run_folder
+
+
+def test_where_it_is_by_default():
+    assert default_run_folder({"RUNTIME_DIRECTORY": "/run/a:/run/b"}, 7) == Path("/run/a")
+    assert default_run_folder({"XDG_RUNTIME_DIR": "/run/user/7"}, 7) == Path(
+        "/run/user/7/up-runner"
+    )
+    assert default_run_folder({}, 7) == Path("/tmp/up-runner-7")
+
+
+def test_it_is_made_private(short_path):
+    folder = RunFolder(short_path / "a" / "b")
+    folder.take()
+    assert stat.S_IMODE(folder.path.stat().st_mode) == 0o700
+    folder.release()
+    folder.path.chmod(0o755)
+    folder.take()
+    assert stat.S_IMODE(folder.path.stat().st_mode) == 0o700
+    folder.release()
+
+
+def test_one_that_others_can_write_is_refused(short_path):
+    short_path.chmod(0o777)
+    with pytest.raises(RunFolderError, match="can be written by other users"):
+        RunFolder(short_path).take()
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a folder away")
+def test_one_that_belongs_to_another_is_refused(short_path):
+    os.chown(short_path, 12345, -1)
+    with pytest.raises(RunFolderError, match="belongs to user 12345"):
+        RunFolder(short_path).take()
+
+
+def test_a_link_or_a_file_is_refused(short_path):
+    (short_path / "real").mkdir()
+    (short_path / "link").symlink_to(short_path / "real")
+    (short_path / "file").write_text("")
+    for name in ("link", "file"):
+        with pytest.raises(RunFolderError, match=r"is not a folder|cannot be used"):
+            RunFolder(short_path / name).take()
+
+
+def test_a_lock_that_is_a_link_is_not_followed(short_path):
+    (short_path / ".lock").symlink_to(short_path / "elsewhere")
+    with pytest.raises(RunFolderError, match="cannot be used"):
+        RunFolder(short_path).take()
+    assert not (short_path / "elsewhere").exists()
+
+
+def test_the_second_is_refused_until_the_first_lets_go(short_path):
+    first, second = RunFolder(short_path), RunFolder(short_path)
+    first.take()
+    with pytest.raises(RunFolderError, match=rf"another runner \(process {os.getpid()}\)"):
+        second.take()
+    first.release()
+    second.take()
+    second.release()
+
+
+def test_a_killed_holder_holds_nothing(short_path):
+    code = (
+        "import sys, pathlib; from up_runner.run_folder import RunFolder;"
+        "f = RunFolder(pathlib.Path(sys.argv[1])); f.take(); print('held', flush=True);"
+        "sys.stdin.read()"
+    )
+    holder = subprocess.Popen(
+        [sys.executable, "-c", code, str(short_path)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+    with holder:
+        assert holder.stdout.readline() == b"held\n"
+        with pytest.raises(RunFolderError, match=f"process {holder.pid}"):
+            RunFolder(short_path).take()
+        holder.kill()
+    folder = RunFolder(short_path)
+    folder.take()
+    folder.release()
+
+
+def test_a_path_too_long_for_sockets_is_refused_at_once(short_path):
+    folder = short_path / ("x" * (LONGEST + 1 - len(str(short_path)) - 1))
+    assert len(str(folder)) == LONGEST + 1
+    with pytest.raises(RunFolderError, match="too long for the sockets"):
+        RunFolder(folder).take()
+    assert not folder.exists()
+
+
+def test_names_are_those_of_instances(short_path):
+    folder = RunFolder(short_path)
+    folder.take()
+    (short_path / "b").mkdir()
+    (short_path / "a").mkdir()
+    (short_path / "file").write_text("")
+    (short_path / ".logs").mkdir()
+    (short_path / "link").symlink_to(short_path / "a")
+    assert folder.names() == ["a", "b"]
+    folder.release()

@@ -1,0 +1,66 @@
+"""The systemd unit and the Upstart job."""
+
+import configparser
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).parents[2] / "runner"
+UNIT = FOLDER / "up-runner.service"
+JOB = FOLDER / "up-runner.conf"
+PROGRAM = Path(sys.executable).with_name("up-runner")
+
+
+@pytest.fixture
+def service():
+    parser = configparser.ConfigParser(strict=True)
+    parser.optionxform = str
+    parser.read_string(UNIT.read_text(encoding="utf-8"))
+    assert parser["Unit"]["StartLimitIntervalSec"] == "0"
+    return parser["Service"]
+
+
+@pytest.mark.skipif(shutil.which("systemd-analyze") is None, reason="systemd is not installed")
+def test_systemd_finds_no_fault(tmp_path):
+    # Verification looks at the program, so the unit names the one that is installed here.
+    text = UNIT.read_text(encoding="utf-8").replace("/opt/raspilot/bin/up-runner", str(PROGRAM))
+    assert str(PROGRAM) in text
+    unit = tmp_path / UNIT.name
+    unit.write_text(text, encoding="utf-8")
+    verified = subprocess.run(
+        ["systemd-analyze", "verify", str(unit)], capture_output=True, text=True
+    )
+    assert (verified.returncode, verified.stderr) == (0, "")
+
+
+def test_it_is_supervised_and_restarted_for_ever(service):
+    assert service["Type"] == "notify"
+    assert float(service["WatchdogSec"]) > 0
+    assert service["Restart"] == "always"
+
+
+def test_a_restart_of_the_runner_does_not_touch_the_instances(service):
+    assert service["KillMode"] == "process"
+    assert service["OOMPolicy"] == "continue"
+    # Their sockets and records must still be there.
+    assert service["RuntimeDirectoryPreserve"] == "yes"
+    # A private /tmp or user would be another one after the restart.
+    assert "PrivateTmp" not in service and "DynamicUser" not in service
+
+
+def test_the_upstart_job_runs_the_same_program(service):
+    job = JOB.read_text(encoding="utf-8")
+    program, _, arguments = service["ExecStart"].partition(" ")
+    assert f"    {program} -- {arguments}\n" in job
+    assert re.search(r"^respawn$", job, re.MULTILINE)
+    assert "expect" not in job  # it stays in the foreground
+
+
+def test_the_upstart_scripts_are_shell():
+    scripts = re.findall(r"^pre-start script\n(.*?)^end script", JOB.read_text(), re.DOTALL | re.M)
+    assert len(scripts) == 1
+    subprocess.run(["sh", "-n"], input=scripts[0], text=True, check=True)
