@@ -14,7 +14,7 @@ behind a stand-in for the Arduino on a pty and a stand-in for the airborne phone
 
 EPILOG = """\
 The board (protocols 2) has an RC receiver and servos, but no stabilisation of its own: with the
-switch at AUTO it follows the Outputs of the Raspberry Pi, in every other case, and 250 ms after
+switch at AUTO it follows the Outputs of the Raspberry Pi; in every other case, and 250 ms after
 the last Output, the sticks pass through. It streams once it got a Start Command.
 
 The pilot's sticks follow a script. By default AUX1 is high (AUTO), and AUX2 goes high after 1 s

@@ -7,6 +7,8 @@ import struct
 import time
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.simulator.program import DEADLINE_S, Program
 from up_simulator.phone_address import (
@@ -246,3 +248,28 @@ def test_a_runners_right_answer_is_a_place():
 )  # fmt: skip
 def test_discoverys_answer_is_an_address_or_its_source(answer, host):
     assert read_discovery_answer(answer, "192.0.2.1") == host
+
+
+@given(st.binary(max_size=100))
+def test_any_answer_is_a_place_or_one_sentence(answer):
+    assert read_discovery_answer(answer, "192.0.2.1").count(".") == 3
+    with pytest.raises(NotFoundError):
+        read_spawn_answer(answer, "127.0.0.1")
+
+
+@pytest.mark.parametrize("option", ["--discover", "--runner"])
+def test_it_ends_at_once_while_it_waits_for_an_answer(option):
+    with (
+        socket.create_server(("127.0.0.1", 0)) as runner,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as discovery,
+    ):
+        discovery.bind(("127.0.0.1", 0))
+        asked = discovery if option == "--discover" else runner
+        asked.settimeout(DEADLINE_S)
+        with Program("--no-board", option, f"127.0.0.1:{port_of(asked)}") as program:
+            question = asked.recv(512) if asked is discovery else asked.accept()[0]
+            status, took_s, error = program.end()
+            if asked is runner:
+                question.close()
+    assert (status, error) == (0, "")
+    assert took_s < 5.0
