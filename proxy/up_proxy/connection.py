@@ -1,5 +1,6 @@
 """One TCP connection of the relay: its socket, its unfinished line, what waits for it."""
 
+import select
 import socket
 from collections.abc import Callable
 from typing import Protocol
@@ -36,8 +37,8 @@ class Owner(Protocol):
 class Connection:
     """Relays whole lines without blocking and with bounded memory.
 
-    Ground stations are told lines with `relay` and lose the oldest when they are slow; an
-    aircraft is told with `relay_paced` and loses none.
+    With `queue_bytes` a slow peer loses its oldest lines beyond that many; with 0 it loses none,
+    and `relay_paced` tells the sender to wait.
     """
 
     __slots__ = (
@@ -98,23 +99,14 @@ class Connection:
 
     def on_ready(self, events: int) -> None:
         """Read or write what the socket has room for."""
-        if self.failure is not None:
+        if events & ~READ or self.paused_s is not None or self.failure is not None:
+            self._on_rare(events)
             return
-        if self.paused_s is None:
-            if events != WRITE:
-                self._read()
-        elif events & ~WRITE:
-            self.fail("gone")
-        if events & WRITE and self.failure is None:
-            self._write()
-
-    def _read(self) -> None:
+        # The path of every relayed line: no call that could be spared.
         try:
             chunk = self._socket.recv(_READ_BYTES)
-        except (BlockingIOError, InterruptedError):
-            return
         except OSError as error:
-            self.fail(error.strerror or "lost")
+            self._on_error(error)
             return
         if not chunk:
             self.fail("closed by the peer")
@@ -124,6 +116,26 @@ class Connection:
             self.owner.on_lines(self, chunk)
         else:
             self._assemble(chunk)
+
+    def _on_rare(self, events: int) -> None:
+        """Handle what is not simply readable: writable, paused, broken."""
+        if self.failure is not None:
+            return
+        if self.paused_s is not None:
+            if events & ~WRITE:
+                self.fail("gone")
+        elif events & select.EPOLLIN:
+            self.on_ready(select.EPOLLIN)
+        elif events & ~WRITE:
+            self.fail("lost")
+        if events & WRITE and self.failure is None:
+            self._write()
+
+    def _on_error(self, error: OSError) -> int:
+        """End the connection unless the socket was merely not ready; return 0 bytes."""
+        if not isinstance(error, BlockingIOError | InterruptedError):
+            self.fail(error.strerror or "lost")
+        return 0
 
     def _assemble(self, chunk: bytes) -> None:
         if self.half is None:
@@ -144,17 +156,31 @@ class Connection:
         """Send whole lines; return how many old ones were dropped to make room."""
         queue = self._queue
         if queue is None:
-            self._send_at_once(lines, self.queue_bytes)
-            return 0 if self._queue is None else self._queue.dropped_lines
+            try:
+                sent = self._socket.send(lines)
+            except OSError as error:
+                sent = self._on_error(error)
+            if sent == len(lines):
+                self.told_s = self._poller.now_s
+                return 0
+            self._keep(lines[sent:], sent)
+            return 0
         before = queue.dropped_lines
         queue.put(lines)
         return queue.dropped_lines - before
 
     def relay_paced(self, lines: bytes) -> bool:
-        """Send whole lines and drop none; return whether the sender may go on."""
+        """Send whole lines; return whether the sender may go on."""
         queue = self._queue
         if queue is None:
-            self._send_at_once(lines, 0)
+            try:
+                sent = self._socket.send(lines)
+            except OSError as error:
+                sent = self._on_error(error)
+            if sent == len(lines):
+                self.told_s = self._poller.now_s
+                return True
+            self._keep(lines[sent:], sent)
             queue = self._queue
         else:
             queue.put(lines)
@@ -164,30 +190,19 @@ class Connection:
         """Send a control line, between relayed lines."""
         queue = self._queue
         if queue is None:
-            self._send_at_once(line, self.queue_bytes)
+            self.relay(line)
             return
         queue.put_control(line)
         if queue.kept_bytes > _KEPT_MAX_BYTES:
             self.fail("does not read")
 
-    def _send_at_once(self, lines: bytes, limit_bytes: int) -> None:
-        if self.failure is not None:
-            return
-        try:
-            sent = self._socket.send(lines)
-        except (BlockingIOError, InterruptedError):
-            sent = 0
-        except OSError as error:
-            self.fail(error.strerror or "lost")
-            return
-        if sent:
-            self.told_s = self._poller.now_s
-        if sent < len(lines):
-            self._queue = LineQueue(limit_bytes)
-            if sent and lines[sent - 1] != 0x0A:
-                self._queue.put_rest(lines[sent:])
-            else:
-                self._queue.put(lines[sent:])
+    def _keep(self, rest: bytes, sent: int) -> None:
+        """Keep what the socket did not take."""
+        if self.failure is None:
+            if sent:
+                self.told_s = self._poller.now_s
+            self._queue = LineQueue(self.queue_bytes)
+            self._queue.put_rest(rest)
             self._watch()
 
     def _write(self) -> None:
@@ -196,10 +211,8 @@ class Connection:
             return
         try:
             sent = self._socket.send(queue.head())
-        except (BlockingIOError, InterruptedError):
-            return
         except OSError as error:
-            self.fail(error.strerror or "lost")
+            self._on_error(error)
             return
         self.told_s = self._poller.now_s
         queue.sent(sent)
@@ -234,7 +247,7 @@ class Connection:
         Closing at once would reset the connection where unread bytes wait, and the peer would
         not read why.
         """
-        self._send_at_once(line, 0)
+        self.relay(line)
         if self.failure is None:
             try:
                 self._socket.shutdown(socket.SHUT_WR)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from up.log import UpLogger
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock, Timer
-from up_proxy.connection import IDLE_S, Connection
+from up_proxy.connection import Connection
 from up_proxy.hello import ADDRESS, FULL, HelloError, Side, error_line
 from up_proxy.opening import Opening
 from up_proxy.poller import Poller
@@ -106,9 +106,8 @@ class Door:
 
     def sweep(self, now_s: float) -> None:
         """End what has been idle, and let the opening look at its clock."""
-        since_s = now_s - IDLE_S
         for connection in self.connections:
-            if connection.heard_s < since_s and connection.told_s < since_s:
+            if connection.is_idle(now_s):
                 self.idle_closed += 1
                 connection.fail("idle")
         self._opening.sweep(now_s)

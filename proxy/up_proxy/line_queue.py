@@ -27,7 +27,7 @@ class LineQueue:
         return self._kept
 
     def put_rest(self, rest: bytes) -> None:
-        """Begin the queue with lines of which a part of the first may have left already."""
+        """Begin the queue; of the first line, which is never dropped, a part may have left."""
         assert not self._buffer
         self._buffer += rest
         self._kept = rest.find(b"\n") + 1

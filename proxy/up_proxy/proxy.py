@@ -120,8 +120,10 @@ class Proxy:
         limits = config.limits
         label = f"{side.value} port"
         listener = listen(label, config.address, port, limits.user_timeout_ms)
+        # What waits for an aircraft is bounded by pausing the ground, never by dropping lines.
+        queue_bytes = limits.queue_bytes if side is Side.GROUND else 0
         door_limits = DoorLimits(
-            limits.connections, limits.per_address, limits.queue_bytes, config.i_accept_plain
+            limits.connections, limits.per_address, queue_bytes, config.i_accept_plain
         )
         opening = Opening(side, self.fleet, self._poller)
         return Door(listener, opening, self._poller, self._reactor, side, door_limits)
