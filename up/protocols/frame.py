@@ -47,4 +47,5 @@ class SilenceTimer:
         """Return whether the newest byte is too old for its frame to go on."""
         if self._is_fresh:
             self.heard(now)
-        return self._heard_s is not None and now - self._heard_s >= UNFINISHED_TIMEOUT_S
+        # Added, not subtracted: a timer set for this very moment must find it expired.
+        return self._heard_s is not None and now >= self._heard_s + UNFINISHED_TIMEOUT_S

@@ -12,12 +12,11 @@ from up.protocols.general_message_link import OnConnected, OnLost, OnMalformed, 
 from up.system.clock import Clock, Timer
 
 SILENCE_TIMEOUT_S = 3.0
-MAX_PACKET_SIZE = 65536
-"""For `listenUDP`: with its default of 8 KiB longer messages would arrive cut off."""
+_MAX_PACKET_SIZE = 65536
 
 
 class GeneralMessageDatagrams(DatagramProtocol):
-    """One port, one peer: whoever was heard last. Listen with `MAX_PACKET_SIZE`.
+    """One port, one peer: whoever was heard last.
 
     The callbacks are those of `GeneralMessageProtocol`. The link counts as lost after
     `idle_timeout_s` without a datagram; then nothing is sent until one comes. An empty datagram
@@ -78,6 +77,10 @@ class GeneralMessageDatagrams(DatagramProtocol):
     def close(self) -> None:
         """Give the peer up; the next datagram is a new link."""
         self._lose("closed")
+
+    def startProtocol(self) -> None:  # noqa: N802 - Twisted's name
+        """Let longer messages in than the 8 KiB at which a port cuts datagrams off."""
+        self.transport.maxPacketSize = _MAX_PACKET_SIZE
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
         """Hand on the one message of a datagram."""

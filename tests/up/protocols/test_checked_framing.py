@@ -131,6 +131,14 @@ def test_an_unfinished_frame_is_dropped_100_ms_after_its_newest_byte():
     assert line.counters.crc_errors == line.counters.format_errors == 0
 
 
+@given(st.floats(0, 1e9))
+def test_a_timer_for_the_end_of_the_100_ms_finds_it_reached(heard):
+    line = decoder()
+    line.feed(GOOD[:3], heard)
+    line.expire(heard + 0.1)
+    assert line.counters.timeouts == 1
+
+
 def test_an_unfinished_frame_is_dropped_when_the_next_byte_comes_late():
     line = decoder()
     line.feed(GOOD[:4], 1.0)

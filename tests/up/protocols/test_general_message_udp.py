@@ -5,7 +5,7 @@ from twisted.internet.task import Clock
 
 from tests.support.reactor import reactor, run_in_reactor, until
 from up.protocols.general_message import encode
-from up.protocols.general_message_udp import MAX_PACKET_SIZE, GeneralMessageDatagrams
+from up.protocols.general_message_udp import GeneralMessageDatagrams
 
 
 class Notes:
