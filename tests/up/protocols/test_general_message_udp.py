@@ -30,9 +30,7 @@ def client():
 def with_port(scenario):
     async def run():
         notes = Notes(Clock())
-        port = reactor.listenUDP(
-            0, notes.link, interface="127.0.0.1", maxPacketSize=MAX_PACKET_SIZE
-        )
+        port = reactor.listenUDP(0, notes.link, interface="127.0.0.1")
         address = ("127.0.0.1", port.getHost().port)
         try:
             with client() as first, client() as second:
