@@ -75,9 +75,16 @@ class Fleet:
             )
         return party
 
-    def check_room(self, aircraft: Aircraft) -> None:
-        """Raise HelloError with code `full` when no further ground may join."""
-        if len(aircraft.grounds) > self._listeners_max:
+    def check_room(self, aircraft: Aircraft, now_s: float, token: str | None = None) -> None:
+        """Raise HelloError with code `full` when no further ground may listen.
+
+        Who comes to command, to a free seat or with its token, always finds room.
+        """
+        seat = aircraft.command_seat
+        listeners = len(aircraft.grounds) - (seat.occupant is not None)
+        if listeners >= self._listeners_max and not (
+            seat.is_free(now_s) or seat.is_resumed_by(token)
+        ):
             raise HelloError(FULL, "this aircraft has as many grounds as it may")
 
     def sweep(self, now_s: float) -> None:

@@ -129,7 +129,7 @@ class Opening:
             connection.tell(ok_line(hello.aircraft, SeatKind.AIR, connection.token))
             party.air.seat(connection)
         else:
-            self._fleet.check_room(party.aircraft)
+            self._fleet.check_room(party.aircraft, now_s, hello.token)
             connection.token = self._draw_token()
             connection.owner = party.ground
             kind = party.ground.admit(connection, hello.seat or SeatKind.LISTEN, hello.token)
@@ -146,7 +146,7 @@ class Opening:
                 seated = party.air
                 party.air.seat(connection)
             else:
-                self._fleet.check_room(party.aircraft)
+                self._fleet.check_room(party.aircraft, self._poller.now_s)
                 seated = party.ground
                 party.ground.admit(connection, SeatKind.COMMAND, None)
                 party.aircraft.announce(self._poller.now_s, newcomer=connection)

@@ -25,10 +25,19 @@ def until(condition, what, deadline_s=DEADLINE_S):
 class Program:
     """A running up-proxy; `log` grows while it runs. Ends it when the test ends."""
 
-    def __init__(self, folder, text="", arguments=(), ports=(0, 0, 0), environ=None, prefix=()):
+    def __init__(
+        self,
+        folder,
+        text="",
+        arguments=(),
+        ports=(0, 0, 0),
+        environ=None,
+        prefix=(),
+        command=(str(UP_PROXY),),
+    ):
         folder.mkdir(exist_ok=True)
         (folder / "proxy.yml").write_text(text, encoding="utf-8")
-        command = [*prefix, str(UP_PROXY), "--config", str(folder)]
+        command = [*prefix, *command, "--config", str(folder)]
         for option, port in zip(
             ("--airborne-port", "--ground-port", "--metrics-port"), ports, strict=True
         ):

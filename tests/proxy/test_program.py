@@ -3,6 +3,7 @@
 import signal
 import socket
 import subprocess
+import sys
 import time
 
 import pytest
@@ -156,3 +157,35 @@ def test_the_log_goes_to_a_file_when_asked(tmp_path):
     with Program(tmp_path, f"log file: {tmp_path}/proxy.jsonl\n") as proxy:
         proxy.end()
     assert "listens on port" in (tmp_path / "proxy.jsonl").read_text(encoding="utf-8")
+
+
+JUMP = """
+import os, sys, time
+real = time.time
+flag = {flag!r}
+time.time = lambda: real() - (86400.0 if os.path.exists(flag) else 0.0)
+from twisted.python import runtime
+runtime.seconds = time.time
+from twisted.internet import base
+base.ReactorBase.seconds = staticmethod(lambda: time.time())
+from up_proxy.main import main
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def test_a_wall_clock_that_jumps_a_day_changes_nothing(tmp_path):
+    flag = tmp_path / "jumped"
+    program = tmp_path / "jumping.py"
+    program.write_text(JUMP.format(flag=str(flag)), encoding="utf-8")
+    with Program(tmp_path, command=(sys.executable, str(program))) as proxy:
+        air, _ = accepted(proxy.airborne_port, "UP1 aircraft=a\n")
+        ground, _ = accepted(proxy.ground_port, "UP1 aircraft=a seat=command\n")
+        flag.touch()
+        # The tick still comes: it takes the silent for thesis clients and notices the silent.
+        with Client(proxy.ground_port):
+            ground.expect("UP1 aircraft offline")
+        air.say("telemetry\n")
+        ground.expect("telemetry")
+        air.close()
+        ground.close()
+        assert proxy.end() == 0

@@ -1,0 +1,37 @@
+"""How many of what the proxy bears."""
+
+from tests.proxy.virtual import Bench
+
+
+def refusal(peer):
+    line = peer.line()
+    peer.expect_closed()
+    return line.split(" reason=")[0]
+
+
+def test_aircraft_names_are_bounded():
+    with Bench(aircraft=3) as bench:
+        for name in ("a", "b", "c"):
+            bench.hello_ground(name)
+        assert refusal(bench.ground("UP1 aircraft=d\n")) == "UP1 error code=full"
+        assert refusal(bench.air("UP1 aircraft=d\n")) == "UP1 error code=full"
+        bench.hello_air("a")
+        assert len(bench.proxy.fleet) == 3
+
+
+def test_listeners_are_bounded():
+    with Bench(listeners=2) as bench:
+        for kind in ("command", "listen", "listen"):
+            bench.hello_ground(asks=kind)
+        assert refusal(bench.ground("UP1 aircraft=a seat=listen\n")) == "UP1 error code=full"
+        assert refusal(bench.ground("UP1 aircraft=a seat=command\n")) == "UP1 error code=full"
+        bench.hello_ground("b")
+
+
+def test_the_holder_finds_room_for_its_token_among_full_listeners():
+    with Bench(listeners=1) as bench:
+        holder, token = bench.hello_ground()
+        bench.hello_ground(asks="listen")
+        again, _ = bench.hello_ground(extra=f" token={token}")
+        holder.expect_closed()
+        assert not again.closed
