@@ -12,6 +12,7 @@ from up_simulator.reason import Reason, RefusedError
 from up_simulator.receiver import Receiver
 
 LIVES_S = 0.25
+ASKED_LIVES_S = 0.5
 RECEIVER_LOST_S = 0.1
 RECEIVER_GONE_S = 1.0
 THROTTLE_LATCH_S = 5.0
@@ -22,7 +23,7 @@ MIDDLE_US, HIGH_US = 1300, 1700
 PULSE_VALID_US = (885, 2115)
 DISARMED_THROTTLE_US = 1000
 
-ACRO, OUTPUT, AUTO = "a", "u", "A"
+ACRO, OUTPUT, SETPOINT, AUTO = "a", "u", "s", "A"
 
 
 class Authority:
@@ -38,6 +39,8 @@ class Authority:
         self.is_calibrating = False
         self.switch: int | None = None
         self.veto_until_s = 0.0
+        self._asked: str | None = None
+        self._asked_until_s = 0.0
         self._output: Servos | None = None
         self._output_until_s = 0.0
         self._throttle_demand_us = 0
@@ -56,6 +59,7 @@ class Authority:
         aux1_us, aux2_us = self._receiver.pulses_us[4:6]
         self.switch = (aux1_us >= MIDDLE_US) + (aux1_us >= HIGH_US)
         if not self.is_auto:
+            self._asked = None
             self._output_until_s = self._demand_until_s = 0.0
         if not self.is_throttle_low:
             self._throttle_low_since_s = None
@@ -143,14 +147,32 @@ class Authority:
             raise RefusedError(Reason.THROTTLE_NOT_LOW)
         self.is_armed = False
 
-    def require_auto(self) -> None:
-        """Raise ``RefusedError`` unless the switch stands at AUTO."""
+    def ask_mode(self, letter: str, now_s: float) -> None:
+        """Take a flight mode from the ground; refused unless the switch stands at AUTO.
+
+        OUTPUT is said for half a second even without an Output, so that a Raspberry Pi that
+        waits for it learns that it may begin; another mode ends what OUTPUT was followed.
+        """
+        self._require_auto()
+        self._asked = letter
+        self._asked_until_s = now_s + ASKED_LIVES_S
+        if letter != OUTPUT:
+            self._output_until_s = 0.0
+        if letter != SETPOINT:
+            self._demand_until_s = 0.0
+
+    def _require_auto(self) -> None:
         if not self.is_auto:
             raise RefusedError(Reason.NOT_AUTO)
 
-    def require_authority(self, now_s: float) -> None:
-        """Raise ``RefusedError`` unless the Raspberry Pi may move surfaces now."""
-        self.require_auto()
+    def require_authority(self, mode: str, now_s: float) -> None:
+        """Raise ``RefusedError`` unless the Raspberry Pi may fly in this mode now.
+
+        The switch must be at AUTO and no other mode asked for from the ground.
+        """
+        self._require_auto()
+        if self._asked not in (None, mode):
+            raise RefusedError(Reason.NOT_AUTO)
         if not self.has_receiver(now_s):
             raise RefusedError(Reason.RECEIVER_INVALID)
         if self.profile.has_motor and not self.is_armed:
@@ -172,7 +194,8 @@ class Authority:
 
     def mode(self, now_s: float) -> str:
         """Return the letter of what happens: OUTPUT, else ACRO (a pass-through)."""
-        return OUTPUT if self.is_output(now_s) else ACRO
+        is_asked = self._asked == OUTPUT and now_s < self._asked_until_s
+        return OUTPUT if is_asked or self.is_output(now_s) else ACRO
 
     def servos(self, now_s: float) -> Servos:
         """Return the pulses for the four servos, us."""

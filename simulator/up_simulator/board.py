@@ -6,7 +6,7 @@ import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from up_simulator.authority import Authority
+from up_simulator.authority import OUTPUT, Authority
 from up_simulator.clock import Clock
 from up_simulator.commands import OUTPUT_AGE_S, CommandTable
 from up_simulator.flight import Flight
@@ -179,7 +179,7 @@ class Board:
                 self.send(found.type, found.payload)
 
     def _stream(self, now_s: float) -> None:
-        is_consumed = self.authority.is_output(now_s)
+        is_consumed = self.authority.mode(now_s) == OUTPUT
         quick_s = min(self.period_s, STREAM_S) if is_consumed else self.period_s
         if self._is_due("i", quick_s, now_s):
             pulses_us = self._receiver.pulses_us
@@ -227,7 +227,7 @@ class Board:
         mode = self.authority.mode(now_s)
         if mode != self._told_mode:
             self._told_mode = mode
-            self._say("following the Raspberry Pi" if mode == "u" else "sticks pass through")
+            self._say("following the Raspberry Pi" if mode == OUTPUT else "sticks pass through")
         if self.authority.is_armed is not self._was_armed:
             self._was_armed = self.authority.is_armed
             self._say("armed" if self._was_armed else "disarmed")

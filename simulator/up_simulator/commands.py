@@ -6,7 +6,7 @@ import math
 import struct
 from typing import Protocol
 
-from up_simulator.authority import Authority
+from up_simulator.authority import OUTPUT, SETPOINT, Authority
 from up_simulator.flight import Flight
 from up_simulator.memory import Gains, OutOfRangeError, read_profile
 from up_simulator.reason import Reason, RefusedError
@@ -44,7 +44,6 @@ class CommandTable:
 
     def __init__(self, board: Commanded) -> None:
         self._board = board
-        self.asked_mode: str | None = None
 
     def carry_out(self, command: Command, now_s: float) -> Answer:
         """Do what the Command says."""
@@ -61,8 +60,7 @@ class CommandTable:
             case "d":
                 board.authority.disarm(now_s)
             case "M":
-                board.authority.require_auto()
-                self.asked_mode = payload.decode("ascii")
+                board.authority.ask_mode(payload.decode("ascii"), now_s)
             case "m":
                 return "m", board.authority.mode(now_s).encode("ascii")
             case "p":
@@ -123,14 +121,14 @@ class CommandTable:
 
     def _take_output(self, payload: bytes, now_s: float) -> None:
         board = self._board
-        board.authority.require_authority(now_s)
+        board.authority.require_authority(OUTPUT, now_s)
         ailerons, elevator, throttle, rudder, sequence = struct.unpack(">5H", payload)
         if board.orientation_age_s(sequence, now_s) > OUTPUT_AGE_S:
             raise RefusedError(Reason.TOO_OLD)
         board.authority.follow((ailerons, elevator, throttle, rudder), now_s)
 
     def _take_setpoint(self, payload: bytes, now_s: float) -> None:
-        self._board.authority.require_authority(now_s)
+        self._board.authority.require_authority(SETPOINT, now_s)
         throttle_us, lifetime_ms = struct.unpack(">2H", payload[6:])
         self._board.authority.demand_throttle(throttle_us, lifetime_ms / 1000, now_s)
 

@@ -45,6 +45,35 @@ def test_an_output_is_followed_for_250_ms():
     assert bench.answer("m") == ("m", b"a")
 
 
+def test_output_that_is_asked_for_is_said_before_the_first_one_comes():
+    bench = flying("t=0 aileron=1600")
+    assert bench.confirmed("M", b"u")
+    assert bench.status()[1:2] == b"u"
+    assert near(bench.flight.servos, (1600, 1500, 1000, 1500))
+    bench.run(0.5)
+    assert bench.status()[1:2] == b"a"
+
+
+def test_another_mode_from_the_ground_ends_output_until_it_is_asked_for_again():
+    bench = flying()
+    assert bench.output(LEFT, bench.newest_orientation()) is None
+    assert bench.confirmed("M", b"f")
+    bench.run(0.01)
+    assert near(bench.flight.servos, (1500, 1500, 1000, 1500))
+    assert bench.output(LEFT, bench.newest_orientation()) == 7
+    assert bench.confirmed("M", b"u")
+    assert bench.output(LEFT, bench.newest_orientation()) is None
+    bench.run(0.01)
+    assert near(bench.flight.servos, (1200, 1300, 1000, 1700))
+
+
+def test_leaving_auto_forgets_the_mode_that_the_ground_asked_for():
+    bench = flying("t=1 aux1=1000 t=1.5 aux1=2000")
+    assert bench.confirmed("M", b"f")
+    bench.run(1.2)
+    assert bench.output(LEFT, bench.newest_orientation()) is None
+
+
 def test_servo_outputs_are_what_r_says():
     bench = flying()
     bench.output(LEFT, bench.newest_orientation())
