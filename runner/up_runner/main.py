@@ -42,6 +42,8 @@ def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespac
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status: 1 cannot start, 2 wrong configuration."""
+    # Until it serves, Ctrl-C just ends it: there is nothing yet to put in order.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     options = parse_arguments(arguments)
     folder = options.config or own_root() / "config"
     if options.config is not None and not folder.is_dir():

@@ -100,6 +100,7 @@ class RunnerProcess:
             **config,
         }
         self.environ = {}
+        self.prefix = []
         self.process = None
         self.port = None
         self.pids = set()
@@ -128,7 +129,12 @@ class RunnerProcess:
         if under_systemd:
             environ["INVOCATION_ID"] = "0" * 32
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "up_runner.main", "--config", str(self.config_folder), *options],
+            [
+                *self.prefix,
+                *(sys.executable, "-m", "up_runner.main"),
+                *("--config", str(self.config_folder)),
+                *options,
+            ],
             env=environ | self.environ,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,

@@ -1,0 +1,255 @@
+"""One connection to the request port: JSON lines, or a thesis client that says anything."""
+
+from __future__ import annotations
+
+import enum
+import typing
+from collections import Counter
+from typing import Any
+
+from twisted.internet.defer import Deferred
+from twisted.internet.interfaces import IHalfCloseableProtocol
+from twisted.internet.protocol import Protocol, connectionDone
+from twisted.logger import Logger
+from twisted.python.failure import Failure
+from zope.interface import implementer
+
+from up.system.clock import Clock, Timer
+from up_runner.answer import Answer
+from up_runner.deadline import Deadline
+from up_runner.request import MAX_LINE, MalformedRequest, Request, parse
+
+SILENCE_S = 1.0
+UNFINISHED_S = 10.0
+CLOSE_S = 1.0
+
+
+class Desk(typing.Protocol):
+    """What a connection asks of the port that it came to."""
+
+    clock: Clock
+    idle_s: float
+    counts: Counter[str]
+    log: Logger
+
+    def ask(self, connection: RequestConnection, request: Request) -> Deferred[Answer]:
+        """Let a request be answered."""
+
+    def encode(self, answer: Answer, host: str) -> bytes:
+        """Return the line for the asker."""
+
+    def on_gone(self, connection: RequestConnection) -> None:
+        """Forget a connection."""
+
+
+class Speech(enum.Enum):
+    """How a connection speaks, which its first byte decides."""
+
+    UNKNOWN = "unknown"
+    LINES = "lines"
+    THESIS = "thesis"
+
+
+@implementer(IHalfCloseableProtocol)
+class RequestConnection(Protocol):
+    """One asker. One request at a time is worked on; meanwhile nothing more is read."""
+
+    transport: Any
+
+    def __init__(self, desk: Desk, host: str) -> None:
+        self.host = host
+        self.heard_s = 0.0
+        self.busy = False
+        self._desk = desk
+        self._speech = Speech.UNKNOWN
+        self._buffer = bytearray()
+        self._searched = 0
+        """Bytes of the buffer in which no line feed is."""
+        self._closing = False
+        self._answered = False
+        self._idle = Deadline(desk.clock, desk.idle_s, self._on_idle)
+        self._unfinished = Deadline(desk.clock, UNFINISHED_S, self._on_unfinished)
+        self._silence: Timer | None = None
+        self._reader_full = False
+        self._taking = False
+        self._heard_all = False
+
+    def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
+        """Begin to wait for the first byte."""
+        self.transport.setTcpNoDelay(True)
+        self.transport.registerProducer(self, True)
+        self._touch()
+
+    def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
+        """Forget the asker; what it asked for goes on."""
+        self._closing = True
+        self._idle.stop()
+        self._unfinished.stop()
+        self._cancel_silence()
+        self._desk.on_gone(self)
+
+    def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
+        """Take what came."""
+        if self._closing:
+            return
+        self._touch()
+        if self._speech is Speech.UNKNOWN:
+            self._speech = Speech.LINES if data.startswith(b"{") else Speech.THESIS
+        if self._speech is Speech.THESIS:
+            # Whatever it says, it asks for the one nameless instance.
+            if not self.busy:
+                self._ask(Request())
+            return
+        self._buffer += data
+        self._take_lines()
+
+    def readConnectionLost(self) -> None:  # noqa: N802 - Twisted's name
+        """Answer one who says no more but may still listen, as `nc -N` does."""
+        self._heard_all = True
+        self._set_reading()
+        if self.busy or self._closing:
+            return
+        if self._buffer and not self._answered:
+            self._cancel_silence()
+            self._on_silence()
+        else:
+            self.transport.loseConnection()
+
+    def writeConnectionLost(self) -> None:  # noqa: N802 - Twisted's name
+        """Do nothing: it was we who said no more."""
+
+    def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Read no more from one who does not read our answers."""
+        self._reader_full = True
+        self._set_reading()
+
+    def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Read again."""
+        self._reader_full = False
+        self._set_reading()
+
+    def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Do nothing: the connection is lost."""
+
+    def drop(self) -> None:
+        """End the connection now."""
+        self._closing = True
+        self.transport.abortConnection()
+
+    def _take_lines(self) -> None:
+        if self._taking:
+            return
+        self._taking = True
+        self._cancel_silence()
+        while not self.busy and not self._closing:
+            end = self._buffer.find(b"\n", self._searched)
+            self._searched = len(self._buffer) if end < 0 else 0
+            if max(end, self._searched) > MAX_LINE:
+                self._refuse(f"the request is longer than {MAX_LINE} bytes")
+                self._close()
+            elif end < 0:
+                self._wait_for_more()
+                break
+            else:
+                self._unfinished.stop()
+                line = bytes(self._buffer[:end])
+                del self._buffer[: end + 1]
+                self._take(line)
+        self._taking = False
+
+    def _take(self, line: bytes) -> None:
+        if not line.strip():
+            return
+        try:
+            request = parse(line)
+        except MalformedRequest as error:
+            self._refuse(str(error))
+        else:
+            self._ask(request)
+
+    def _wait_for_more(self) -> None:
+        """A first line that stays unfinished is a thesis client's; a later one is nothing."""
+        if not self._buffer:
+            return
+        if not self._unfinished.running:
+            # From its first byte on: one byte now and then gains no time.
+            self._unfinished.touch()
+        if not self._answered:
+            self._silence = self._desk.clock.callLater(SILENCE_S, self._on_silence)
+
+    def _on_silence(self) -> None:
+        self._silence = None
+        line, self._buffer, self._searched = bytes(self._buffer), bytearray(), 0
+        try:
+            # A whole request whose line feed was forgotten says what it wants.
+            request = parse(line)
+        except MalformedRequest:
+            self._speech = Speech.THESIS
+            request = Request()
+        self._ask(request)
+
+    def _on_unfinished(self) -> None:
+        self._refuse(f"the request was not finished within {UNFINISHED_S:g} s")
+        self._close()
+
+    def _ask(self, request: Request) -> None:
+        self.busy = True
+        self._idle.stop()
+        self._unfinished.stop()
+        self._set_reading()
+        self._desk.ask(self, request).addBoth(self._on_answer, request)
+
+    def _on_answer(self, answer: Answer | Failure, request: Request) -> None:
+        self.busy = False
+        if isinstance(answer, Failure):
+            self._desk.log.failure("a bug in the runner", answer)
+            answer = Answer(request.aircraft, error="the runner failed, see its log")
+        if self._closing:
+            return
+        self._touch()
+        self._write(answer)
+        self._set_reading()
+        if self._speech is Speech.LINES:
+            self._take_lines()
+        if self._heard_all and not self.busy and not self._taking:
+            self.transport.loseConnection()
+
+    def _refuse(self, error: str) -> None:
+        self._desk.counts["malformed"] += 1
+        self._write(Answer(None, error=error))
+
+    def _write(self, answer: Answer) -> None:
+        self._answered = True
+        self.transport.write(self._desk.encode(answer, self.host))
+
+    def _close(self) -> None:
+        """Let the answer through, hear nothing more, and end it soon."""
+        self._closing = True
+        self._buffer.clear()
+        self._searched = 0
+        self._idle.stop()
+        self._unfinished.stop()
+        self._cancel_silence()
+        self._set_reading()
+        self.transport.unregisterProducer()
+        self.transport.loseWriteConnection()
+        self._silence = self._desk.clock.callLater(CLOSE_S, self.drop)
+
+    def _set_reading(self) -> None:
+        if self.busy or self._reader_full or self._closing or self._heard_all:
+            self.transport.pauseProducing()
+        else:
+            self.transport.resumeProducing()
+
+    def _touch(self) -> None:
+        self.heard_s = self._desk.clock.seconds()
+        self._idle.touch()
+
+    def _on_idle(self) -> None:
+        self._desk.counts["idle"] += 1
+        self.drop()
+
+    def _cancel_silence(self) -> None:
+        silence, self._silence = self._silence, None
+        if silence is not None and silence.active():
+            silence.cancel()

@@ -1,0 +1,245 @@
+"""A connection in virtual time, where silence and slowness are exact."""
+
+import json
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from twisted.internet.address import IPv4Address
+from twisted.internet.defer import Deferred, succeed
+from twisted.internet.task import Clock
+from twisted.internet.testing import StringTransport
+
+from up_runner.answer import Answer
+from up_runner.request_server import RequestServer
+
+
+class Line(StringTransport):
+    """A transport that remembers how it ended."""
+
+    aborted = half_closed = False
+
+    def setTcpNoDelay(self, on):  # noqa: N802
+        pass
+
+    def abortConnection(self):  # noqa: N802
+        self.aborted = True
+
+    def loseWriteConnection(self):  # noqa: N802
+        self.half_closed = True
+
+
+class Port:
+    """A request port whose answers the test gives, and one connection to it."""
+
+    def __init__(self, at_once=True, **limits):
+        self.clock = Clock()
+        self.asked = []
+        self.waiting = []
+        self.at_once = at_once
+        defaults = {"limit": 10, "address_limit": 10, "idle_s": 15.0, "accept_public": False}
+        self.server = RequestServer(
+            self.clock,
+            self.ask,
+            lambda answer, host: answer.encode(host, None),
+            **(defaults | limits),
+        )
+
+    def ask(self, request):
+        self.asked.append(request)
+        if self.at_once:
+            return succeed(Answer(request.aircraft))
+        self.waiting.append(Deferred())
+        return self.waiting[-1]
+
+    def connect(self, host="127.0.0.1"):
+        connection = self.server.buildProtocol(IPv4Address("TCP", host, 1234))
+        if connection is not None:
+            connection.makeConnection(Line())
+        return connection
+
+
+def answers(connection):
+    data = connection.transport.value()
+    connection.transport.clear()
+    return [json.loads(line) for line in data.splitlines()]
+
+
+def instances(port):
+    return [request.aircraft for request in port.asked]
+
+
+def test_an_unfinished_first_line_is_a_thesis_client_after_one_second():
+    port = Port()
+    connection = port.connect()
+    connection.dataReceived(b'{"aircraft"')
+    port.clock.advance(0.9)
+    assert port.asked == []
+    connection.dataReceived(b":")
+    port.clock.advance(0.9)
+    assert port.asked == []
+    port.clock.advance(0.2)
+    assert instances(port) == ["default"] and len(answers(connection)) == 1
+    connection.dataReceived(b"anything")
+    assert instances(port) == ["default", "default"]
+
+
+def test_after_a_request_an_unfinished_line_asks_for_nothing():
+    port = Port()
+    connection = port.connect()
+    connection.dataReceived(b'{"aircraft": "a"}\n{"aircraft": "b"')
+    for _ in range(9):
+        port.clock.advance(1)
+        connection.dataReceived(b" ")
+    assert instances(port) == ["a"]
+    port.clock.advance(1)
+    assert "was not finished within 10 s" in answers(connection)[-1]["error"]
+    assert connection.transport.half_closed
+    port.clock.advance(1)
+    assert connection.transport.aborted and instances(port) == ["a"]
+
+
+def test_a_byte_now_and_then_does_not_hold_a_connection():
+    port = Port()
+    connection = port.connect()
+    for byte in b'{"aircraft": "a"' + b" " * 100:
+        connection.dataReceived(bytes([byte]))
+        port.clock.advance(0.9)
+        if connection.transport.half_closed:
+            break
+    assert connection.transport.half_closed and port.clock.seconds() < 12
+
+
+def test_while_one_request_is_worked_on_nothing_is_read():
+    port = Port(at_once=False)
+    connection = port.connect()
+    connection.dataReceived(b'{"aircraft": "a"}\n{"aircraft": "b"}\n')
+    assert instances(port) == ["a"] and connection.transport.producerState == "paused"
+    port.clock.advance(3600)
+    assert not connection.transport.aborted
+    port.waiting[0].callback(Answer("a"))
+    assert instances(port) == ["a", "b"]
+    port.waiting[1].callback(Answer("b"))
+    assert [answer["instance"] for answer in answers(connection)] == ["a", "b"]
+    assert connection.transport.producerState == "producing"
+    port.clock.advance(15)
+    assert connection.transport.aborted
+
+
+def test_one_who_does_not_read_is_not_read_either():
+    port = Port()
+    connection = port.connect()
+    connection.pauseProducing()
+    assert connection.transport.producerState == "paused"
+    connection.resumeProducing()
+    assert connection.transport.producerState == "producing"
+
+
+def test_an_answer_for_one_who_left_is_thrown_away():
+    port = Port(at_once=False)
+    connection = port.connect()
+    connection.dataReceived(b"x")
+    connection.connectionLost()
+    port.waiting[0].callback(Answer("default"))
+    assert answers(connection) == [] and len(port.server) == 0
+    port.server.close()
+    assert port.clock.getDelayedCalls() == []
+
+
+def test_a_bug_is_answered_as_one():
+    port = Port(at_once=False)
+    connection = port.connect()
+    connection.dataReceived(b"x")
+    port.waiting[0].errback(ZeroDivisionError())
+    assert answers(connection)[0]["error"] == "the runner failed, see its log"
+
+
+@pytest.mark.parametrize(
+    ("host", "in_"),
+    [
+        ("127.0.0.1", True),
+        ("10.1.2.3", True),
+        ("100.64.0.1", True),
+        ("::ffff:192.168.0.1", True),
+        ("fe80::1%eth0", True),
+        ("203.0.113.9", False),
+        ("::ffff:203.0.113.9", False),
+        ("2001:db8::1", False),
+    ],
+)
+def test_public_peers_are_judged_when_they_come(host, in_):
+    assert (Port().connect(host) is not None) is in_
+    assert Port(accept_public=True).connect(host) is not None
+    if not in_:
+        port = Port()
+        for _ in range(100):
+            port.connect(host)
+        assert port.server.counts["public"] == 100
+        port.server.close()
+
+
+def test_the_address_is_written_as_people_write_it():
+    port = Port(accept_public=True)
+    connection = port.connect("::ffff:203.0.113.9")
+    connection.dataReceived(b"x")
+    assert answers(connection)[0]["myAddress"] == "203.0.113.9"
+
+
+def test_the_one_that_was_silent_longest_makes_room():
+    port = Port(limit=3)
+    lines = []
+    for _ in range(3):
+        lines.append(port.connect())
+        port.clock.advance(1)
+    lines[0].dataReceived(b'{"action": "status"}\n')
+    assert port.connect() is not None
+    assert [line.transport.aborted for line in lines] == [False, True, False]
+    assert len(port.server) == 3
+
+
+lines_and_garbage = st.lists(
+    st.sampled_from(
+        [
+            b'{"aircraft": "a"}\n',
+            b'{"action": "status", "aircraft": "b"}\r\n',
+            b"\n",
+            b"{}}\n",
+            b"nonsense\n",
+            b'{"aircraft": "\xff"}\n',
+        ]
+    )
+    | st.binary(max_size=30).map(lambda data: data.replace(b"\n", b"") + b"\n"),
+    max_size=10,
+)
+
+
+@settings(max_examples=500)
+@given(lines_and_garbage, st.data())
+def test_however_it_is_cut_the_same_is_asked_and_answered(lines, data):
+    stream = b'{"aircraft": "first"}\n' + b"".join(lines)
+    whole, cut = Port(), Port()
+    one, other = whole.connect(), cut.connect()
+    one.dataReceived(stream)
+    rest = stream
+    while rest:
+        size = data.draw(st.integers(1, len(rest)))
+        other.dataReceived(rest[:size])
+        rest = rest[size:]
+    assert cut.asked == whole.asked
+    assert answers(other) == answers(one)
+    # One answer a line that is not empty.
+    expected = sum(bool(line.strip()) for line in stream.split(b"\n"))
+    assert whole.server.counts["malformed"] + len(whole.asked) == expected
+
+
+@settings(max_examples=500)
+@given(st.lists(st.binary(min_size=1, max_size=100), min_size=1, max_size=20))
+def test_no_bytes_break_it(chunks):
+    port = Port()
+    connection = port.connect()
+    for chunk in chunks:
+        connection.dataReceived(chunk)
+        port.clock.advance(0.3)
+    port.clock.advance(1)
+    for answer in answers(connection):
+        assert answer["message"] == "Raspilot not running"

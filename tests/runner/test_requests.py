@@ -1,0 +1,218 @@
+"""The request port under good, bad and hostile askers; real sockets and a real runner."""
+
+import json
+import os
+import random
+import shutil
+import socket
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from tests.runner.runners import wait_until
+
+
+def memory_kb(pid):
+    for line in Path(f"/proc/{pid}/status").read_text().splitlines():
+        if line.startswith("VmRSS:"):
+            return int(line.split()[1])
+    raise AssertionError("no memory known")
+
+
+def test_a_malformed_line_is_answered_and_the_connection_stays(runners):
+    runner = runners().start()
+    talk = runner.talk()
+    for line in (b"{}}\n", b"{\xff}\n", b"{" + b"[" * 10_000 + b"\n", b'{"aircraft": 1}\n'):
+        answer = talk.ask(line)
+        assert answer["error"] and answer["running"] is False and answer["instance"] is None
+        assert answer["message"] == "Raspilot not running"
+    # Not a thesis client any more, whatever it says.
+    assert talk.ask(b"hello\n")["error"] == "the request is not valid JSON"
+    assert talk.ask({"action": "status"})["error"] is None
+    assert runner.instances() == []
+
+
+def test_a_line_that_is_too_long_is_answered_and_ended(runners):
+    runner = runners().start()
+    talk = runner.talk()
+    sender = threading.Thread(target=flood, args=(talk.socket, b'{"a": "', b"x" * 65536))
+    sender.start()
+    assert talk.hear()["error"] == "the request is longer than 65536 bytes"
+    sender.join()
+    assert talk.ended()
+
+
+def flood(line, head, chunk, total=2**30):
+    try:
+        line.sendall(head)
+        for _ in range(total // len(chunk)):
+            line.sendall(chunk)
+    except OSError:
+        pass
+
+
+def test_a_gigabyte_without_a_line_feed_costs_no_memory(runners):
+    runner = runners(connections={"idle": 2}).start()
+    before_kb = memory_kb(runner.process.pid)
+    for head in (b"{", b"x"):
+        # A thesis client that never listens is not read any more, and dropped when it is silent.
+        flood(runner.talk().socket, head, b"x" * 65536)
+    assert memory_kb(runner.process.pid) - before_kb < 10_000
+    assert runner.ask(action="status")["error"] is None
+
+
+def test_one_who_never_reads_is_dropped_and_disturbs_nobody(runners):
+    runner = runners(connections={"idle": 2}).start()
+    talk = runner.talk()
+    talk.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    flood(talk.socket, b"", b'{"action": "status"}\n' * 1000, total=2**28)
+    assert memory_kb(runner.process.pid) < 100_000
+    assert runner.ask(action="status")["error"] is None
+
+
+def test_thousands_of_requests_in_one_heap_are_all_answered(runners):
+    runner = runners().start()
+    talk = runner.talk()
+    talk.say(b'{"action":"status"}\n' * 3000)
+    for _ in range(3000):
+        assert talk.hear()["message"] == "Raspilot not running"
+
+
+def test_a_slow_writer_is_understood(runners):
+    runner = runners().start()
+    talk = runner.talk()
+    for byte in b'{"action": "status"}\n':
+        talk.say(bytes([byte]))
+    assert talk.hear()["error"] is None
+
+
+def test_one_who_says_no_more_still_gets_the_answer(runners):
+    runner = runners().start()
+    for line in (b'{"aircraft": "a"}\n', b'{"aircraft": "a"}', b"spawn\n"):
+        talk = runner.talk()
+        talk.say(line)
+        talk.socket.shutdown(socket.SHUT_WR)
+        assert talk.hear()["running"] is True
+        assert talk.ended()
+
+
+def test_silent_connections_are_closed(runners):
+    runner = runners(connections={"idle": 1}).start()
+    talk = runner.talk()
+    assert talk.ended()
+    talk = runner.talk()
+    talk.ask({"action": "status"})
+    assert talk.ended()
+
+
+def test_a_thousand_idle_sockets_keep_nobody_out(runners):
+    runner = runners(connections={"limit": 50, "address limit": 40, "idle": 600}).start()
+    idle = [runner.talk(source=f"127.0.0.{2 + number % 50}") for number in range(1000)]
+    assert runner.ask(action="status")["error"] is None
+    assert runner.spawn()["spawned"] is True
+    for each in idle:
+        each.close()
+
+
+def test_one_address_cannot_take_all_connections(runners):
+    runner = runners(connections={"address limit": 3, "idle": 600}).start()
+    mine = [runner.talk(source="127.0.0.2") for _ in range(3)]
+    for talk in mine:
+        talk.ask({"action": "status"})
+    with pytest.raises((AssertionError, ConnectionResetError)):
+        runner.talk(source="127.0.0.2").ask({"action": "status"})
+    assert runner.talk(source="127.0.0.3").ask({"action": "status"})["error"] is None
+    assert mine[0].ask({"action": "status"})["error"] is None
+    runner.says("turned away 127.0.0.2: it has too many connections")
+
+
+def test_one_that_waits_for_an_answer_does_not_make_room(runners):
+    runner = runners(connections={"limit": 1, "idle": 600}).start()
+    gate = runner.close_gate()
+    waiting = runner.talk()
+    waiting.say({"aircraft": "glider-1"})
+    wait_until(runner.instances, "it starts")
+    with pytest.raises((AssertionError, ConnectionResetError)):
+        runner.talk().ask({"action": "status"})
+    gate.touch()
+    assert waiting.hear()["spawned"] is True
+
+
+def test_garbage_of_every_kind_breaks_nothing(runners):
+    limits = {"limit": 1000, "address limit": 1000, "idle": 600}
+    runner = runners(instances=1, connections=limits).start()
+    runner.spawn("default")
+    descriptors = Path(f"/proc/{runner.process.pid}/fd")
+    before = len(list(descriptors.iterdir()))
+    chance = random.Random(4)
+    for _ in range(300):
+        with socket.create_connection(("127.0.0.1", runner.port)) as line:
+            data = chance.randbytes(chance.randrange(1, 2000))
+            line.sendall(chance.choice([data, b"{" + data + b"\n", b'{"aircraft":"' + data]))
+            if chance.random() < 0.5:
+                # Gone with a reset, in the middle.
+                line.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\x01\0\0\0\0\0\0\0")
+    assert runner.ask(action="status")["running"] is True
+    wait_until(lambda: len(list(descriptors.iterdir())) <= before, "no connection stays")
+    assert "Traceback" not in runner.output() and "bug" not in runner.output()
+
+
+IN_A_NETWORK_OF_ITS_OWN = """
+import json, socket, sys
+for source in sys.argv[2:]:
+    line = socket.create_connection((source, int(sys.argv[1])), 30, source_address=(source, 0))
+    with line:
+        try:
+            line.sendall(b'{"action": "status"}\\n')
+            answer = line.makefile("rb").readline()
+        except ConnectionResetError:
+            answer = b""
+    print(json.loads(answer)["myAddress"] if answer else "turned away", flush=True)
+"""
+
+
+@pytest.mark.skipif(
+    os.geteuid() != 0 or not all(map(shutil.which, ("unshare", "nsenter", "ip"))),
+    reason="needs root, unshare, nsenter and ip",
+)
+@pytest.mark.parametrize("accepted", [False, True])
+def test_a_public_address_is_turned_away_unless_accepted(runners, accepted):
+    holder = subprocess.Popen(
+        ["unshare", "-n", "sh", "-c", "ip link set lo up && echo up && cat"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+    with holder:
+        assert holder.stdout.readline() == b"up\n"
+        inside = ["nsenter", "-t", str(holder.pid), "-n"]
+        for address in ("203.0.113.9", "100.64.1.2", "192.168.7.7"):
+            subprocess.run(
+                [*inside, "ip", "address", "add", f"{address}/32", "dev", "lo"], check=True
+            )
+        runner = runners(i_accept_plain=accepted)
+        runner.prefix = inside
+        runner.start()
+        program = [*inside, sys.executable, "-c", IN_A_NETWORK_OF_ITS_OWN, str(runner.port)]
+        asked = subprocess.run(
+            [*program, "203.0.113.9", "127.0.0.1", "100.64.1.2", "192.168.7.7"],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        public = "203.0.113.9" if accepted else "turned away"
+        assert asked.stdout.split("\n")[:4] == [public, "127.0.0.1", "100.64.1.2", "192.168.7.7"]
+        if not accepted:
+            runner.says("i_accept_plain: true in runner.yml lets it in")
+        holder.stdin.close()
+
+
+def test_the_answer_is_ascii_json_whatever_was_asked(runners):
+    runner = runners().start()
+    talk = runner.talk()
+    talk.say(json.dumps({"configuration": {"é\u2028.yml": {"k": 1}}}, ensure_ascii=False).encode())
+    talk.say(b"\n")
+    line = talk.lines.readline()
+    assert line.isascii() and json.loads(line)["error"].startswith("a request may not set")
