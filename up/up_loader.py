@@ -37,8 +37,8 @@ class UpLoader:
         found = discover(self._application, disabled)
         plan = select(found, BUILTIN_MODULES, self._context, disabled)
         plan.modules = order(plan.modules)
-        _take_commands(plan, found)
-        plan.handlers = _build_handlers(plan, found)
+        take_commands(plan, found)
+        plan.handlers = build_handlers(plan, found)
         return plan
 
     def create(self) -> Up:
@@ -48,19 +48,21 @@ class UpLoader:
         return up
 
 
-def _take_commands(plan: Plan, found: Discovered) -> None:
+def take_commands(plan: Plan, found: Discovered) -> None:
+    """Add the Commands that can be registered to the plan, the others to its problems."""
     registry = CommandRegistry(BUILTIN_COMMANDS)
     for cls in found.commands:
         path = f"{cls.__module__}.{cls.__qualname__}"
         try:
             registry.add(cls)
-        except (DuplicateCommandError, ValueError, TypeError) as error:
+        except (DuplicateCommandError, ValueError, TypeError, NameError) as error:
             plan.problems.append(LoadProblem(path, found.origins[cls], str(error)))
         else:
             plan.commands.append(cls)
 
 
-def _build_handlers(plan: Plan, found: Discovered) -> list[BaseCommandHandler]:
+def build_handlers(plan: Plan, found: Discovered) -> list[BaseCommandHandler]:
+    """Return the handlers that register themselves; one that cannot be built is a problem."""
     built: list[BaseCommandHandler] = []
     for cls in found.handlers:
         if not cls.COMMAND:

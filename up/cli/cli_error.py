@@ -4,4 +4,8 @@ from __future__ import annotations
 
 
 class CliError(Exception):
-    """A verb cannot do what was asked; the text is one sentence for the user."""
+    """A verb cannot do what was asked; the text is one sentence, ``status`` the exit status."""
+
+    def __init__(self, text: str, status: int = 1) -> None:
+        super().__init__(text)
+        self.status = status

@@ -31,7 +31,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status: int = values.carry_out(values)
     except ConfigErrors as errors:
         return _fail(str(errors), EXIT_CONFIG)
-    except (CliError, CogError, NoApplicationError) as error:
+    except CliError as error:
+        return _fail(str(error), error.status)
+    except (CogError, NoApplicationError) as error:
         return _fail(str(error), EXIT_FAILED)
     except BrokenPipeError:
         # The reader, such as 'head', has seen enough; nothing more can be written.

@@ -17,6 +17,8 @@ from up.loading.application import Application
 from up.loading.external_modules import EXTERNAL_MODULES, CogEntry
 from up.loading.problem import LoadProblem, problem_of
 
+# A file may raise anything while it is imported, and one that exits must not end the program.
+IMPORT_FAULTS = (Exception, SystemExit)
 MODULE_FOLDERS = ("modules", "flight_controller")
 COMMAND_FOLDER = "commands"
 
@@ -34,6 +36,7 @@ class Discovered:
     handlers: list[type[BaseCommandHandler]] = field(default_factory=list)
     origins: dict[type, str] = field(default_factory=dict)
     problems: list[LoadProblem] = field(default_factory=list)
+    cog_errors: list[str] = field(default_factory=list)
 
     def add(self, cls: type, origin: str) -> None:
         """Put a class where its base class belongs; one that was found before stays once."""
@@ -51,15 +54,24 @@ class Discovered:
 def discover(application: Application, disabled: Iterable[str] = ()) -> Discovered:
     """Return what an application and its registered cogs bring.
 
-    A registered cog that cannot be imported raises CogImportError; a broken file of the
-    application's own is a problem in the result, unless ``disabled`` lists its name.
+    A registered cog that cannot be imported raises CogImportError, one sentence for each class; a
+    broken file of the application's own is a problem in the result, unless ``disabled`` lists its
+    name.
     """
+    found = survey(application, disabled)
+    if found.cog_errors:
+        raise CogImportError("\n".join(found.cog_errors))
+    return found
+
+
+def survey(application: Application, disabled: Iterable[str] = ()) -> Discovered:
+    """Return the same as ``discover``, with the cogs' errors in the result; raises ConfigErrors."""
     found = Discovered()
     for cog, entry in EXTERNAL_MODULES.load(application.root).items():
         _discover_cog(found, cog, entry)
     application.make_importable()
     for folder in (*MODULE_FOLDERS, COMMAND_FOLDER):
-        _discover_folder(found, application, folder, frozenset(disabled))
+        discover_folder(found, application, folder, frozenset(disabled))
     return found
 
 
@@ -67,48 +79,57 @@ def _discover_cog(found: Discovered, cog: str, entry: CogEntry) -> None:
     for each in entry.modules:
         try:
             cls = getattr(importlib.import_module(each.prefix), each.class_name)
-        except Exception as error:
-            reason = f"{type(error).__name__}: {error}"
-            raise CogImportError(
-                f"the registered cog {cog} cannot be imported ({each.path}: {reason}): install"
-                f" it with 'up gather', or take it out of Cogfile.yml and run 'up gather'"
-            ) from error
+        except IMPORT_FAULTS as error:
+            found.cog_errors.append(
+                f"the registered cog {cog} cannot be imported ({each.path}: {_reason(error)}):"
+                " install it with 'up gather', or take it out of Cogfile.yml and run 'up gather'"
+            )
+            continue
         if not (inspect.isclass(cls) and issubclass(cls, BaseModule)):
-            raise CogImportError(
+            found.cog_errors.append(
                 f"{each.path} of the cog {cog} is no module: it does not extend BaseModule"
             )
+            continue
         found.add(cls, cog)
-    package = _commands_package(cog)
-    if package is not None:
-        for module in _package_modules(package):
-            for cls in _classes_of(module):
-                found.add(cls, cog)
+    for module in _command_modules(found, cog):
+        for cls in _classes_of(module):
+            found.add(cls, cog)
 
 
-def _commands_package(cog: str) -> ModuleType | None:
+def _command_modules(found: Discovered, cog: str) -> Iterator[ModuleType]:
+    package = f"{cog}.{COMMAND_FOLDER}"
     try:
-        return importlib.import_module(f"{cog}.{COMMAND_FOLDER}")
-    except ModuleNotFoundError as error:
-        if error.name in (cog, f"{cog}.{COMMAND_FOLDER}"):
-            return None
-        raise CogImportError(
-            f"the Commands of the cog {cog} cannot be imported: {error}"
-        ) from error
+        place = importlib.import_module(package).__path__
+    except IMPORT_FAULTS as error:
+        # A cog without Commands is whole; one that is not there was reported with its modules.
+        if not (isinstance(error, ModuleNotFoundError) and error.name in (cog, package)):
+            found.cog_errors.append(_no_commands(package, cog, error))
+        return
+    for info in pkgutil.iter_modules(place):
+        name = f"{package}.{info.name}"
+        try:
+            yield importlib.import_module(name)
+        except IMPORT_FAULTS as error:
+            found.cog_errors.append(_no_commands(name, cog, error))
 
 
-def _package_modules(package: ModuleType) -> Iterator[ModuleType]:
-    for info in pkgutil.iter_modules(package.__path__):
-        yield importlib.import_module(f"{package.__name__}.{info.name}")
+def _no_commands(name: str, cog: str, error: BaseException) -> str:
+    return f"the Commands of the cog {cog} cannot be imported ({name}: {_reason(error)})"
 
 
-def _discover_folder(
+def _reason(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}"
+
+
+def discover_folder(
     found: Discovered, application: Application, folder: str, disabled: frozenset[str]
 ) -> None:
+    """Add the classes of every Python file of one folder; one that is broken is a problem."""
     place = application.root / folder
     if not place.is_dir():
         return
     for path in sorted(place.glob("*.py")):
-        if path.name.startswith(("_", ".")):
+        if path.name.startswith(("_", ".")) or path.is_dir():
             continue
         name = f"{application.package}.{folder}.{path.stem}"
         if name in disabled:
@@ -120,7 +141,7 @@ def _discover_folder(
             continue
         try:
             module = importlib.import_module(name)
-        except Exception as error:  # noqa: BLE001 - a broken file must not keep the rest from flying
+        except IMPORT_FAULTS as error:
             sys.modules.pop(name, None)
             found.problems.append(problem_of(name, path, error))
             continue

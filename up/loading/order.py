@@ -12,9 +12,13 @@ from up.needs import declared_needs
 def order(modules: Sequence[BaseModule]) -> list[BaseModule]:
     """Return the modules so that each comes after what it needs; ``LOAD_ORDER`` breaks ties.
 
-    References are filled in. Raises BootError with one sentence for a missing or circular need.
+    References are filled in. Raises BootError with one sentence for each missing need, or for a
+    circular one.
     """
-    uses = {id(module): _fill(module, modules) for module in modules}
+    missing: list[str] = []
+    uses = {id(module): _fill(module, modules, missing) for module in modules}
+    if missing:
+        raise BootError("\n".join(missing))
     ranked = sorted(modules, key=lambda module: module.LOAD_ORDER)
     ordered: list[BaseModule] = []
     placed: set[int] = set()
@@ -44,13 +48,15 @@ def needed_by(module: BaseModule) -> list[BaseModule]:
     ]
 
 
-def _fill(module: BaseModule, modules: Sequence[BaseModule]) -> list[BaseModule]:
+def _fill(
+    module: BaseModule, modules: Sequence[BaseModule], missing: list[str]
+) -> list[BaseModule]:
     references: dict[str, BaseModule | None] = {}
     used: list[BaseModule] = []
     for need in declared_needs(type(module)):
         matching = [each for each in modules if isinstance(each, need.wanted)]
         if not matching and not need.optional:
-            raise BootError(
+            missing.append(
                 f"{module.path} needs {need.wanted.__name__}, which is not loaded: register the"
                 " cog that brings it, or list the module in disabled_modules.yml"
             )

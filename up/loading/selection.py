@@ -8,7 +8,7 @@ from pathlib import Path
 
 from up.base_module import BaseModule
 from up.context import Context
-from up.loading.discovery import Discovered
+from up.loading.discovery import IMPORT_FAULTS, Discovered
 from up.loading.plan import BootError, Plan, Rejected
 from up.loading.problem import problem_of
 
@@ -21,7 +21,7 @@ def select(
 ) -> Plan:
     """Return the plan with the chosen modules, not yet ordered.
 
-    Raises BootError when two unrelated modules replace one provider.
+    Raises BootError when two unrelated modules replace one provider, a sentence for each.
     """
     plan = Plan(problems=list(found.problems))
     refused = set(disabled)
@@ -56,7 +56,7 @@ def _build(cls: type[BaseModule], context: Context, plan: Plan) -> BaseModule | 
         wanted = module.load()
     except ConfigErrors:
         raise
-    except Exception as error:  # noqa: BLE001 - a broken module must not keep the rest from flying
+    except IMPORT_FAULTS as error:
         plan.problems.append(problem_of(_path(cls), Path(inspect.getfile(cls)), error))
         return None
     if not wanted:
@@ -76,13 +76,16 @@ def _without_overridden(
             plan.rejected.append(Rejected(module.path, reason))
         else:
             kept.append(module)
+    conflicts: list[str] = []
     for builtin in builtins:
         heirs = [each for each in kept if isinstance(each, builtin)]
         if len(heirs) > 1:
             names = " and ".join(each.path for each in heirs)
-            raise BootError(
+            conflicts.append(
                 f"{names} both replace {builtin.__name__}: list one of them in disabled_modules.yml"
             )
+    if conflicts:
+        raise BootError("\n".join(conflicts))
     return kept
 
 

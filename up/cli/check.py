@@ -1,0 +1,54 @@
+"""``up check``: everything that is wrong, at once."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+
+from up.cli.system import cog_files, program_files, system_of
+from up.cogs.cogfile import COGFILE, load_cogfile
+from up.cogs.say import say
+from up.config import ConfigErrors
+from up.loading.application import Application
+from up.loading.checking import check_application
+from up.loading.external_modules import EXTERNAL_MODULES
+
+EXIT_MISTAKES = 2
+
+
+def run(values: argparse.Namespace) -> int:
+    """Check configuration and module graph; tell all problems and warnings."""
+    system = system_of(values)
+    files = (*cog_files(system.application), *program_files())
+    findings = check_application(system.application, system.context, files)
+    problems = list(dict.fromkeys([*_cogfile_problems(system.application), *findings.problems]))
+    for warning in findings.warnings:
+        print(f"warning: {warning}", file=sys.stderr)  # noqa: T201 - the user's answer
+    for problem in problems:
+        print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
+    if problems:
+        count = len(problems)
+        say(f"{count} {'mistake' if count == 1 else 'mistakes'} to mend")
+        return EXIT_MISTAKES
+    say(
+        f"all is in order: {len(findings.plan.modules)} modules in the mode"
+        f" '{system.context.mode.value}', {len(findings.files)} configuration files"
+        f" for {system.context.config_folder}"
+    )
+    return 0
+
+
+def _cogfile_problems(application: Application) -> Iterator[str]:
+    try:
+        wanted = load_cogfile(application.root)
+        registered = EXTERNAL_MODULES.load(application.root)
+    except ConfigErrors as errors:
+        yield from map(str, errors.problems)
+        return
+    for each in wanted:
+        if each.cog not in registered:
+            yield (
+                f"{application.root / COGFILE}: {each.cog} is wanted and not registered: run"
+                " 'up gather'"
+            )

@@ -1,0 +1,162 @@
+"""``up create``: writes an application, a module, a handler or a cog that works as it is."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping
+from importlib.resources import files as resource_files
+from pathlib import Path
+from string import Template
+
+from up.builtin_modules import BUILTIN_MODULES
+from up.cli.cli_error import CliError
+from up.cli.explore import package_at
+from up.cli.names import Name, check_identifier
+from up.cli.overwriting import may_overwrite
+from up.cogs.manifest import MANIFEST_FILE, write_manifest
+from up.cogs.say import say
+from up.config import write_template
+from up.loading.application import Application
+from up.loading.external_modules import ModuleEntry
+from up.loading.files import config_files
+
+_APPLICATION = {
+    "__init__.py": "application_init",
+    "UpFile": "application_upfile",
+    "Cogfile.yml": "application_cogfile",
+    "main.py": "application_main",
+    "README.md": "application_readme",
+    "pyproject.toml": "application_pyproject",
+    ".gitignore": "gitignore",
+    "modules/__init__.py": "application_modules",
+    "modules/heartbeat_module.py": "module_started",
+    "commands/__init__.py": "application_commands",
+    "flight_controller/__init__.py": "application_flight_controller",
+    "tests/conftest.py": "application_conftest",
+    "tests/test_application.py": "application_test",
+    "tests/test_heartbeat_module.py": "module_started_test",
+}
+_COG = {
+    "setup.py": "cog_setup",
+    "pyproject.toml": "cog_pyproject",
+    "README.md": "cog_readme",
+    ".gitignore": "gitignore",
+    "$package/__init__.py": "cog_init",
+    "$package/registrar.py": "cog_registrar",
+    "$package/config.py": "cog_config",
+    "$package/modules/__init__.py": "cog_modules",
+    "$package/modules/${snake}_module.py": "cog_module",
+    "$package/commands/__init__.py": "cog_commands",
+    "tests/test_$package.py": "cog_test",
+}
+
+
+def run(values: argparse.Namespace) -> int:
+    """Write what was asked for; return the exit status."""
+    if values.kind == "new":
+        return _create_application(values)
+    if values.kind == "cog":
+        return _create_cog(values)
+    return _create_part(values)
+
+
+def _create_application(values: argparse.Namespace) -> int:
+    name = Name.of(values.name)
+    name.check_free()
+    root = Path.cwd() / name.snake
+    if root.exists() and not may_overwrite(root, values.yes):
+        return 1
+    words = _words(name, package=name.snake)
+    # The example module has a name of its own.
+    example = {**words, **_words(Name(("heartbeat",)), package=name.snake)}
+    for target, template in _APPLICATION.items():
+        _write(root / target, template, example if "heartbeat" in target else words)
+    for file in config_files(BUILTIN_MODULES):
+        write_template(file, root / "config")
+    say(f"created {root}")
+    say(f"next: cd {name.snake}; up check; up start (Ctrl-C stops it)")
+    return 0
+
+
+def _create_cog(values: argparse.Namespace) -> int:
+    name = Name.of(values.name, ending="cog")
+    package = f"{name.snake}_cog"
+    root = Path.cwd() / package
+    if root.exists():
+        raise CliError(f"{root} is there already: choose another name or remove it")
+    words = _words(name, package=package)
+    for target, template in _COG.items():
+        _write(root / Template(target).substitute(words), template, words)
+    inner = root / package
+    (inner / "py.typed").write_text("")
+    module = ModuleEntry(f"{name.camel}Module", f"{package}.modules.{name.snake}_module")
+    write_manifest(inner / MANIFEST_FILE, [module])
+    say(f"created {root}")
+    say(f"next: list it in an application's Cogfile.yml ({package}: {{path: ...}}); up gather")
+    return 0
+
+
+def _create_part(values: argparse.Namespace) -> int:
+    """Write a module or a handler, and its test where there is a folder of tests."""
+    is_module = values.kind == "module"
+    ending = "module" if is_module else "command"
+    name = Name.of(values.name, ending=ending)
+    place = None if values.file else _place()
+    words = _words(name, package=place.package if place else "")
+    if is_module:
+        template = f"module_{values.type}"
+    else:
+        template = "handler"
+        words["identifier"] = check_identifier(values.identifier)
+    file_name = f"{name.snake}_{ending}.py"
+    if place is None:
+        path = Path(values.file)
+    else:
+        path = place.root / ("modules" if is_module else "commands") / file_name
+    if (path.exists() or path.is_symlink()) and not may_overwrite(path, values.yes):
+        return 0
+    _write(path, template, words)
+    say(f"created {path}")
+    if place is not None:
+        _write_test(place, file_name, f"{template}_test", words)
+        if is_module and (place.root / MANIFEST_FILE).is_file():
+            say(f"next: 'up explore -w' lists it in {MANIFEST_FILE}")
+    return 0
+
+
+def _place() -> Application:
+    """Return the cog or the application that the current folder belongs to."""
+    try:
+        return package_at(Path.cwd())
+    except CliError:
+        return Application.find(Path.cwd())
+
+
+def _write_test(
+    place: Application, file_name: str, template: str, words: Mapping[str, str]
+) -> None:
+    for folder in (place.root / "tests", place.root.parent / "tests"):
+        path = folder / f"test_{file_name}"
+        if folder.is_dir() and not path.exists():
+            _write(path, template, words)
+            say(f"created {path}")
+            return
+
+
+def _write(path: Path, template: str, words: Mapping[str, str]) -> None:
+    source = resource_files("up.cli.templates").joinpath(f"{template}.tmpl")
+    text = Template(source.read_text(encoding="utf-8")).substitute(words)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+
+
+def _words(name: Name, package: str) -> dict[str, str]:
+    return {
+        "snake": name.snake,
+        "camel": name.camel,
+        "constant": name.snake.upper(),
+        "words": name.text,
+        "package": package,
+        "distribution": f"raspilot-{'-'.join(name.words)}-cog",
+        "module_doc": f"The module {name.text[0].lower()}{name.text[1:]}.",
+    }

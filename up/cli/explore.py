@@ -1,0 +1,71 @@
+"""``up explore``: the module classes that lie in a folder (thesis 4.3.2)."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from up.base_module import BaseModule
+from up.cli.cli_error import CliError
+from up.cogs.manifest import MANIFEST_FILE, write_manifest
+from up.cogs.registration import REGISTRANT_MODULE
+from up.cogs.say import say
+from up.loading.application import UP_FILE, Application
+from up.loading.discovery import MODULE_FOLDERS, Discovered, discover_folder
+from up.loading.external_modules import ModuleEntry
+
+
+def run(values: argparse.Namespace) -> int:
+    """List the module classes, and write the manifest when asked."""
+    start = Path(values.file) if values.file else Path.cwd()
+    if values.type == "recorders":
+        say("there are no recorders: they are Thread Modules now, see 'up create module -t thread'")
+        return 0
+    package = package_at(start.resolve())
+    found = Discovered()
+    package.make_importable()
+    for folder in MODULE_FOLDERS:
+        discover_folder(found, package, folder, frozenset())
+    entries = [_entry(cls) for cls in found.modules]
+    for entry in entries:
+        say(entry.path)
+    for problem in found.problems:
+        print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
+    if found.problems:
+        raise CliError(f"mend them first; {MANIFEST_FILE} is as it was")
+    if not entries:
+        say(
+            f"no module class in {' or '.join(str(package.root / each) for each in MODULE_FOLDERS)}"
+        )
+    if values.write:
+        write_manifest(package.root / MANIFEST_FILE, entries)
+        say(f"wrote {package.root / MANIFEST_FILE}")
+    return 0
+
+
+def package_at(start: Path) -> Application:
+    """Return the package to explore: a cog's, from its inside or outside, or an application's.
+
+    Raises CliError where there is neither.
+    """
+    if (start / f"{REGISTRANT_MODULE}.py").is_file():
+        return _package(start)
+    inside = sorted(path.parent for path in start.glob(f"*/{REGISTRANT_MODULE}.py"))
+    if len(inside) == 1:
+        return _package(inside[0])
+    if (start / UP_FILE).is_file():
+        return Application.at(start)
+    if (start / "modules").is_dir():
+        return _package(start)
+    raise CliError(
+        f"{start} is neither a cog (no {REGISTRANT_MODULE}.py) nor an application (no {UP_FILE})"
+    )
+
+
+def _package(folder: Path) -> Application:
+    return Application(folder, folder.name.replace("-", "_"), folder / "config")
+
+
+def _entry(cls: type[BaseModule]) -> ModuleEntry:
+    return ModuleEntry(class_name=cls.__name__, prefix=cls.__module__)

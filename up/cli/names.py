@@ -1,0 +1,77 @@
+"""A name as a user gives it, and as files, classes and distributions have it."""
+
+from __future__ import annotations
+
+import keyword
+import re
+import sys
+from dataclasses import dataclass
+
+from up.cli.cli_error import CliError
+
+_GIVEN = re.compile(r"[A-Za-z][A-Za-z0-9_ -]*", re.ASCII)
+_IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*(\.[a-z0-9_]+)+", re.ASCII)
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
+_TAKEN = {"up", "raspilot", "twisted", "yaml", "serial", "psutil", "tests", "modules", "config"}
+_LONGEST = 24
+_LONGEST_IDENTIFIER = 45
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """The words of a name."""
+
+    words: tuple[str, ...]
+
+    @classmethod
+    def of(cls, given: str, ending: str = "") -> Name:
+        """Read ``FuelGauge``, ``fuel_gauge``, ``fuel-gauge`` or ``fuel gauge``.
+
+        An ``ending`` that the generated name gets anyhow is dropped. Raises CliError.
+        """
+        words = tuple(word.lower() for word in _WORD.findall(given))
+        if not _GIVEN.fullmatch(given) or len("_".join(words)) > _LONGEST:
+            raise CliError(
+                f'"{given[:40]}" cannot be a name: use letters, digits and _, beginning with'
+                " a letter, like FuelGauge"
+            )
+        if len(words) > 1 and words[-1] == ending:
+            words = words[:-1]
+        if keyword.iskeyword("_".join(words)):
+            raise CliError(f'"{given}" cannot be a name: Python has another use for that word')
+        return cls(words)
+
+    @property
+    def snake(self) -> str:
+        """Return the name for files and packages: fuel_gauge."""
+        return "_".join(self.words)
+
+    @property
+    def camel(self) -> str:
+        """Return the name for classes: FuelGauge."""
+        return "".join(word.capitalize() for word in self.words)
+
+    @property
+    def text(self) -> str:
+        """Return the name for sentences: Fuel gauge."""
+        return " ".join(self.words).capitalize()
+
+    def check_free(self) -> None:
+        """Raise CliError where a package of that name would hide another."""
+        if self.snake in _TAKEN or self.snake in sys.stdlib_module_names:
+            raise CliError(f"{self.snake} is the name of another Python package: choose one more")
+
+
+def check_identifier(identifier: str) -> str:
+    """Return a Command's name; raises CliError for what cannot be one or is taken."""
+    from up.commands.builtin import BUILTIN_COMMANDS
+
+    if not _IDENTIFIER.fullmatch(identifier) or len(identifier) > _LONGEST_IDENTIFIER:
+        raise CliError(
+            f'"{identifier[:40]}" cannot name a Command: use at most {_LONGEST_IDENTIFIER}'
+            " characters, words with dots between, like plane.bay.open"
+        )
+    for cls in BUILTIN_COMMANDS:
+        if identifier in (cls.NAME, *cls.ALIASES):
+            raise CliError(f"{identifier} is a Command of Up ({cls.__name__}): choose another name")
+    return identifier

@@ -1,0 +1,25 @@
+"""``up schemas``: the JSON Schema of every configuration file."""
+
+from __future__ import annotations
+
+import argparse
+
+from up.cli.system import cog_files, program_files, system_of
+from up.cogs.say import say
+from up.config import write_schemas
+from up.loading.application import UP_FILE_CONFIG
+from up.loading.checking import check_application
+
+
+def run(values: argparse.Namespace) -> int:
+    """Write one schema a file, and tell how an editor takes it."""
+    system = system_of(values)
+    more = (UP_FILE_CONFIG, *cog_files(system.application), *program_files())
+    findings = check_application(system.application, system.context, more)
+    for path in write_schemas(findings.files, values.folder):
+        say(str(path))
+    say(
+        "An editor with a YAML language server takes one by a first line like"
+        " '# yaml-language-server: $schema=config.schema.json'"
+    )
+    return 0

@@ -1,0 +1,79 @@
+"""The system that a verb looks at, without starting it."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.metadata
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from twisted.internet.task import Clock
+
+from up.cli.cli_error import CliError
+from up.cli.place import application_of
+from up.cogs.cog_error import CogError
+from up.cogs.registration import find_registrant
+from up.config import ConfigErrors, ConfigFile
+from up.context import Context
+from up.loading.application import Application
+from up.loading.external_modules import EXTERNAL_MODULES
+from up.loading.plan import BootError
+from up.program import make_context
+
+PROGRAM_FILES = "up.config_files"
+
+
+@dataclass(slots=True)
+class System:
+    """An application, and the context that it would run in."""
+
+    application: Application
+    context: Context
+
+
+def system_of(values: argparse.Namespace) -> System:
+    """Return what ``--file``, ``--config``, ``--mode`` and UP_MODE name.
+
+    Raises CliError or NoApplicationError; a broken config.yml means its defaults here.
+    """
+    application = application_of(values)
+    folder = getattr(values, "config", None)
+    environ = dict(os.environ)
+    if getattr(values, "mode", None):
+        environ["UP_MODE"] = values.mode
+    try:
+        context = make_context(application, Clock(), folder, environ)
+    except ConfigErrors:
+        # Whoever looks at the configuration finds the same errors; without a mode none can look.
+        environ.setdefault("UP_MODE", "auto")
+        context = make_context(application, Clock(), folder, environ)
+    except BootError as error:
+        raise CliError(str(error), status=2) from error
+    return System(application, context)
+
+
+def program_files() -> Iterator[ConfigFile[Any]]:
+    """Yield the configuration files of installed programs, which announce them as entry points."""
+    for entry in importlib.metadata.entry_points(group=PROGRAM_FILES):
+        try:
+            file = entry.load()
+        except (ImportError, AttributeError):
+            continue
+        if isinstance(file, ConfigFile):
+            yield file
+
+
+def cog_files(application: Application) -> Iterator[ConfigFile[Any]]:
+    """Yield the configuration files that the registered cogs create."""
+    try:
+        cogs = list(EXTERNAL_MODULES.load(application.root))
+    except ConfigErrors:
+        return
+    for cog in cogs:
+        try:
+            registrant = find_registrant(cog)
+        except CogError:
+            continue
+        yield from getattr(registrant, "CONFIG_FILES", ())

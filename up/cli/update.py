@@ -1,0 +1,53 @@
+"""``up update``: a newer Up, from where this one was installed."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.metadata
+import json
+import shlex
+import sys
+import urllib.parse
+from typing import Any
+
+from up.cli.cli_error import CliError
+from up.cogs import pip
+from up.cogs.say import say
+from up.version import VERSION
+
+
+def run(values: argparse.Namespace) -> int:
+    """Upgrade the distribution that this command belongs to."""
+    command = [sys.executable, "-m", "pip", "install", *_what()]
+    if values.dry_run:
+        say(shlex.join(command))
+        return 0
+    pip.check_environment()
+    say(f"Up {VERSION} in {sys.prefix}: {shlex.join(command[1:])}")
+    pip.run_pip([*command, "--no-input", "--disable-pip-version-check"], say)
+    say("done; 'up --version' tells the version")
+    return 0
+
+
+def _what() -> list[str]:
+    """Return what pip has to install, by what it noted at the installation (PEP 610)."""
+    try:
+        found = importlib.metadata.distribution(pip.FRAMEWORK)
+    except importlib.metadata.PackageNotFoundError:
+        raise CliError("Up runs from its source folder and is not installed: update that") from None
+    origin: dict[str, Any] = json.loads(found.read_text("direct_url.json") or "{}")
+    url = str(origin.get("url", ""))
+    if not url:
+        return ["--upgrade", pip.FRAMEWORK]
+    if "vcs_info" in origin:
+        details = origin["vcs_info"]
+        revision = details.get("requested_revision")
+        address = f"{details['vcs']}+{url}" + (f"@{revision}" if revision else "")
+        return ["--upgrade", f"{pip.FRAMEWORK} @ {address}"]
+    folder = urllib.parse.unquote(urllib.parse.urlsplit(url).path)
+    if "dir_info" not in origin:
+        raise CliError(f"Up was installed from the file {folder}: install a newer file with pip")
+    say(f"Up is installed from the folder {folder}: bring that up to date first (git pull)")
+    if origin["dir_info"].get("editable"):
+        return ["--no-build-isolation", "--editable", folder]
+    return ["--no-build-isolation", "--upgrade", folder]

@@ -1,0 +1,100 @@
+"""Looks at a whole application without starting it, and collects everything that is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from up.builtin_modules import BUILTIN_MODULES
+from up.config import ConfigErrors, ConfigFile, unknown_files
+from up.config.application import APPLICATION
+from up.config.disabled_modules import DISABLED_MODULES
+from up.context import Context
+from up.loading.application import Application
+from up.loading.discovery import Discovered, survey
+from up.loading.files import config_files
+from up.loading.order import order
+from up.loading.plan import BootError, Plan
+from up.loading.selection import select
+from up.up_loader import build_handlers, take_commands
+
+
+@dataclass(slots=True)
+class Findings:
+    """What a check came to: sentences for people, each with its place where it has one."""
+
+    problems: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    files: list[ConfigFile[Any]] = field(default_factory=list)
+    plan: Plan = field(default_factory=Plan)
+
+
+def check_application(
+    application: Application, context: Context, more_files: Iterable[ConfigFile[Any]] = ()
+) -> Findings:
+    """Return every problem of configuration and modules in the context's mode, and the plan.
+
+    ``more_files`` are configuration files that others than modules read.
+    """
+    findings = Findings()
+    read_files(context, (APPLICATION, DISABLED_MODULES), findings)
+    disabled = context.config(DISABLED_MODULES).disabled_modules
+    try:
+        found = survey(application, disabled)
+    except ConfigErrors as errors:
+        findings.problems += map(str, errors.problems)
+        found = Discovered()
+    findings.problems += found.cog_errors
+    files = (*config_files((*BUILTIN_MODULES, *found.modules)), *more_files)
+    findings.files = list(dict.fromkeys(files))
+    read_files(context, findings.files, findings)
+    _check_graph(context, found, disabled, findings)
+    findings.problems += map(str, findings.plan.problems)
+    findings.warnings += _unknown(context.config_folder, findings.files)
+    findings.warnings += _disabled_for_nothing(disabled, found)
+    return findings
+
+
+def read_files(context: Context, files: Iterable[ConfigFile[Any]], findings: Findings) -> None:
+    """Read configuration into the context; defaults stand in for what cannot be read."""
+    for file in files:
+        try:
+            context.config(file)
+        except ConfigErrors as errors:
+            findings.problems += map(str, errors.problems)
+            context.values[file] = file.cls()
+
+
+def _check_graph(
+    context: Context, found: Discovered, disabled: Iterable[str], findings: Findings
+) -> None:
+    findings.plan.problems = list(found.problems)
+    try:
+        plan = findings.plan = select(found, BUILTIN_MODULES, context, disabled)
+        take_commands(plan, found)
+        plan.handlers = build_handlers(plan, found)
+        # What needs a module of a cog that cannot be imported would only repeat that error.
+        if not found.cog_errors:
+            plan.modules = order(plan.modules)
+    except BootError as error:
+        findings.problems += str(error).splitlines()
+
+
+def _unknown(folder: Path, files: Iterable[ConfigFile[Any]]) -> list[str]:
+    return [
+        f"{path}: no module of this application reads this file"
+        for path in unknown_files(folder, files)
+    ]
+
+
+def _disabled_for_nothing(disabled: Iterable[str], found: Discovered) -> list[str]:
+    classes = (*BUILTIN_MODULES, *found.modules)
+    known = {f"{cls.__module__}.{cls.__qualname__}" for cls in classes}
+    known |= {cls.__module__ for cls in classes}
+    return [
+        f"{DISABLED_MODULES.filename}: {name} is not there to be disabled"
+        for name in disabled
+        if name not in known
+    ]

@@ -1,0 +1,95 @@
+"""For the tests of modules: a small system whose time only the test moves."""
+
+from __future__ import annotations
+
+import queue
+import time
+from collections.abc import Callable, Coroutine
+from pathlib import Path
+from typing import Any, TypeVar
+
+from twisted.internet.defer import Deferred
+from twisted.internet.task import Clock
+
+from up.base_module import BaseModule
+from up.context import Context
+from up.life_cycle import LifeCycle
+from up.loading.order import order
+from up.loading.plan import Plan
+from up.mode import Mode
+from up.up import Up
+
+_M = TypeVar("_M", bound=BaseModule)
+
+THREAD_LIMIT_S = 30.0
+_STEP_S = 0.005
+
+
+class StillClock(Clock):
+    """A reactor without sockets, whose time stands still until ``advance``.
+
+    What threads hand over waits until it is taken with ``take_call``.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._handed_over: queue.Queue[Callable[[], Any]] = queue.Queue()
+
+    def callFromThread(self, call: Callable[..., Any], *args: Any, **kwargs: Any) -> None:  # noqa: N802
+        """Keep a call for the thread that moves the clock."""
+        self._handed_over.put(lambda: call(*args, **kwargs))
+
+    def take_call(self, timeout_s: float = THREAD_LIMIT_S) -> None:
+        """Wait for a thread's next call and make it; raises queue.Empty when none comes."""
+        self._handed_over.get(timeout=timeout_s)()
+
+
+class Bench:
+    """A system of the given module classes, initialized; ``clock`` moves its time.
+
+    Configuration is read from a folder, which may be empty. Raises BootError as a boot would.
+    """
+
+    def __init__(
+        self, *modules: type[BaseModule], config_folder: Path, mode: Mode = Mode.AUTO
+    ) -> None:
+        self.clock = StillClock()
+        context = Context(self.clock, mode, config_folder)
+        built = [cls() for cls in modules]
+        for module in built:
+            module.bind(context)
+        self.up = Up(Plan(modules=order(built)), context)
+        self.up.initialize()
+        self._life = LifeCycle(self.up)
+
+    def module(self, cls: type[_M]) -> _M:
+        """Return the module of a class; raises LookupError where it is not in the system."""
+        found = self.up.get_module(cls)
+        if found is None:
+            raise LookupError(f"{cls.__name__} is not in this system")
+        return found
+
+    def start(self) -> None:
+        """Start all modules."""
+        self._finish(self._life.start())
+
+    def stop(self) -> None:
+        """Stop all modules."""
+        self._finish(self._life.stop())
+
+    def advance(self, *steps_s: float) -> None:
+        """Let time pass, one step after the other."""
+        self.clock.pump(steps_s)
+
+    def _finish(self, work: Coroutine[Any, Any, None]) -> None:
+        outcome: list[Any] = []
+        Deferred.fromCoroutine(work).addBoth(outcome.append)
+        deadline_s = time.monotonic() + THREAD_LIMIT_S
+        while not outcome:
+            if time.monotonic() > deadline_s:
+                raise TimeoutError(f"not done after {THREAD_LIMIT_S:.0f} s")
+            # Threads need real time to end; the modules' own limits count in the clock's.
+            time.sleep(_STEP_S)
+            self.clock.advance(_STEP_S)
+        if hasattr(outcome[0], "raiseException"):
+            outcome[0].raiseException()
