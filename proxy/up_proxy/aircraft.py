@@ -2,6 +2,7 @@
 
 from up_proxy.connection import Connection
 from up_proxy.control import OFFLINE, ONLINE, holder_line
+from up_proxy.journal import Journal
 from up_proxy.seat import Seat
 
 
@@ -12,6 +13,7 @@ class Aircraft:
     """
 
     __slots__ = (
+        "_journal",
         "_next_number",
         "_shown_holder",
         "_shown_online",
@@ -25,8 +27,9 @@ class Aircraft:
         "unheard_lines",
     )
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, journal: Journal) -> None:
         self.name = name
+        self._journal = journal
         self.air_seat: Seat[Connection] = Seat()
         self.command_seat: Seat[Connection] = Seat()
         self.grounds: tuple[Connection, ...] = ()
@@ -72,14 +75,23 @@ class Aircraft:
 
     def announce(self, now_s: float, newcomer: Connection | None = None) -> None:
         """Tell the grounds what has changed, and a newcomer how things stand."""
-        online = self.is_online(now_s)
+        air = self.air_seat.holder(now_s)
+        online = air is not None
         if online != self._shown_online:
             self._shown_online = online
+            if air is not None:
+                self._journal.on_online(self.name, air.host)
+            else:
+                self._journal.on_offline(self.name)
             self._tell_others(ONLINE if online else OFFLINE, newcomer)
         holder = self.command_seat.holder(now_s)
         number = None if holder is None else holder.number
         if number != self._shown_holder:
             self._shown_holder = number
+            if holder is not None:
+                self._journal.on_holder(self.name, holder.number, holder.host)
+            else:
+                self._journal.on_no_holder(self.name)
             self._tell_others(holder_line(number), newcomer)
         if newcomer is not None and newcomer.speaks_hello:
             newcomer.tell(ONLINE if online else OFFLINE)

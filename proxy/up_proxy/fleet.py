@@ -6,6 +6,7 @@ from up_proxy.air_side import AirSide
 from up_proxy.aircraft import Aircraft
 from up_proxy.ground_side import GroundSide
 from up_proxy.hello import FULL, HelloError
+from up_proxy.journal import Journal
 from up_proxy.poller import Poller
 
 
@@ -38,8 +39,11 @@ class Totals:
 class Fleet:
     """Makes an aircraft when its first connection names it, forgets it when all have left."""
 
-    def __init__(self, poller: Poller, aircraft_max: int, listeners_max: int) -> None:
+    def __init__(
+        self, poller: Poller, journal: Journal, aircraft_max: int, listeners_max: int
+    ) -> None:
         self._poller = poller
+        self._journal = journal
         self._aircraft_max = aircraft_max
         self._listeners_max = listeners_max
         self._parties: dict[str, Party] = {}
@@ -69,7 +73,7 @@ class Fleet:
         if party is None:
             if len(self._parties) >= self._aircraft_max:
                 raise HelloError(FULL, "the proxy serves as many aircraft as it may")
-            aircraft = Aircraft(name)
+            aircraft = Aircraft(name, self._journal)
             party = self._parties[name] = Party(
                 aircraft, AirSide(aircraft, self._poller), GroundSide(aircraft, self._poller)
             )

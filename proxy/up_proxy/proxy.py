@@ -10,6 +10,7 @@ from up_proxy.door import Door, DoorLimits
 from up_proxy.fleet import Fleet
 from up_proxy.heartbeat import Heartbeat
 from up_proxy.hello import Side
+from up_proxy.journal import Journal
 from up_proxy.listener import ListenError, listen
 from up_proxy.metrics import door_metrics, fleet_metrics, process_metrics
 from up_proxy.metrics_page import render
@@ -46,7 +47,8 @@ class Proxy:
         self._config = config
         self._poller = Poller(reactor, reactor.seconds)
         limits = config.limits
-        self.fleet = Fleet(self._poller, limits.aircraft, limits.listeners)
+        self._journal = Journal(reactor)
+        self.fleet = Fleet(self._poller, self._journal, limits.aircraft, limits.listeners)
         self._doors: list[Door] = []
         self._metrics_port: Any = None
         self._heartbeat = Heartbeat(reactor, self._tick)
@@ -98,6 +100,7 @@ class Proxy:
             door.close()
         self._poller.reap()
         self._poller.stop()
+        self._journal.stop()
 
     def is_healthy(self) -> bool:
         """Say whether both ports are open."""

@@ -189,3 +189,18 @@ def test_a_wall_clock_that_jumps_a_day_changes_nothing(tmp_path):
         air.close()
         ground.close()
         assert proxy.end() == 0
+
+
+def test_the_log_tells_of_aircraft_and_seats_and_is_not_flooded(tmp_path):
+    with Program(tmp_path) as proxy:
+        air, _ = accepted(proxy.airborne_port, "UP1 aircraft=g\n")
+        for _ in range(50):
+            ground, _ = accepted(proxy.ground_port, "UP1 aircraft=g seat=command\n")
+            ground.say("UP1 seat release\n")
+            ground.expect("holder=none")
+            ground.close()
+        air.close()
+        proxy.end()
+    assert "aircraft g is online from 127.0.0.1\n" in proxy.log
+    assert "ground 1 from 127.0.0.1 commands g\n" in proxy.log
+    assert len(proxy.log.splitlines()) < 20

@@ -1,0 +1,41 @@
+"""The listening socket."""
+
+import socket
+
+import pytest
+
+from up_proxy.listener import SEND_BUFFER_BYTES, ListenError, listen
+
+
+def option(sock, name):
+    return sock.getsockopt(socket.IPPROTO_TCP, name)
+
+
+def test_accepted_sockets_inherit_what_the_relay_needs():
+    with listen("test port", "127.0.0.1", 0, 1500) as listener:
+        peer = socket.create_connection(listener.getsockname())
+        listener.setblocking(True)
+        accepted, _ = listener.accept()
+        with peer, accepted:
+            assert option(accepted, socket.TCP_NODELAY) == 1
+            assert option(accepted, socket.TCP_USER_TIMEOUT) == 1500
+            assert option(accepted, socket.TCP_KEEPIDLE) == 5
+            assert accepted.getsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE) == 1
+            buffer = accepted.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF)
+            assert SEND_BUFFER_BYTES <= buffer <= 2 * SEND_BUFFER_BYTES
+
+
+@pytest.mark.parametrize(
+    ("address", "what"),
+    [("203.0.113.1", "cannot assign requested address"), ("2001:db8::1", "cannot assign")],
+)
+def test_an_address_of_another_machine_is_one_sentence(address, what):
+    with pytest.raises(ListenError, match=f"cannot listen on test port 0: {what}"):
+        listen("test port", address, 0, 1500)
+
+
+def test_a_port_in_use_is_one_sentence():
+    with listen("first", "127.0.0.1", 0, 1500) as first:
+        port = first.getsockname()[1]
+        with pytest.raises(ListenError, match=f"second {port}: address already in use"):
+            listen("second", "127.0.0.1", port, 1500)
