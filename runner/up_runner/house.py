@@ -21,7 +21,8 @@ class Policy:
     """What is asked of every instance; times in seconds.
 
     `exit_delay_s` of None: a phone that is gone never stops it. `always_restart`: it may be
-    flying, so whatever its exit status it comes back.
+    flying, so whatever its exit status it comes back. It is not ready before it has announced its
+    `needed_ports`.
     """
 
     start_limit_s: float
@@ -30,6 +31,7 @@ class Policy:
     kill_delay_s: float
     restarts: RestartPolicy
     always_restart: bool
+    needed_ports: tuple[str, ...] = ()
 
 
 class Child(Protocol):

@@ -62,7 +62,7 @@ class Instance:
         self._detached = False
         self._why: str | None = None
         self._timer: Timer | None = None
-        self._unbound: list[int] = []
+        self._missing: list[str] = []
         self._waiting: list[Deferred[str | None]] = []
         self._mourners: list[Deferred[None]] = []
         self._start_limit = Deadline(clock, policy.start_limit_s, self._on_start_limit)
@@ -211,8 +211,12 @@ class Instance:
     def _on_ports(self, found: frozenset[int] | None, child: Child) -> None:
         if self.state is not State.STARTING or child is not self._child:
             return
-        self._unbound = sorted(set((self.ports or {}).values()) - (found or frozenset()))
-        if found is None or not self._unbound:
+        ports = self.ports or {}
+        missing = [name for name in self._policy.needed_ports if name not in ports]
+        if found is not None:
+            missing += [f"{name} {port}" for name, port in ports.items() if port not in found]
+        self._missing = missing
+        if not missing:
             self._on_running()
         elif self._timer is None:
             self._timer = self._clock.callLater(PORT_LOOK_S, self._look_again)
@@ -247,8 +251,8 @@ class Instance:
         if self.state is not State.STARTING:
             return
         missing = "did not say that it is ready"
-        if self._said_ready and self._unbound:
-            missing = f"said that it is ready but has not bound port {self._unbound[0]}"
+        if self._said_ready and self._missing:
+            missing = f"said that it is ready but has not bound its port {self._missing[0]}"
         self._kill(f"Raspilot {missing} within {self._policy.start_limit_s:g} s")
 
     def _on_silence(self) -> None:

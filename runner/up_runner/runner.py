@@ -218,4 +218,6 @@ def policy_of(config: RunnerConfig) -> Policy:
             restarts.period_s,
         ),
         always_restart=not black_box,
+        # Without this one no phone can reach it.
+        needed_ports=("general",) if black_box else (),
     )

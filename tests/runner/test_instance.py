@@ -165,6 +165,19 @@ def test_ready_without_the_ports_is_not_yet_ready(house):
     assert instance.state is State.RUNNING and house.result(outcome) is None
 
 
+def test_a_port_that_a_phone_needs_must_be_announced(house):
+    instance = house.make(replace(BLACK_BOX, needed_ports=("general",)))
+    outcome = instance.start()
+    house.say(ready=True, ports={"orientation": 50000})
+    house.clock.advance(1)
+    assert instance.state is State.STARTING
+    house.clock.advance(9)
+    house.child.on_end(-signal.SIGKILL)
+    assert house.result(outcome) == (
+        "Raspilot said that it is ready but has not bound its port general within 10 s"
+    )
+
+
 def test_where_the_kernel_does_not_tell_its_word_is_taken(house):
     house.ports = None
     instance = house.make()

@@ -91,15 +91,21 @@ def test_an_idle_one_stops_at_once(runners):
     assert time.monotonic() - began_s < 10 and "Traceback" not in runner.said
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_a_signal_at_any_moment_of_its_start_is_no_traceback(runners, number):
+def test_a_signal_at_any_moment_of_its_start_is_no_traceback(runners):
     runner = runners()
     for delay_s in (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5):
         runner.launch()
         time.sleep(delay_s)  # no wait for luck: any moment must do
-        runner.process.send_signal(number)
-        assert runner.wait() in (0, -number)
+        assert runner.terminate() in (0, -signal.SIGTERM)
         assert "Traceback" not in runner.said
+
+
+def test_ctrl_c_stops_it_with_its_instances(runners):
+    runner = runners().start(under_systemd=False)
+    runner.spawn()
+    runner.process.send_signal(signal.SIGINT)
+    assert runner.wait() == 0
+    assert "Traceback" not in runner.said and runner.instances() == []
 
 
 def test_it_keeps_its_service_manager_informed(runners, short_path):

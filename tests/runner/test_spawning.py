@@ -132,7 +132,7 @@ def test_a_process_that_claims_a_port_which_it_has_not_is_no_success(runners):
     runner.write("blackbox/behaviour.yml", {"lies": True})
     answer = runner.ask(aircraft="glider-1")
     assert answer["running"] is False
-    assert "has not bound port" in answer["error"]
+    assert "has not bound its port orientation" in answer["error"]
     wait_until(lambda: not runner.instances(), "it was killed")
 
 
