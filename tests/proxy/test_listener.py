@@ -25,13 +25,10 @@ def test_accepted_sockets_inherit_what_the_relay_needs():
             assert SEND_BUFFER_BYTES <= buffer <= 2 * SEND_BUFFER_BYTES
 
 
-@pytest.mark.parametrize(
-    ("address", "what"),
-    [("203.0.113.1", "cannot assign requested address"), ("2001:db8::1", "cannot assign")],
-)
-def test_an_address_of_another_machine_is_one_sentence(address, what):
-    with pytest.raises(ListenError, match=f"cannot listen on test port 0: {what}"):
-        listen("test port", address, 0, 1500)
+def test_an_address_of_another_machine_is_one_sentence():
+    expected = "cannot listen on test port 0: cannot assign requested address"
+    with pytest.raises(ListenError, match=expected):
+        listen("test port", "203.0.113.1", 0, 1500)
 
 
 def test_a_port_in_use_is_one_sentence():
