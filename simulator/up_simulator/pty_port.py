@@ -74,6 +74,7 @@ class PtyPort:
             data = os.read(self._own, READ_SIZE)
         except BlockingIOError:
             return
+        self._release()
         if data:
             self.received(data)
 
@@ -90,6 +91,7 @@ class PtyPort:
             self._is_unread = True
             self.dropped += 1
             termios.tcflush(self._other, termios.TCIFLUSH)
+            self._release()
         try:
             written = os.write(self._own, data)
         except OSError as error:
@@ -107,6 +109,10 @@ class PtyPort:
                 if str(self._link.readlink()) == self.name:
                     self._link.unlink()
         self._close()
+
+    def _release(self) -> None:
+        """Undo exclusive use: the last close would, but there is none while we hold the line."""
+        fcntl.ioctl(self._other, termios.TIOCNXCL)
 
     def _close(self) -> None:
         os.close(self._own)

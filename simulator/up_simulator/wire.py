@@ -132,14 +132,15 @@ class CheckedReader:
         if crc16(body) != check:
             return None
         sequence, type_code, payload = body[0], body[1], body[2:]
+        # A frame whose check is right did arrive, whatever else is wrong with it.
+        if self._expected is not None:
+            self.missing += (sequence - self._expected) % 256
+        self._expected = (sequence + 1) % 256
         size = COMMAND_SIZES.get(chr(type_code))
         if size is None:
             return Odd(type_code, sequence, reason=1)
         if len(payload) != size:
             return Odd(type_code, sequence, reason=2)
-        if self._expected is not None:
-            self.missing += (sequence - self._expected) % 256
-        self._expected = (sequence + 1) % 256
         self.valid += 1
         return Command(chr(type_code), payload, sequence)
 

@@ -1,14 +1,19 @@
 """The pty: there for everybody who opens it, never blocking, its link made and removed."""
 
+import fcntl
 import os
 import select
 import stat
+import struct
 import termios
 import time
 
 import pytest
 
 from up_simulator.pty_port import PtyLinkError, PtyPort
+
+
+TIOCGEXCL = 0x80045440
 
 
 class Reactor:
@@ -102,6 +107,26 @@ def test_a_reader_may_come_and_go(port):
         assert read_all(file) == b"hello"
         os.close(file)
         port.doRead()
+
+
+def is_exclusive(file):
+    return struct.unpack("i", fcntl.ioctl(file, TIOCGEXCL, bytes(4)))[0] == 1
+
+
+def test_who_claimed_the_line_and_left_shuts_nobody_out(port):
+    for _ in range(2):
+        file = opened(port)
+        fcntl.ioctl(file, termios.TIOCEXCL)
+        assert is_exclusive(file)
+        os.write(file, b"\0")
+        port.doRead()
+        assert not is_exclusive(file)
+        os.close(file)
+    file = opened(port)
+    fcntl.ioctl(file, termios.TIOCEXCL)
+    fill(port)
+    assert not is_exclusive(file)
+    os.close(file)
 
 
 def test_the_link_leads_to_the_pty_and_goes_with_it(tmp_path):

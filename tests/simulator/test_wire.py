@@ -146,8 +146,9 @@ def test_gaps_in_the_sequence_are_counted_and_cost_nothing():
 def test_what_a_right_check_protects_wrongly_is_named():
     reader = CheckedReader()
     found = list(reader.feed(checked_frame(5, "Z") + checked_frame(6, "h", b"\x01"), 0.0))
-    assert found == [Odd(ord("Z"), 5, 1), Odd(ord("h"), 6, 2)]
-    assert reader.dropped == 2
+    found += reader.feed(checked_frame(7, "s"), 0.0)
+    assert found == [Odd(ord("Z"), 5, 1), Odd(ord("h"), 6, 2), Command("s", b"", 7)]
+    assert (reader.dropped, reader.missing) == (2, 0)
 
 
 def test_thesis_drops_an_unknown_byte_alone():
