@@ -1,0 +1,1 @@
+"""The airborne phone (thesis 3.3.3, 4.2.3)."""

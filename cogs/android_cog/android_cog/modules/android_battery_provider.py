@@ -1,0 +1,61 @@
+"""The battery of the airborne phone (thesis 3.3.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from android_cog.commands.android_battery_command import (
+    AndroidBatteryCommand,
+    AndroidBatteryLowCommand,
+)
+from android_cog.config import ANDROID
+from up.commands.command import BaseCommand
+from up.providers.base_provider import BaseProvider
+from up.providers.reading import Reading
+
+HYSTERESIS_PERCENT = 5.0
+
+
+class AndroidBatteryProvider(BaseProvider[float]):
+    """Makes the level of the phone's battery available, percent, and says when it becomes low."""
+
+    READING = "battery"
+    COMMAND: ClassVar[type[BaseCommand]] = AndroidBatteryCommand
+    MAX_AGE_S = 120.0
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.is_low = False
+
+    def _execute_initialization(self) -> None:
+        super()._execute_initialization()
+        self._low_percent = self.context.config(ANDROID).low_battery_percent
+
+    @property
+    def battery_level(self) -> float | None:
+        """Return the newest level, percent; None before the first."""
+        return self.value
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the level."""
+        return {"android": {"batteryLevel": self.battery_level}, **self._ages()}
+
+    def _value_of(self, command: Any) -> float:
+        level: float = command.level_percent
+        return level
+
+    def _on_changed(self, reading: Reading[float]) -> None:
+        level = reading.value
+        if not self.is_low and self._low_percent > 0 and level <= self._low_percent:
+            self.is_low = True
+            self._log_error(f"the phone's battery is low: {level:g} percent")
+            self._tell(level)
+        elif self.is_low and level >= self._low_percent + HYSTERESIS_PERCENT:
+            self.is_low = False
+            self._log_info(f"the phone's battery is at {level:g} percent again")
+            self._tell(level)
+
+    def _tell(self, level: float) -> None:
+        self.up.command_executor.execute_command(AndroidBatteryLowCommand(level, self.is_low))

@@ -1,0 +1,240 @@
+"""The airborne phone (thesis 3.3.3, 4.2.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from android_cog.absence_watch import AbsenceWatch
+from android_cog.config import ANDROID
+from android_cog.orientation_input import OrientationInput
+from android_cog.phone_link import PhoneLink
+from android_cog.phone_route import PhoneRoute
+from android_cog.ports import Ports
+from android_cog.telemetry_forward import TelemetryForward
+from up.base_started_module import BaseStartedModule
+from up.commands.answer_commands import AckCommand, NackCommand
+from up.commands.command import BaseCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.origin import Origin
+from up.commands.panic_command import PanicCommand
+from up.commands.refusal import Code, CommandRefusedError
+from up.commands.roles import Role
+from up.commands.system_commands import LinkStateCommand, SystemStopCommand
+from up.commands.telemetry_commands import TelemetryCommand
+from up.mode import Mode
+from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
+from up.protocols.general_message_link import GeneralMessageLink
+from up.protocols.orientation_forward import OrientationFrame
+from up.start_result import StartFailedError
+from up.system.plain_peers import PlainPeers
+
+LINK = "android"
+PRIORITY = 0
+
+
+class AndroidProvider(BaseStartedModule):
+    """Two sockets for the phone: General Messages, and orientation.
+
+    What the phone says goes through the Command Receiver with the role of a sensor. The phone gets
+    telemetry, Panic Mode, and the Commands that are routed to it. In Black Box Mode, where the
+    phone is behind a cellular network, both sockets are TCP only.
+    """
+
+    CONFIG = ANDROID
+    DATA_SOURCE: ClassVar[bool] = True
+
+    def _execute_initialization(self) -> None:
+        clock = self.context.reactor
+        config = self.config
+        self._peers = PlainPeers(config.i_accept_plain, "android.yml: i_accept_plain")
+        self._phone = PhoneLink(
+            clock,
+            self._peers,
+            on_message=self._on_message,
+            on_malformed=self._on_malformed,
+            on_connected=self._on_connected,
+            on_lost=self._on_lost,
+        )
+        self._orientation = OrientationInput(
+            clock,
+            self._peers,
+            on_frame=self._on_orientation,
+            on_connected=self._on_orientation_connected,
+            on_lost=self._on_orientation_lost,
+        )
+        self._route = PhoneRoute(self._phone)
+        self._forward = TelemetryForward(
+            clock, config.forward_interval_ms / 1000, self._send_telemetry
+        )
+        self._absence = AbsenceWatch(clock, config.stop_delay_s, self._stop_program)
+        self._ports = Ports(clock, config.address)
+        self._origin = Origin(LINK, Role.SENSOR, PRIORITY)
+        self._stream_link = self.up.open_link(
+            LINK, Role.SENSOR, self._phone.send_by_stream, priority=PRIORITY
+        )
+        self._datagram_link = self.up.open_link(
+            LINK, Role.SENSOR, self._phone.datagrams.send, priority=PRIORITY
+        )
+        self._speaker: GeneralMessageLink | None = None
+        self._panic: PanicCommand | None = None
+        self._is_connected = False
+        self._telemetry_faults = 0
+        self._subscribe()
+
+    def _subscribe(self) -> None:
+        self.up.command_receiver.register_route(LINK, self._route.carry)
+        executor = self.up.command_executor
+        executor.register_command(TelemetryCommand, self._on_telemetry)
+        executor.register_command(PanicCommand, self._on_panic)
+        executor.register_command(AckCommand, self._on_ack)
+        executor.register_command(NackCommand, self._on_nack)
+
+    @property
+    def connected(self) -> bool:
+        """Return whether the phone is there on its General Message link."""
+        return self._is_connected
+
+    @property
+    def is_source_open(self) -> bool:
+        """Return whether readings could come."""
+        return self._ports.are_open
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return whether the phone is there, and the counters."""
+        counters = {
+            **self._orientation.counters,
+            "refused_peers": self._peers.refused,
+            "replaced": self._phone.replaced,
+            "too_long": self._phone.dropped_too_long,
+            "unasked_answers": self._route.unasked_answers,
+        }
+        return {"android": {"connected": self.connected}, "counters": {"android": counters}}
+
+    def send_command(self, command: BaseCommand, command_id: str | None = None) -> bool:
+        """Send a Command to the phone; return whether it left or waits in order to leave."""
+        return self._phone.send(encode(command.NAME, command.data, command_id))
+
+    async def _execute_start(self) -> None:
+        config = self.config
+        refusal = self._peers.refusal_of(config.address)
+        if refusal:
+            raise StartFailedError(f"{refusal} (android.yml: address)")
+        is_black_box = self.context.mode is Mode.BLACK_BOX
+        if config.stop_if_orientation_is_lost and not is_black_box:
+            self._log_warning(
+                "'stop if orientation connection is lost' holds in Black Box Mode only: ignored"
+            )
+        datagrams = (None, None) if is_black_box else (self._phone, self._orientation)
+        try:
+            general = self._ports.open(
+                config.general_port,
+                "android.yml: general port",
+                self._phone.factory,
+                datagrams[0] and datagrams[0].datagrams,
+            )
+            orientation = self._ports.open(
+                config.orientation_port,
+                "android.yml: orientation port",
+                self._orientation.factory,
+                datagrams[1] and datagrams[1].datagrams,
+            )
+        except StartFailedError:
+            await self._ports.close()
+            raise
+        self.up.advertise_port("general", general)
+        self.up.advertise_port("orientation", orientation)
+
+    async def _execute_stop(self) -> None:
+        self._absence.cancel()
+        self._forward.forget()
+        await self._ports.close()
+        self._orientation.close()
+        await self._phone.close()
+
+    def _on_message(self, link: GeneralMessageLink, message: GeneralMessage) -> None:
+        self._speaker = link
+        self.up.command_receiver.receive(message, self._command_link_of(link))
+        self._speaker = None
+
+    def _on_malformed(self, link: GeneralMessageLink, fault: MalformedMessage) -> None:
+        self.up.command_receiver.receive_malformed(fault, self._command_link_of(link))
+
+    def _command_link_of(self, link: GeneralMessageLink) -> Any:
+        return self._stream_link if self._phone.is_stream(link) else self._datagram_link
+
+    def _on_connected(self, link: GeneralMessageLink) -> None:
+        self._log_info(f"the phone is connected from {link.peer}")
+        self._forward.forget()
+        if self._panic is not None:
+            link.send(encode(self._panic.NAME, self._panic.data))
+        self._tell_state()
+
+    def _on_lost(self, link: GeneralMessageLink, why: str) -> None:
+        self._log_warning(f"the phone's link is lost: {why}")
+        self._route.on_lost(link)
+        self._tell_state()
+
+    def _tell_state(self) -> None:
+        is_connected = self._phone.current is not None
+        if is_connected != self._is_connected:
+            self._is_connected = is_connected
+            self.up.command_executor.execute_command(LinkStateCommand(LINK, is_connected))
+
+    def _on_orientation(self, frame: OrientationFrame) -> None:
+        self.up.command_executor.execute_command(OrientationCommand(*frame), self._origin)
+
+    def _on_orientation_connected(self) -> None:
+        self._log_info("the phone's orientation comes")
+        self._absence.cancel()
+
+    def _on_orientation_lost(self) -> None:
+        self._log_warning("the phone's orientation is lost")
+        if (
+            self.started
+            and self.config.stop_if_orientation_is_lost
+            and self.context.mode is Mode.BLACK_BOX
+        ):
+            self._absence.begin()
+
+    def _stop_program(self) -> None:
+        self._log_error(
+            f"no orientation from the phone for {self.config.stop_delay_s:g} s: stopping"
+            " (android.yml: stop if orientation connection is lost)"
+        )
+        self.up.command_executor.execute_command(SystemStopCommand())
+
+    def _on_telemetry(self, command: TelemetryCommand) -> None:
+        if self._is_connected:
+            self._forward.offer(command)
+
+    def _send_telemetry(self, command: TelemetryCommand) -> None:
+        try:
+            message = encode(command.NAME, command.content, None, command.beacon)
+        except ValueError as error:
+            self._telemetry_faults += 1
+            if self._telemetry_faults == 1:
+                self._log_error(f"telemetry cannot be sent to the phone: {error}; said once")
+        else:
+            self._phone.send_newest(message)
+
+    def _on_panic(self, command: PanicCommand) -> None:
+        self._panic = command if command.panic else None
+        self._forward.least_interval_s = command.delay_ms / 1000 if command.panic else 0.0
+        self._phone.send(encode(command.NAME, command.data))
+
+    def _on_ack(self, command: AckCommand) -> None:
+        self._on_answer(command.command_id, None)
+
+    def _on_nack(self, command: NackCommand) -> None:
+        try:
+            code = Code(command.code)
+        except ValueError:
+            code = Code.REFUSED
+        self._on_answer(command.command_id, CommandRefusedError(command.reason, code))
+
+    def _on_answer(self, command_id: str, refusal: CommandRefusedError | None) -> None:
+        """Take an answer that came on the phone's own link; anybody else's says nothing here."""
+        if self._speaker is not None and self.up.command_executor.origin.link == LINK:
+            self._route.on_answer(self._speaker, command_id, refusal)

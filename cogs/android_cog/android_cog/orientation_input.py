@@ -1,0 +1,121 @@
+"""The phone's orientation, from one source at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from twisted.internet.interfaces import IAddress
+from twisted.internet.protocol import Protocol
+
+from up.protocols.orientation_forward import OrientationFrame
+from up.protocols.orientation_server import (
+    TAKEOVER_SILENCE_S,
+    OrientationDatagrams,
+    OrientationFactory,
+)
+from up.system.clock import Clock
+from up.system.plain_peers import PlainPeers
+
+
+class OrientationInput:
+    """The newest TCP connection, and UDP while no TCP connection brought a frame for 1 s.
+
+    ``on_connected`` and ``on_lost`` tell that the first source came and that the last one went.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        peers: PlainPeers,
+        *,
+        on_frame: Callable[[OrientationFrame], object],
+        on_connected: Callable[[], object],
+        on_lost: Callable[[], object],
+    ) -> None:
+        self._clock = clock
+        self._on_frame = on_frame
+        self._on_connected = on_connected
+        self._on_lost = on_lost
+        self._sources = 0
+        self._stream_heard_s: float | None = None
+        self.factory = _JudgedFactory(
+            peers,
+            on_orientation=self._on_stream_frame,
+            on_connected=self._came,
+            on_lost=self._went,
+        )
+        self.datagrams = _JudgedDatagrams(
+            clock,
+            peers,
+            on_orientation=self._on_datagram_frame,
+            on_connected=self._came,
+            on_lost=self._went,
+        )
+
+    @property
+    def connected(self) -> bool:
+        """Return whether there is a source."""
+        return self._sources > 0
+
+    @property
+    def counters(self) -> dict[str, int]:
+        """Return frames, dropped frames, replaced sources and datagrams of others."""
+        parts = (self.factory.counters, self.datagrams.counters)
+        return {
+            "orientation_frames": sum(part.frames for part in parts),
+            "orientation_dropped": sum(part.dropped for part in parts),
+            "orientation_replaced": sum(part.replaced for part in parts),
+            "orientation_foreign": sum(part.foreign for part in parts),
+        }
+
+    def close(self) -> None:
+        """Drop the source."""
+        self.factory.close()
+
+    def _on_stream_frame(self, frame: OrientationFrame, source: str) -> None:
+        self._stream_heard_s = self._clock.seconds()
+        self._on_frame(frame)
+
+    def _on_datagram_frame(self, frame: OrientationFrame, source: str) -> None:
+        heard_s = self._stream_heard_s
+        if heard_s is not None and self._clock.seconds() - heard_s <= TAKEOVER_SILENCE_S:
+            self.datagrams.counters.frames -= 1
+            self.datagrams.counters.foreign += 1
+        else:
+            self._on_frame(frame)
+
+    def _came(self, source: str) -> None:
+        self._sources += 1
+        if self._sources == 1:
+            self._on_connected()
+
+    def _went(self, source: str, why: str) -> None:
+        self._sources -= 1
+        if self._sources == 0:
+            self._on_lost()
+
+
+class _JudgedFactory(OrientationFactory):
+    """Takes connections only of peers that may speak."""
+
+    def __init__(self, peers: PlainPeers, **callbacks: Any) -> None:
+        super().__init__(**callbacks)
+        self._peers = peers
+
+    def buildProtocol(self, addr: IAddress | None) -> Protocol | None:  # type: ignore[override]  # noqa: N802 - Twisted's name
+        if not self._peers.permits(getattr(addr, "host", "")):
+            return None
+        return super().buildProtocol(addr)
+
+
+class _JudgedDatagrams(OrientationDatagrams):
+    """Hears only peers that may speak."""
+
+    def __init__(self, clock: Clock, peers: PlainPeers, **callbacks: Any) -> None:
+        super().__init__(clock, **callbacks)
+        self._peers = peers
+
+    def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
+        if self._peers.permits(addr[0]):
+            super().datagramReceived(datagram, addr)

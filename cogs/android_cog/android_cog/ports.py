@@ -1,0 +1,64 @@
+"""Opens a TCP port and the UDP port of the same number."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from twisted.internet.defer import maybeDeferred
+from twisted.internet.error import CannotListenError
+
+from up.start_result import StartFailedError
+
+_TRIES = 16
+_BACKLOG = 16
+
+
+class Ports:
+    """The ports that a module opened, to be closed together."""
+
+    def __init__(self, reactor: Any, address: str) -> None:
+        self._reactor = reactor
+        self._address = address
+        self._open: list[Any] = []
+
+    def open(self, number: int, key: str, factory: Any, datagrams: Any = None) -> int:
+        """Listen on TCP and, where ``datagrams`` is given, on UDP; return the number.
+
+        0 is any number that is free for both. Raises StartFailedError that names the port and the
+        configuration ``key``.
+        """
+        for remaining in reversed(range(_TRIES if number == 0 and datagrams else 1)):
+            try:
+                return self._open_pair(number, factory, datagrams)
+            except CannotListenError as error:
+                if not remaining:
+                    reason = getattr(error.socketError, "strerror", None) or error.socketError
+                    raise StartFailedError(
+                        f"port {error.port} cannot be opened: {reason} ({key})"
+                    ) from error
+        raise AssertionError("the loop ends by return or raise")
+
+    def _open_pair(self, number: int, factory: Any, datagrams: Any) -> int:
+        listen = self._reactor.listenTCP
+        stream = listen(number, factory, backlog=_BACKLOG, interface=self._address)
+        bound: int = stream.getHost().port
+        if datagrams is not None:
+            try:
+                packets = self._reactor.listenUDP(bound, datagrams, interface=self._address)
+            except CannotListenError:
+                stream.stopListening()
+                raise
+            self._open.append(packets)
+        self._open.append(stream)
+        return bound
+
+    @property
+    def are_open(self) -> bool:
+        """Return whether any port is open."""
+        return bool(self._open)
+
+    async def close(self) -> None:
+        """Close what is open; a second close does nothing."""
+        closing, self._open = self._open, []
+        for done in [maybeDeferred(port.stopListening) for port in closing]:
+            await done

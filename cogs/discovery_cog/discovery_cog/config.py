@@ -1,0 +1,22 @@
+"""discovery.yml."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from up.config import ConfigFile, key
+
+
+@dataclass(frozen=True, slots=True)
+class DiscoveryConfig:
+    """How the airborne phone finds the Raspberry Pi, whose address changes."""
+
+    port: int = key(
+        3001,
+        "UDP port that is asked, usually by broadcast. 0: any free port, said in the log.",
+        minimum=0,
+        maximum=65535,
+    )
+
+
+DISCOVERY = ConfigFile("discovery.yml", DiscoveryConfig)

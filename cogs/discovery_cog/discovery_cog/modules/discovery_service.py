@@ -1,0 +1,48 @@
+"""Lets the airborne phone find the Raspberry Pi (thesis 3.3.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from twisted.internet.error import CannotListenError
+
+from discovery_cog.answerer import Answerer
+from discovery_cog.config import DISCOVERY
+from discovery_cog.own_address import own_address_towards
+from discovery_cog.rate_limit import RateLimit
+from up.base_started_module import BaseStartedModule
+from up.mode import WITH_ARDUINO, Mode
+from up.start_result import StartFailedError
+
+
+class DiscoveryService(BaseStartedModule):
+    """Answers the phone's broadcast; not in Black Box Mode, where the server's address is known."""
+
+    CONFIG = DISCOVERY
+    MODES: ClassVar[frozenset[Mode]] = WITH_ARDUINO
+
+    def _execute_initialization(self) -> None:
+        self._answerer = Answerer(RateLimit(self.context.reactor), own_address_towards)
+        self._port: Any = None
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the counters."""
+        return {"counters": {"discovery": dict(self._answerer.counters)}}
+
+    def _execute_start(self) -> bool:
+        try:
+            self._port = self.context.reactor.listenUDP(self.config.port, self._answerer)
+        except CannotListenError as error:
+            reason = getattr(error.socketError, "strerror", None) or error.socketError
+            raise StartFailedError(
+                f"UDP port {error.port} cannot be opened: {reason} (discovery.yml: port)"
+            ) from error
+        self.up.advertise_port("discovery", self._port.getHost().port)
+        return True
+
+    async def _execute_stop(self) -> None:
+        port, self._port = self._port, None
+        if port is not None:
+            await port.stopListening()

@@ -1,0 +1,1 @@
+"""The link to the ground station (thesis 4.2.3)."""

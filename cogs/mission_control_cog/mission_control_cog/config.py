@@ -1,0 +1,89 @@
+"""mission_control.yml."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from up.config import ConfigFile, key, section
+from up.system.addresses import is_wildcard
+
+_AIRCRAFT = re.compile(r"[A-Za-z0-9_.-]{1,32}", re.ASCII)
+_HOST = re.compile(r"[A-Za-z0-9_.:%-]*", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class RemoteServerConfig:
+    """Where the Ground Station Proxy is."""
+
+    url: str = key(
+        "", "Host name or address of the proxy. Empty: there is no proxy.", max_length=255
+    )
+    port: int = key(3003, "TCP port of the proxy's airborne side.", minimum=1, maximum=65535)
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what no host is called."""
+        if not _HOST.fullmatch(self.url):
+            yield "url", "must be a host name or an address alone, without http:// and port"
+
+
+@dataclass(frozen=True, slots=True)
+class ListenerConfig:
+    """A port for ground stations on the same network as the aircraft, without a proxy."""
+
+    port: int | None = key(
+        None,
+        "TCP port, usually 50002. Empty: none is opened. 0: any free port, said in the log.",
+        minimum=0,
+        maximum=65535,
+    )
+    address: str = key(
+        "", "Address of the interface to listen on. Empty: every interface.", max_length=64
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what is no address."""
+        try:
+            is_wildcard(self.address)
+        except ValueError:
+            yield "address", f"must be a literal IP address, not {self.address!r}"
+
+
+@dataclass(frozen=True, slots=True)
+class MissionControlConfig:
+    """The link to the ground station."""
+
+    remote_server: RemoteServerConfig = section(RemoteServerConfig)
+    aircraft: str = key(
+        "default",
+        "Name that the proxy knows this aircraft by: 1 to 32 letters, digits, _ . or -",
+        max_length=32,
+    )
+    hello: bool = key(
+        True,
+        "Whether the link begins with a line that says who this is. false speaks to a proxy of "
+        "the thesis's time, which knows no names.",
+    )
+    role: Literal["observer", "operator", "pilot"] = key(
+        "operator",
+        "What a ground station may do: observer sees telemetry; operator also sets the telemetry "
+        "rate, the flight mode, required heading and altitude; pilot also arms and tunes gains.",
+    )
+    i_accept_plain: bool = key(
+        False,
+        "The link proves nothing about who is on the ground. While this is false, a pilot whose "
+        "link goes to a public address has the rights of an operator only, and ground stations "
+        "with public addresses cannot connect to the listener. Set it when a VPN or firewall "
+        "decides who reaches the proxy, or when you accept the risk.",
+    )
+    listener: ListenerConfig = section(ListenerConfig)
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what the proxy would refuse."""
+        if not _AIRCRAFT.fullmatch(self.aircraft):
+            yield "aircraft", "must be 1 to 32 letters, digits, _ . or -"
+
+
+MISSION_CONTROL = ConfigFile("mission_control.yml", MissionControlConfig)

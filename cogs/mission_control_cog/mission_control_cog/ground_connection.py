@@ -1,0 +1,55 @@
+"""One ground station's connection to the aircraft itself."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+from mission_control_cog.hello import HELLO_MAX_BYTES, PREFIX
+from up.protocols.general_message_link import GeneralMessageProtocol
+from up.system.clock import Clock
+
+_WORD = re.compile(rb" (seat|token)=([a-z0-9]{1,64})(?= |$)")
+
+
+class GroundConnection(GeneralMessageProtocol):
+    """General Messages; a station that says hello, as to a proxy, is answered as by one.
+
+    ``on_hello`` gets the connection, whether it wants to command, and its token, and returns the
+    answer. Later lines that begin with ``UP1`` are control lines of a proxy and are ignored.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        *,
+        on_hello: Callable[[GroundConnection, bool, str], bytes],
+        **callbacks: Any,
+    ) -> None:
+        super().__init__(clock, **callbacks)
+        self.token = ""
+        self._on_hello = on_hello
+        self._first: bytes | None = b""
+
+    def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
+        """Take a hello where the first line is one, then messages."""
+        if self._first is None:
+            super().dataReceived(data)
+            return
+        first = self._first + data
+        line, ended, rest = first.partition(b"\n")
+        if line[: len(PREFIX)] != PREFIX[: len(line)] or len(line) > HELLO_MAX_BYTES:
+            self._first = None
+            super().dataReceived(first)
+        elif not ended:
+            self._heard_s = self._clock.seconds()
+            self._first = first
+        else:
+            self._first = None
+            self._heard_s = self._clock.seconds()
+            words = dict(_WORD.findall(line.removesuffix(b"\r")))
+            wants_seat = words.get(b"seat") != b"listen"
+            self.send(self._on_hello(self, wants_seat, words.get(b"token", b"").decode("ascii")))
+            if rest:
+                super().dataReceived(rest)

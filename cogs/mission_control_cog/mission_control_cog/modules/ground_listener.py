@@ -1,0 +1,107 @@
+"""A port for ground stations on the aircraft's own network."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from twisted.internet.error import CannotListenError
+
+from mission_control_cog.config import MISSION_CONTROL
+from mission_control_cog.grounds import Grounds
+from mission_control_cog.modules.mission_control_provider import (
+    PLAIN_KEY,
+    ROLE_KEY,
+    MissionControlProvider,
+)
+from up.base_started_module import BaseStartedModule
+from up.commands.command_link import CommandLink
+from up.commands.roles import Role
+from up.commands.system_commands import LinkStateCommand
+from up.needs import needs
+from up.protocols.general_message import GeneralMessage, MalformedMessage
+from up.start_result import StartFailedError
+from up.system.plain_peers import PlainPeers
+
+LINK = "ground"
+
+
+class GroundListener(BaseStartedModule):
+    """Lets ground stations connect to the aircraft: one commands, the others listen.
+
+    Loaded when ``listener: port`` is configured. Telemetry and Commands to the ground go to all.
+    """
+
+    CONFIG = MISSION_CONTROL
+    mission_control = needs(MissionControlProvider)
+
+    def load(self) -> bool:
+        """Return whether a port is configured."""
+        return self.config.listener.port is not None
+
+    def _execute_initialization(self) -> None:
+        config = self.config
+        self._peers = PlainPeers(config.i_accept_plain, PLAIN_KEY)
+        self._grounds = Grounds(
+            self.context.reactor,
+            self._peers,
+            config.aircraft,
+            open_link=self._open_link,
+            on_message=self._on_message,
+            on_malformed=self._on_malformed,
+            on_holder=self._on_holder,
+        )
+        self._port: Any = None
+        self._has_holder = False
+        self.mission_control.add_outlet(self._grounds)
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the counters of the port."""
+        counters = {
+            "stations": len(self._grounds),
+            "not_holder": self._grounds.dropped,
+            "refused_peers": self._peers.refused,
+        }
+        return {"counters": {"ground": counters}}
+
+    def _execute_start(self) -> bool:
+        listener = self.config.listener
+        refusal = self._peers.refusal_of(listener.address)
+        if refusal:
+            raise StartFailedError(f"{refusal} (mission_control.yml: listener.address)")
+        try:
+            self._port = self.context.reactor.listenTCP(
+                listener.port, self._grounds.factory, interface=listener.address
+            )
+        except CannotListenError as error:
+            reason = getattr(error.socketError, "strerror", None) or error.socketError
+            raise StartFailedError(
+                f"port {error.port} cannot be opened: {reason} (mission_control.yml: listener.port)"
+            ) from error
+        self.up.advertise_port("ground", self._port.getHost().port)
+        return True
+
+    async def _execute_stop(self) -> None:
+        port, self._port = self._port, None
+        if port is not None:
+            await port.stopListening()
+        await self._grounds.close()
+
+    def _open_link(self, send: Any) -> CommandLink:
+        return self.up.open_link(LINK, Role(self.config.role), send, role_key=ROLE_KEY)
+
+    def _on_message(self, message: GeneralMessage, link: CommandLink) -> None:
+        self.up.command_receiver.receive(message, link)
+
+    def _on_malformed(self, fault: MalformedMessage, link: CommandLink) -> None:
+        self.up.command_receiver.receive_malformed(fault, link)
+
+    def _on_holder(self, peer: str) -> None:
+        if peer:
+            self._log_info(f"the ground station {peer} commands")
+        else:
+            self._log_warning("no ground station commands here any more")
+        if self._has_holder != bool(peer):
+            self._has_holder = bool(peer)
+            self.up.command_executor.execute_command(LinkStateCommand(LINK, bool(peer)))

@@ -1,0 +1,141 @@
+"""The connection with the ground, by way of the proxy (thesis 4.2.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from mission_control_cog.config import MISSION_CONTROL
+from mission_control_cog.uplink import Uplink
+from up.commands.origin import Origin
+from up.commands.roles import Role
+from up.commands.system_commands import LinkStateCommand
+from up.commands.telemetry_commands import TelemetryCommand
+from up.protocols.general_message import GeneralMessage, MalformedMessage
+from up.providers.base_mission_control_provider import BaseMissionControlProvider
+from up.system.addresses import is_private
+
+LINK = "mission_control"
+ROLE_KEY = "mission_control.yml: role"
+PLAIN_KEY = "mission_control.yml: i_accept_plain"
+
+
+class Outlet(Protocol):
+    """Another way to the ground, beside the proxy."""
+
+    def send(self, message: bytes) -> bool:
+        """Send an encoded message in order; False: nobody is there."""
+
+    def send_newest(self, message: bytes) -> bool:
+        """Send an encoded message in place of one that has not left."""
+
+
+class MissionControlProvider(BaseMissionControlProvider):
+    """Keeps a link to the proxy of ``remote_server``; without one it only serves its outlets."""
+
+    CONFIG = MISSION_CONTROL
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self._uplink: Uplink | None = None
+        self._outlets: list[Outlet] = []
+        self._telemetry_faults = 0
+
+    def _execute_initialization(self) -> None:
+        super()._execute_initialization()
+        config = self.config
+        self._role = Role(config.role)
+        self._link = self.up.open_link(LINK, self._role, self._send, role_key=ROLE_KEY)
+        server = config.remote_server
+        if server.url:
+            self._uplink = Uplink(
+                self.context.reactor,
+                server.url,
+                server.port,
+                config.aircraft if config.hello else None,
+                on_message=self._on_message,
+                on_malformed=self._on_malformed,
+                on_ready=self._on_ready,
+                on_lost=self._on_lost,
+            )
+
+    def add_outlet(self, outlet: Outlet) -> None:
+        """Send to ``outlet`` too whatever goes to the ground."""
+        self._outlets.append(outlet)
+
+    @property
+    def connected(self) -> bool:
+        """Return whether there is a link to the proxy."""
+        return self._uplink is not None and self._uplink.is_ready
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the counters of the link."""
+        connects = 0 if self._uplink is None else self._uplink.connects
+        counters = {"connects": connects, "unsent": self.unsent}
+        return {"counters": {"mission_control": counters}}
+
+    def transmit_telemetry(self, command: TelemetryCommand) -> None:
+        """Send a frame of telemetry; one that cannot be encoded is said once and counted."""
+        try:
+            super().transmit_telemetry(command)
+        except ValueError as error:
+            self._telemetry_faults += 1
+            if self._telemetry_faults == 1:
+                self._log_error(f"telemetry cannot be sent: {error}; said once")
+
+    def _execute_start(self) -> bool:
+        if self._uplink is None:
+            self._log_info("no proxy is configured (mission_control.yml: remote_server)")
+        else:
+            self._uplink.start()
+        return True
+
+    async def _execute_stop(self) -> None:
+        if self._uplink is not None:
+            await self._uplink.stop()
+
+    def _send(self, message: bytes) -> bool:
+        return self._uplink is not None and self._uplink.send(message)
+
+    def _transmit_data(self, message: bytes) -> bool:
+        taken = self._send(message)
+        for outlet in self._outlets:
+            taken = outlet.send(message) or taken
+        return taken
+
+    def _transmit_newest(self, message: bytes) -> None:
+        if self._uplink is not None:
+            self._uplink.send_newest(message)
+        for outlet in self._outlets:
+            outlet.send_newest(message)
+
+    def _on_message(self, message: GeneralMessage) -> None:
+        self.up.command_receiver.receive(message, self._link)
+
+    def _on_malformed(self, fault: MalformedMessage) -> None:
+        self.up.command_receiver.receive_malformed(fault, self._link)
+
+    def _on_ready(self, host: str) -> None:
+        self._grant_role(host)
+        self.up.command_executor.execute_command(LinkStateCommand(LINK, True))
+
+    def _on_lost(self) -> None:
+        self.up.command_executor.execute_command(LinkStateCommand(LINK, False))
+
+    def _grant_role(self, host: str) -> None:
+        """Grant the configured role, or less where nothing protects a pilot's Commands.
+
+        The address is judged at every connection, not when the configuration is read: a name may
+        stand for another address by then, and a refusal at start would take telemetry away too.
+        """
+        role, key = self._role, ROLE_KEY
+        if role is Role.PILOT and not self.config.i_accept_plain and not is_private(host):
+            role, key = Role.OPERATOR, PLAIN_KEY
+            self._log_error(
+                f"{host} is a public address and the link is plain: the ground is an operator, not"
+                f" a pilot, and cannot arm or tune; set {PLAIN_KEY} to true to accept that anybody"
+                " who reaches the proxy can"
+            )
+        self._link.origin = Origin(LINK, role)
+        self._link.role_key = key
