@@ -243,7 +243,7 @@ class RunnerConfig:
         "only harmless ones belong here, never paths, commands or what is loaded.",
         default={
             "android.yml": ("forward interval for onboard device (ms)",),
-            "load_guard.yml": ("interval", "panic threshold", "calm down threshold"),
+            "load_guard.yml": ("interval",),
         },
         max_length=32,
     )

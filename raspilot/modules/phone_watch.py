@@ -1,0 +1,50 @@
+"""Tells the runner whether the phone of this instance is there (docs/runner.md)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from up.base_started_module import BaseStartedModule
+from up.commands.system_commands import LinkStateCommand
+from up.system.clock import Timer
+from up.system.notify import Notifier
+
+PHONE_LINK = "android"
+REPEAT_S = 2.0
+
+
+class PhoneWatch(BaseStartedModule):
+    """Loaded only where a runner started the instance; it says so again for a new runner."""
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.notifier = Notifier.from_environment()
+        self._is_connected = False
+        self._timer: Timer | None = None
+
+    def load(self) -> bool:
+        """Return whether a runner gave the instance its name."""
+        return bool(self.context.instance)
+
+    def _execute_initialization(self) -> None:
+        self.up.command_executor.register_command(LinkStateCommand, self._on_link)
+
+    def _execute_start(self) -> bool:
+        self._repeat()
+        return True
+
+    def _execute_stop(self) -> None:
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+
+    def _on_link(self, command: LinkStateCommand) -> None:
+        if command.link == PHONE_LINK:
+            self._is_connected = command.connected
+            self._tell()
+
+    def _repeat(self) -> None:
+        self._timer = self.context.reactor.callLater(REPEAT_S, self._repeat)
+        self._tell()
+
+    def _tell(self) -> None:
+        self.notifier.variable("X_UP_PHONE", "1" if self._is_connected else "0")
