@@ -1,11 +1,11 @@
 """A network of one's own, where packets vanish and addresses are public: needs root."""
 
 import os
-import shutil
 import subprocess
 from contextlib import contextmanager
 
 from tests.proxy.test_metrics import value
+from tests.support.tools import need_root, need_tool, unavailable
 
 NAMESPACE = f"up-proxy-{os.getpid()}"
 HERE, THERE = "10.217.31.1", "10.217.31.2"
@@ -21,20 +21,17 @@ def must(*command):
     return done.stdout
 
 
-def may_make_namespaces():
-    if os.geteuid() != 0 or not (shutil.which("ip") and shutil.which("nft")):
-        return False
-    made = run("ip", "netns", "add", f"{NAMESPACE}-probe").returncode == 0
-    run("ip", "netns", "del", f"{NAMESPACE}-probe")
-    return made
-
-
 @contextmanager
 def network():
     """A namespace behind a veth pair; yields the prefix of a command that runs inside."""
+    need_root()
+    need_tool("ip", "iproute2")
+    need_tool("nft", "nftables")
     link, peer = f"upx{os.getpid() % 100000}", f"upy{os.getpid() % 100000}"
     try:
-        must("ip", "netns", "add", NAMESPACE)
+        made = run("ip", "netns", "add", NAMESPACE)
+        if made.returncode != 0:
+            unavailable(f"no network namespace: {made.stderr.strip()}")
         must("ip", "link", "add", link, "type", "veth", "peer", "name", peer)
         must("ip", "link", "set", peer, "netns", NAMESPACE)
         must("ip", "addr", "add", f"{HERE}/24", "dev", link)

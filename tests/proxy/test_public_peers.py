@@ -2,12 +2,8 @@
 
 import pytest
 
-from tests.proxy.namespace import figure, may_make_namespaces, must, network, python
+from tests.proxy.namespace import figure, must, network, python
 from tests.proxy.program import Program
-
-pytestmark = pytest.mark.skipif(
-    not may_make_namespaces(), reason="needs root, ip and nft for a network namespace"
-)
 
 PUBLIC = "198.51.100.7"
 KNOCK = """

@@ -5,12 +5,8 @@ import time
 
 import pytest
 
-from tests.proxy.namespace import THERE, blackhole, figure, light, may_make_namespaces, network
+from tests.proxy.namespace import THERE, blackhole, figure, light, network
 from tests.proxy.program import Client, Program, until
-
-pytestmark = pytest.mark.skipif(
-    not may_make_namespaces(), reason="needs root, ip and nft for a network namespace"
-)
 
 
 @pytest.fixture
