@@ -95,3 +95,8 @@ def test_configured_places_come_first(tmp_path):
         instances=Path("/srv/instances"),
         logs=Path("/srv/logs"),
     )
+
+
+def test_the_shipped_file_is_the_template():
+    shipped = Path(__file__).parents[2] / "config" / RUNNER.filename
+    assert shipped.read_text("utf-8") == RUNNER.template()
