@@ -49,3 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _fail(text: str, status: int) -> int:
     print(text, file=sys.stderr)  # noqa: T201 - the user's answer
     return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

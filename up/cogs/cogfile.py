@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from up.cogs.cog_error import CogError
 from up.cogs.package_name import package_name
-from up.config import ConfigErrors, ConfigProblem, key
-from up.config.map_file import MapFile
-from up.config.nodes import MapNode, ScalarNode, compose
+from up.config import key
+from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
+from up.config.problems import Problems
 from up.config.reading import read_text
+from up.config.scalars import is_null
+from up.config.shape import shape_of
+from up.config.validator import Validator
 
 COGFILE = "Cogfile.yml"
 
@@ -34,6 +37,8 @@ class CogSpec:
 
     def problems(self) -> Iterator[tuple[str, str]]:
         """Yield what is not usable or does not fit together."""
+        if not self.path.isprintable():
+            yield "path", "must be the path of a folder"
         if self.pypi and not _DISTRIBUTION.fullmatch(self.pypi):
             yield "pypi", "must be the name of a distribution, like raspilot-serial-cog"
         if self.version and not _VERSION.fullmatch(self.version):
@@ -57,7 +62,7 @@ class WantedCog:
     folder: Path | None
 
 
-_FILE = MapFile(COGFILE, CogSpec)
+_SHAPE = shape_of(CogSpec)
 
 
 def load_cogfile(root: Path) -> list[WantedCog]:
@@ -65,66 +70,60 @@ def load_cogfile(root: Path) -> list[WantedCog]:
 
     Raises ConfigErrors with the place of every mistake.
     """
-    problems: list[ConfigProblem] = []
-    specs: dict[str, CogSpec] = {}
-    try:
-        specs = _FILE.load(root)
-    except ConfigErrors as errors:
-        problems += errors.problems
     path = root / COGFILE
+    problems = Problems(path)
+    text = read_text(path, problems.report)
+    tree = None if text is None else compose(text, problems.report)
     wanted: list[WantedCog] = []
-    seen: dict[str, str] = {}
-    for label, line, column in _labels(path):
-
-        def report(what: str, place: tuple[int, int] = (line, column)) -> None:
-            problems.append(ConfigProblem(path, *place, what))
-
-        cog = _package(label, seen, report)
-        spec = specs.get(label)
-        if cog is not None and spec is not None:
-            folder = _source(root, label, spec, report)
-            wanted.append(WantedCog(cog, spec, folder))
-    if problems:
-        raise ConfigErrors(sorted(problems, key=lambda each: (each.line, each.column)))
+    if isinstance(tree, MapNode):
+        seen: dict[str, str] = {}
+        for name, value in tree.pairs:
+            label = name.text if isinstance(name, ScalarNode) else ""
+            each = _Entry(root, label, name, problems.report).read(value, seen)
+            if each is not None:
+                wanted.append(each)
+    elif tree is not None and not is_null(tree):
+        problems.report(tree.line, tree.column, "must be a map of cogs")
+    problems.raise_if_any()
     return wanted
 
 
-def _package(label: str, seen: dict[str, str], report: Callable[[str], None]) -> str | None:
-    try:
-        cog = package_name(label)
-    except CogError as error:
-        report(str(error))
-        return None
-    if cog in seen and seen[cog] != label:
-        report(f"{label} and {seen[cog]} are the same cog, {cog}")
-        return None
-    seen[cog] = label
-    return cog
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """One entry that is being read; its own problems stand at its name."""
 
+    root: Path
+    label: str
+    name: Node
+    report: Report
 
-def _source(root: Path, label: str, spec: CogSpec, report: Callable[[str], None]) -> Path | None:
-    given = [name for name in ("path", "pypi", "url") if getattr(spec, name)]
-    if len(given) != 1:
-        found = " and ".join(given) if given else "none of them"
-        report(f"{label}: give exactly one of path, pypi and url; here is {found}")
-        return None
-    if not spec.path:
-        return None
-    folder = (root / spec.path).resolve()
-    if not any((folder / name).is_file() for name in ("setup.py", "pyproject.toml")):
-        report(f"{label}: there is no setup.py in {folder}")
-    return folder
+    def read(self, value: Node, seen: dict[str, str]) -> WantedCog | None:
+        try:
+            cog = package_name(self.label)
+        except CogError as error:
+            self._refuse(str(error))
+            cog = ""
+        if cog and cog in seen:
+            self._refuse(f"{self.label} stands here twice, first as {seen[cog]}")
+        seen[cog] = self.label
+        spec = CogSpec() if is_null(value) else Validator(self.report, {}).read(_SHAPE, value)
+        if not isinstance(spec, CogSpec):
+            return None
+        folder = self._folder(spec)
+        return WantedCog(cog, spec, folder) if cog else None
 
+    def _folder(self, spec: CogSpec) -> Path | None:
+        given = [name for name in ("path", "pypi", "url") if getattr(spec, name)]
+        if len(given) != 1:
+            found = " and ".join(given) if given else "none"
+            self._refuse(f"{self.label}: give one of path, pypi and url; here is {found}")
+            return None
+        if not spec.path:
+            return None
+        folder = (self.root / spec.path).resolve()
+        if not any((folder / name).is_file() for name in ("setup.py", "pyproject.toml")):
+            self._refuse(f"{self.label}: there is no setup.py in {folder}")
+        return folder
 
-def _labels(path: Path) -> Iterator[tuple[str, int, int]]:
-    """Yield the top keys and their places; what the file reader has reported is passed over."""
-
-    def ignore(line: int, column: int, what: str) -> None:
-        """Leave the problem to the reader that has reported it."""
-
-    text = read_text(path, ignore)
-    root = None if text is None else compose(text, ignore)
-    if isinstance(root, MapNode):
-        for name, _ in root.pairs:
-            if isinstance(name, ScalarNode):
-                yield name.text, name.line, name.column
+    def _refuse(self, what: str) -> None:
+        self.report(self.name.line, self.name.column, what)

@@ -6,7 +6,7 @@ import importlib
 import importlib.util
 import json
 import urllib.parse
-from importlib.metadata import Distribution, PackageNotFoundError, distribution
+from importlib.metadata import Distribution, PackageNotFoundError, distribution, distributions
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ def is_installed(wanted: WantedCog) -> bool:
         return False
     if wanted.folder is not None:
         return _is_from_folder(wanted.cog, wanted.folder)
-    found = _distribution_of(wanted.cog, wanted.spec.pypi)
+    found = distribution_of(wanted.cog, wanted.spec.pypi)
     if found is None:
         return False
     if wanted.spec.url:
@@ -31,7 +31,7 @@ def is_installed(wanted: WantedCog) -> bool:
 
 def _is_from_folder(cog: str, folder: Path) -> bool:
     name = distribution_name(folder)
-    found = _distribution_of(cog, name)
+    found = distribution_of(cog, name)
     if found is None:
         return False
     package = _package_folder(cog)
@@ -60,7 +60,7 @@ def _package_folder(cog: str) -> Path | None:
     return Path(spec.origin).resolve().parent
 
 
-def _distribution_of(cog: str, name: str) -> Distribution | None:
+def distribution_of(cog: str, name: str = "") -> Distribution | None:
     """Return the distribution of that name, or the one that says it brings the package."""
     for each in (name, cog, f"raspilot-{cog}"):
         try:
@@ -71,8 +71,6 @@ def _distribution_of(cog: str, name: str) -> Distribution | None:
 
 
 def _bringing(cog: str) -> Distribution | None:
-    from importlib.metadata import distributions
-
     for each in distributions():
         if cog in (each.read_text("top_level.txt") or "").split():
             return each

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from up.cogs.cog_error import CogError
 from up.cogs.cogfile import WantedCog
+from up.cogs.installed import distribution_of
 from up.cogs.say import Say
 from up.cogs.source_tree import distribution_name, neighbours, normal_name
 
@@ -35,9 +36,12 @@ def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], tell: Sa
         command += ["--disable-pip-version-check", "--use-pep517", "--constraint", str(constraints)]
         if _can_build():
             command.append("--no-build-isolation")
-        for each in missing:
-            command += _arguments(each)
-        run_pip(command, tell)
+        # Of a repository pip takes nothing anew while the version's number is the same.
+        replaced = [each for each in missing if each.spec.url and distribution_of(each.cog)]
+        run_pip([*command, *(word for each in missing for word in _arguments(each))], tell)
+        if replaced:
+            command += ["--force-reinstall", "--no-deps"]
+            run_pip([*command, *(word for each in replaced for word in _arguments(each))], tell)
 
 
 def run_pip(command: Sequence[str], tell: Say) -> None:

@@ -1,0 +1,216 @@
+"""``up gather`` in a real virtual environment, with real cogs, from every source."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.support.tools import need_tool
+from up.loading.external_modules import EXTERNAL_MODULES
+
+
+def cogfile(application: Path, text: str) -> None:
+    (application / "Cogfile.yml").write_text(text)
+
+
+def registered(application: Path) -> dict[str, str]:
+    return {cog: entry.source for cog, entry in EXTERNAL_MODULES.load(application).items()}
+
+
+BOTH = "alpha-cog: {path: ../tree/alpha_cog}\nbeta_cog: {path: ../tree/beta_cog}\n"
+
+
+def test_the_life_of_a_cogfile(environment, application, tree):
+    cogfile(application, BOTH)
+    first = environment.up("gather", cwd=application).stdout.splitlines()
+    assert first == [
+        f"alpha_cog: to be installed from {tree}/alpha_cog",
+        f"beta_cog: to be installed from {tree}/beta_cog",
+        "installed 2 cogs",
+        "alpha_cog: registered",
+        f"alpha_cog: created {application}/config/alpha.yml",
+        "beta_cog: registered",
+        f"beta_cog: created {application}/config/beta.yml",
+        "2 cogs of Cogfile.yml installed and registered",
+    ]
+    assert registered(application) == {"alpha_cog": "cogfile", "beta_cog": "cogfile"}
+
+    again = environment.up("gather", cwd=application).stdout.splitlines()
+    assert again == [
+        "alpha_cog: is registered",
+        "beta_cog: is registered",
+        "2 cogs of Cogfile.yml installed and registered",
+    ]
+
+    modules = environment.up("modules", cwd=application).stdout
+    assert modules.index("AlphaModule") < modules.index("BetaModule")
+    assert "all is in order" in environment.up("check", cwd=application).stdout
+
+    cogfile(application, BOTH.splitlines()[0])
+    left = environment.up("gather", cwd=application).stdout.splitlines()
+    assert left[:2] == ["beta_cog: has left Cogfile.yml", "beta_cog: unregistered"]
+    assert registered(application) == {"alpha_cog": "cogfile"}
+    assert (application / "config/beta.yml").exists()
+
+
+def test_what_a_person_registered_is_not_unregistered(environment, application, tree):
+    cogfile(application, BOTH)
+    environment.up("gather", cwd=application)
+    environment.up("unregister", "-n", "alpha_cog", cwd=application)
+    environment.up("register", "-n", "alpha-cog", cwd=application)
+    cogfile(application, "")
+    environment.up("gather", cwd=application)
+    assert registered(application) == {"alpha_cog": "manual"}
+
+
+def test_an_edited_source_needs_no_new_gathering(environment, application, tree):
+    cogfile(application, BOTH)
+    environment.up("gather", cwd=application)
+    module = tree / "alpha_cog/alpha_cog/modules/alpha_module.py"
+    module.write_text(module.read_text() + "\n    LOAD_ORDER = 1 / 0\n")
+    done = environment.up("check", cwd=application, status=2)
+    assert "ZeroDivisionError" in done.stderr
+
+
+def test_names_of_the_tree_never_come_from_the_index(environment, application, tree, index):
+    """Somebody offers a newer alpha on the index; beta needs alpha, which no Cogfile lists."""
+    stranger = tree.parent / "stranger"
+    (stranger / "stranger_in_alpha").mkdir(parents=True)
+    (stranger / "stranger_in_alpha/__init__.py").write_text("")
+    setup = (
+        "from setuptools import setup\n"
+        "setup(name='raspilot-alpha-cog', version='99', packages=['stranger_in_alpha'])\n"
+    )
+    (stranger / "setup.py").write_text(setup)
+    build = "from setuptools import build_meta\nbuild_meta.build_wheel('dist')\n"
+    environment.run("-c", build, cwd=stranger)
+    index.add(next(stranger.glob("dist/*.whl")))
+
+    cogfile(application, BOTH.splitlines()[1])
+    environment.up("gather", cwd=application, environ=index.environ)
+    place = "import alpha_cog, sys; sys.stdout.write(alpha_cog.__file__)"
+    assert environment.run("-c", place, cwd=application).stdout
+    found = environment.run("-c", "import stranger_in_alpha", cwd=application, status=None)
+    assert found.returncode != 0
+    assert [path for path in index.asked if "alpha" in path] == []
+
+
+def test_from_the_index_with_a_version(environment, application, outside, index):
+    for wheel in (outside / "dist").glob("*.whl"):
+        index.add(wheel)
+    cogfile(application, 'lidar-cog: {pypi: raspilot-lidar-cog, version: "0.1.0"}\n')
+    done = environment.up("gather", cwd=application, environ=index.environ)
+    assert "from the package index (raspilot-lidar-cog 0.1.0)" in done.stdout
+    assert registered(application) == {"lidar_cog": "cogfile"}
+    assert (application / "config/lidar.yml").exists()
+    asked = len(index.asked)
+    done = environment.up("gather", cwd=application, environ=index.environ)
+    assert "lidar_cog: is registered" in done.stdout
+    assert len(index.asked) == asked, "nothing to do asks nobody"
+
+
+def test_a_version_that_is_not_there_is_pips_last_lines_and_a_sentence(
+    environment, application, outside, index
+):
+    for sdist in (outside / "dist").glob("*.tar.gz"):
+        index.add(sdist)
+    cogfile(application, 'lidar-cog: {pypi: raspilot-lidar-cog, version: "7.0"}\n')
+    done = environment.up("gather", cwd=application, environ=index.environ, status=1)
+    assert "pip: ERROR: No matching distribution found for raspilot-lidar-cog==7.0" in done.stdout
+    assert done.stderr == "pip could not install what is missing (exit status 1)\n"
+    assert registered(application) == {}
+    cogfile(application, "lidar-cog: {pypi: raspilot-lidar-cog}\n")
+    environment.up("gather", cwd=application, environ=index.environ)
+    assert registered(application) == {"lidar_cog": "cogfile"}, "an sdist serves as well"
+
+
+def test_from_a_git_repository_with_a_revision(environment, application, outside, tmp_path):
+    git = need_tool("git")
+    repository = tmp_path / "repository"
+    environment.up("create", "cog", "-n", "Camera", cwd=tmp_path)
+    (tmp_path / "camera_cog").rename(repository)
+    run = [git, "-c", "user.name=x", "-c", "user.email=x@example.org", "-C", str(repository)]
+    for arguments in (["init", "-q"], ["add", "."], ["commit", "-qm", "First"], ["tag", "v1"]):
+        subprocess.run([*run, *arguments], check=True)
+    (repository / "camera_cog/registrar.py").write_text("raise RuntimeError('not this one')\n")
+    for arguments in (["commit", "-qam", "Second"], ["tag", "v2"]):
+        subprocess.run([*run, *arguments], check=True)
+
+    url = repository.as_uri()
+    cogfile(application, f"camera_cog: {{url: {url}, revision: v1}}\n")
+    environment.up("gather", cwd=application)
+    assert registered(application) == {"camera_cog": "cogfile"}
+    again = environment.up("gather", cwd=application).stdout
+    assert again.startswith("camera_cog: is registered")
+
+    cogfile(application, f"camera_cog: {{url: {url}}}\n")
+    assert environment.up("gather", cwd=application).stdout.startswith("camera_cog: is registered")
+    cogfile(application, f"camera_cog: {{url: {url}, revision: v2}}\n")
+    done = environment.up("gather", cwd=application, status=1)
+    assert "RuntimeError: not this one" in done.stderr
+
+
+def test_mistakes_are_told_before_anything_is_installed(environment, application, tree):
+    cogfile(application, BOTH + "gamma_cog: {path: ../tree/gamma_cog}\n")
+    done = environment.up("gather", cwd=application, status=2)
+    assert done.stderr.startswith(f"{application}/Cogfile.yml:3:1: gamma_cog: there is no setup.py")
+    assert "Traceback" not in done.stderr
+    assert list(environment.packages.glob("*cog*")) == []
+
+
+def test_without_installing(environment, application, tree):
+    cogfile(application, BOTH)
+    done = environment.up("gather", "--no-install", cwd=application, status=1)
+    assert done.stderr == "not installed as Cogfile.yml says: alpha_cog, beta_cog\n"
+
+
+def test_a_failing_registrant_does_not_keep_the_others_out(environment, application, tree):
+    (tree / "alpha_cog/alpha_cog/registrar.py").write_text("import nothing_there\n")
+    cogfile(application, BOTH)
+    done = environment.up("gather", cwd=application, status=1)
+    assert "alpha_cog.registrar cannot be imported" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert registered(application) == {"beta_cog": "cogfile"}
+
+
+@pytest.mark.parametrize("managed", [True, False])
+def test_an_environment_that_pip_may_not_change(environment, application, tree, managed):
+    cogfile(application, BOTH)
+    arguments = ["gather", "-f", "."]
+    code = (
+        "import os, sys, sysconfig, pathlib\n"
+        "from up.cogs import pip\n"
+        "from up.cli.main import main\n"
+        f"if {managed}:\n"
+        "    sys.base_prefix = sys.prefix\n"
+        "    place = pathlib.Path(sys.prefix, 'stdlib'); place.mkdir()\n"
+        "    (place / 'EXTERNALLY-MANAGED').write_text('')\n"
+        "    real = sysconfig.get_path\n"
+        "    sysconfig.get_path = lambda n: str(place) if n == 'stdlib' else real(n)\n"
+        "else:\n"
+        "    os.access = lambda *a: False\n"
+        "sys.exit(main(['gather']))\n"
+    )
+    done = environment.run("-c", code, cwd=application, status=1)
+    wanted = "belongs to the operating system" if managed else "cannot be written"
+    assert wanted in done.stderr and len(done.stderr.splitlines()) == 1, arguments
+    assert list(environment.packages.glob("*cog*")) == []
+
+
+def test_a_framework_that_is_not_installed_is_never_fetched(environment, application, tree):
+    """Only its sources are on the path: pip would look for it on the index."""
+    cogfile(application, BOTH)
+    code = (
+        "import sys, importlib.metadata as m\n"
+        "real = m.distribution\n"
+        "def distribution(name):\n"
+        "    if name == 'raspilot': raise m.PackageNotFoundError(name)\n"
+        "    return real(name)\n"
+        "m.distribution = distribution\n"
+        "from up.cli.main import main\n"
+        "sys.exit(main(['gather']))\n"
+    )
+    done = environment.run("-c", code, cwd=application, status=1)
+    assert "Up itself is not installed" in done.stderr

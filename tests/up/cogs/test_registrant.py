@@ -1,0 +1,188 @@
+"""A Registrant enters its cog's modules and creates configuration; mistakes are one sentence."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.support.application import importable, plan_of, write_application
+from tests.support.virtual_environment import REPOSITORY
+from up.cogs.cog_error import CogError
+from up.cogs.package_name import package_name
+from up.cogs.registration import find_registrant, register, unregister
+from up.cogs.registry import Registry
+from up.config import ConfigErrors
+
+TREE = REPOSITORY / "tests/fixtures/cogs/tree"
+OLD = REPOSITORY / "tests/fixtures/cogs/prototype_cog"
+
+
+@pytest.fixture
+def application(tmp_path):
+    return write_application(tmp_path / "application", {})
+
+
+@pytest.fixture
+def alpha():
+    with importable(TREE / "alpha_cog", "alpha_cog"):
+        yield
+
+
+@pytest.fixture
+def prototype():
+    with importable(OLD, "prototype_cog"):
+        yield
+
+
+@pytest.fixture
+def cog(tmp_path):
+    """Return a function that writes a package odd_cog and lets it be imported."""
+    folder = tmp_path / "cogs" / "odd_cog"
+    folder.mkdir(parents=True)
+    (folder / "__init__.py").write_text("")
+
+    def write(**files: str) -> Path:
+        for name, text in files.items():
+            (folder / name.replace("__", ".")).write_text(text)
+        return folder
+
+    with importable(folder.parent, "odd_cog"):
+        yield write
+
+
+REGISTRAR = "from up.cogs.up_registrant import UpRegistrant\nclass Registrant(UpRegistrant): pass\n"
+
+
+def test_registering_enters_creates_and_says_so(application, alpha):
+    said: list[str] = []
+    register("alpha_cog", application, "manual", said.append)
+    entry = Registry(application.root).entries()["alpha_cog"]
+    assert [each.path for each in entry.modules] == ["alpha_cog.modules.alpha_module.AlphaModule"]
+    assert entry.source == "manual"
+    config = application.config_folder / "alpha.yml"
+    assert "interval_s: 1.0" in config.read_text()
+    assert said == ["alpha_cog: registered", f"alpha_cog: created {config}"]
+    assert "AlphaModule" in [module.class_name for module in plan_of(application).modules]
+
+
+def test_configuration_is_never_overwritten(application, alpha):
+    config = application.config_folder / "alpha.yml"
+    config.parent.mkdir()
+    config.write_text("interval_s: 5\n")
+    said: list[str] = []
+    register("alpha_cog", application, "manual", said.append)
+    register("alpha_cog", application, "manual", said.append)
+    assert config.read_text() == "interval_s: 5\n"
+    assert said == ["alpha_cog: registered", "alpha_cog: is registered"]
+
+
+def test_unregistering_leaves_the_configuration(application, alpha):
+    register("alpha_cog", application, "manual", lambda text: None)
+    assert unregister("alpha_cog", application, lambda text: None)
+    assert not unregister("alpha_cog", application, lambda text: None)
+    assert Registry(application.root).entries() == {}
+    assert (application.config_folder / "alpha.yml").exists()
+
+
+def test_a_cog_of_the_prototype_registers_loads_and_works(application, prototype, capfd):
+    said: list[str] = []
+    register("prototype_cog", application, "manual", said.append)
+    register("prototype_cog", application, "manual", said.append)
+    assert said == ["prototype_cog: registered", "prototype_cog: is registered"]
+    assert (application.config_folder / "prototype.yml").read_text() == "interval: 1\n"
+    assert "recorders are ignored" in capfd.readouterr().out
+    plan = plan_of(application)
+    assert not plan.problems
+    names = [module.class_name for module in plan.modules]
+    assert {"OldClockModule", "OldSwitchModule"} <= set(names)
+
+
+def test_modules_of_the_prototype_live_through_all_phases(tmp_path, prototype):
+    from prototype_cog.modules.old_clock_module import OldClockModule
+    from prototype_cog.modules.old_switch_module import OldSwitchModule
+
+    from up.commands.origin import INTERNAL
+    from up.commands.panic_command import PanicCommand
+    from up.testing import Bench
+
+    bench = Bench(OldClockModule, OldSwitchModule, config_folder=tmp_path)
+    bench.start()
+    module = bench.module(OldClockModule)
+    assert module.started and module.is_a("BaseStartedModule")
+    bench.up.command_executor.adopt_thread()
+    bench.up.command_executor.execute_command(PanicCommand(True, 150), INTERNAL)
+    bench.advance(0.1)
+    assert module.heard == ["up.panic"]
+    assert module.telemetry_content == {"old_clock": {"heard": 1}}
+    bench.stop()
+    assert not module.started
+
+
+def test_a_cog_without_a_name_or_a_registrar_is_one_sentence(application, cog):
+    for name, what in (
+        ("nobody_cog", "no cog nobody_cog is installed: list it in Cogfile.yml"),
+        ("odd_cog", "odd_cog is no cog: it has no registrar.py"),
+    ):
+        with pytest.raises(CogError, match=what):
+            register(name, application, "manual")
+    with pytest.raises(CogError, match="is no name of a cog"):
+        package_name("../up")
+    assert package_name("android-cog") == "android_cog"
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("x = = 1\n", "odd_cog.registrar cannot be imported: SyntaxError"),
+        ("import not_there_at_all\n", "odd_cog.registrar cannot be imported: No module named"),
+        ("raise RuntimeError('no')\n", "odd_cog.registrar cannot be imported: RuntimeError: no"),
+        ("class Registrant: pass\n", "has no class Registrant that extends UpRegistrant"),
+        (
+            REGISTRAR.replace("pass", "\n    def prepare(self, application): 1 / 0"),
+            "the Registrant of the cog odd_cog failed: ZeroDivisionError",
+        ),
+        (
+            "from up.registrar import UpRegistrar\nclass Registrar(UpRegistrar):\n"
+            "    def __init__(self): super().__init__('odd_cog')\n"
+            "    def register(self): return False\n",
+            "the Registrar of the cog odd_cog says that it failed",
+        ),
+    ],
+)
+def test_a_broken_registrant_is_one_sentence(application, cog, text, what):
+    cog(registrar__py=text, registered_modules__yml="modules: []\n")
+    with pytest.raises(CogError, match=what):
+        register("odd_cog", application, "manual", lambda text: None)
+
+
+def test_a_missing_manifest_is_told_with_the_way_out(application, cog):
+    cog(registrar__py=REGISTRAR)
+    with pytest.raises(CogError, match=r"has no registered_modules.yml .* 'up explore -w'"):
+        register("odd_cog", application, "manual")
+
+
+def test_mistakes_in_a_manifest_have_their_place(application, cog):
+    folder = cog(
+        registrar__py=REGISTRAR,
+        registered_modules__yml="modules:\n  - class_name: A B\n    prefix: odd_cog..x\n  - {}\n",
+    )
+    with pytest.raises(ConfigErrors) as errors:
+        register("odd_cog", application, "manual")
+    lines = str(errors.value).splitlines()
+    assert lines[0].startswith(f"{folder}/registered_modules.yml:2:17: ")
+    assert lines[1].startswith(f"{folder}/registered_modules.yml:3:13: ")
+    assert lines[2].startswith(f"{folder}/registered_modules.yml:4:5: ")
+
+
+def test_a_manifest_that_would_stop_the_boot_is_not_entered(application, cog):
+    cog(
+        registrar__py=REGISTRAR,
+        registered_modules__yml="modules:\n  - {class_name: A, prefix: odd_cog.modules.a}\n",
+    )
+    with pytest.raises(CogError, match=r"lists odd_cog.modules.a.A, which cannot be imported"):
+        register("odd_cog", application, "manual")
+    assert Registry(application.root).entries() == {}
+
+
+def test_the_thesis_name_comes_before_the_prototypes(cog):
+    cog(registrar__py=REGISTRAR + "class Registrar(UpRegistrant): pass\n")
+    assert find_registrant("odd_cog").__name__ == "Registrant"

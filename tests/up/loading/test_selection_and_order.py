@@ -1,0 +1,141 @@
+"""What is chosen among the classes, and in which order it comes."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.support.application import context_of, plan_of, write_application
+from up.loading.discovery import CogImportError
+from up.loading.plan import BootError, Plan
+from up.mode import Mode
+from up.up_loader import UpLoader
+
+HEAD = (
+    "from up.base_module import BaseModule\n"
+    "from up.needs import needs, wants\n"
+    "from up.mode import WITH_ARDUINO, Mode\n"
+    "from up.providers.up_altitude_provider import UpAltitudeProvider\n"
+)
+
+
+def plan(root: Path, classes: str, mode: Mode = Mode.AUTO, **files: str) -> Plan:
+    files = {f"config/{name}.yml": text for name, text in files.items()}
+    application = write_application(root, {"modules/all.py": HEAD + classes, **files})
+    return plan_of(application, mode)
+
+
+def own(found: Plan) -> list[str]:
+    return [module.class_name for module in found.modules if module.path.startswith("tested_")]
+
+
+def reasons(found: Plan) -> dict[str, str]:
+    return {each.path.rpartition(".")[2]: each.reason for each in found.rejected}
+
+
+def test_load_decides_and_may_look_at_the_mode(tmp_path):
+    classes = (
+        "class No(BaseModule):\n    def load(self): return False\n"
+        "class OnlyBox(BaseModule):\n"
+        "    def load(self): return self.context.mode is Mode.BLACK_BOX\n"
+        "class Flying(BaseModule):\n    MODES = WITH_ARDUINO\n"
+    )
+    flying = plan(tmp_path, classes)
+    assert own(flying) == ["Flying"]
+    assert reasons(flying) == {"No": "its load() says no", "OnlyBox": "its load() says no"}
+    assert own(plan(tmp_path, classes, Mode.BLACK_BOX)) == ["OnlyBox"]
+
+
+def test_what_is_not_for_the_mode_is_not_even_built(tmp_path):
+    classes = (
+        "class Flying(BaseModule):\n    MODES = WITH_ARDUINO\n"
+        "    def __init__(self): raise RuntimeError\n"
+    )
+    assert not plan(tmp_path, classes, Mode.BLACK_BOX).problems
+    assert plan(tmp_path, classes).problems
+
+
+def test_the_disabled_list_holds_for_built_in_modules_too(tmp_path):
+    name = "up.providers.up_altitude_provider.UpAltitudeProvider"
+    found = plan(tmp_path, "", disabled_modules=f"disabled modules:\n  - {name}\n")
+    assert name not in [module.path for module in found.modules]
+    assert reasons(found)["UpAltitudeProvider"] == "listed in disabled_modules.yml"
+
+
+def test_an_extension_replaces_whatever_the_depth_of_the_chain(tmp_path):
+    found = plan(
+        tmp_path,
+        "class Middle(UpAltitudeProvider): pass\nclass Last(Middle): pass\n",
+    )
+    assert own(found) == ["Last"]
+    assert set(reasons(found)) == {"UpAltitudeProvider", "Middle"}
+
+
+def test_two_unrelated_replacements_are_an_error_that_names_both(tmp_path):
+    classes = "class One(UpAltitudeProvider): pass\nclass Two(UpAltitudeProvider): pass\n"
+    with pytest.raises(BootError, match=r"\.One and .*\.Two both replace UpAltitudeProvider"):
+        plan(tmp_path, classes)
+
+
+def test_what_is_needed_comes_before_and_load_order_breaks_ties(tmp_path):
+    found = plan(
+        tmp_path,
+        "class C(BaseModule):\n    LOAD_ORDER = -5\n    pass\n"
+        "class A(BaseModule): pass\n"
+        "class B(BaseModule):\n    LOAD_ORDER = -9\n    a = needs(A)\n    c = wants(C)\n"
+        "class D(BaseModule):\n    LOAD_ORDER = -9\n",
+    )
+    assert own(found) == ["D", "C", "A", "B"]
+    b = found.modules[[module.class_name for module in found.modules].index("B")]
+    assert (b.a.class_name, b.c.class_name) == ("A", "C")
+
+
+def test_a_wish_for_what_is_not_there_is_none(tmp_path):
+    found = plan(
+        tmp_path,
+        "class A(BaseModule):\n    def load(self): return False\n"
+        "class B(BaseModule):\n    a = wants(A)\n",
+    )
+    assert own(found) == ["B"]
+    assert next(each for each in found.modules if each.class_name == "B").a is None
+
+
+def test_every_missing_need_is_told_at_once(tmp_path):
+    classes = (
+        "class A(BaseModule):\n    def load(self): return False\n"
+        "class B(BaseModule):\n    a = needs(A)\n"
+        "class C(BaseModule):\n    a = needs(A)\n"
+    )
+    with pytest.raises(BootError) as error:
+        plan(tmp_path, classes)
+    first, second = str(error.value).splitlines()
+    assert "all.B needs A, which is not loaded" in first
+    assert "all.C needs A, which is not loaded" in second
+
+
+def test_a_circle_is_one_sentence(tmp_path):
+    classes = (
+        "class A(BaseModule): pass\nclass B(BaseModule):\n    a = needs(A)\n"
+        "A.b = needs(B)\nA.b.__set_name__(A, 'b')\n"
+    )
+    with pytest.raises(BootError) as error:
+        plan(tmp_path, classes)
+    assert str(error.value) == "modules need each other in a circle: A -> B -> A"
+
+
+def test_every_cog_that_cannot_be_imported_is_named_with_the_way_out(tmp_path):
+    application = write_application(
+        tmp_path,
+        {
+            "external_modules.yml": (
+                "gone_cog:\n  modules:\n    - {class_name: A, prefix: gone_cog.modules.a}\n"
+                "other_cog:\n  modules:\n    - {class_name: B, prefix: other_cog.modules.b}\n"
+                "json:\n  modules:\n    - {class_name: JSONDecoder, prefix: json.decoder}\n"
+            )
+        },
+    )
+    with pytest.raises(CogImportError) as error:
+        UpLoader(application, context_of(application)).plan()
+    gone, other, no_module = str(error.value).splitlines()
+    assert "gone_cog" in gone and "up gather" in gone
+    assert "other_cog" in other and "up gather" in other
+    assert "json.decoder.JSONDecoder of the cog json is no module" in no_module
