@@ -1,0 +1,194 @@
+"""The command line of ``up-ground``."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from collections.abc import Mapping, Sequence
+
+from up.version import VERSION
+from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
+
+_AIRCRAFT = re.compile(r"[A-Za-z0-9_.-]{1,32}", re.ASCII)
+_LONGEST_S = 1e7
+
+_EPILOG = """\
+examples
+  up-ground watch                                      live picture; q quits
+  up-ground --aircraft glider-1 watch --once           one picture, then end
+  up-ground watch --json --count 10                    ten telemetry messages for a script
+  up-ground commands                                   what can be sent
+  up-ground send up.flight_mode.set mode=FBW
+  up-ground send arduino.pids.tunings request=true     prints the gains that fly
+  up-ground seat request                               asks whoever commands to hand over
+
+environment
+  UP_GROUND_HOST, UP_GROUND_PORT, UP_GROUND_AIRCRAFT, UP_GROUND_DIRECT=1 stand for the options
+"""
+_WATCH_EPILOG = """\
+On a terminal: a picture of the aircraft, at most ten times a second. Numbers that are old are dim
+and their age is beside them; when the aircraft is silent everything is dim. '--' is not known.
+Keys: q quits, c asks for the seat that commands, g hands it to the listener that asks, r leaves it.
+Elsewhere (a pipe, a file): one line a second.
+"""
+_SEND_EPILOG = """\
+A value is JSON where it is JSON (2, true, null, "2") and text otherwise; dots open an object.
+The newest beacon is echoed, so that a Command that a bad link holds back is not carried out late.
+
+examples
+  up-ground send up.telemetry.frequency frequency=200
+  up-ground send up.heading.change heading=90 mode=required
+  up-ground send up.altitude.change altitude=120.5 mode=required
+  up-ground send up.arm
+
+exit status
+  0 carried out; 1 refused, with the reason; 2 mistake in the command line, nothing was sent;
+  3 no connection, no aircraft or no answer
+"""
+
+
+class _Parser(argparse.ArgumentParser):
+    def __init__(self, *args: object, **more: object) -> None:
+        more.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
+        super().__init__(*args, **more)  # type: ignore[arg-type]
+
+
+def make_parser(environ: Mapping[str, str]) -> argparse.ArgumentParser:
+    """Return the parser; the environment's values become defaults."""
+    parser = _Parser(
+        prog="up-ground",
+        description="The terminal ground station: watches an aircraft and sends it Commands.",
+        epilog=_EPILOG,
+    )
+    add = parser.add_argument
+    add(
+        "--host",
+        default=environ.get("UP_GROUND_HOST") or DEFAULT_HOST,
+        help="the Ground Station Proxy, or the aircraft itself (now %(default)s)",
+    )
+    add(
+        "--port",
+        type=_port,
+        default=environ.get("UP_GROUND_PORT") or DEFAULT_PORT,
+        metavar="N",
+        help="its port: 3004 of a proxy, 50002 of an aircraft (now %(default)s)",
+    )
+    add(
+        "--aircraft",
+        type=_aircraft,
+        default=environ.get("UP_GROUND_AIRCRAFT") or DEFAULT_AIRCRAFT,
+        metavar="NAME",
+        help="which aircraft of the proxy (now %(default)s)",
+    )
+    add(
+        "--direct",
+        action="store_true",
+        default=environ.get("UP_GROUND_DIRECT", "") not in ("", "0"),
+        help="say no hello: for a proxy of the thesis and for an old aircraft on the same LAN",
+    )
+    add("--version", action="version", version=f"up-ground {VERSION}")
+    verbs = parser.add_subparsers(dest="verb", metavar="VERB", parser_class=_Parser)
+    _add_watch(verbs)
+    _add_send(verbs)
+    _add_seat(verbs)
+    commands = verbs.add_parser("commands", help="list the Commands that a ground may send")
+    commands.add_argument("name", nargs="?", help="only this one")
+    return parser
+
+
+def settings_of(options: argparse.Namespace, seat: Seat) -> Settings:
+    """Return whom to talk to."""
+    return Settings(options.host, options.port, options.aircraft, seat, options.direct)
+
+
+def parse_arguments(
+    arguments: Sequence[str] | None, environ: Mapping[str, str]
+) -> tuple[argparse.ArgumentParser, argparse.Namespace]:
+    """Return the parser and what was given; exits with 2 after a sentence on a mistake."""
+    parser = make_parser(environ)
+    return parser, parser.parse_args(arguments)
+
+
+def _add_watch(verbs: argparse._SubParsersAction[_Parser]) -> None:
+    watch = verbs.add_parser(
+        "watch",
+        help="show live telemetry",
+        description="Show live telemetry, the age of every reading and the state of the link.",
+        epilog=_WATCH_EPILOG,
+    )
+    form = watch.add_mutually_exclusive_group()
+    form.add_argument("--once", action="store_true", help="print one picture and end")
+    form.add_argument("--json", action="store_true", help="print the telemetry messages")
+    form.add_argument("--plain", action="store_true", help="one line a second, on a terminal too")
+    watch.add_argument("--count", type=_count, metavar="N", help="end after N lines")
+    watch.add_argument("--for", type=_seconds, dest="for_s", metavar="SECONDS", help="end after")
+    watch.add_argument(
+        "--seat",
+        choices=("command", "listen"),
+        default="listen",
+        help="command: hold the seat as long as this runs (default listen)",
+    )
+
+
+def _add_send(verbs: argparse._SubParsersAction[_Parser]) -> None:
+    send = verbs.add_parser(
+        "send",
+        help="send one Command and show its answer",
+        description="Send one Command to the aircraft and show its answer.",
+        epilog=_SEND_EPILOG,
+    )
+    send.add_argument("name", metavar="NAME", help="see 'up-ground commands'")
+    send.add_argument("fields", nargs="*", metavar="key=value", help="the Command's fields")
+    send.add_argument(
+        "--force", action="store_true", help="send it unchecked, even with an unknown name"
+    )
+
+
+def _add_seat(verbs: argparse._SubParsersAction[_Parser]) -> None:
+    seat = verbs.add_parser(
+        "seat",
+        help="ask for, hand over or leave the seat that commands",
+        description="One ground commands an aircraft, the others listen. This asks for the seat,"
+        " hands it to the listener with a number, or leaves it free.",
+    )
+    actions = seat.add_subparsers(dest="action", metavar="ACTION", required=True)
+    request = actions.add_parser("request", help="ask whoever commands; a free seat is yours")
+    request.add_argument(
+        "--wait", type=_seconds, default=30.0, metavar="SECONDS", help="for so long (default 30)"
+    )
+    give = actions.add_parser("give", help="hand the seat to a listener")
+    give.add_argument("to", type=_count, metavar="N", help="the listener's number")
+    actions.add_parser("release", help="leave the seat free")
+
+
+def _port(text: str) -> int:
+    port = int(text) if text.isascii() and text.isdigit() and len(text) < 6 else 0
+    if not 1 <= port <= 65535:
+        raise argparse.ArgumentTypeError(f"a port is a number from 1 to 65535, not {text!r}")
+    return port
+
+
+def _aircraft(text: str) -> str:
+    if not _AIRCRAFT.fullmatch(text):
+        raise argparse.ArgumentTypeError(
+            f"an aircraft's name is 1 to 32 letters, digits, _ . or -, not {text!r}"
+        )
+    return text
+
+
+def _count(text: str) -> int:
+    count = int(text) if text.isascii() and text.isdigit() and len(text) < 10 else 0
+    if count < 1:
+        raise argparse.ArgumentTypeError(f"must be a whole number of at least 1, not {text!r}")
+    return count
+
+
+def _seconds(text: str) -> float:
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = math.nan
+    if not 0 < seconds <= _LONGEST_S:
+        raise argparse.ArgumentTypeError(f"must be a number of seconds above 0, not {text!r}")
+    return seconds

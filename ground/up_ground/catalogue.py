@@ -1,0 +1,136 @@
+"""The Commands that this installation knows, as a ground sees them."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import importlib
+import pkgutil
+import typing
+from collections.abc import Iterable, Iterator, Mapping
+from importlib.metadata import packages_distributions
+from typing import Any
+
+from up.commands.builtin import BUILTIN_COMMANDS
+from up.commands.command import BaseCommand, InvalidCommandError, constraint_of
+from up.commands.command_registry import CommandRegistry, DuplicateCommandError
+from up.commands.roles import Role
+
+_GROUND_ROLES = (Role.OBSERVER, Role.OPERATOR, Role.PILOT, Role.ADMIN)
+
+
+class Catalogue:
+    """Commands by name, with their fields; ``problems`` are sentences about what is left out."""
+
+    def __init__(self, classes: Iterable[type[BaseCommand]], problems: Iterable[str] = ()) -> None:
+        self.problems = list(problems)
+        self._registry = CommandRegistry()
+        for cls in classes:
+            try:
+                self._registry.add(cls)
+            except (ValueError, TypeError) as error:
+                kind = "" if isinstance(error, DuplicateCommandError) else f"{cls.__name__}: "
+                self.problems.append(f"{kind}{error}")
+
+    @classmethod
+    def installed(cls) -> Catalogue:
+        """Return Up's own Commands and those of every cog that is installed here."""
+        problems: list[str] = []
+        return cls([*BUILTIN_COMMANDS, *_cog_commands(problems)], problems)
+
+    def get(self, name: str) -> type[BaseCommand] | None:
+        """Return the class of a name or alias."""
+        return self._registry.get(name)
+
+    def sendable(self) -> list[type[BaseCommand]]:
+        """Return what some ground may send, by name."""
+        return [cls for cls in self._registry if role_of(cls)]
+
+    def suggestions(self, name: str) -> list[str]:
+        """Return names that look like a mistyped one, the nearest first."""
+        names = {each.casefold(): each for cls in self.sendable() for each in _names(cls)}
+        near = difflib.get_close_matches(name.casefold(), names, n=3, cutoff=0.6)
+        within = [full for low, full in names.items() if name and name.casefold() in low]
+        return list(dict.fromkeys([*(names[each] for each in near), *sorted(within)]))[:3]
+
+
+def role_of(cls: type[BaseCommand]) -> str:
+    """Return the least role of a ground that may send it; empty: no ground may."""
+    if cls.roles is not BaseCommand.roles:
+        return "depends"
+    return next((role.value for role in _GROUND_ROLES if role in cls.ROLES), "")
+
+
+def describe(cls: type[BaseCommand]) -> Iterator[str]:
+    """Return the lines that teach a Command: its name, its role, its fields with their bounds."""
+    role = role_of(cls)
+    if role == "depends":
+        role = _sentence(cls.roles.__doc__)
+    elif role:
+        role = f"{role} or more"
+    yield f"{cls.NAME}   [{role or 'no ground may send it'}]"
+    yield f"    {_sentence(cls.__doc__)}"
+    if cls.ALIASES:
+        yield f"    also called {', '.join(cls.ALIASES)}"
+    if cls.NEEDS_BEACON:
+        yield "    needs fresh telemetry: its beacon is echoed"
+    hints = typing.get_type_hints(cls)
+    for field in dataclasses.fields(cls):
+        optional = field.default is not dataclasses.MISSING
+        mark = "?" if optional else ""
+        yield f"      {wire_name(field)}{mark:1}  {constraint_of(field, hints).describe()}"
+
+
+def wire_name(field: dataclasses.Field[Any]) -> str:
+    """Return a field's name on the wire."""
+    return str(field.metadata.get("key") or field.name)
+
+
+def fault_of(cls: type[BaseCommand], data: Mapping[str, Any]) -> str:
+    """Return why these data are none of that Command, one sentence; empty: they are."""
+    known = {wire_name(field) for field in dataclasses.fields(cls)}
+    strange = [key for key in data if key not in known]
+    if strange:
+        fields = ", ".join(sorted(known)) or "none"
+        return f"{cls.NAME} has no field {strange[0]} (its fields: {fields})"
+    try:
+        cls.from_data(data)
+    except InvalidCommandError as error:
+        return str(error)
+    return ""
+
+
+def _names(cls: type[BaseCommand]) -> tuple[str, ...]:
+    return (cls.NAME, *cls.ALIASES)
+
+
+def _sentence(text: str | None) -> str:
+    return " ".join((text or "").split("\n\n")[0].split())
+
+
+def _cog_commands(problems: list[str]) -> Iterator[type[BaseCommand]]:
+    for cog in sorted(name for name in packages_distributions() if name.endswith("_cog")):
+        for module in _command_modules(cog, problems):
+            for each in vars(module).values():
+                if (
+                    isinstance(each, type)
+                    and issubclass(each, BaseCommand)
+                    and each.__module__ == module.__name__
+                ):
+                    yield each
+
+
+def _command_modules(cog: str, problems: list[str]) -> Iterator[Any]:
+    package = f"{cog}.commands"
+    try:
+        place = importlib.import_module(package).__path__
+    except ModuleNotFoundError:
+        return
+    except Exception as error:  # noqa: BLE001 - a broken cog must not take the ground station along
+        problems.append(f"the Commands of {cog} are left out: {type(error).__name__}: {error}")
+        return
+    for info in pkgutil.iter_modules(place):
+        try:
+            yield importlib.import_module(f"{package}.{info.name}")
+        except Exception as error:  # noqa: BLE001 - as above
+            problems.append(f"{package}.{info.name} is left out: {type(error).__name__}: {error}")

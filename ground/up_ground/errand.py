@@ -1,0 +1,74 @@
+"""What a program on the link ends with: its exit status and its last words."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from twisted.internet.defer import Deferred
+
+EXIT_DONE = 0
+EXIT_REFUSED = 1
+EXIT_USAGE = 2
+EXIT_NO_ANSWER = 3
+EXIT_INTERRUPTED = 130
+
+Say = Callable[[str], object]
+
+
+class Errand:
+    """Something that is done once over a link; ``finished`` fires with the exit status.
+
+    ``say`` takes lines for the user, ``complain`` lines for stderr.
+    """
+
+    def __init__(self, say: Say, complain: Say) -> None:
+        self.finished: Deferred[int] = Deferred()
+        self.complain = complain
+        self._say = say
+        self._timers: dict[str, Any] = {}
+
+    def finish(self, status: int) -> None:
+        """End; the first status counts."""
+        for timer in self._timers.values():
+            if timer.active():
+                timer.cancel()
+        if not self.finished.called:
+            self.finished.callback(status)
+
+    def say(self, text: str) -> None:
+        """Give the user a line; a reader that has gone away ends the errand."""
+        try:
+            self._say(text)
+        except OSError:
+            self.finish(EXIT_DONE)
+
+    @property
+    def is_finished(self) -> bool:
+        """Say whether the end has come."""
+        return bool(self.finished.called)
+
+    def after(self, reactor: Any, name: str, delay_s: float, call: Callable[[], object]) -> None:
+        """Call later, unless the end or another call of that name comes first."""
+        self.forget(name)
+        if not self.is_finished:
+            self._timers[name] = reactor.callLater(delay_s, call)
+
+    def forget(self, name: str) -> None:
+        """Take a call back."""
+        timer = self._timers.pop(name, None)
+        if timer is not None and timer.active():
+            timer.cancel()
+
+
+def say(text: str) -> None:
+    """Write a line for the user."""
+    sys.stdout.write(text + "\n")
+    sys.stdout.flush()
+
+
+def complain(text: str) -> None:
+    """Write a line to stderr."""
+    sys.stderr.write(f"up-ground: {text}\n")
+    sys.stderr.flush()

@@ -1,0 +1,226 @@
+"""The link to the aircraft: connects, comes back, keeps the seat."""
+
+from __future__ import annotations
+
+from typing import Any
+from typing import Protocol as Interface
+
+from twisted.internet.defer import Deferred
+from twisted.internet.endpoints import HostnameEndpoint
+from twisted.internet.protocol import Factory
+from twisted.python.failure import Failure
+
+from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
+from up.system.clock import Timer
+from up_ground import control_line
+from up_ground.backoff import Backoff
+from up_ground.control_line import (
+    Accepted,
+    AircraftPresence,
+    Rejected,
+    SeatAsked,
+    SeatGained,
+    SeatHolder,
+    SeatLost,
+)
+from up_ground.ground_protocol import GroundProtocol
+from up_ground.link_status import LinkState, LinkStatus
+from up_ground.settings import Seat, Settings
+from up_ground.token_store import TokenStore
+
+CONNECT_TIMEOUT_S = 5.0
+
+
+class LinkListener(Interface):
+    """Who uses the link."""
+
+    def on_message(self, message: GeneralMessage) -> None:
+        """Take a message from the aircraft."""
+
+    def on_link(self) -> None:
+        """Hear that the link's status has changed."""
+
+
+class GroundLink:
+    """Connects again after each loss until it is stopped, and takes its seat back.
+
+    ``status`` is always true; a lost connection leaves nothing of its half lines behind.
+    """
+
+    def __init__(
+        self, reactor: Any, settings: Settings, listener: LinkListener, tokens: TokenStore
+    ) -> None:
+        self.status = LinkStatus(since_s=reactor.seconds())
+        self._reactor = reactor
+        self._settings = settings
+        self._listener = listener
+        self._tokens = tokens
+        self._wanted = settings.seat
+        self._token: str | None = None
+        self._backoff = Backoff()
+        self._connection: GroundProtocol | None = None
+        self._attempt: Deferred[Any] | None = None
+        self._timer: Timer | None = None
+        self._gone: Deferred[None] | None = None
+        self._too_long = 0
+        self._is_greeted = False
+
+    def start(self) -> None:
+        """Begin to connect."""
+        if self._wanted is Seat.COMMAND and not self._settings.direct:
+            self._tokens.hold()
+            self._token = self._tokens.load()
+        self._connect()
+
+    async def stop(self) -> None:
+        """Give the link up for good; returns when the connection is closed."""
+        self.status.disconnected(LinkState.STOPPED, self._reactor.seconds())
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+        if self._attempt is not None:
+            self._attempt.cancel()
+        if self._connection is not None:
+            self._gone = Deferred()
+            self._connection.close()
+            await self._gone
+        self._tokens.close()
+
+    def send(self, line: bytes) -> bool:
+        """Send an encoded message; False: there is no connection."""
+        connection = self._connection
+        return self.status.is_open and connection is not None and connection.send(line)
+
+    def request_seat(self) -> bool:
+        """Ask for the seat; a free one is given at once. False: there is nobody to ask."""
+        self._wanted = Seat.COMMAND
+        self._tokens.hold()
+        return not self._settings.direct and self.send(control_line.SEAT_REQUEST)
+
+    def give_seat(self, to: int) -> bool:
+        """Hand the seat to the listener with that number."""
+        return self.status.seat is Seat.COMMAND and self.send(control_line.give_line(to))
+
+    def release_seat(self) -> bool:
+        """Leave the seat free."""
+        return self.status.seat is Seat.COMMAND and self.send(control_line.SEAT_RELEASE)
+
+    def measure(self) -> None:
+        """Look at the link's own delay and drops."""
+        if self._connection is not None and self.status.is_open:
+            self.status.round_trip_ms = self._connection.round_trip_ms()
+
+    def on_made(self, connection: GroundProtocol) -> None:
+        """Wait for the hello's answer, or begin at once where there is no hello."""
+        self._connection = connection
+        self._is_greeted = self._settings.direct
+        if self._settings.direct:
+            self._opened()
+            self._listener.on_link()
+
+    def on_line(self, connection: GroundProtocol, line: bytes) -> None:
+        """Take a relayed line: a General Message, or something to drop and count."""
+        if not self._is_greeted:
+            connection.give_up(
+                "the other side does not answer a hello: it is no Ground Station Proxy of this"
+                " version (--direct says no hello)"
+            )
+            return
+        self.status.too_long = self._too_long + connection.dropped_too_long
+        try:
+            message = decode(line)
+        except MalformedMessage:
+            self.status.malformed += 1
+            return
+        self._listener.on_message(message)
+
+    def on_control(self, connection: GroundProtocol, line: bytes) -> None:
+        """Take a line of the proxy."""
+        said = None if self._settings.direct else control_line.parse_proxy_line(line)
+        is_due = isinstance(said, Rejected) or isinstance(said, Accepted) is not self._is_greeted
+        if said is None or not is_due:
+            self.status.strange_control += 1
+            return
+        self._obey(connection, said)
+        self._listener.on_link()
+
+    def on_lost(self, connection: GroundProtocol, reason: str) -> None:
+        """Wait a little and connect again."""
+        self._too_long += connection.dropped_too_long
+        self.status.too_long = self._too_long
+        if connection is self._connection:
+            self._connection = None
+            gone, self._gone = self._gone, None
+            if gone is not None:
+                gone.callback(None)
+            self._retry(reason)
+
+    def _obey(self, connection: GroundProtocol, said: control_line.ProxyLine) -> None:
+        status = self.status
+        if isinstance(said, Accepted):
+            self._is_greeted = True
+            connection.accept()
+            self._opened()
+            status.seat = said.seat
+            if said.seat is Seat.COMMAND:
+                self._keep(said.token)
+        elif isinstance(said, Rejected):
+            status.rejection = said.code
+            connection.give_up(f"the proxy refuses: {said.reason} ({said.code})")
+        elif isinstance(said, SeatGained):
+            status.seat = self._wanted = Seat.COMMAND
+            self._tokens.hold()
+            self._keep(said.token)
+        elif isinstance(said, SeatLost):
+            status.seat = self._wanted = Seat.LISTEN
+            status.asked_by = self._token = None
+            self._tokens.forget()
+        elif isinstance(said, SeatAsked):
+            status.asked_by = said.by
+        elif isinstance(said, SeatHolder):
+            status.holder = said.number
+            status.is_holder_known = True
+        elif isinstance(said, AircraftPresence):
+            status.is_aircraft_online = said.is_online
+
+    def _keep(self, token: str) -> None:
+        self._token = token
+        self._tokens.save(token)
+
+    def _opened(self) -> None:
+        status = self.status
+        status.disconnected(LinkState.OPEN, self._reactor.seconds())
+        status.rejection = ""
+        status.failures = 0
+        status.connections += 1
+        self._backoff.reset()
+
+    def _connect(self) -> None:
+        self.status.state = LinkState.CONNECTING
+        hello = None
+        if not self._settings.direct:
+            token = self._token if self._wanted is Seat.COMMAND else None
+            hello = control_line.hello_line(self._settings.aircraft, self._wanted, token)
+        factory: Any = Factory.forProtocol(lambda: GroundProtocol(self._reactor, self, hello))
+        factory.noisy = False
+        endpoint = HostnameEndpoint(
+            self._reactor, self._settings.host, self._settings.port, timeout=CONNECT_TIMEOUT_S
+        )
+        self._attempt = endpoint.connect(factory)
+        self._attempt.addCallbacks(lambda _: self._connected(), self._failed)
+
+    def _connected(self) -> None:
+        self._attempt = None
+
+    def _failed(self, failure: Failure) -> None:
+        self._attempt = None
+        if self.status.state is not LinkState.STOPPED:
+            reason = failure.getErrorMessage().rstrip(".")
+            self._retry(f"cannot reach {self._settings.address}: {reason}")
+
+    def _retry(self, reason: str) -> None:
+        if self.status.state is LinkState.STOPPED:
+            return
+        self.status.disconnected(LinkState.WAITING, self._reactor.seconds(), reason)
+        self.status.failures += 1
+        self._timer = self._reactor.callLater(self._backoff.pause_s(), self._connect)
+        self._listener.on_link()

@@ -1,0 +1,145 @@
+"""One connection of a ground station: hello, lines, heartbeat."""
+
+from __future__ import annotations
+
+import socket
+import struct
+from typing import Any
+from typing import Protocol as Interface
+
+from twisted.internet.protocol import Protocol, connectionDone
+from twisted.python.failure import Failure
+
+from up.protocols.line_decoder import LineDecoder
+from up.protocols.tcp_options import watch_peer
+from up.system.clock import Clock, Timer
+from up_ground.control_line import PREFIX
+
+USER_TIMEOUT_MS = 1500
+HEARTBEAT_S = 1.0
+HELLO_TIMEOUT_S = 5.0
+_TCPI_RTT_OFFSET = 68
+
+
+class ConnectionOwner(Interface):
+    """Who hears of the connection."""
+
+    def on_line(self, connection: GroundProtocol, line: bytes) -> None:
+        """Take a line that was relayed from the aircraft, without its end."""
+
+    def on_control(self, connection: GroundProtocol, line: bytes) -> None:
+        """Take a line of the proxy, without its end."""
+
+    def on_made(self, connection: GroundProtocol) -> None:
+        """Hear that the connection is there."""
+
+    def on_lost(self, connection: GroundProtocol, reason: str) -> None:
+        """Hear that it is gone, and why."""
+
+
+class GroundProtocol(Protocol):
+    """Cuts the stream into lines and keeps the connection alive; make a new one for each.
+
+    With a ``hello`` it is sent first, must be answered within ``HELLO_TIMEOUT_S``
+    (``accept`` says that it was), and an empty line goes out after each second of own silence.
+    Without one nothing is sent but what `send` is given: a thesis peer knows no heartbeat.
+    """
+
+    transport: Any
+
+    def __init__(self, clock: Clock, owner: ConnectionOwner, hello: bytes | None) -> None:
+        self._clock = clock
+        self._owner = owner
+        self._hello = hello
+        self._lines = LineDecoder()
+        self._told_s = 0.0
+        self._timer: Timer | None = None
+        self._is_open = False
+        self._why = ""
+
+    @property
+    def dropped_too_long(self) -> int:
+        """Count of lines of more than 16 KiB."""
+        return self._lines.dropped_too_long
+
+    def send(self, line: bytes) -> bool:
+        """Send a whole line; False: the connection is gone."""
+        if not self._is_open:
+            return False
+        self._told_s = self._clock.seconds()
+        self.transport.write(line)
+        return True
+
+    def accept(self) -> None:
+        """Say that the hello was answered: heartbeats begin."""
+        self._schedule(HEARTBEAT_S, self._beat)
+
+    def give_up(self, why: str) -> None:
+        """Cut the connection off; ``why`` becomes the reason that the owner hears."""
+        self._why = self._why or why
+        self._is_open = False
+        self.transport.abortConnection()
+
+    def close(self) -> None:
+        """Send what waits, then close."""
+        self._is_open = False
+        self.transport.loseConnection()
+
+    def round_trip_ms(self) -> float | None:
+        """Return the kernel's smoothed round trip to the peer; None where it tells none."""
+        option = getattr(socket, "TCP_INFO", None)
+        if option is None or not self._is_open:
+            return None
+        try:
+            info = self.transport.getHandle().getsockopt(socket.IPPROTO_TCP, option, 104)
+            (rtt_us,) = struct.unpack_from("=I", info, _TCPI_RTT_OFFSET)
+        except (OSError, struct.error):
+            return None
+        return float(rtt_us) / 1000
+
+    def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
+        """Set the socket up and say hello."""
+        watch_peer(self.transport, USER_TIMEOUT_MS)
+        self._is_open = True
+        if self._hello is not None:
+            self._schedule(HELLO_TIMEOUT_S, self._on_no_answer)
+            self.send(self._hello)
+        self._owner.on_made(self)
+
+    def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
+        """Hand on the lines that ``data`` completes, the proxy's apart from the aircraft's."""
+        for line in self._lines.feed(data):
+            if not self._is_open:
+                return
+            if line.startswith(PREFIX):
+                self._owner.on_control(self, line)
+            else:
+                self._owner.on_line(self, line)
+
+    def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
+        """Tell that the connection is gone; an unfinished line goes with it."""
+        self._is_open = False
+        self._lines.reset()
+        self._cancel()
+        self._owner.on_lost(self, self._why or reason.getErrorMessage())
+
+    def _on_no_answer(self) -> None:
+        self.give_up(
+            f"no answer to the hello within {HELLO_TIMEOUT_S:g} s: is this the ground port of a"
+            " Ground Station Proxy? (--direct says no hello)"
+        )
+
+    def _beat(self) -> None:
+        rest_s = self._told_s + HEARTBEAT_S - self._clock.seconds()
+        if rest_s <= 0:
+            self.send(b"\n")
+            rest_s = HEARTBEAT_S
+        self._schedule(rest_s, self._beat)
+
+    def _schedule(self, delay_s: float, call: Any) -> None:
+        self._cancel()
+        self._timer = self._clock.callLater(delay_s, call)
+
+    def _cancel(self) -> None:
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()

@@ -1,0 +1,68 @@
+"""What is known about the link to the aircraft."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from up_ground.settings import Seat
+
+
+class LinkState(Enum):
+    """How far the connection to the proxy is."""
+
+    CONNECTING = "connecting"
+    OPEN = "connected"
+    WAITING = "waiting"
+    STOPPED = "stopped"
+
+
+@dataclass(slots=True)
+class LinkStatus:
+    """The link as it stands now; times are the clock's seconds.
+
+    ``seat`` and ``is_aircraft_online`` are None while nobody told: before the hello's answer, and
+    always on a direct link. ``holder`` is the number of the ground that commands.
+    """
+
+    state: LinkState = LinkState.CONNECTING
+    since_s: float = 0.0
+    reason: str = ""
+    """Why there is no connection, one sentence."""
+    rejection: str = ""
+    """The code with which the proxy refused the hello."""
+    seat: Seat | None = None
+    holder: int | None = None
+    is_holder_known: bool = False
+    asked_by: int | None = None
+    """The listener that asks for the seat that is held here."""
+    is_aircraft_online: bool | None = None
+    round_trip_ms: float | None = None
+    """The kernel's measure of the way to the proxy and back."""
+    failures: int = 0
+    """Attempts that failed since the last good connection."""
+    connections: int = 0
+    malformed: int = 0
+    """Lines that were no General Messages."""
+    too_long: int = 0
+    strange_control: int = 0
+    """Control lines that say nothing known."""
+
+    @property
+    def is_open(self) -> bool:
+        """Say whether messages can go now."""
+        return self.state is LinkState.OPEN
+
+    @property
+    def dropped(self) -> int:
+        """Return how many lines were dropped."""
+        return self.malformed + self.too_long + self.strange_control
+
+    def disconnected(self, state: LinkState, now_s: float, reason: str = "") -> None:
+        """Forget what only a connection can know."""
+        self.state = state
+        self.since_s = now_s
+        self.reason = reason
+        self.seat = self.holder = self.asked_by = self.is_aircraft_online = None
+        self.is_holder_known = False
+        self.round_trip_ms = None

@@ -1,0 +1,212 @@
+"""The program ``up-ground``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from twisted.internet.defer import Deferred
+
+from up.fields import printable
+from up.protocols.general_message import encode
+from up.system.clock import use_monotonic_time
+from up_ground.arguments import parse_arguments, settings_of
+from up_ground.catalogue import Catalogue, describe, fault_of
+from up_ground.errand import (
+    EXIT_DONE,
+    EXIT_INTERRUPTED,
+    EXIT_REFUSED,
+    EXIT_USAGE,
+    Errand,
+    complain,
+    say,
+)
+from up_ground.field_values import FieldError, parse_fields
+from up_ground.seat import LeaveSeat, RequestSeat
+from up_ground.send import Send
+from up_ground.settings import Seat
+from up_ground.terminal import Terminal
+from up_ground.token_store import TokenStore, state_folder
+from up_ground.watch import JSONWatch, OnceWatch, PlainWatch, ScreenWatch, Watch, is_terminal
+
+MakeErrand = Callable[[Any], Any]
+
+
+def run(make: MakeErrand) -> int:
+    """Do an errand on the real reactor until it is finished or interrupted."""
+    from twisted.internet import reactor
+
+    loop: Any = reactor
+    use_monotonic_time(loop)
+    errand = make(loop)
+    status = [EXIT_INTERRUPTED]
+
+    async def do() -> None:
+        errand.start()
+        status[0] = await errand.finished
+        await errand.link.stop()
+        loop.stop()
+
+    def begin() -> None:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, lambda *_: loop.callFromThread(errand.finish, EXIT_INTERRUPTED))
+        Deferred.fromCoroutine(do()).addErrback(_crash)
+
+    def _crash(failure: Any) -> None:
+        complain(f"a mistake in the program: {failure.getErrorMessage()}")
+        status[0] = EXIT_REFUSED
+        loop.stop()
+
+    loop.callWhenRunning(begin)
+    loop.run(installSignalHandlers=False)
+    return status[0]
+
+
+def watch(options: argparse.Namespace) -> int:
+    """Show an aircraft in the form that was asked for."""
+    settings = settings_of(options, Seat(options.seat))
+    tokens = TokenStore(state_folder(os.environ), settings)
+    more: dict[str, Any] = {
+        "say": say,
+        "complain": complain,
+        "for_s": options.for_s,
+        "count": options.count,
+    }
+    form: type[Watch] = PlainWatch
+    if options.once or options.json:
+        form = OnceWatch if options.once else JSONWatch
+    elif not options.plain and is_terminal(1) and os.isatty(0):
+        terminal = Terminal()
+        terminal.enter()
+        try:
+            return run(
+                lambda reactor: ScreenWatch(reactor, settings, tokens, terminal=terminal, **more)
+            )
+        finally:
+            terminal.leave()
+    return run(lambda reactor: form(reactor, settings, tokens, **more))
+
+
+def send(options: argparse.Namespace) -> int:
+    """Check a Command as far as it is known here, and send it."""
+    catalogue = Catalogue.installed()
+    cls = catalogue.get(options.name)
+    try:
+        data = parse_fields(options.fields)
+        encode(options.name, data)
+    except ValueError as error:
+        kind = "" if isinstance(error, FieldError) else "cannot be sent: "
+        return _usage([f"{kind}{printable(str(error))}"])
+    if not options.force:
+        fault = _unknown(catalogue, options.name) if cls is None else _mistake(cls, data)
+        if fault:
+            return _usage(fault)
+    settings = settings_of(options, Seat.COMMAND)
+    tokens = TokenStore(state_folder(os.environ), settings)
+    return run(
+        lambda reactor: Send(
+            reactor,
+            settings,
+            tokens,
+            options.name,
+            data,
+            needs_beacon=cls is not None and cls.NEEDS_BEACON,
+            say=say,
+            complain=complain,
+        )
+    )
+
+
+def seat(options: argparse.Namespace) -> int:
+    """Ask for the seat, hand it over or leave it."""
+    if options.direct:
+        return _usage(["a direct link has no seats"])
+    settings = settings_of(options, Seat.COMMAND)
+    tokens = TokenStore(state_folder(os.environ), settings)
+
+    def make(reactor: Any) -> Errand:
+        if options.action == "request":
+            return RequestSeat(
+                reactor, settings, tokens, say=say, complain=complain, wait_s=options.wait
+            )
+        to = options.to if options.action == "give" else None
+        return LeaveSeat(reactor, settings, tokens, say=say, complain=complain, to=to)
+
+    return run(make)
+
+
+def commands(options: argparse.Namespace) -> int:
+    """List what a ground may send."""
+    catalogue = Catalogue.installed()
+    chosen = catalogue.sendable()
+    if options.name is not None:
+        cls = catalogue.get(options.name)
+        if cls is None:
+            return _usage(_unknown(catalogue, options.name))
+        chosen = [cls]
+    for place, cls in enumerate(chosen):
+        if place:
+            say("")
+        for line in describe(cls):
+            say(line)
+    for problem in catalogue.problems:
+        complain(printable(problem))
+    return EXIT_DONE
+
+
+def _unknown(catalogue: Catalogue, name: str) -> list[str]:
+    lines = [f"no Command is called {printable(name)}"]
+    near = catalogue.suggestions(name)
+    if near:
+        lines[0] += f"; did you mean {' or '.join(near)}?"
+        for each in near:
+            cls = catalogue.get(each)
+            lines += [] if cls is None else describe(cls)
+    else:
+        lines[0] += "; there are:"
+        lines += [f"    {cls.NAME}" for cls in catalogue.sendable()]
+    return [*lines, "--force sends a name that this version does not know"]
+
+
+def _mistake(cls: Any, data: dict[str, Any]) -> list[str]:
+    fault = fault_of(cls, data)
+    return [printable(fault), *describe(cls)] if fault else []
+
+
+def _usage(lines: Iterable[str]) -> int:
+    first, *rest = lines
+    complain(first)
+    for line in rest:
+        sys.stderr.write(f"{line}\n")
+    return EXIT_USAGE
+
+
+_VERBS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "watch": watch,
+    "send": send,
+    "seat": seat,
+    "commands": commands,
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the program and return its exit status (docs/ground.md)."""
+    parser, options = parse_arguments(arguments, os.environ)
+    carry_out = _VERBS.get(options.verb)
+    if carry_out is None:
+        parser.print_help()
+        return EXIT_USAGE
+    try:
+        return carry_out(options)
+    except BrokenPipeError:
+        # The reader, such as 'head', has seen enough; nothing more can be written.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        return EXIT_DONE
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,130 @@
+"""The parts of the picture: flight, position, power, channels, board."""
+
+from __future__ import annotations
+
+import textwrap
+
+from up_ground.canvas import Style
+from up_ground.pen import Pen
+from up_ground.wording import UNKNOWN, flag_text, number_text
+
+PANEL_COLUMNS = 38
+_CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
+_BAR_COLUMNS = 19
+_LEAST_US = 1000.0
+_SPAN_US = 1000.0
+
+
+def draw_flight(pen: Pen, row: int, column: int) -> int:
+    """Draw who flies and whether the motor may turn; return the row below."""
+    telemetry = pen.telemetry
+    pen.title(row, column, "FLIGHT")
+    mode = telemetry.text("mode", limit=26) or UNKNOWN
+    controller = telemetry.text("flight_controller", limit=9)
+    pen.value(row + 1, column, mode + (f" ({controller})" if controller else ""))
+    flown = telemetry.text("flight_mode", limit=10) or UNKNOWN
+    switch = _word(pen, "arduino", "switch")
+    end = pen.value(row + 2, column, f"flight mode {flown}  switch {switch}")
+    if telemetry.flag("arduino", "failsafe"):
+        pen.value(row + 2, end + 1, "FAILSAFE", style=Style.BAD)
+    armed = telemetry.flag("armed")
+    style = Style.PLAIN if armed is None else (Style.BAD if armed else Style.GOOD)
+    pen.value(row + 3, column, flag_text(armed, "ARMED", "disarmed"), style=style)
+    vetoes = telemetry.texts("vetoes")
+    text = "vetoes " + (UNKNOWN if vetoes is None else "; ".join(vetoes) or "none")
+    lines = textwrap.wrap(text, PANEL_COLUMNS, max_lines=2, placeholder=" ...") or [""]
+    for line, part in enumerate(lines, row + 4):
+        pen.value(line, column, part, style=Style.WARNING if vetoes else Style.PLAIN)
+    return row + 6
+
+
+def draw_position(pen: Pen, row: int, column: int) -> int:
+    """Draw where the aircraft is; return the row below."""
+    number = pen.telemetry.number
+    pen.title(row, column, "LOCATION", "location")
+    latitude = number_text(number("location", "latitude"), 6, 11)
+    longitude = number_text(number("location", "longitude"), 6, 11)
+    pen.value(row + 1, column, f"{latitude} {longitude} deg", "location")
+    distance = number_text(number("home", "distance"), 0)
+    bearing = number_text(number("home", "bearing"), 0)
+    pen.value(row + 2, column, f"home {distance} m, bearing {bearing} deg", "location")
+    end = pen.value(
+        row + 3, column, f"altitude {number_text(number('altitude'), 1, 8)} m", "altitude"
+    )
+    pen.canvas.put(row + 3, end + 1, pen.age("altitude"), Style.DIM)
+    actual = number_text(number("heading", "actual"), 0)
+    required = number_text(number("heading", "required"), 0)
+    end = pen.value(row + 4, column, f"heading {actual}, required {required} deg", "heading")
+    pen.canvas.put(row + 4, end + 1, pen.age("heading"), Style.DIM)
+    return row + 5
+
+
+def draw_power(pen: Pen, row: int, column: int) -> int:
+    """Draw battery, phone and load; return the row below."""
+    telemetry = pen.telemetry
+    level = telemetry.number("android", "batteryLevel")
+    style = Style.BAD if level is not None and level < 20 else Style.PLAIN
+    text = f"battery {number_text(level, 0)} %"
+    end = pen.value(row, column, text, "battery", style)
+    phone = flag_text(telemetry.flag("android", "connected"), "connected", "absent")
+    pen.value(row, end + 1, f"phone {phone}")
+    cpu = number_text(telemetry.number("load", "cpu"), 0)
+    ram = number_text(telemetry.number("load", "ram"), 0)
+    end = pen.value(row + 1, column, f"load {cpu} % memory {ram} %")
+    panic = telemetry.flag("load", "panic")
+    if panic:
+        delay = number_text(telemetry.number("load", "delay_ms"), 0)
+        pen.value(row + 1, end + 1, f"PANIC {delay} ms", style=Style.BAD)
+    else:
+        pen.value(row + 1, end + 1, f"panic {flag_text(panic)}")
+    return row + 2
+
+
+def draw_channels(pen: Pen, row: int, column: int, reading: str, title: str) -> int:
+    """Draw one bar for each channel that the aircraft tells; return the row below."""
+    pen.title(row, column, title, reading)
+    shown = [name for name in _CHANNELS if pen.telemetry.number(reading, name) is not None]
+    for line, name in enumerate(shown or _CHANNELS[:4], row + 1):
+        pulse_us = pen.telemetry.number(reading, name)
+        text = f"{name:9}{number_text(pulse_us, 0, 5)} {bar(pulse_us)}"
+        pen.value(line, column, text, reading)
+    return row + 1 + len(shown or _CHANNELS[:4])
+
+
+def bar(pulse_us: float | None, columns: int = _BAR_COLUMNS) -> str:
+    """Return the deflection from 1500 us as a bar; `<` and `>` mark what is beyond its ends."""
+    cells = [" "] * columns
+    middle = columns // 2
+    if pulse_us is not None:
+        place = (pulse_us - _LEAST_US) / _SPAN_US * (columns - 1)
+        end = max(0, min(columns - 1, round(place)))
+        for cell in range(min(middle, end), max(middle, end) + 1):
+            cells[cell] = "#"
+        if not 0 <= place <= columns - 1:
+            cells[end] = "<" if place < 0 else ">"
+    if cells[middle] == " ":
+        cells[middle] = "|"
+    return f"[{''.join(cells)}]"
+
+
+def draw_board(pen: Pen, row: int, column: int) -> int:
+    """Draw the Arduino and its line; return the row below."""
+    telemetry = pen.telemetry
+    connected = flag_text(telemetry.flag("arduino", "connected"), "connected", "absent")
+    errors = number_text(telemetry.number("arduino", "frame_errors"), 0)
+    style = Style.BAD if telemetry.flag("arduino", "connected") is False else Style.PLAIN
+    framing = _word(pen, "arduino", "framing")
+    text = f"Arduino {connected}, {framing}, errors {errors}"
+    pen.value(row, column, text, style=style)
+    loop = number_text(telemetry.number("arduino", "loop_us"), 0)
+    late = number_text(telemetry.number("arduino", "late_us"), 0)
+    pen.value(row + 1, column, f"loop {loop} us, late {late} us")
+    return row + 2
+
+
+def _word(pen: Pen, *path: str) -> str:
+    text = pen.telemetry.text(*path, limit=10)
+    if text is not None:
+        return text
+    number = pen.telemetry.number(*path)
+    return UNKNOWN if number is None else f"{number:g}"

@@ -1,0 +1,144 @@
+"""The picture of the aircraft: pure, from what is known to a grid of letters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from up_ground.canvas import Canvas, Style
+from up_ground.horizon import draw_horizon
+from up_ground.link_status import LinkStatus
+from up_ground.panels import (
+    draw_board,
+    draw_channels,
+    draw_flight,
+    draw_position,
+    draw_power,
+)
+from up_ground.pen import Pen
+from up_ground.safe_text import safe_text
+from up_ground.settings import Seat, Settings
+from up_ground.telemetry import Telemetry
+from up_ground.wording import age_text, flag_text, link_text, number_text, seat_text
+
+RIGHT_COLUMN = 41
+WIDE = 76
+_HORIZON_COLUMNS = 37
+_LEAST_HORIZON_ROWS = 3
+_MOST_HORIZON_ROWS = 15
+
+
+@dataclass(slots=True)
+class State:
+    """All that a picture shows; ``notice`` is the newest thing that happened."""
+
+    settings: Settings
+    status: LinkStatus
+    telemetry: Telemetry
+    notice: str = ""
+    keys: str = ""
+
+
+def draw(state: State, now_s: float, size: tuple[int, int]) -> Canvas:
+    """Return the picture for a terminal of ``size`` (columns, rows) at a moment."""
+    canvas = Canvas(*size)
+    pen = Pen(canvas, state.telemetry, now_s)
+    _draw_header(canvas, state, now_s)
+    if canvas.columns >= WIDE:
+        _draw_wide(pen, canvas.rows)
+    else:
+        _draw_narrow(pen)
+    _draw_footer(canvas, state)
+    return canvas
+
+
+def render(state: State, now_s: float, size: tuple[int, int]) -> str:
+    """Return the picture's rows, separated by LF, with their ANSI styles."""
+    return draw(state, now_s, size).ansi()
+
+
+def _draw_header(canvas: Canvas, state: State, now_s: float) -> None:
+    status, telemetry, settings = state.status, state.telemetry, state.settings
+    canvas.fill(0, Style.HEADER)
+    words = f" {settings.aircraft} at {settings.address}  {link_text(status, now_s)}"
+    column = canvas.put(0, 0, safe_text(words), Style.HEADER)
+    if status.is_open and not settings.direct:
+        canvas.put(0, column, f"  seat {seat_text(status)}", Style.HEADER)
+    online = flag_text(status.is_aircraft_online, "online", "offline")
+    is_silent = telemetry.is_silent(now_s)
+    style = Style.PLAIN
+    if is_silent and telemetry.frames:
+        style = Style.BAD
+    age = age_text(telemetry.age_s(now_s))
+    column = canvas.put(1, 1, f"aircraft {online}", _presence_style(status))
+    column = canvas.put(1, column + 2, f"{'SILENT ' if is_silent else ''}age {age}", style)
+    way = number_text(status.round_trip_ms, 1)
+    rate = number_text(telemetry.rate_hz(now_s))
+    canvas.put(
+        1,
+        column + 2,
+        f"{rate} Hz  proxy {way} ms  lost {telemetry.lost}  dropped {status.dropped}",
+        Style.DIM,
+    )
+
+
+def _presence_style(status: LinkStatus) -> Style:
+    return Style.BAD if status.is_aircraft_online is False else Style.PLAIN
+
+
+def _draw_wide(pen: Pen, rows: int) -> None:
+    spare = max(0, rows - 24)
+    horizon_rows = max(_LEAST_HORIZON_ROWS, min(_MOST_HORIZON_ROWS, 8 + min(spare, rows - 16)))
+    _draw_attitude(pen, 3, 1)
+    draw_horizon(
+        pen.canvas,
+        7,
+        1,
+        (_HORIZON_COLUMNS, horizon_rows),
+        _attitude(pen),
+        pen.is_old("orientation"),
+    )
+    below = 8 + horizon_rows
+    draw_channels(pen, below, 1, "rx", "RECEIVER us")
+    row = draw_flight(pen, 3, RIGHT_COLUMN)
+    row = draw_position(pen, row, RIGHT_COLUMN)
+    draw_power(pen, row, RIGHT_COLUMN)
+    row = draw_channels(pen, below, RIGHT_COLUMN, "servo", "SERVOS us")
+    draw_board(pen, row, RIGHT_COLUMN)
+
+
+def _draw_narrow(pen: Pen) -> None:
+    row = draw_flight(pen, 3, 1)
+    _draw_attitude(pen, row, 1)
+    row = draw_position(pen, row + 4, 1)
+    row = draw_power(pen, row, 1)
+    row = draw_channels(pen, row, 1, "servo", "SERVOS us")
+    row = draw_channels(pen, row, 1, "rx", "RECEIVER us")
+    draw_board(pen, row, 1)
+
+
+def _attitude(pen: Pen) -> tuple[float | None, float | None]:
+    telemetry = pen.telemetry
+    return telemetry.number("orientation", "roll"), telemetry.number("orientation", "pitch")
+
+
+def _draw_attitude(pen: Pen, row: int, column: int) -> None:
+    pen.title(row, column, "ATTITUDE", "orientation")
+    for line, axis in enumerate(("roll", "pitch", "yaw"), row + 1):
+        angle = number_text(pen.telemetry.number("orientation", axis), 1, 7, axis != "yaw")
+        rate = number_text(pen.telemetry.number("rates", axis), 1, 7, True)
+        pen.value(line, column, f"{axis:6}{angle} deg {rate} deg/s", "orientation")
+
+
+def _draw_footer(canvas: Canvas, state: State) -> None:
+    status = state.status
+    row = canvas.rows - 1
+    canvas.put(row, 0, " " * canvas.columns)
+    if not status.is_open and status.reason:
+        canvas.put(row, 1, safe_text(status.reason), Style.BAD)
+        return
+    if status.seat is Seat.COMMAND and status.asked_by is not None:
+        text = f"ground {status.asked_by} asks for the seat: press g to hand it over"
+        canvas.put(row, 1, text, Style.WARNING)
+        return
+    column = canvas.put(row, 1, safe_text(state.keys), Style.DIM)
+    canvas.put(row, column + 2, safe_text(state.notice), Style.WARNING)

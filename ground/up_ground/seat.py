@@ -1,0 +1,124 @@
+"""``up-ground seat``: asks for the seat that commands, hands it over, leaves it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from up.protocols.general_message import GeneralMessage
+from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, Errand, Say
+from up_ground.ground_link import GroundLink
+from up_ground.link_status import LinkState
+from up_ground.safe_text import safe_text
+from up_ground.seat_wait import ASK_INTERVAL_S, Standing, standing
+from up_ground.settings import Settings
+from up_ground.token_store import TokenStore
+
+ANSWER_LIMIT_S = 3.0
+
+
+class SeatErrand(Errand):
+    """Connects for the seat and does one thing with it; subclasses say which."""
+
+    LIMIT_S = ANSWER_LIMIT_S
+
+    def __init__(
+        self, reactor: Any, settings: Settings, tokens: TokenStore, *, say: Say, complain: Say
+    ) -> None:
+        super().__init__(say, complain)
+        self.link = GroundLink(reactor, settings, self, tokens)
+        self._reactor = reactor
+        self._is_asked = False
+
+    def start(self) -> None:
+        """Begin."""
+        self.after(self._reactor, "limit", self.LIMIT_S, self.on_limit)
+        self.link.start()
+
+    def on_message(self, message: GeneralMessage) -> None:
+        """Telemetry is of no interest here."""
+
+    def on_link(self) -> None:
+        """Go on as the proxy says."""
+        status = self.link.status
+        if self.is_finished:
+            return
+        if status.state is LinkState.WAITING:
+            self.fail(status.reason, EXIT_REFUSED if status.rejection else EXIT_NO_ANSWER)
+        elif status.is_open:
+            self.on_standing(standing(status, False))
+
+    def on_standing(self, seat: Standing) -> None:
+        """Hear who has the seat."""
+        raise NotImplementedError
+
+    def on_limit(self) -> None:
+        """Hear that the time is over."""
+        self.fail(f"the proxy did not do it within {self.LIMIT_S:g} s", EXIT_NO_ANSWER)
+
+    def fail(self, sentence: str, status: int) -> None:
+        """End with a sentence."""
+        self.complain(safe_text(sentence, 600))
+        self.finish(status)
+
+
+class RequestSeat(SeatErrand):
+    """Asks until the seat is given or ``wait_s`` is over."""
+
+    def __init__(self, *args: Any, wait_s: float, **more: Any) -> None:
+        super().__init__(*args, **more)
+        self.LIMIT_S = wait_s
+
+    def on_standing(self, seat: Standing) -> None:
+        """Take it, or ask and say whom."""
+        if seat is Standing.OURS:
+            self.say("this ground commands now")
+            self.finish(EXIT_DONE)
+        elif seat in (Standing.FREE, Standing.HELD) and not self._is_asked:
+            self._is_asked = True
+            if seat is Standing.HELD:
+                self.say(f"asked ground {self.link.status.holder}, which commands")
+            self._ask()
+
+    def on_limit(self) -> None:
+        """Say who would have had to give it."""
+        holder = self.link.status.holder
+        who = "nobody gave it" if holder is None else f"ground {holder} has not given it"
+        self.fail(f"no seat within {self.LIMIT_S:g} s: {who}", EXIT_NO_ANSWER)
+
+    def _ask(self) -> None:
+        self.link.request_seat()
+        self.after(self._reactor, "ask", ASK_INTERVAL_S, self._ask)
+
+
+class LeaveSeat(SeatErrand):
+    """Hands the seat to the listener ``to``, or leaves it free when that is None."""
+
+    def __init__(self, *args: Any, to: int | None, **more: Any) -> None:
+        super().__init__(*args, **more)
+        self._to = to
+
+    def on_standing(self, seat: Standing) -> None:
+        """Leave it when it is ours, and wait until the proxy says so."""
+        holder = self.link.status.holder
+        if self._is_asked:
+            if seat is not Standing.OURS and self._to in (None, holder):
+                who = "free" if self._to is None else f"ground {self._to}'s"
+                self.say(f"the seat is {who} now")
+                self.finish(EXIT_DONE)
+        elif seat is Standing.OURS:
+            self._is_asked = True
+            if self._to is None:
+                self.link.release_seat()
+            else:
+                self.link.give_seat(self._to)
+        elif seat is Standing.HELD:
+            self.fail(f"this ground has no seat to leave: ground {holder} commands", EXIT_REFUSED)
+        elif seat is Standing.FREE:
+            self.fail("this ground has no seat to leave: it is free", EXIT_REFUSED)
+
+    def on_limit(self) -> None:
+        """Say what most likely went wrong."""
+        if self._is_asked and self._to is not None:
+            self.fail(f"no ground {self._to} listens to this aircraft", EXIT_REFUSED)
+        else:
+            super().on_limit()

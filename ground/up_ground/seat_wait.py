@@ -1,0 +1,37 @@
+"""Waiting for the seat that commands."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from up_ground.link_status import LinkStatus
+from up_ground.settings import Seat
+
+ASK_INTERVAL_S = 1.1
+"""The proxy passes one request a second on."""
+KEPT_S = 4.0
+"""Longer than a proxy keeps the seat of a ground that has gone (3 s)."""
+
+
+class Standing(Enum):
+    """How it stands with the seat."""
+
+    UNKNOWN = "unknown"
+    OURS = "ours"
+    FREE = "free"
+    HELD = "held"
+    LATER = "later"
+
+
+def standing(status: LinkStatus, is_direct: bool) -> Standing:
+    """Return who has the seat; a direct link knows no seats, so all may be sent there.
+
+    FREE is what the proxy says of a seat that nobody holds, which it may keep for a token yet.
+    """
+    if not status.is_open:
+        return Standing.UNKNOWN
+    if is_direct or status.seat is Seat.COMMAND:
+        return Standing.OURS
+    if not status.is_holder_known:
+        return Standing.LATER
+    return Standing.FREE if status.holder is None else Standing.HELD

@@ -1,0 +1,171 @@
+"""``up-ground send``: one Command to the aircraft, and its answer."""
+
+from __future__ import annotations
+
+import json
+import secrets
+from typing import Any
+
+from up.protocols.general_message import GeneralMessage, encode
+from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, Errand, Say
+from up_ground.ground_link import GroundLink
+from up_ground.link_status import LinkState
+from up_ground.safe_text import safe_text
+from up_ground.seat_wait import ASK_INTERVAL_S, KEPT_S, Standing, standing
+from up_ground.settings import Settings
+from up_ground.telemetry import NAME as TELEMETRY
+from up_ground.telemetry import Telemetry
+from up_ground.token_store import TokenStore
+
+CONNECT_LIMIT_S = 8.0
+TELEMETRY_LIMIT_S = 5.0
+ANSWER_LIMIT_S = 3.0
+CONTENT_LIMIT_S = 2.0
+_CONTENT_OF = {"arduino.pids.tunings": "arduino.pids.values"}
+"""What comes besides the ack when a Command asks for something."""
+_QUIET = (TELEMETRY, "up.system.state")
+
+
+class Send(Errand):
+    """Waits for the seat and for one telemetry frame, sends, waits for the answer.
+
+    Nothing is sent twice. ``needs_beacon``: without telemetry it cannot be sent at all.
+    """
+
+    def __init__(
+        self,
+        reactor: Any,
+        settings: Settings,
+        tokens: TokenStore,
+        name: str,
+        data: dict[str, Any],
+        *,
+        needs_beacon: bool,
+        say: Say,
+        complain: Say,
+    ) -> None:
+        super().__init__(say, complain)
+        self.link = GroundLink(reactor, settings, self, tokens)
+        self._reactor = reactor
+        self._settings = settings
+        self._name = name
+        self._data = data
+        self._needs_beacon = needs_beacon
+        self._telemetry = Telemetry()
+        self._id = secrets.token_hex(8)
+        self._sent_s: float | None = None
+        self._may_do_without = False
+        self._awaited = _CONTENT_OF.get(name, "") if data.get("request") is True else ""
+        self._is_acked = False
+
+    def start(self) -> None:
+        """Begin."""
+        self.after(self._reactor, "connect", CONNECT_LIMIT_S, self._on_no_seat)
+        self.link.start()
+
+    def on_message(self, message: GeneralMessage) -> None:
+        """Take telemetry for its beacon, and what answers us."""
+        if self.is_finished:
+            return
+        if self._telemetry.take(message, self._reactor.seconds()):
+            self._try_to_send()
+        elif self._sent_s is not None:
+            self._on_answer(message, self._sent_s)
+
+    def on_link(self) -> None:
+        """Go on as far as the link lets us."""
+        if self.is_finished:
+            return
+        status = self.link.status
+        if status.state is LinkState.WAITING:
+            self._fail(status.reason, EXIT_REFUSED if status.rejection else EXIT_NO_ANSWER)
+            return
+        seat = standing(status, self._settings.direct)
+        if seat is Standing.HELD:
+            self._fail(
+                f"ground {status.holder} commands this aircraft; 'up-ground seat request' asks it"
+                " for the seat",
+                EXIT_REFUSED,
+            )
+        elif seat is Standing.FREE:
+            # Kept for somebody's token for a moment; then it is given to who asks.
+            self.after(self._reactor, "connect", KEPT_S, self._on_no_seat)
+            self._ask()
+        elif seat is Standing.OURS:
+            self.forget("connect")
+            self.forget("ask")
+            if self._sent_s is None and not self._telemetry.frames:
+                self.after(self._reactor, "telemetry", TELEMETRY_LIMIT_S, self._on_no_telemetry)
+            self._try_to_send()
+
+    def _ask(self) -> None:
+        self.link.request_seat()
+        self.after(self._reactor, "ask", ASK_INTERVAL_S, self._ask)
+
+    def _try_to_send(self) -> None:
+        if self._sent_s is not None or not (self._telemetry.frames or self._may_do_without):
+            return
+        if standing(self.link.status, self._settings.direct) is not Standing.OURS:
+            return
+        self.forget("telemetry")
+        self.link.send(encode(self._name, self._data, self._id, self._telemetry.beacon))
+        self._sent_s = self._reactor.seconds()
+        self.after(self._reactor, "answer", ANSWER_LIMIT_S, self._on_no_answer)
+
+    def _on_answer(self, message: GeneralMessage, sent_s: float) -> None:
+        data = message.data
+        if message.name == "up.ack" and data.get("id") == self._id:
+            self.say(f"ack after {(self._reactor.seconds() - sent_s) * 1000:.0f} ms")
+            self._is_acked = True
+            self.forget("answer")
+            if not self._awaited:
+                self.finish(EXIT_DONE)
+                return
+            self.after(self._reactor, "content", CONTENT_LIMIT_S, self._on_no_content)
+        elif message.name == "up.nack" and data.get("id") == self._id:
+            reason = safe_text(data.get("reason") or "no reason given", 500)
+            self._fail(f"refused: {reason} ({safe_text(data.get('code'), 32)})", EXIT_REFUSED)
+        elif message.name not in (*_QUIET, "up.ack", "up.nack"):
+            self.say(f"{safe_text(message.name, 128)} {_shown(data)}")
+            if message.name == self._awaited:
+                self._awaited = ""
+                if self._is_acked:
+                    self.finish(EXIT_DONE)
+
+    def _on_no_seat(self) -> None:
+        self._fail("no seat: another ground has just left it or takes it", EXIT_NO_ANSWER)
+
+    def _on_no_telemetry(self) -> None:
+        if self.link.status.is_aircraft_online is False:
+            self._fail(
+                f"the aircraft {self._settings.aircraft} is not connected to the proxy",
+                EXIT_NO_ANSWER,
+            )
+        elif self._needs_beacon:
+            self._fail(
+                f"no telemetry within {TELEMETRY_LIMIT_S:g} s, and {self._name} is only taken with"
+                " a fresh beacon",
+                EXIT_NO_ANSWER,
+            )
+        else:
+            self.complain(f"no telemetry within {TELEMETRY_LIMIT_S:g} s; sent without a beacon")
+            self._may_do_without = True
+            self._try_to_send()
+
+    def _on_no_answer(self) -> None:
+        self._fail(
+            f"no answer within {ANSWER_LIMIT_S:g} s; it is not known whether {self._name} was"
+            " carried out",
+            EXIT_NO_ANSWER,
+        )
+
+    def _on_no_content(self) -> None:
+        self._fail(f"no {self._awaited} within {CONTENT_LIMIT_S:g} s", EXIT_NO_ANSWER)
+
+    def _fail(self, sentence: str, status: int) -> None:
+        self.complain(safe_text(sentence, 600))
+        self.finish(status)
+
+
+def _shown(data: dict[str, Any]) -> str:
+    return json.dumps(data).replace("\x7f", "\\u007f")

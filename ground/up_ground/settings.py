@@ -1,0 +1,33 @@
+"""Whom a ground station talks to and as what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+DEFAULT_HOST = "127.0.0.1"
+DEFAULT_PORT = 3004
+DEFAULT_AIRCRAFT = "default"
+
+
+class Seat(Enum):
+    """What a ground may do at the proxy; the value is its word on the wire."""
+
+    COMMAND = "command"
+    LISTEN = "listen"
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """The other side of the link: a proxy's ground side or, ``direct``, whoever says no hello."""
+
+    host: str = DEFAULT_HOST
+    port: int = DEFAULT_PORT
+    aircraft: str = DEFAULT_AIRCRAFT
+    seat: Seat = Seat.LISTEN
+    direct: bool = False
+
+    @property
+    def address(self) -> str:
+        """Return host and port as people write them."""
+        return f"[{self.host}]:{self.port}" if ":" in self.host else f"{self.host}:{self.port}"

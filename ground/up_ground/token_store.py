@@ -1,0 +1,94 @@
+"""The resume token on disk: a ground that comes back takes its seat at once."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import re
+import secrets
+from collections.abc import Mapping
+from pathlib import Path
+
+from up_ground.control_line import is_token
+from up_ground.settings import Settings
+
+_UNSAFE = re.compile(r"[^A-Za-z0-9_.-]")
+
+
+def state_folder(environ: Mapping[str, str]) -> Path:
+    """Return where tokens are kept: ``$XDG_STATE_HOME/up-ground``, or ``~/.local/state``'s."""
+    home = environ.get("XDG_STATE_HOME", "")
+    base = Path(home) if home.startswith("/") else Path.home() / ".local" / "state"
+    return base / "up-ground"
+
+
+class TokenStore:
+    """The token of one aircraft at one proxy, used by one program of this user at a time.
+
+    Two programs with one token would take the seat from each other for ever, so whoever cannot
+    ``hold`` the store has no token in it. Where nothing can be stored nothing is: a lost token
+    costs three seconds of waiting, no more.
+    """
+
+    def __init__(self, folder: Path, settings: Settings) -> None:
+        name = f"{settings.host}_{settings.port}_{settings.aircraft}"
+        self._path = folder / (_UNSAFE.sub("_", name)[:200] + ".token")
+        self._lock: int | None = None
+
+    @property
+    def path(self) -> Path:
+        """Return the file of the token."""
+        return self._path
+
+    def hold(self) -> bool:
+        """Reserve the token for this program; False: another one has it, or there is no room."""
+        if self._lock is not None:
+            return True
+        try:
+            self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            lock = os.open(
+                self._path.with_suffix(".lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600
+            )
+        except OSError:
+            return False
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            os.close(lock)
+            return False
+        self._lock = lock
+        return True
+
+    def load(self) -> str | None:
+        """Return the token; None: there is none, it is damaged, or it is not ours to use."""
+        if self._lock is None:
+            return None
+        try:
+            text = self._path.read_text(encoding="ascii").strip()
+        except (OSError, UnicodeDecodeError):
+            return None
+        return text if is_token(text) else None
+
+    def save(self, token: str) -> None:
+        """Keep a token, readable by this user alone."""
+        if self._lock is None:
+            return
+        fresh = self._path.with_suffix(f".{secrets.token_hex(4)}")
+        with contextlib.suppress(OSError):
+            descriptor = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+            with os.fdopen(descriptor, "w", encoding="ascii") as file:
+                file.write(token + "\n")
+            fresh.replace(self._path)
+
+    def forget(self) -> None:
+        """Drop the token: the seat was given up."""
+        if self._lock is not None:
+            with contextlib.suppress(OSError):
+                self._path.unlink()
+
+    def close(self) -> None:
+        """Leave the token to the next program."""
+        if self._lock is not None:
+            os.close(self._lock)
+            self._lock = None

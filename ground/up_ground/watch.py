@@ -1,0 +1,230 @@
+"""``up-ground watch``: what runs while somebody looks."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from up.protocols.general_message import GeneralMessage, encode
+from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
+from up_ground.ground_link import GroundLink
+from up_ground.link_status import LinkState
+from up_ground.plain_line import plain_line
+from up_ground.safe_text import safe_text
+from up_ground.screen import State, draw, render
+from up_ground.settings import Settings
+from up_ground.telemetry import NAME, Telemetry
+from up_ground.terminal import Terminal
+from up_ground.token_store import TokenStore
+
+PAINT_S = 0.1
+LINE_S = 1.0
+MEASURE_S = 1.0
+ONCE_LIMIT_S = 5.0
+PRINTED_SIZE = (80, 24)
+KEYS = "q quit  c ask for the seat  g give it  r release it"
+
+
+class Watch(Errand):
+    """Follows one aircraft; subclasses show it. It goes on until somebody ends it.
+
+    Paints by the clock, not by telemetry: ages go on when nothing comes.
+    """
+
+    PERIOD_S = LINE_S
+
+    def __init__(
+        self,
+        reactor: Any,
+        settings: Settings,
+        tokens: TokenStore,
+        *,
+        say: Say,
+        complain: Say,
+        for_s: float | None = None,
+        count: int | None = None,
+    ) -> None:
+        super().__init__(say, complain)
+        self.link = GroundLink(reactor, settings, self, tokens)
+        self.state = State(settings, self.link.status, Telemetry())
+        self._reactor = reactor
+        self._for_s = for_s
+        self._left = count
+        self._measured_s = 0.0
+
+    def start(self) -> None:
+        """Begin."""
+        if self._for_s is not None:
+            self.after(self._reactor, "end", self._for_s, self.on_time_over)
+        self.link.start()
+        self._tick()
+
+    def on_message(self, message: GeneralMessage) -> None:
+        """Take telemetry; other messages are mentioned."""
+        if self.is_finished:
+            return
+        if self.state.telemetry.take(message, self._reactor.seconds()):
+            self.on_frame(message)
+        elif message.name != "up.system.state":
+            self.state.notice = f"{safe_text(message.name, 40)} {safe_text(message.data, 120)}"
+
+    def on_link(self) -> None:
+        """Hear of the link."""
+
+    def on_frame(self, message: GeneralMessage) -> None:
+        """Hear of a telemetry frame."""
+
+    def on_tick(self, now_s: float) -> None:
+        """Show what is known."""
+
+    def on_time_over(self) -> None:
+        """End when the time that was asked for is over."""
+        self.finish(EXIT_DONE)
+
+    def shown_one(self) -> None:
+        """Count what was shown and end after the last."""
+        if self._left is not None:
+            self._left -= 1
+            if self._left <= 0:
+                self.finish(EXIT_DONE)
+
+    def _tick(self) -> None:
+        now_s = self._reactor.seconds()
+        if now_s - self._measured_s >= MEASURE_S:
+            self._measured_s = now_s
+            self.link.measure()
+            # Half of the way there and back to the proxy is known; what lies beyond is not.
+            self.state.telemetry.delay_s = (self.state.status.round_trip_ms or 0.0) / 2000
+        self.on_tick(now_s)
+        self.after(self._reactor, "tick", self.PERIOD_S, self._tick)
+
+
+class PlainWatch(Watch):
+    """One line a second."""
+
+    def start(self) -> None:
+        """Begin with what the first second brings."""
+        self.link.start()
+        if self._for_s is not None:
+            self.after(self._reactor, "end", self._for_s, self.on_time_over)
+        self.after(self._reactor, "tick", self.PERIOD_S, self._tick)
+
+    def on_tick(self, now_s: float) -> None:
+        """Say a line."""
+        self.say(plain_line(self.state.status, self.state.telemetry, now_s))
+        self.shown_one()
+
+
+class JSONWatch(Watch):
+    """The telemetry messages themselves, one a line; what goes wrong is told on stderr."""
+
+    _told = ""
+
+    def on_frame(self, message: GeneralMessage) -> None:
+        """Print the message in the form in which it travels, harmless for a terminal."""
+        line = encode(NAME, message.data, message.id, message.beacon).decode("ascii")
+        self.say(line.rstrip("\n").replace("\x7f", "\\u007f"))
+        self.shown_one()
+
+    def on_link(self) -> None:
+        """Tell once why there is nothing."""
+        status = self.link.status
+        if status.state is LinkState.WAITING and status.reason != self._told:
+            self._told = status.reason
+            self.complain(safe_text(status.reason))
+        elif status.is_open:
+            self._told = ""
+
+
+class OnceWatch(Watch):
+    """One picture as text, as soon as there is telemetry."""
+
+    def start(self) -> None:
+        """Begin; without telemetry it ends after some seconds."""
+        if self._for_s is None:
+            self._for_s = ONCE_LIMIT_S
+        super().start()
+
+    def on_frame(self, message: GeneralMessage) -> None:
+        """Print the picture."""
+        self.link.measure()
+        self.say(draw(self.state, self._reactor.seconds(), PRINTED_SIZE).plain())
+        self.finish(EXIT_DONE)
+
+    def on_time_over(self) -> None:
+        """Say why there is no picture."""
+        status = self.link.status
+        reason = status.reason
+        if status.is_aircraft_online is False:
+            reason = f"the aircraft {self.state.settings.aircraft} is not connected to the proxy"
+        self.complain(safe_text(reason or "no telemetry came"))
+        self.finish(EXIT_NO_ANSWER)
+
+
+class ScreenWatch(Watch):
+    """The full-screen picture, and the keys."""
+
+    PERIOD_S = PAINT_S
+
+    def __init__(self, *args: Any, terminal: Terminal, **more: Any) -> None:
+        super().__init__(*args, **more)
+        self.state.keys = KEYS
+        self._terminal = terminal
+
+    def start(self) -> None:
+        """Take the keys and begin."""
+        self._reactor.addReader(self)
+        super().start()
+
+    def finish(self, status: int) -> None:
+        """Leave the keys alone and end."""
+        self._reactor.removeReader(self)
+        super().finish(status)
+
+    def on_tick(self, now_s: float) -> None:
+        """Paint."""
+        try:
+            painted = self._terminal.paint(render(self.state, now_s, self._terminal.size))
+        except OSError:
+            # The terminal was closed.
+            self.finish(EXIT_DONE)
+            return
+        if painted and self._left is not None and self.state.telemetry.frames:
+            self.shown_one()
+
+    def fileno(self) -> int:
+        """Return where keys come from, for the reactor."""
+        return self._terminal.fileno()
+
+    def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
+        """Return who this is, for the reactor."""
+        return "keys"
+
+    def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
+        """Hear that the reactor stops."""
+
+    def doRead(self) -> None:  # noqa: N802 - Twisted's name
+        """Do what the keys say."""
+        keys = self._terminal.keys()
+        if not keys:
+            self.finish(EXIT_DONE)
+        for key in keys:
+            self._on_key(key)
+
+    def _on_key(self, key: str) -> None:
+        status = self.link.status
+        if key in "qQ":
+            self.finish(EXIT_DONE)
+        elif key == "c":
+            asked = self.link.request_seat()
+            self.state.notice = "asked for the seat" if asked else "there is nobody to ask"
+        elif key == "g" and status.asked_by is not None:
+            self.link.give_seat(status.asked_by)
+            status.asked_by = None
+        elif key == "r":
+            self.state.notice = "" if self.link.release_seat() else "no seat to release"
+
+
+def is_terminal(descriptor: int) -> bool:
+    """Say whether a picture can be painted there."""
+    return os.isatty(descriptor) and os.environ.get("TERM", "") not in ("", "dumb")
