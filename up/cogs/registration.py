@@ -97,5 +97,5 @@ def _register_old(
         registrar.source = source
         if registrar.register() is False:
             raise CogError(f"the Registrar of the cog {cog} says that it failed")
-    changed = registrar.finish()
+        changed = registrar.finish()
     tell(f"{cog}: {'registered' if changed else 'is registered'}")

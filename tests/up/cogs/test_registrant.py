@@ -83,13 +83,18 @@ def test_unregistering_leaves_the_configuration(application, alpha):
     assert (application.config_folder / "alpha.yml").exists()
 
 
-def test_a_cog_of_the_prototype_registers_loads_and_works(application, prototype, capfd):
+def test_a_cog_of_the_prototype_registers_loads_and_works(
+    application, prototype, capfd, tmp_path, monkeypatch
+):
+    bystander = write_application(tmp_path / "bystander", {})
+    monkeypatch.chdir(bystander.root)
     said: list[str] = []
     register("prototype_cog", application, "manual", said.append)
     register("prototype_cog", application, "manual", said.append)
     assert said == ["prototype_cog: registered", "prototype_cog: is registered"]
     assert (application.config_folder / "prototype.yml").read_text() == "interval: 1\n"
     assert "recorders are ignored" in capfd.readouterr().out
+    assert Registry(bystander.root).entries() == {}, "where it is run from does not matter"
     plan = plan_of(application)
     assert not plan.problems
     names = [module.class_name for module in plan.modules]

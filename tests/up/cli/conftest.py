@@ -1,0 +1,60 @@
+"""The command line in this process, and in one of its own."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from tests.support.virtual_environment import REPOSITORY
+from up.cli.main import main
+
+
+@dataclass
+class Outcome:
+    status: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def up(capsys, monkeypatch, tmp_path):
+    """Return a function that carries out a command in this process, in ``tmp_path``."""
+    monkeypatch.delenv("UP_MODE", raising=False)
+
+    def up(*arguments: str, cwd: Path = tmp_path) -> Outcome:
+        monkeypatch.chdir(cwd)
+        try:
+            status = main([str(each) for each in arguments])
+        except SystemExit as end:
+            status = int(end.code or 0)
+        said = capsys.readouterr()
+        assert "Traceback" not in said.err
+        return Outcome(status, said.out, said.err)
+
+    return up
+
+
+@pytest.fixture
+def own_process():
+    """Return a function that runs a Python module from the repository in a process of its own."""
+
+    def run(*arguments: str, cwd: Path, **more: str) -> subprocess.CompletedProcess[str]:
+        path = os.pathsep.join([str(REPOSITORY), *more.pop("paths", "").split(os.pathsep)])
+        environ = {**os.environ, "PYTHONPATH": path, "MYPYPATH": str(REPOSITORY), **more}
+        return subprocess.run(
+            [sys.executable, "-m", *map(str, arguments)],
+            cwd=cwd,
+            env=environ,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            check=False,
+        )
+
+    return run
