@@ -1,5 +1,7 @@
 """What stands at the other end of a socket: raw bytes, no codec of the project's."""
 
+# ruff: noqa: N802 - Twisted's names
+
 from __future__ import annotations
 
 import json

@@ -8,6 +8,7 @@ from twisted.internet.defer import maybeDeferred
 from twisted.internet.error import CannotListenError
 
 from up.start_result import StartFailedError
+from up.system.udp import listen_udp
 
 _TRIES = 16
 _BACKLOG = 16
@@ -44,7 +45,7 @@ class Ports:
         bound: int = stream.getHost().port
         if datagrams is not None:
             try:
-                packets = self._reactor.listenUDP(bound, datagrams, interface=self._address)
+                packets = listen_udp(self._reactor, bound, datagrams, self._address)
             except CannotListenError:
                 stream.stopListening()
                 raise

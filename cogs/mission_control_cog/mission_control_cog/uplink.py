@@ -6,20 +6,28 @@ from collections.abc import Callable
 from typing import Any
 
 from twisted.internet.defer import CancelledError, Deferred
-from twisted.internet.endpoints import HostnameEndpoint
-from twisted.internet.error import ConnectError, DNSLookupError
+from twisted.internet.endpoints import TCP4ClientEndpoint, TCP6ClientEndpoint
+from twisted.internet.error import ConnectError, ConnectingCancelledError
 from twisted.internet.interfaces import IAddress
 from twisted.internet.protocol import Factory, Protocol
 from twisted.logger import Logger
 
 from mission_control_cog.backoff import Backoff
 from mission_control_cog.hello import HelloAnswer
+from mission_control_cog.host_addresses import HostAddresses, HostNotFoundError
 from mission_control_cog.uplink_protocol import UplinkProtocol
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 
 CONNECT_LIMIT_S = 5.0
 """Within it the kernel repeats a lost SYN after 1 and 3 s."""
 GOOD_AFTER_S = 3.0
+_NO_CONNECTION = (
+    ConnectError,
+    OSError,
+    HostNotFoundError,
+    CancelledError,
+    ConnectingCancelledError,
+)
 
 
 class Uplink:
@@ -43,6 +51,7 @@ class Uplink:
         on_ready: Callable[[str], object],
         on_lost: Callable[[], object],
         backoff: Backoff | None = None,
+        addresses: HostAddresses | None = None,
     ) -> None:
         self.connects = 0
         self._reactor = reactor
@@ -55,6 +64,7 @@ class Uplink:
         self._on_ready = on_ready
         self._on_lost = on_lost
         self._backoff = backoff or Backoff()
+        self._addresses = addresses or HostAddresses(reactor, host, port)
         self._link: UplinkProtocol | None = None
         self._ready_s: float | None = None
         self._waiting: Deferred[Any] | None = None
@@ -103,16 +113,25 @@ class Uplink:
     async def _connect_once(self) -> str:
         """Keep one connection from its attempt to its end; return why it ended."""
         self._lost = Deferred()
-        endpoint = HostnameEndpoint(self._reactor, self._host, self._port, CONNECT_LIMIT_S)
-        factory: Any = _Factory(self._build)
-        self._waiting = endpoint.connect(factory)
+        self._waiting = Deferred.fromCoroutine(self._attempt())
         try:
             await self._waiting
-        except (ConnectError, DNSLookupError, CancelledError) as error:
+        except _NO_CONNECTION as error:
             return f"no connection: {_reason(error)}"
         finally:
             self._waiting = None
         return await self._lost
+
+    async def _attempt(self) -> None:
+        address = await self._addresses.next()
+        make = TCP6ClientEndpoint if ":" in address else TCP4ClientEndpoint
+        endpoint = make(self._reactor, address, self._port, CONNECT_LIMIT_S)
+        factory: Any = _Factory(self._build)
+        try:
+            await endpoint.connect(factory)
+        except (ConnectError, OSError):
+            self._addresses.failed(address)
+            raise
 
     async def _pause(self, delay_s: float) -> None:
         if self._is_stopping:

@@ -14,6 +14,7 @@ from discovery_cog.rate_limit import RateLimit
 from up.base_started_module import BaseStartedModule
 from up.mode import WITH_ARDUINO, Mode
 from up.start_result import StartFailedError
+from up.system.udp import listen_udp
 
 
 class DiscoveryService(BaseStartedModule):
@@ -33,7 +34,7 @@ class DiscoveryService(BaseStartedModule):
 
     def _execute_start(self) -> bool:
         try:
-            self._port = self.context.reactor.listenUDP(self.config.port, self._answerer)
+            self._port = listen_udp(self.context.reactor, self.config.port, self._answerer)
         except CannotListenError as error:
             reason = getattr(error.socketError, "strerror", None) or error.socketError
             raise StartFailedError(

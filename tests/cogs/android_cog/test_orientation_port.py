@@ -1,0 +1,161 @@
+"""The phone's orientation port."""
+
+import struct
+
+import pytest
+from android_cog.absence_watch import AbsenceWatch
+from twisted.internet.task import Clock
+
+from tests.cogs.android_cog.flight import Flight
+from tests.cogs.peers import UdpPeer
+from tests.support.reactor import reactor, run_in_reactor, sleep, until
+from up.commands.orientation_command import OrientationCommand
+from up.commands.system_commands import SystemStopCommand
+from up.mode import Mode
+from up.providers.up_orientation_provider import UpOrientationProvider
+
+
+def raw(*values):
+    return struct.pack(">6f", *values)
+
+
+def counters(flight):
+    return flight.telemetry["counters"]["android"]
+
+
+def test_frames_arrive_as_commands_of_the_phone(tmp_path):
+    async def flight():
+        async with Flight(tmp_path) as f:
+            f.listen_to(OrientationCommand)
+            gyro = await f.gyro()
+            data = raw(1, 2, 3, 4, 5, 6) + raw(-1, -2, -3, 0, 0, 0)
+            gyro.say(data[:5])
+            gyro.say(data[5:30])
+            gyro.say(data[30:])
+            await until(lambda: len(f.heard) == 2)
+            assert f.heard[0] == OrientationCommand(1, 2, 3, 4, 5, 6)
+            assert f.up.get_module(UpOrientationProvider).reading.source == "android"
+
+    run_in_reactor(flight)
+
+
+def test_stray_bytes_of_one_connection_do_not_shift_the_next(tmp_path):
+    async def flight():
+        async with Flight(tmp_path) as f:
+            f.listen_to(OrientationCommand)
+            first = await f.gyro()
+            first.say(raw(1, 1, 1, 0, 0, 0) + b"0123456789")
+            await until(lambda: f.heard)
+            await first.close()
+            second = await f.gyro()
+            second.say(raw(7, 8, 9, 0, 0, 0))
+            await until(lambda: len(f.heard) == 2)
+            assert f.heard[1] == OrientationCommand(7, 8, 9, 0, 0, 0)
+
+    run_in_reactor(flight)
+
+
+@pytest.mark.parametrize(
+    "bad", [(float("nan"), 0, 0, 0, 0, 0), (0, 400, 0, 0, 0, 0), (0, 0, 0, 0, float("inf"), 0)]
+)
+def test_impossible_values_are_dropped_and_counted(tmp_path, bad):
+    async def flight():
+        async with Flight(tmp_path) as f:
+            f.listen_to(OrientationCommand)
+            gyro, udp = await f.gyro(), UdpPeer(reactor)
+            f.peers.append(udp)
+            udp.say(raw(*bad), f.up.ports["orientation"])
+            udp.say(b"short", f.up.ports["orientation"])
+            await until(lambda: counters(f)["orientation_dropped"] == 2)
+            gyro.say(raw(*bad) + raw(1, 2, 3, 0, 0, 0))
+            await until(lambda: f.heard)
+            assert counters(f)["orientation_dropped"] == 3
+            assert len(f.heard) == 1
+
+    run_in_reactor(flight)
+
+
+def test_one_source_at_a_time(tmp_path):
+    async def flight():
+        async with Flight(tmp_path) as f:
+            f.listen_to(OrientationCommand)
+            gyro, udp = await f.gyro(), UdpPeer(reactor)
+            f.peers.append(udp)
+            gyro.say(raw(1, 0, 0, 0, 0, 0))
+            await until(lambda: f.heard)
+            udp.say(raw(2, 0, 0, 0, 0, 0), f.up.ports["orientation"])
+            await until(lambda: counters(f)["orientation_foreign"] == 1)
+            assert [each.roll_deg for each in f.heard] == [1]
+
+            async def repeated():
+                udp.say(raw(3, 0, 0, 0, 0, 0), f.up.ports["orientation"])
+                await sleep(0.05)
+                return f.heard[-1].roll_deg == 3
+
+            for _ in range(200):
+                if await repeated():
+                    break
+            else:
+                raise AssertionError("UDP never took over from a silent connection")
+
+    run_in_reactor(flight)
+
+
+def test_by_default_a_lost_orientation_link_stops_nothing(tmp_path):
+    async def flight():
+        async with Flight(tmp_path, "stop delay (s): 1\n", Mode.BLACK_BOX) as f:
+            f.listen_to(SystemStopCommand)
+            gyro = await f.gyro()
+            await until(lambda: counters(f) and f.provider._orientation.connected)
+            await gyro.close()
+            await until(lambda: not f.provider._orientation.connected)
+            assert f.provider._absence._timer is None
+
+    run_in_reactor(flight)
+
+
+STOPS = "stop if orientation connection is lost: true\nstop delay (s): 1\n"
+
+
+@pytest.mark.parametrize("mode", [Mode.AUTO, Mode.FLIGHT_CONTROLLER])
+def test_an_autopilot_is_never_stopped_by_the_phone(tmp_path, mode):
+    async def flight():
+        async with Flight(tmp_path, STOPS, mode) as f:
+            f.listen_to(SystemStopCommand)
+            gyro = await f.gyro()
+            await until(lambda: f.provider._orientation.connected)
+            await gyro.close()
+            await until(lambda: not f.provider._orientation.connected)
+            assert f.provider._absence._timer is None
+            assert f.heard == []
+
+    run_in_reactor(flight)
+
+
+def test_a_black_box_stops_when_it_is_told_to(tmp_path):
+    async def flight():
+        async with Flight(tmp_path, STOPS, Mode.BLACK_BOX) as f:
+            f.listen_to(SystemStopCommand)
+            gyro = await f.gyro()
+            await until(lambda: f.provider._orientation.connected)
+            lost_s = reactor.seconds()
+            await gyro.close()
+            await until(lambda: f.heard)
+            assert reactor.seconds() - lost_s >= 0.99
+
+    run_in_reactor(flight)
+
+
+def test_coming_back_in_time_cancels_the_stop():
+    clock, acted = Clock(), []
+    watch = AbsenceWatch(clock, 10, lambda: acted.append(clock.seconds()))
+    watch.begin()
+    clock.advance(9)
+    watch.cancel()
+    clock.advance(9)
+    watch.begin()
+    watch.begin()
+    clock.advance(9.5)
+    assert acted == []
+    clock.advance(1)
+    assert acted == [28.5]

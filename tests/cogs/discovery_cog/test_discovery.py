@@ -1,0 +1,160 @@
+"""The phone finds the Raspberry Pi."""
+
+import socket
+
+import pytest
+from discovery_cog.answerer import Answerer
+from discovery_cog.modules.discovery_service import DiscoveryService
+from discovery_cog.own_address import own_address_towards
+from discovery_cog.rate_limit import RateLimit
+from hypothesis import given
+from hypothesis import strategies as st
+from twisted.internet.task import Clock
+
+from tests.cogs.peers import UdpPeer
+from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.system import build_up
+from up.life_cycle import LifeCycle
+from up.mode import Mode
+
+
+class Network:
+    """A transport that keeps what is written to it."""
+
+    def __init__(self, fault=None):
+        self.written = []
+        self.fault = fault
+
+    def write(self, data, address):
+        if self.fault:
+            raise self.fault
+        self.written.append((data, address))
+
+
+def answerer(clock=None, own="192.168.1.5", fault=None):
+    made = Answerer(RateLimit(clock or Clock()), lambda host, port: own)
+    made.transport = Network(fault)
+    return made
+
+
+def system(tmp_path, port=0, mode=Mode.AUTO):
+    return build_up([DiscoveryService], reactor, tmp_path, mode=mode,
+                    config={"discovery.yml": f"port: {port}\n"})  # fmt: skip
+
+
+@pytest.mark.parametrize("question", [b"", b"hello", b"\x00\xff", b"x" * 512])
+def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, question):
+    async def ask():
+        up = system(tmp_path)
+        life = LifeCycle(up)
+        await life.start()
+        phone = UdpPeer(reactor)
+        phone.say(question, up.ports["discovery"])
+        await until(lambda: phone.datagrams)
+        assert phone.datagrams == [b"127.0.0.1"]
+        await phone.close()
+        await life.stop()
+
+    run_in_reactor(ask)
+
+
+def test_a_broadcast_is_heard(tmp_path):
+    async def ask():
+        up = system(tmp_path)
+        life = LifeCycle(up)
+        await life.start()
+        phone = UdpPeer(reactor, "127.0.0.1")
+        phone.transport.setBroadcastAllowed(True)
+        phone.say(b"where?", up.ports["discovery"], "127.255.255.255")
+        await until(lambda: phone.datagrams)
+        assert phone.datagrams == [b"127.0.0.1"]
+        await phone.close()
+        await life.stop()
+
+    run_in_reactor(ask)
+
+
+def test_a_port_in_use_is_said_and_the_system_goes_on(tmp_path):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+        taken.bind(("", 0))
+        number = taken.getsockname()[1]
+
+        async def boot():
+            up = system(tmp_path, number)
+            life = LifeCycle(up)
+            await life.start()
+            (reason,) = up.vetoes.own.values()
+            assert f"UDP port {number} cannot be opened: Address already in use" in reason
+            assert "(discovery.yml: port)" in reason
+            assert life.started
+            await life.stop()
+
+        run_in_reactor(boot)
+
+
+def test_black_box_mode_has_no_discovery(tmp_path):
+    up = system(tmp_path, mode=Mode.BLACK_BOX)
+    assert up.get_module(DiscoveryService) is None
+
+
+def test_ten_answers_a_second_for_each_asker():
+    clock = Clock()
+    made = answerer(clock)
+    for _ in range(25):
+        made.datagramReceived(b"?", ("192.168.1.7", 5))
+        made.datagramReceived(b"?", ("192.168.1.8", 6))
+    assert made.counters == {"answered": 20, "too_often": 30}
+    clock.advance(1.01)
+    made.datagramReceived(b"?", ("192.168.1.7", 5))
+    assert made.counters["answered"] == 21
+
+
+def test_a_port_change_is_no_new_asker():
+    made = answerer()
+    for port in range(1, 30):
+        made.datagramReceived(b"?", ("192.168.1.7", port))
+    assert made.counters["answered"] == 10
+
+
+def test_a_flood_of_askers_costs_bounded_memory():
+    clock = Clock()
+    limit = RateLimit(clock, askers=256)
+    permitted = sum(limit.permits(f"10.0.{n // 250}.{n % 250}") for n in range(5000))
+    assert (permitted, len(limit)) == (256, 256)
+    clock.advance(1)
+    assert limit.permits("10.9.9.9")
+    assert len(limit) == 1
+
+
+@pytest.mark.parametrize("asker", ["8.8.8.8", "203.0.113.7"])
+def test_a_public_asker_gets_no_answer(asker):
+    made = answerer()
+    made.datagramReceived(b"?", (asker, 5))
+    assert made.transport.written == []
+    assert made.counters["foreign"] == 1
+
+
+def test_a_long_question_is_none():
+    made = answerer()
+    made.datagramReceived(b"x" * 513, ("192.168.1.7", 5))
+    assert made.transport.written == []
+
+
+def test_no_way_to_the_asker_is_counted():
+    for made in (answerer(own=None), answerer(fault=OSError(101, "Network is unreachable"))):
+        made.datagramReceived(b"?", ("192.168.1.7", 5))
+        assert made.counters == {"unreachable": 1}
+
+
+@given(st.binary(max_size=600), st.integers(0, 65535))
+def test_whatever_comes_is_answered_or_counted(question, port):
+    made = answerer()
+    made.datagramReceived(question, ("192.168.1.7", port))
+    assert sum(made.counters.values()) == 1
+    assert all(written == (b"192.168.1.5", ("192.168.1.7", port))
+               for written in made.transport.written)  # fmt: skip
+
+
+def test_our_address_is_that_of_the_askers_subnet():
+    assert own_address_towards("127.0.0.9", 9) == "127.0.0.1"
+    assert own_address_towards("255.255.255.255", 9) is None

@@ -1,0 +1,55 @@
+"""The files that the cogs ship: templates, manifests, examples."""
+
+import importlib
+import re
+from pathlib import Path
+
+import pytest
+from android_cog.config import ANDROID
+from discovery_cog.config import DISCOVERY
+from mission_control_cog.config import MISSION_CONTROL
+
+from up.base_module import BaseModule
+from up.cogs.manifest import load_manifest
+from up.config import ConfigErrors
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize("file", [ANDROID, DISCOVERY, MISSION_CONTROL], ids=lambda f: f.filename)
+def test_the_shipped_configuration_is_the_template(file):
+    assert (ROOT / "config" / file.filename).read_text(encoding="utf-8") == file.template()
+    assert file.load(ROOT / "config") == file.cls()
+
+
+def test_the_tuning_example_grants_a_pilot_and_accepts_no_public_link():
+    values = MISSION_CONTROL.load(ROOT / "config" / "examples" / "tuning")
+    assert (values.role, values.i_accept_plain, values.listener.port) == ("pilot", False, 50002)
+
+
+@pytest.mark.parametrize("cog", ["android_cog", "discovery_cog", "mission_control_cog"])
+def test_the_manifest_names_modules(cog):
+    registrant = importlib.import_module(f"{cog}.registrar").Registrant()
+    assert registrant.cog_name == cog
+    for entry in load_manifest(registrant.folder, cog).modules:
+        cls = getattr(importlib.import_module(entry.prefix), entry.class_name)
+        assert issubclass(cls, BaseModule)
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "says"),
+    [
+        (ANDROID, "general port: 5\norientation port: 5\n", "must differ from the general port"),
+        (ANDROID, "port: 5\n", "is called 'general port' now"),
+        (ANDROID, "stop delay (in seconds): 5\n", "stop delay (s)"),
+        (ANDROID, "address: phone.local\n", "must be a literal IP address"),
+        (MISSION_CONTROL, "aircraft: my plane\n", "must be 1 to 32 letters"),
+        (MISSION_CONTROL, "remote_server: {url: 'http://x/'}\n", "a host name or an address alone"),
+        (MISSION_CONTROL, "role: admin\n", '"observer", "operator", "pilot"'),
+        (MISSION_CONTROL, "listener: {port: 50002, address: here}\n", "literal IP address"),
+        (DISCOVERY, "port: 70000\n", "65535"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(file, text, says):
+    with pytest.raises(ConfigErrors, match=re.escape(says)):
+        file.parse(text, Path(file.filename))
