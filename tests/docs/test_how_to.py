@@ -1,0 +1,103 @@
+"""The examples of the how-to pages do what the pages say."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.support.application import plan_of, write_application
+from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
+from up.commands.altitude_command import AltitudeCommand
+from up.commands.origin import INTERNAL
+from up.commands.refusal import CommandRefusedError
+from up.loading.application import Application
+from up.testing import Bench
+
+_EXAMPLE = re.compile(r"<!-- file: (\S+) -->\n```\w+\n(.*?)```", re.DOTALL)
+
+
+def examples(page: str) -> dict[str, str]:
+    text = (REPOSITORY / "docs/how-to" / page).read_text()
+    return dict(_EXAMPLE.findall(text))
+
+
+@pytest.fixture
+def plane(tmp_path):
+    """Return a function that writes the application ``plane`` of a page."""
+
+    def write(page: str) -> Application:
+        return write_application(tmp_path / "plane", examples(page), "plane")
+
+    yield write
+    for name in [name for name in sys.modules if name.split(".")[0] == "plane"]:
+        del sys.modules[name]
+
+
+def test_the_module_is_shorter_than_15_lines_and_works(plane, tmp_path):
+    files = examples("module.md")
+    assert len(files["modules/ceiling_module.py"].splitlines()) < 15
+    application = plane("module.md")
+    plan = plan_of(application)
+    assert not plan.problems
+    loaded = {module.class_name: type(module) for module in plan.modules}
+    bench = Bench(loaded["CeilingModule"], config_folder=tmp_path)
+    bench.start()
+    for altitude_m in (100.0, 250.0, 30.0):
+        bench.up.command_executor.execute_command(AltitudeCommand(altitude_m), INTERNAL)
+        bench.advance(0.1)
+    module = bench.module(loaded["CeilingModule"])
+    assert module.telemetry_content == {"ceiling": {"highest_m": 250.0}}
+    bench.stop()
+
+
+def test_the_modules_test_passes(plane):
+    application = plane("module.md")
+    (application.root / "__init__.py").write_text("")
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "--import-mode=importlib", "tests"],
+        cwd=application.root,
+        env={"PYTHONPATH": f"{REPOSITORY}:{application.root.parent}"},
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert "1 passed" in done.stdout, done.stdout + done.stderr
+
+
+def test_the_command_is_registered_checked_and_handled(plane, tmp_path):
+    plan = plan_of(plane("command.md"))
+    assert not plan.problems
+    (command,) = plan.commands
+    assert command.NAME == "plane.release"
+    assert command.from_data({"box": 2}).after_s == 0.0
+    with pytest.raises(ValueError, match="box"):
+        command.from_data({"box": 5})
+    (handler,) = plan.handlers
+    handler.run_action(command(box=1))
+    with pytest.raises(CommandRefusedError):
+        handler.run_action(command(box=4))
+    box = next(type(module) for module in plan.modules if module.class_name == "BoxModule")
+    bench = Bench(box, config_folder=tmp_path)
+    bench.start()
+    bench.up.command_executor.execute_command(command(box=3), INTERNAL)
+    bench.advance(0.1)
+    assert bench.module(box).opened == (3,)
+    bench.stop()
+
+
+def test_the_cog_is_gathered_and_loaded(tmp_path):
+    for name, text in examples("cog.md").items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    for folder in ("beacon_cog/beacon_cog", "beacon_cog/beacon_cog/modules"):
+        Path(tmp_path, folder, "__init__.py").write_text("")
+    (tmp_path / "plane/UpFile").write_text("")
+    environment = VirtualEnvironment(tmp_path / "environment")
+    environment.up("gather", cwd=tmp_path / "plane")
+    assert "BeaconModule" in environment.up("modules", cwd=tmp_path / "plane").stdout
