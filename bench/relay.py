@@ -6,6 +6,7 @@ a core each where there are two; every figure is from one run on one machine.
 
 import json
 import os
+import re
 import resource
 import shutil
 import socket
@@ -25,7 +26,7 @@ from bench.table import Row, print_table
 PAIRS = 100
 RATE_HZ = 50
 SIZE = 200
-SECONDS = 8.0
+SECONDS = 5.0
 ROUNDS = 3
 LATENCY_TARGET = 1.5
 CPU_TARGET = 1.3
@@ -34,6 +35,7 @@ MANY_PAIRS = 5000
 STALL_BYTES_TARGET = 5_000_000
 LOAD = Path(__file__).with_name("relay_load.py")
 DEADLINE_S = 60.0
+LISTENS = r"(airborne|ground) side listens on port (\d+)\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,16 +101,17 @@ def our_proxy(folder: Path) -> Iterator[tuple[subprocess.Popen[str], int, int]]:
     )
     command = (sys.executable, "-m", "up_proxy.main", "--config", str(folder),
                "--airborne-port", "0", "--ground-port", "0")  # fmt: skip
-    with process(*command, stderr=subprocess.PIPE) as running:
-        assert running.stderr is not None
-        ports: dict[str, int] = {}
-        while len(ports) < 2:
-            line = running.stderr.readline()
-            if not line:
+    log = folder / "log"
+    with log.open("w") as stream, process(*command, stderr=stream) as running:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while True:
+            ports = dict(re.findall(LISTENS, log.read_text()))
+            if len(ports) == 2:
+                break
+            if time.monotonic() > deadline_s or running.poll() is not None:
                 raise RuntimeError("up-proxy did not start")
-            if "side listens on port" in line:
-                ports[line.split("proxy: ")[1].split()[0]] = int(line.split()[-1])
-        yield running, ports["airborne"], ports["ground"]
+            time.sleep(0.02)
+        yield running, int(ports["airborne"]), int(ports["ground"])
 
 
 def free_port() -> int:

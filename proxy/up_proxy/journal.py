@@ -5,6 +5,8 @@ from up.system.clock import Clock
 
 INTERVAL_S = 10.0
 """Of one aircraft, one kind of news is told at once and then at most so often."""
+NEWS_MAX = 100
+"""More kinds of news than this in one interval are told as one."""
 _log = UpLogger.get_logger("proxy")
 
 
@@ -12,7 +14,7 @@ class Journal:
     """Tells who came, who went and who commands."""
 
     def __init__(self, clock: Clock) -> None:
-        self._limited = Limited(clock, INTERVAL_S)
+        self._limited = Limited(clock, INTERVAL_S, NEWS_MAX)
 
     def on_online(self, aircraft: str, host: str) -> None:
         """Tell that an aircraft is here."""
