@@ -1,0 +1,32 @@
+"""A system with a link to the ground, on the real reactor."""
+
+from mission_control_cog.modules.ground_listener import GroundListener
+from mission_control_cog.modules.mission_control_provider import MissionControlProvider
+
+from tests.support.reactor import reactor
+from tests.support.system import build_up
+from up.life_cycle import LifeCycle
+
+
+class Aircraft:
+    """Built, started, and ended again; ``heard`` has what was published of chosen Commands."""
+
+    def __init__(self, folder, port=None, text="", host="127.0.0.1", modules=()):
+        server = "" if port is None else f"remote_server: {{url: {host}, port: {port}}}\n"
+        config = {"mission_control.yml": server + text}
+        mine = (MissionControlProvider, GroundListener)
+        self.up = build_up((*mine, *modules), reactor, folder, config=config)
+        self.provider = self.up.get_module(MissionControlProvider)
+        self.heard = []
+
+    async def __aenter__(self):
+        self.life = LifeCycle(self.up)
+        await self.life.start()
+        return self
+
+    async def __aexit__(self, *_):
+        await self.life.stop()
+
+    def listen_to(self, *commands):
+        for cls in commands:
+            self.up.command_executor.register_command(cls, self.heard.append)

@@ -1,0 +1,116 @@
+"""Networks that swallow packets and proxies that die: real proxy, real packets."""
+
+from tests.cogs.mission_control_cog.system import Aircraft
+from tests.cogs.peers import connect
+from tests.proxy.namespace import THERE, blackhole, light, network
+from tests.proxy.program import Program
+from tests.support.reactor import reactor, run_in_reactor, sleep, until
+
+BLACKOUT_S = 8.0
+OPEN = "i_accept_plain: true\n"
+
+
+class Ages:
+    """Of every frame that reaches the ground: how old it was then, seconds."""
+
+    def __init__(self, up, ground):
+        self.up = up
+        self.ground = ground
+        self.seen = 0
+        self.worst_s = 0.0
+
+    def look(self):
+        frames = self.ground.named("up.telemetry.update")
+        for frame in frames[self.seen :]:
+            age_s = self.up.beacons.age_s(frame["beacon"])
+            self.worst_s = max(self.worst_s, 1e9 if age_s is None else age_s)
+        new, self.seen = len(frames) - self.seen, len(frames)
+        return new
+
+
+async def watch(ages, seconds):
+    """Look at what comes for some time."""
+    end_s = reactor.seconds() + seconds
+    while reactor.seconds() < end_s:
+        ages.look()
+        await sleep(0.01)
+
+
+async def seated(port):
+    ground = await connect(reactor, port, THERE)
+    ground.say(b"UP1 aircraft=default seat=command\n")
+    await until(lambda: b"UP1 ok" in ground.received)
+    return ground
+
+
+def test_after_a_blackout_fresh_data_come_and_no_stale_frame(tmp_path):
+    with network() as inside, Program(tmp_path / "p", OPEN, prefix=inside) as proxy:
+
+        async def fly():
+            async with Aircraft(tmp_path / "a", proxy.airborne_port, host=THERE) as a:
+                ground = await seated(proxy.ground_port)
+                ages = Ages(a.up, ground)
+                await until(ages.look)
+                blackhole(inside)
+                # The ground loses its link too; it comes back by itself, as the aircraft does.
+                await sleep(BLACKOUT_S)
+                assert not a.provider.connected
+                light(inside)
+                back_s = reactor.seconds()
+                again = await seated(proxy.ground_port)
+                ages_after = Ages(a.up, again)
+                await until(ages_after.look, 10)
+                assert reactor.seconds() - back_s <= 3.5
+                await watch(ages_after, 1.0)
+                # A frame is on its way for milliseconds here; a second is a backlog.
+                assert ages_after.worst_s < 1.0
+                assert a.provider.telemetry_content["counters"]["mission_control"]["connects"] == 2
+                for each in (ground, again):
+                    await each.close()
+
+        run_in_reactor(fly, timeout_s=90)
+
+
+def test_a_gap_of_one_second_is_ridden_through(tmp_path):
+    with network() as inside, Program(tmp_path / "p", OPEN, prefix=inside) as proxy:
+
+        async def fly():
+            async with Aircraft(tmp_path / "a", proxy.airborne_port, host=THERE) as a:
+                ground = await seated(proxy.ground_port)
+                ages = Ages(a.up, ground)
+                await until(ages.look)
+                blackhole(inside)
+                await sleep(0.8)
+                light(inside)
+                await until(ages.look, 10)
+                await watch(ages, 1.0)
+                # After the gap the newest comes, not the ten frames of the gap one by one.
+                assert ages.worst_s < 3.0
+                assert ages.look() >= 0
+                await until(ages.look)
+                await ground.close()
+
+        run_in_reactor(fly, timeout_s=90)
+
+
+def test_a_proxy_that_restarts_is_found_again(tmp_path):
+    with Program(tmp_path / "p") as first:
+        ports = (first.airborne_port, first.ground_port, 0)
+
+        async def fly():
+            async with Aircraft(tmp_path / "a", ports[0]) as a:
+                await until(lambda: a.provider.connected)
+                first.process.kill()
+                await until(lambda: not a.provider.connected)
+                second = Program(tmp_path / "q", ports=ports)
+                try:
+                    await until(lambda: second.is_up() and a.provider.connected)
+                    ground = await connect(reactor, ports[1])
+                    ground.say(b"UP1 aircraft=default seat=command\n")
+                    frames = await until(lambda: ground.named("up.telemetry.update"))
+                    assert a.up.beacons.age_s(frames[0]["beacon"]) < 2
+                    await ground.close()
+                finally:
+                    second.end()
+
+        run_in_reactor(fly)

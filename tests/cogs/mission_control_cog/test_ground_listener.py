@@ -1,0 +1,278 @@
+"""Ground stations on the aircraft's own network."""
+
+import json
+import socket
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mission_control_cog.ground_connection import GroundConnection
+from mission_control_cog.grounds import ALIVE_S, STATIONS_LIMIT, Grounds
+from twisted.internet.task import Clock
+from twisted.internet.testing import StringTransport
+
+from tests.cogs.mission_control_cog.system import Aircraft
+from tests.cogs.peers import connect
+from tests.support.reactor import reactor, run_in_reactor, until
+from up.commands.altitude_command import AltitudeCommand
+from up.commands.arming_commands import ArmCommand
+from up.commands.heading_command import HeadingCommand
+from up.commands.system_commands import LinkStateCommand
+from up.life_cycle import LifeCycle
+from up.system.plain_peers import PlainPeers
+
+LISTENER = "listener: {port: 0, address: 127.0.0.1}\n"
+
+
+def heading(degrees, id_):
+    data = {"heading": degrees, "mode": "required"}
+    return {"name": "up.heading.change", "data": data, "id": id_}
+
+
+async def grounds(aircraft, *hellos):
+    """Connect stations, each after the one before is known."""
+    peers = []
+    for hello in hellos:
+        peer = await connect(reactor, aircraft.up.ports["ground"])
+        if hello:
+            peer.say(hello)
+            await until(lambda peer=peer: b"UP1 ok" in peer.received)
+        await until(lambda peer=peer: peer.named("up.telemetry.update"))
+        peers.append(peer)
+    return peers
+
+
+def test_the_first_commands_the_others_listen_and_nobody_steals(tmp_path):
+    async def fly():
+        async with Aircraft(tmp_path, None, LISTENER) as a:
+            a.listen_to(HeadingCommand, LinkStateCommand)
+            one, two = await grounds(a, b"", b"")
+            one.say(heading(10, "a"))
+            assert (await one.answer("a"))["name"] == "up.ack"
+            two.say(heading(20, "a"))
+            refused = await two.answer("a")
+            assert refused["data"]["code"] == "forbidden"
+            assert "another ground station commands" in refused["data"]["reason"]
+            one.say(heading(30, "b"))
+            await one.answer("b")
+            commands = [c.heading_deg for c in a.heard if isinstance(c, HeadingCommand)]
+            assert commands == [10, 30]
+            a.provider.send_command(AltitudeCommand(5))
+            for each in (one, two):
+                await until(lambda each=each: each.named("up.altitude.change"))
+            counters = a.up.telemetry_controller.collect()["counters"]["ground"]
+            assert counters == {"stations": 2, "not_holder": 1, "refused_peers": 0}
+            # The holder leaves; without a token its seat is free for who speaks next.
+            await one.close()
+            two.say(heading(40, "c"))
+            assert (await two.answer("c"))["name"] == "up.ack"
+            states = [c.connected for c in a.heard if isinstance(c, LinkStateCommand)]
+            assert states == [True, False, True]
+            await two.close()
+
+    run_in_reactor(fly)
+
+
+def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_the_seat(tmp_path):
+    async def fly():
+        text = LISTENER + "aircraft: glider\n"
+        async with Aircraft(tmp_path, None, text) as a:
+            hello = b"UP1 aircraft=glider seat=command\n"
+            one, two = await grounds(a, hello, hello)
+            assert one.lines[0].startswith(b"UP1 ok aircraft=glider seat=command token=")
+            assert two.lines[0].startswith(b"UP1 ok aircraft=glider seat=listen token=")
+            token = one.lines[0].rpartition(b"=")[2]
+            await one.close()
+            # The seat is kept for its token.
+            two.say(heading(20, "t"))
+            assert (await two.answer("t"))["data"]["code"] == "forbidden"
+            (again,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
+            assert again.lines[0] == b"UP1 ok aircraft=glider seat=command token=" + token
+            again.say(b"UP1 seat release\n", heading(30, "r"))
+            assert (await again.answer("r"))["name"] == "up.ack"
+            # A half-open holder is displaced by its own token at once.
+            (third,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
+            await again.closed
+            third.say(heading(33, "s"))
+            assert (await third.answer("s"))["name"] == "up.ack"
+            for peer in (two, third):
+                await peer.close()
+
+    run_in_reactor(fly)
+
+
+def test_who_asks_to_listen_does_not_get_the_seat(tmp_path):
+    async def fly():
+        async with Aircraft(tmp_path, None, LISTENER) as a:
+            (watcher,) = await grounds(a, b"UP1 aircraft=default seat=listen\n")
+            assert b"seat=listen" in watcher.lines[0]
+            (pilot,) = await grounds(a, b"UP1 aircraft=default seat=command\n")
+            assert b"seat=command" in pilot.lines[0]
+            for peer in (watcher, pilot):
+                await peer.close()
+
+    run_in_reactor(fly)
+
+
+def test_the_role_is_the_links_and_half_lines_die_with_their_connection(tmp_path):
+    async def fly():
+        async with Aircraft(tmp_path, None, LISTENER) as a:
+            a.listen_to(ArmCommand, HeadingCommand)
+            (one,) = await grounds(a, b"")
+            beacon = one.named("up.telemetry.update")[-1]["beacon"]
+            one.say({"name": "up.arm", "id": "arm", "beacon": beacon})
+            refused = (await one.answer("arm"))["data"]
+            assert "mission_control.yml: role" in refused["reason"]
+            one.say(b'{"name": "up.heading.change", "data": {"heading": 1')
+            await one.close()
+            (two,) = await grounds(a, b"")
+            two.say(b'5, "mode": "required"}}\n', heading(90, "arm"))
+            # An id that another station used is its own.
+            assert (await two.answer("arm"))["name"] == "up.ack"
+            assert a.heard == [HeadingCommand(90, "required")]
+            await two.close()
+
+    run_in_reactor(fly)
+
+
+def test_hostile_stations_are_bounded(tmp_path):
+    async def fly():
+        async with Aircraft(tmp_path, None, LISTENER) as a:
+            peers = await grounds(a, *[b""] * STATIONS_LIMIT)
+            late = await connect(reactor, a.up.ports["ground"])
+            await late.closed
+            peers[0].say(b"\xff\xff\n", b"[" * 20000 + b"\n", b"UP1 " + b"x" * 30000 + b"\n")
+            peers[0].say({"name": "up.system.stop", "id": "s"}, heading(5, "end"))
+            assert (await peers[0].answer("s"))["data"]["code"] == "forbidden"
+            assert (await peers[0].answer("end"))["name"] == "up.ack"
+            for peer in peers:
+                await peer.close()
+
+    run_in_reactor(fly)
+
+
+def test_a_port_in_use_is_said_and_the_uplink_goes_on(tmp_path):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        number = taken.getsockname()[1]
+
+        async def boot():
+            text = f"listener: {{port: {number}, address: 127.0.0.1}}\n"
+            a = Aircraft(tmp_path, None, text)
+            life = LifeCycle(a.up)
+            await life.start()
+            (reason,) = a.up.vetoes.own.values()
+            assert f"port {number} cannot be opened: Address already in use" in reason
+            assert "(mission_control.yml: listener.port)" in reason
+            assert a.provider.started
+            await life.stop()
+
+        run_in_reactor(boot)
+
+
+def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
+    async def boot():
+        a = Aircraft(tmp_path / "a", None, "listener: {port: 0, address: 203.0.113.1}\n")
+        life = LifeCycle(a.up)
+        await life.start()
+        (reason,) = a.up.vetoes.own.values()
+        assert "public address" in reason
+        await life.stop()
+        async with Aircraft(tmp_path / "b", None, "listener: {port: 0}\n") as b:
+            monkeypatch.setattr("up.system.plain_peers.is_private", lambda host: False)
+            peer = await connect(reactor, b.up.ports["ground"])
+            await peer.closed
+            assert peer.received == b""
+
+    run_in_reactor(boot)
+
+
+class Station:
+    """A connection without a network: what the aircraft took of it."""
+
+    def __init__(self, grounds_, clock):
+        self.link = grounds_.build()
+        self.wire = StringTransport()
+        # What TCP has and this transport has not.
+        self.wire.setTcpNoDelay = self.wire.setTcpKeepAlive = lambda on: None
+        self.wire.getHandle = lambda: socket.socket()
+        self.clock = clock
+        self.link.makeConnection(self.wire)
+
+
+class _Link:
+    def nack(self, *_):
+        pass
+
+
+def virtual(clock, heard):
+    return Grounds(
+        clock, PlainPeers(True, "k"), "a",
+        open_link=lambda send: _Link(),
+        on_message=lambda message, link: heard.append(message.id),
+        on_malformed=lambda fault, link: None,
+        on_holder=lambda peer: None,
+    )  # fmt: skip
+
+
+def line(id_):
+    return json.dumps({"name": "x", "id": id_}).encode() + b"\n"
+
+
+def quiet(monkeypatch):
+    monkeypatch.setattr("up.protocols.general_message_link.watch_peer", lambda *_: None)
+
+
+def test_a_holder_that_was_silent_for_three_seconds_loses_its_seat(monkeypatch):
+    quiet(monkeypatch)
+    clock, heard = Clock(), []
+    all_ = virtual(clock, heard)
+    one, two = Station(all_, clock), Station(all_, clock)
+    one.link.dataReceived(line("1"))
+    clock.advance(ALIVE_S)
+    two.link.dataReceived(line("too early"))
+    one.link.dataReceived(b"\n")
+    clock.advance(ALIVE_S)
+    two.link.dataReceived(line("still too early"))
+    clock.advance(0.1)
+    two.link.dataReceived(line("2"))
+    one.link.dataReceived(line("too late"))
+    assert heard == ["1", "2"]
+    assert all_.dropped == 3
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+@given(st.lists(st.integers(1, 60), max_size=12), st.booleans())
+def test_the_first_line_may_come_in_any_pieces(monkeypatch, sizes, hello):
+    quiet(monkeypatch)
+    clock, heard, greeted = Clock(), [], []
+    link = GroundConnection(
+        clock,
+        on_hello=lambda *given_: greeted.append(given_[1:]) or b"UP1 ok\n",
+        on_message=lambda _, message: heard.append(message.id),
+        on_malformed=lambda *_: heard.append("malformed"),
+        on_connected=lambda _: None,
+        on_lost=lambda *_: None,
+    )
+    link.makeConnection(StringTransport())
+    first = b"UP1 aircraft=a seat=listen token=" + b"ab" * 16 + b"\n" if hello else b""
+    data = first + line("1") + line("2")
+    for size in sizes:
+        link.dataReceived(data[:size])
+        data = data[size:]
+        if not data:
+            break
+    if data:
+        link.dataReceived(data)
+    assert heard == ["1", "2"]
+    assert greeted == ([(False, "ab" * 16)] if hello else [])
+
+
+@pytest.mark.parametrize("text", ["", "listener: {port: }\n"])
+def test_no_port_no_listener(tmp_path, text):
+    async def fly():
+        async with Aircraft(tmp_path, None, text) as a:
+            assert "ground" not in a.up.ports
+
+    run_in_reactor(fly)
