@@ -1,0 +1,96 @@
+"""What the Arduino says of itself five times a second."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from struct import Struct
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+STATUS = Struct(">6B7H")
+VERSION = 1
+"""The version of the serial line's page that this program speaks."""
+
+_ARMED, _AT_AUTO, _RECEIVER, _IMU, _FAILSAFE, _BIAS_STORED, _GAINS_STORED, _HEARD = (
+    1 << bit for bit in range(8)
+)
+SWITCH_POSITIONS = {0: "low", 1: "middle", 2: "high"}
+VETOES = (
+    "the throttle is not low",
+    "the receiver is invalid",
+    "the IMU is invalid",
+    "AUX2 is low",
+    "the Raspberry Pi vetoes",
+    "calibrating",
+    "the profile is invalid",
+)
+_RESET_CAUSES = ("power-on", "external", "brown-out", "watchdog")
+_RESTORED = 1 << 7
+_BYTE = 255
+_U16 = 65535
+
+
+@dataclass(frozen=True, slots=True)
+class ArduinoStatusCommand(BaseCommand):
+    """The status of the Arduino; docs/protocols.md 2.7 says what each field counts."""
+
+    NAME: ClassVar[str] = "arduino.status"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    version: int = value(minimum=0, maximum=_BYTE)
+    mode: int = value(minimum=0, maximum=_BYTE)
+    switch: int = value(minimum=0, maximum=_BYTE)
+    flags: int = value(minimum=0, maximum=_BYTE)
+    vetoes: int = value(minimum=0, maximum=_BYTE)
+    reset_cause: int = value(minimum=0, maximum=_BYTE)
+    loop_us: int = value(minimum=0, maximum=_U16, unit="us")
+    late_us: int = value(minimum=0, maximum=_U16, unit="us")
+    frame_errors: int = value(minimum=0, maximum=_U16)
+    frames_lost: int = value(minimum=0, maximum=_U16)
+    uptime_s: int = value(minimum=0, maximum=_U16, unit="s")
+    rx_age_ms: int = value(minimum=0, maximum=_U16, unit="ms")
+    imu_age_ms: int = value(minimum=0, maximum=_U16, unit="ms")
+
+    @property
+    def is_armed(self) -> bool:
+        """Return whether the motor and the Raspberry Pi's authority are armed."""
+        return bool(self.flags & _ARMED)
+
+    @property
+    def is_at_auto(self) -> bool:
+        """Return whether the pilot's switch stands at AUTO."""
+        return bool(self.flags & _AT_AUTO)
+
+    @property
+    def is_failsafe(self) -> bool:
+        """Return whether the receiver is lost and its failsafe acts."""
+        return bool(self.flags & _FAILSAFE)
+
+    @property
+    def are_gains_stored(self) -> bool:
+        """Return whether the EEPROM holds valid gains."""
+        return bool(self.flags & _GAINS_STORED)
+
+    @property
+    def switch_position(self) -> str | None:
+        """Return ``low``, ``middle`` or ``high``; None while it is not known."""
+        return SWITCH_POSITIONS.get(self.switch)
+
+    @property
+    def veto_names(self) -> tuple[str, ...]:
+        """Return what forbids arming, in words."""
+        return tuple(name for bit, name in enumerate(VETOES) if self.vetoes >> bit & 1)
+
+    @property
+    def reset_causes(self) -> str:
+        """Return why the Arduino started last, in words."""
+        named = [name for bit, name in enumerate(_RESET_CAUSES) if self.reset_cause >> bit & 1]
+        if self.reset_cause & _RESTORED:
+            named.append("state restored")
+        return ", ".join(named) or "unknown"
+
+
+def read_status(payload: bytes) -> ArduinoStatusCommand:
+    """Return the status in the 20 bytes of `x`."""
+    return ArduinoStatusCommand(*STATUS.unpack(payload))

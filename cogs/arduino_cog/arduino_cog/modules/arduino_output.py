@@ -1,0 +1,57 @@
+"""Outputs and setpoints on their way to the Arduino."""
+
+from __future__ import annotations
+
+from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.wire import OUTPUT, pack_setpoint
+from up.base_module import BaseModule
+from up.commands.output_command import OutputCommand
+from up.commands.setpoint_command import SetpointCommand
+from up.mode import WITH_ARDUINO
+from up.needs import needs
+
+_pack_output = OUTPUT.pack
+
+
+class ArduinoOutput(BaseModule):
+    """Sends `up.output.set` as `u` and `up.setpoint.set` as `S`; never in thesis framing.
+
+    An Output that does not leave at once is replaced by the next one: an old one has no worth.
+    """
+
+    MODES = WITH_ARDUINO
+
+    arduino = needs(ArduinoProvider)
+
+    def _execute_initialization(self) -> None:
+        self._send_command = self.arduino.serial.send_command
+        if not self.arduino.is_checked:
+            self._log_info("thesis framing: the Raspberry Pi's Outputs and setpoints are not sent")
+            return
+        self.up.command_executor.register_command(OutputCommand, self.on_output)
+        self.up.command_executor.register_command(SetpointCommand, self.on_setpoint)
+
+    def on_output(self, command: OutputCommand) -> None:
+        """Send servo positions; struct.error for what does not fit."""
+        self._send_command(
+            0x75,
+            _pack_output(
+                command.ailerons_us,
+                command.elevator_us,
+                command.throttle_us,
+                command.rudder_us,
+                command.sequence,
+            ),
+            True,
+        )
+
+    def on_setpoint(self, command: SetpointCommand) -> None:
+        """Send an attitude; ValueError for what is out of range."""
+        payload = pack_setpoint(
+            command.roll_deg,
+            command.pitch_deg,
+            command.yaw_rate_deg_s,
+            command.throttle_us,
+            command.lifetime_ms,
+        )
+        self._send_command("S", payload, True)

@@ -1,0 +1,49 @@
+"""Panic Mode on its way to the Arduino (thesis 3.2.5)."""
+
+from __future__ import annotations
+
+from twisted.python.failure import Failure
+
+from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.wire import pack_panic
+from up.base_module import BaseModule
+from up.commands.panic_command import PanicCommand
+from up.commands.refusal import CommandRefusedError
+from up.mode import WITH_ARDUINO
+from up.needs import needs
+
+
+class ArduinoPanic(BaseModule):
+    """Tells the Arduino how often to forward, when that changes and when it was reset."""
+
+    MODES = WITH_ARDUINO
+
+    arduino = needs(ArduinoProvider)
+
+    _newest: PanicCommand | None = None
+
+    def _execute_initialization(self) -> None:
+        self.up.command_executor.register_command(PanicCommand, self.on_panic)
+        self.arduino.add_board_listener(self.on_board_begun)
+
+    def on_panic(self, command: PanicCommand) -> None:
+        """Pass it on; an Arduino that is not there hears of it when it comes."""
+        self._newest = command
+        if self.arduino.connected:
+            self._tell(command)
+
+    def on_board_begun(self) -> None:
+        """Tell a board that may know nothing yet, unless it forwards at its own pace anyway."""
+        if self._newest is not None and self._newest.panic:
+            self._tell(self._newest)
+
+    def _tell(self, command: PanicCommand) -> None:
+        payload = pack_panic(command.panic, command.delay_ms)
+        if self.arduino.is_checked:
+            self.arduino.request("p", payload).addErrback(self._on_refused)
+        else:
+            self.arduino.serial.send_command("p", payload)
+
+    def _on_refused(self, failure: Failure) -> None:
+        failure.trap(CommandRefusedError)
+        self._log_warning(f"panic was not passed on: {failure.getErrorMessage()}")

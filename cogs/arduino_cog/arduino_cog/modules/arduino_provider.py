@@ -1,0 +1,349 @@
+"""The Arduino as a module: its readings on the bus, its state in telemetry (thesis 4.2.4)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from serial_cog.config import ARDUINO
+from serial_cog.modules.serial_provider import SerialProvider
+from twisted.internet.defer import Deferred
+
+from arduino_cog.commands.arduino_status_command import (
+    STATUS,
+    VERSION,
+    ArduinoStatusCommand,
+    read_status,
+)
+from arduino_cog.exchange import Exchange
+from arduino_cog.gains_wire import THREE_AXES_SIZE, TWO_AXES_SIZE
+from arduino_cog.profile import PROFILE_SIZE
+from arduino_cog.wire import (
+    ATTITUDE,
+    INPUTS,
+    ORIENTATION,
+    OUTPUTS,
+    Reason,
+    flight_mode_name,
+    reason_text,
+)
+from up.base_started_module import BaseStartedModule
+from up.commands.command_executor import CommandExecutor
+from up.commands.orientation_command import OrientationCommand
+from up.commands.origin import Origin
+from up.commands.refusal import Code, CommandRefusedError
+from up.commands.roles import Role
+from up.commands.rx_command import RXCommand
+from up.commands.servo_command import ServoCommand
+from up.commands.system_commands import LinkStateCommand
+from up.config import ConfigErrors, ConfigProblem
+from up.mode import WITH_ARDUINO
+from up.needs import needs
+from up.system.clock import Timer
+
+LINK = "arduino"
+ORIGIN = Origin(LINK, Role.BOARD, priority=10)
+ALIVE_S = 0.4
+STATUS_LIMIT_S = 1.0
+_VETO = "arduino firmware"
+_ABSENT = "the Arduino is not connected"
+_START = ord("s")
+_ECHOES = {"s": 0, "a": 0, "d": 0, "h": 2, "b": 2, "B": 2, "l": 8, "p": 3, "t": 48}
+_AXES = ("ailerons", "elevator", "throttle", "rudder")
+
+_unpack_orientation = ORIENTATION.unpack
+_unpack_inputs = INPUTS.unpack
+_unpack_outputs = OUTPUTS.unpack
+
+
+class ArduinoProvider(BaseStartedModule):
+    """Publishes what the Arduino sends, keeps it started, and asks it for what others want.
+
+    Orientation (`O`, `o`), receiver inputs (`i`), servo outputs (`r`) and status (`x`) become
+    Commands of the link ``arduino``. The Start Command is sent until the Arduino forwards, the
+    veto of this program at least every 400 ms. ``add_board_listener`` tells when a board answers
+    that may know nothing yet: it was connected, or it was reset.
+    """
+
+    MODES = WITH_ARDUINO
+
+    serial = needs(SerialProvider)
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.status: ArduinoStatusCommand | None = None
+        self.servo: ServoCommand | None = None
+        self.counters: Counter[str] = Counter()
+        self._servo_s = 0.0
+        self._status_s = float("-inf")
+        self._begun: list[Callable[[], object]] = []
+        self._alive: Timer | None = None
+        self._refusals_named: set[tuple[str, str]] = set()
+
+    def load(self) -> bool:
+        """Return True; a Raspberry Pi that shall control needs more than thesis framing brings."""
+        if (
+            self.context.application.flight_controller == "raspberry"
+            and self.context.config(ARDUINO).framing == "thesis"
+        ):
+            path = self.context.config_folder / ARDUINO.filename
+            what = (
+                "framing: thesis brings no receiver inputs, which 'flight controller: raspberry'"
+                " (config.yml) needs: choose checked here, or arduino there"
+            )
+            raise ConfigErrors([ConfigProblem(path, 1, 1, what)])
+        return True
+
+    @property
+    def is_checked(self) -> bool:
+        """Return whether checked framing is spoken, so that the Arduino takes every type."""
+        return self.serial.framing == "checked"
+
+    @property
+    def connected(self) -> bool:
+        """Return whether frames come."""
+        return self.serial.connected
+
+    @property
+    def is_armed(self) -> bool | None:
+        """Return whether the Arduino is armed; None while that is not known."""
+        return None if self.status is None else self.status.is_armed
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the state of the Arduino, and the servo outputs."""
+        status = self.status
+        servo = self.servo
+        age_ms = None if servo is None else round((self._seconds() - self._servo_s) * 1000)
+        counters = {**self.counters, "unmatched": self.exchange.unmatched}
+        return {
+            "arduino": {
+                "connected": self.connected,
+                "framing": self.serial.framing,
+                "switch": status and status.switch_position,
+                "failsafe": status and status.is_failsafe,
+                "loop_us": status and status.loop_us,
+                "late_us": status and status.late_us,
+                "frame_errors": status and status.frame_errors,
+                "reset_cause": status and status.reset_causes,
+            },
+            "armed": self.is_armed,
+            "flight_mode": status and flight_mode_name(status.mode),
+            "servo": {axis: servo and getattr(servo, f"{axis}_us") for axis in _AXES},
+            "age_ms": {"servo": age_ms},
+            "source": {"servo": servo and LINK},
+            "counters": {"arduino": counters},
+        }
+
+    def add_board_listener(self, listener: Callable[[], object]) -> None:
+        """Call ``listener`` whenever a board answers that may know nothing yet."""
+        self._begun.append(listener)
+
+    def request(
+        self, type_: str, payload: bytes = b"", *, answer: str = "K", may_repeat: bool = True
+    ) -> Deferred[bytes]:
+        """Ask the Arduino; the result is the payload of its answer (docs/protocols.md 2.3).
+
+        Fails with CommandRefusedError; an Arduino that does not answer is asked once more where
+        ``may_repeat``. Raises CommandRefusedError when none is connected.
+        """
+        self.require_connected()
+        return self.exchange.request(type_, payload, answer=answer, may_repeat=may_repeat)
+
+    def require_connected(self) -> None:
+        """Raise CommandRefusedError when no Arduino is connected."""
+        if not self.connected:
+            raise CommandRefusedError(_ABSENT, Code.UNAVAILABLE)
+
+    def require_checked(self, what: str) -> None:
+        """Raise CommandRefusedError where thesis framing has no message for ``what``."""
+        if not self.is_checked:
+            raise CommandRefusedError(
+                f"{what} needs the firmware of this project: arduino.yml says framing: thesis,"
+                " which has no message for it"
+            )
+
+    def send_stream(self, type_: str, payload: bytes) -> int | None:
+        """Send one of a stream that nobody answers; only the newest of a type waits."""
+        return self.serial.send_command(type_, payload, True)
+
+    def _execute_initialization(self) -> None:
+        executor: CommandExecutor = self.up.command_executor
+        self._execute = executor.execute_command
+        self._seconds = self.context.reactor.seconds
+        self.exchange = Exchange(self.context.reactor, self.serial.send_command)
+        self._veto_changed_before = self.up.vetoes.on_changed
+        self.up.vetoes.on_changed = self._on_veto_changed
+        self.up.vetoes.report(LINK, (_ABSENT,))
+        self._subscribe()
+        self.serial.add_listener(self)
+
+    def _execute_start(self) -> bool:
+        if self.is_checked:
+            self._keep_alive()
+        return True
+
+    def _execute_stop(self) -> None:
+        if self._alive is not None and self._alive.active():
+            self._alive.cancel()
+        self._alive = None
+        self.exchange.fail_all("Raspilot stops")
+
+    def _subscribe(self) -> None:
+        add = self.serial.add_handler
+        add("r", self._on_outputs, OUTPUTS.size)
+        add("T", lambda payload: self.exchange.on_value("T", payload), TWO_AXES_SIZE)
+        if not self.is_checked:
+            add("o", self._on_attitude, ATTITUDE.size)
+            add("!", self._on_refused_bare, 1)
+            for letter, size in _ECHOES.items():
+                add(letter, self._on_echo, size)
+            return
+        add("O", self._on_orientation, ORIENTATION.size)
+        add("i", self._on_inputs, INPUTS.size)
+        add("x", self._on_status, STATUS.size)
+        add("K", self._on_confirmed, 2)
+        add("!", self._on_refused, 3)
+        add("m", lambda payload: self.exchange.on_value("m", payload), 1)
+        add("G", lambda payload: self.exchange.on_value("G", payload), THREE_AXES_SIZE)
+        add("C", lambda payload: self.exchange.on_value("C", payload), PROFILE_SIZE)
+
+    def on_line_opened(self) -> None:
+        """Greet whoever is at the other end of the line."""
+        self._status_s = float("-inf")
+        if self.is_checked:
+            self._send_veto()
+            self._send_start()
+
+    def on_line_lost(self) -> None:
+        """Nothing: silence is told apart."""
+
+    def on_line_heard(self) -> None:
+        """Say that the Arduino is there."""
+        self._log_info("the Arduino answers")
+        self.up.vetoes.report(LINK, ())
+        self._execute(LinkStateCommand(LINK, True))
+        self._tell_begun()
+
+    def on_line_silent(self) -> None:
+        """Say that the Arduino is gone; what it said last is not known any more."""
+        self.status = None
+        self.up.vetoes.report(LINK, (_ABSENT,))
+        self.exchange.fail_all(_ABSENT)
+        self._execute(LinkStateCommand(LINK, False))
+
+    def _on_orientation(self, payload: bytes) -> None:
+        sequence, yaw, pitch, roll, yaw_rate, pitch_rate, roll_rate = _unpack_orientation(payload)
+        # The frame was checked, its values were not: a comparison is false for NaN.
+        if (
+            -360.0 <= yaw <= 360.0
+            and -360.0 <= pitch <= 360.0
+            and -360.0 <= roll <= 360.0
+            and -4000.0 <= yaw_rate <= 4000.0
+            and -4000.0 <= pitch_rate <= 4000.0
+            and -4000.0 <= roll_rate <= 4000.0
+        ):
+            self._execute(
+                OrientationCommand(roll, pitch, yaw, roll_rate, pitch_rate, yaw_rate, sequence),
+                ORIGIN,
+            )
+        else:
+            self.counters["invalid_orientations"] += 1
+
+    def _on_attitude(self, payload: bytes) -> None:
+        yaw, pitch, roll = ATTITUDE.unpack(payload)
+        if -360.0 <= yaw <= 360.0 and -360.0 <= pitch <= 360.0 and -360.0 <= roll <= 360.0:
+            self._execute(OrientationCommand(roll, pitch, yaw), ORIGIN)
+        else:
+            self.counters["invalid_orientations"] += 1
+
+    def _on_inputs(self, payload: bytes) -> None:
+        inputs = _unpack_inputs(payload)
+        if max(inputs) <= 3000 and inputs[6] <= 63:
+            self._execute(RXCommand(*inputs), ORIGIN)
+        else:
+            self.counters["invalid_inputs"] += 1
+
+    def _on_outputs(self, payload: bytes) -> None:
+        outputs = _unpack_outputs(payload)
+        if max(outputs) > 3000:
+            self.counters["invalid_outputs"] += 1
+            return
+        self.servo = ServoCommand(*outputs)
+        self._servo_s = self._seconds()
+        self._execute(self.servo, ORIGIN)
+
+    def _on_status(self, payload: bytes) -> None:
+        status = read_status(payload)
+        self._status_s = self._seconds()
+        if status.version != VERSION:
+            self.up.vetoes.set(
+                _VETO,
+                f"the firmware speaks version {status.version} of the serial line, this program"
+                f" {VERSION}: flash the firmware that belongs to it",
+            )
+            return
+        self.up.vetoes.clear(_VETO)
+        previous, self.status = self.status, status
+        self.up.vetoes.report(LINK, status.veto_names)
+        if previous is not None and status.uptime_s < previous.uptime_s:
+            self._on_reset(status)
+        self._execute(status, ORIGIN)
+
+    def _on_reset(self, status: ArduinoStatusCommand) -> None:
+        self.counters["resets"] += 1
+        armed = ", and is armed" if status.is_armed else ""
+        self._log_warning(f"the Arduino was reset ({status.reset_causes}){armed}")
+        self._send_start()
+        self._tell_begun()
+
+    def _on_confirmed(self, payload: bytes) -> None:
+        if payload[0] != _START:
+            self.exchange.on_confirmed(chr(payload[0]), payload[1])
+
+    def _on_refused(self, payload: bytes) -> None:
+        type_, sequence, reason = chr(payload[0]), payload[1], reason_text(payload[2])
+        if payload[2] == Reason.VETO and self.status is not None:
+            reason += f" ({', '.join(self.status.veto_names)})"
+        if not self.exchange.on_refused(type_, sequence, reason):
+            self._note_refusal(type_, reason)
+
+    def _on_refused_bare(self, payload: bytes) -> None:
+        type_ = chr(payload[0]) if payload else ""
+        if not type_ or not self.exchange.on_refused(
+            type_, None, "an old firmware gives no reason"
+        ):
+            self._note_refusal(type_, "")
+
+    def _on_echo(self, payload: bytes) -> None:
+        """Take the confirmation of an old firmware; nothing waits for it."""
+
+    def _note_refusal(self, type_: str, reason: str) -> None:
+        """Count what a stream was refused for, and log each kind once."""
+        self.counters["refused_frames"] += 1
+        if (type_, reason) not in self._refusals_named:
+            self._refusals_named.add((type_, reason))
+            self._log_info(f"the Arduino refused {type_!r}: {reason or 'no reason given'}")
+
+    def _keep_alive(self) -> None:
+        """Say that this program lives, and start an Arduino that does not forward."""
+        self._alive = self.context.reactor.callLater(ALIVE_S, self._keep_alive)
+        self._send_veto()
+        if self._seconds() - self._status_s > STATUS_LIMIT_S:
+            self._send_start()
+
+    def _on_veto_changed(self) -> None:
+        self._veto_changed_before()
+        if self.is_checked:
+            self._send_veto()
+
+    def _send_veto(self) -> None:
+        self.send_stream("v", b"\x01" if self.up.vetoes.own else b"\x00")
+
+    def _send_start(self) -> None:
+        self.serial.send_command("s")
+
+    def _tell_begun(self) -> None:
+        for listener in self._begun:
+            listener()

@@ -1,0 +1,205 @@
+"""The gains that the Arduino flies, and their copy in pids.yml (thesis 3.3.2, 4.2.4)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from twisted.internet.defer import Deferred
+from twisted.python.failure import Failure
+
+from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
+from arduino_cog.gains_wire import pack_gains, read_gains, without_rudder
+from arduino_cog.modules.arduino_provider import ArduinoProvider
+from up.base_module import BaseModule
+from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
+from up.commands.refusal import Code, CommandRefusedError
+from up.flight_controller.gains import GainSet
+from up.flight_controller.pids_file import PIDS, PidsFile
+from up.mode import WITH_ARDUINO
+from up.needs import needs, wants
+from up.providers.base_mission_control_provider import BaseMissionControlProvider
+
+LOW_THROTTLE_US = 1050
+_VETO = PIDS.filename
+
+
+class PIDTuningsProvider(BaseModule):
+    """Keeps the gains of the Arduino and pids.yml together; the Arduino's are the truth.
+
+    When a board answers that may know nothing yet its gains are read. A good pids.yml is sent to
+    it once, only while it is disarmed and only where it differs or the EEPROM holds none. A set
+    from the ground is taken whole, in flight too, and saved after the Arduino confirmed it. An old
+    firmware (thesis framing) says nothing of arming: it gets pids.yml only when it is met for
+    the first time and its throttle output is low.
+    """
+
+    MODES = WITH_ARDUINO
+
+    arduino = needs(ArduinoProvider)
+    mission_control = wants(BaseMissionControlProvider)
+
+    def __init__(self) -> None:
+        self.held: GainSet | None = None
+        self._is_setting = False
+        self._is_pushed = False
+        self._is_told = False
+
+    def load(self) -> bool:
+        """Return whether the Arduino is the flight controller, so that its gains are flown."""
+        return bool(self.context.application.flight_controller == "arduino")
+
+    @property
+    def pids(self) -> GainSet | None:
+        """Return the gains that the Arduino holds, with pids.yml's navigation; None: not known."""
+        return None if self.held is None else self.held.completed(self._saved)
+
+    def _execute_initialization(self) -> None:
+        self._file = PidsFile(self.context.config_folder)
+        self._load()
+        self._is_thesis = not self.arduino.is_checked
+        self.arduino.add_board_listener(self.on_board_begun)
+        executor = self.up.command_executor
+        executor.register_command(PIDTuningsCommand, self.on_tunings)
+        executor.register_command(ArduinoStatusCommand, self.on_status)
+
+    def on_board_begun(self) -> None:
+        """Read the gains of a board that may be another one, or know nothing yet."""
+        self.held = None
+        self._is_told = False
+        if not self._is_thesis:
+            self._is_pushed = False
+        self._read().addCallbacks(lambda _: self._reconcile(), self._on_failed)
+
+    def on_status(self, status: ArduinoStatusCommand) -> None:
+        """Send pids.yml when a board that was armed, or not known to be disarmed, is disarmed."""
+        if self.held is not None:
+            self._reconcile()
+
+    def on_tunings(self, command: PIDTuningsCommand) -> Deferred[Any]:
+        """Answer a request, or take a set: the outcome is that of the Arduino."""
+        gains = command.gains
+        return self._answer() if gains is None else self._set(gains)
+
+    def _load(self) -> None:
+        self._saved, problem = self._file.load()
+        self._is_saved = (self.context.config_folder / PIDS.filename).exists()
+        self._is_good = problem is None
+        if problem is None:
+            self.up.vetoes.clear(_VETO)
+        else:
+            self._log_error(problem)
+            self.up.vetoes.set(_VETO, problem)
+
+    def _answer(self) -> Deferred[Any]:
+        if self.mission_control is None:
+            raise CommandRefusedError("no ground station is configured", Code.UNAVAILABLE)
+        return self._read().addCallback(self._send_values)
+
+    def _send_values(self, held: GainSet) -> None:
+        assert self.mission_control is not None
+        values = PIDTuningsValuesCommand.of(held.completed(self._saved))
+        if not self.mission_control.send_command(values):
+            raise CommandRefusedError("the ground station is not connected", Code.UNAVAILABLE)
+
+    def _read(self) -> Deferred[GainSet]:
+        type_ = "T" if self._is_thesis else "G"
+        return self.arduino.request(type_, answer=type_).addCallback(self._on_read)
+
+    def _on_read(self, payload: bytes) -> GainSet:
+        try:
+            self.held = read_gains(payload)
+        except ValueError as error:
+            raise CommandRefusedError(f"the Arduino's gains are not usable: {error}") from None
+        return self.held
+
+    def _reconcile(self) -> None:
+        """Send pids.yml to the board, if that is needed and harms nothing."""
+        if self._is_pushed or self._is_setting or not self._may_push():
+            return
+        self._is_pushed = True
+        wanted = self._in_form(self._saved)
+        if not self._differs(wanted):
+            self._log_info("the Arduino flies the gains of pids.yml")
+            return
+        self._log_info("the Arduino gets the gains of pids.yml, which differ from its own")
+        self._transmit(wanted).addErrback(self._on_failed)
+
+    def _may_push(self) -> bool:
+        """Return whether pids.yml may go to the board now: disarmed for certain, and good."""
+        if self.held is None or not self._is_good or not self._is_saved:
+            return False
+        if self._is_thesis:
+            servo = self.arduino.servo
+            return servo is not None and servo.throttle_us <= LOW_THROTTLE_US
+        if self.arduino.is_armed is not False:
+            self._tell_armed()
+            return False
+        return True
+
+    def _tell_armed(self) -> None:
+        """Say once that an armed board flies other gains than pids.yml."""
+        if self.arduino.is_armed and not self._is_told:
+            self._is_told = True
+            if self._differs(self._in_form(self._saved)):
+                self._log_warning(
+                    "the Arduino is armed and flies other gains than pids.yml has: they stay"
+                )
+
+    def _in_form(self, gains: GainSet) -> GainSet:
+        """Return a set in the form of the framing: an old firmware has no rudder gains."""
+        return without_rudder(gains) if self._is_thesis else gains
+
+    def _differs(self, wanted: GainSet) -> bool:
+        status = self.arduino.status
+        if status is not None and not status.are_gains_stored:
+            return True
+        held = self.held
+        return held is None or pack_gains(held) != pack_gains(wanted)
+
+    def _set(self, gains: GainSet) -> Deferred[Any]:
+        if self._is_thesis and gains.has_rudder:
+            raise CommandRefusedError("an old firmware (framing: thesis) has no rudder gains")
+        if self._is_setting:
+            raise CommandRefusedError("another set of gains is on its way")
+        return self._transmit(gains).addCallback(self._save, gains)
+
+    def _transmit(self, gains: GainSet) -> Deferred[Any]:
+        """Send a set; the result comes when the Arduino has it for certain."""
+        try:
+            payload = pack_gains(gains)
+        except ValueError as error:
+            raise CommandRefusedError(str(error), Code.INVALID) from None
+        if self._is_thesis:
+            self.arduino.require_connected()
+            self.arduino.serial.send_command("t", payload)
+        else:
+            confirmed = self.arduino.request("g" if gains.has_rudder else "t", payload)
+        self._is_setting = True
+        # Reading back says what is flown now; an old firmware confirms in no other way.
+        done = self._read() if self._is_thesis else confirmed.addCallback(lambda _: self._read())
+        done.addCallback(self._compare, payload)
+        return done.addBoth(self._settled)
+
+    def _compare(self, held: GainSet, payload: bytes) -> None:
+        form = held if len(payload) == len(pack_gains(held)) else without_rudder(held)
+        if pack_gains(form) != payload:
+            raise CommandRefusedError("the Arduino holds other gains than it was sent")
+
+    def _settled(self, outcome: Any) -> Any:
+        self._is_setting = False
+        return outcome
+
+    def _save(self, _: object, gains: GainSet) -> None:
+        """Keep what the Arduino confirmed."""
+        self._is_pushed = True
+        try:
+            self._file.save(gains.completed(self.held or gains))
+        except (OSError, ValueError) as error:
+            reason = f"the Arduino flies the new gains, but pids.yml was not saved: {error}"
+            self._log_error(reason)
+            raise CommandRefusedError(reason, Code.FAILED) from None
+        self._load()
+
+    def _on_failed(self, failure: Failure) -> None:
+        failure.trap(CommandRefusedError)
+        self._log_warning(f"gains: {failure.getErrorMessage()}")

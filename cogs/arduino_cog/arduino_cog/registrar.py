@@ -1,0 +1,12 @@
+"""What is done when the cog is registered."""
+
+from __future__ import annotations
+
+from up.cogs.up_registrant import UpRegistrant
+from up.flight_controller.pids_file import PIDS
+
+
+class Registrant(UpRegistrant):
+    """Registers the Arduino cog."""
+
+    CONFIG_FILES = (PIDS,)

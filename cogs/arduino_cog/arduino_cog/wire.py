@@ -1,0 +1,147 @@
+"""The payloads of the serial line as values, both directions (docs/protocols.md 2.3 and 2.4)."""
+
+from __future__ import annotations
+
+import math
+from enum import IntEnum
+from struct import Struct
+
+OUTPUTS = Struct(">4H")
+"""`r`: us ailerons, elevator, throttle, rudder."""
+
+INPUTS = Struct(">6HB")
+"""`i`: us ailerons, elevator, throttle, rudder, aux1, aux2; a validity bit for each."""
+
+ATTITUDE = Struct(">3f")
+"""`o`: deg yaw, pitch, roll."""
+
+ORIENTATION = Struct(">H6f")
+"""`O`: sequence; deg yaw, pitch, roll; deg/s yaw, pitch, roll rate."""
+
+OUTPUT = Struct(">5H")
+"""`u`: us ailerons, elevator, throttle, rudder; sequence of the orientation."""
+
+_SETPOINT = Struct(">3h2H")
+_LOCATION = Struct(">2f")
+_PANIC = Struct(">Bh")
+_I16 = Struct(">h")
+
+FLIGHT_MODES = {
+    "a": "ACRO",
+    "r": "RATE",
+    "f": "FBW",
+    "s": "SETPOINT",
+    "u": "OUTPUT",
+    "h": "RTH",
+}
+"""Flight mode letters of our firmware, and the names that telemetry has for them."""
+
+_I16_LEAST, _I16_MOST = -32768, 32767
+_CENTI = 100
+
+
+class Reason(IntEnum):
+    """Why the Arduino refuses (docs/protocols.md 2.5)."""
+
+    UNKNOWN_TYPE = 1
+    WRONG_SIZE = 2
+    OUT_OF_RANGE = 3
+    ONLY_DISARMED = 4
+    NOT_IN_THESIS_FRAMING = 5
+    TOO_OLD = 6
+    NOT_AT_AUTO = 7
+    THROTTLE_NOT_LOW = 8
+    RECEIVER_INVALID = 9
+    IMU_INVALID = 10
+    VETO = 11
+    NOT_STILL = 12
+
+
+_REASONS = {
+    Reason.UNKNOWN_TYPE: "unknown type",
+    Reason.WRONG_SIZE: "wrong size",
+    Reason.OUT_OF_RANGE: "out of range",
+    Reason.ONLY_DISARMED: "only while disarmed",
+    Reason.NOT_IN_THESIS_FRAMING: "not while in thesis framing",
+    Reason.TOO_OLD: "too old",
+    Reason.NOT_AT_AUTO: "the switch is not at AUTO",
+    Reason.THROTTLE_NOT_LOW: "the throttle is not low",
+    Reason.RECEIVER_INVALID: "the receiver is invalid",
+    Reason.IMU_INVALID: "the IMU is invalid",
+    Reason.VETO: "a veto",
+    Reason.NOT_STILL: "not still enough",
+}
+
+
+def reason_text(code: int) -> str:
+    """Return a reason of `!` in words."""
+    return _REASONS.get(code) or f"reason {code}"  # type: ignore[call-overload]
+
+
+def flight_mode_name(letter: int) -> str | None:
+    """Return the name of a flight mode's letter; None for one that is not known."""
+    return FLIGHT_MODES.get(chr(letter))
+
+
+def pack_panic(panic: bool, delay_ms: int) -> bytes:
+    """Return the payload of `p`; `delay_ms` is 10 to 1000, else ValueError."""
+    if not 10 <= delay_ms <= 1000:
+        raise ValueError(f"a panic delay is 10 to 1000 ms, not {delay_ms}")
+    return _PANIC.pack(bool(panic), delay_ms)
+
+
+def read_panic(payload: bytes) -> tuple[bool, int]:
+    """Return what `p` carries: whether to panic, and the delay in ms."""
+    panic, delay_ms = _PANIC.unpack(payload)
+    return bool(panic), delay_ms
+
+
+def pack_altitude(altitude_m: float) -> bytes:
+    """Return the payload of `h`: rounded half up, held within 16 bits; ValueError for NaN."""
+    return _I16.pack(min(max(_half_up(altitude_m), _I16_LEAST), _I16_MOST))
+
+
+def pack_heading(heading_deg: float) -> bytes:
+    """Return the payload of `b` and `B`: rounded half up, 0 to 359; ValueError for NaN."""
+    return _I16.pack(_half_up(heading_deg) % 360)
+
+
+def pack_location(latitude_deg: float, longitude_deg: float) -> bytes:
+    """Return the payload of `l`; ValueError for what is no place."""
+    if not (-90 <= latitude_deg <= 90 and -180 <= longitude_deg <= 180):
+        raise ValueError(f"no place: {latitude_deg}, {longitude_deg}")
+    return _LOCATION.pack(latitude_deg, longitude_deg)
+
+
+def pack_setpoint(
+    roll_deg: float,
+    pitch_deg: float,
+    yaw_rate_deg_s: float,
+    throttle_us: int | None,
+    lifetime_ms: int,
+) -> bytes:
+    """Return the payload of `S`; no throttle leaves it to the stick.
+
+    Raises ValueError for a value that is not finite or out of the range of its field.
+    """
+    throttle = throttle_us or 0
+    if throttle and not 1000 <= throttle <= 2000:
+        raise ValueError(f"a throttle is 1000 to 2000 us, not {throttle}")
+    if not 1 <= lifetime_ms <= 250:
+        raise ValueError(f"a setpoint lives 1 to 250 ms, not {lifetime_ms}")
+    return _SETPOINT.pack(
+        _centi(roll_deg, 180), _centi(pitch_deg, 90), _centi(yaw_rate_deg_s, 327), throttle,
+        lifetime_ms,
+    )  # fmt: skip
+
+
+def _half_up(value: float) -> int:
+    if not math.isfinite(value):
+        raise ValueError(f"{value} is not finite")
+    return math.floor(value + 0.5)
+
+
+def _centi(value: float, most: float) -> int:
+    if not -most <= value <= most:
+        raise ValueError(f"{value} is not within {most}")
+    return round(value * _CENTI)

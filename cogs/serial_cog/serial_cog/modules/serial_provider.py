@@ -1,0 +1,282 @@
+"""The serial line as a module: frames in both directions (thesis 3.1.2, 3.2.2)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any, Protocol
+
+from serial_cog.config import ARDUINO, SerialConfig, odd_speed
+from serial_cog.finder import Lister, list_ports
+from serial_cog.handlers import FrameHandler, FrameType, HandlerTable, type_byte
+from serial_cog.port_opener import PortOpener
+from up.base_started_module import BaseStartedModule
+from up.commands.command_executor import owner_of
+from up.mode import WITH_ARDUINO
+from up.protocols.frame import UNFINISHED_TIMEOUT_S, Frame
+from up.protocols.framing import FrameDecoder, FrameEncoder, make_framing
+from up.protocols.serial_line import SerialLine
+from up.system.clock import Timer
+
+TRY_ANOTHER_AFTER_S = 5.0
+
+
+class SerialListener(Protocol):
+    """What a user of the line hears of it, apart from frames."""
+
+    def on_line_opened(self) -> None:
+        """The port was opened, perhaps anew."""
+
+    def on_line_lost(self) -> None:
+        """The port is gone."""
+
+    def on_line_heard(self) -> None:
+        """Frames come: the first one is about to be handled."""
+
+    def on_line_silent(self) -> None:
+        """No frames come any more."""
+
+
+class SerialProvider(BaseStartedModule):
+    """Finds, opens and keeps the serial port; hands frames to handlers and sends frames.
+
+    An absent Arduino is no failure. ``connected`` means that frames came within ``silence_s``.
+    A handler that raises is logged with its name and counted; it harms no other.
+    """
+
+    CONFIG = ARDUINO
+    MODES = WITH_ARDUINO
+    DATA_SOURCE = True
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.lister: Lister = list_ports
+        self.counters: Counter[str] = Counter()
+        self._table = HandlerTable()
+        self._handlers = self._table.by_type
+        self._listeners: list[SerialListener] = []
+        self._line: SerialLine | None = None
+        self._retired: Counter[str] = Counter()
+        self._named: set[tuple[str, int]] = set()
+        self._is_heard = False
+        self._heard_s = 0.0
+        self._bytes_s = 0.0
+        self._newest_frame: Frame | None = None
+        self._expiry: Timer | None = None
+        self._silence: Timer | None = None
+
+    @property
+    def framing(self) -> str:
+        """Return ``checked`` or ``thesis``."""
+        config: SerialConfig = self.config
+        return config.framing
+
+    @property
+    def port(self) -> str:
+        """Return the port that is open, or was last; empty before the first."""
+        return self._opener.path if self._line is not None else ""
+
+    @property
+    def baud_rate(self) -> int:
+        """Return the speed of the line, baud."""
+        config: SerialConfig = self.config
+        return config.baud_rate
+
+    @property
+    def connected(self) -> bool:
+        """Return whether frames came within the last ``silence_s`` seconds."""
+        return self._is_heard
+
+    @property
+    def is_source_open(self) -> bool:
+        """Return whether the port is open now."""
+        return self._line is not None and self._line.is_open
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the counters of the line."""
+        counts: Counter[str] = Counter(self.counters)
+        counts.update(self._retired)
+        if self._line is not None:
+            counts.update(asdict(self._decoder.counters))
+            counts.update(asdict(self._line.counters))
+        return {"counters": {"serial": dict(counts)}}
+
+    def add_handler(self, type_: FrameType, handler: FrameHandler, payload_size: int = 0) -> None:
+        """Let ``handler(payload)`` take the frames of a type; raises ValueError.
+
+        A frame of another payload size than ``payload_size`` is dropped and counted, as is one
+        of a type that nobody takes.
+        """
+        if self._table.add(type_, handler, payload_size) and self._line is not None:
+            self._renew_decoder()
+
+    def remove_handler(self, type_: FrameType, handler: FrameHandler | None = None) -> None:
+        """Take one handler of a type back, or all of them; raises KeyError if there is none."""
+        if self._table.remove(type_, handler) and self._line is not None:
+            self._renew_decoder()
+
+    def add_listener(self, listener: SerialListener) -> None:
+        """Tell ``listener`` when the port opens and goes, and when frames begin and end."""
+        self._listeners.append(listener)
+
+    def send_command(
+        self, type_: FrameType, data: bytes = b"", newest_only: bool = False
+    ) -> int | None:
+        """Send a frame in one write; return its sequence, or None when it could not leave.
+
+        The sequence is 0 in thesis framing. With ``newest_only`` a frame of the same type that
+        still waits is replaced. Raises ValueError for more than 96 bytes of data.
+        """
+        line = self._line
+        if line is None or not line.is_open:
+            return None
+        number = type_ if isinstance(type_, int) else type_byte(type_)
+        encoder = self._encoder
+        frame = encoder.encode(number, data)
+        if newest_only:
+            line.write_newest(number, frame)
+        elif not line.write(frame):
+            return None
+        return encoder.last_sequence
+
+    def _execute_start(self) -> bool:
+        config: SerialConfig = self.config
+        self._encoder: FrameEncoder
+        self._decoder: FrameDecoder
+        self._encoder, self._decoder = make_framing(config.framing, self._table.sizes)
+        self._is_numbered = config.framing == "checked"
+        self._seconds = self.context.reactor.seconds
+        self._opener = PortOpener(config.port, config.baud_rate, self.lister)
+        warning = odd_speed(config)
+        if warning:
+            self._log_warning(warning)
+        self._line = SerialLine(
+            self.context.reactor,
+            self._opener,
+            on_bytes=self._on_bytes,
+            on_opened=self._on_opened,
+            on_lost=self._on_lost,
+            on_open_failed=self._on_open_failed,
+        )
+        self._line.start()
+        return True
+
+    def _execute_stop(self) -> None:
+        for timer in (self._expiry, self._silence):
+            if timer is not None and timer.active():
+                timer.cancel()
+        self._expiry = self._silence = None
+        if self._line is not None:
+            self._line.stop()
+        self._is_heard = False
+
+    def _renew_decoder(self) -> None:
+        """Let the decoder know another set of types; what it counted is kept."""
+        self._retired.update(asdict(self._decoder.counters))
+        _, self._decoder = make_framing(self.framing, self._table.sizes)
+
+    def _on_opened(self) -> None:
+        assert self._line is not None
+        self._log_info(f"opened {self._opener.path} at {self.baud_rate} baud, {self.framing}")
+        self._decoder.reset()
+        self._newest_frame = None
+        if self._encoder.opening:
+            self._line.write(self._encoder.opening)
+        self._heard_s = self._seconds()
+        self._watch_silence()
+        for listener in self._listeners:
+            listener.on_line_opened()
+
+    def _on_lost(self, why: str) -> None:
+        self._log_warning(f"lost {self._opener.path}: {why}; waiting for {self._opener.wanted}")
+        self._fall_silent()
+        for listener in self._listeners:
+            listener.on_line_lost()
+
+    def _on_open_failed(self, why: str) -> None:
+        self._log_warning(f"{why}; trying again")
+
+    def _on_bytes(self, data: bytes) -> None:
+        """Hand the frames in ``data`` to their handlers; every datum goes through here."""
+        now_s = self._bytes_s = self._seconds()
+        frames = self._decoder.feed(data, now_s)
+        if self._expiry is None:
+            self._expiry = self.context.reactor.callLater(UNFINISHED_TIMEOUT_S, self._expire)
+        if frames:
+            self._handle(frames, now_s)
+
+    def _handle(self, frames: list[Frame], now_s: float) -> None:
+        self._heard_s = now_s
+        if not self._is_heard:
+            self._is_heard = True
+            for listener in self._listeners:
+                listener.on_line_heard()
+        handlers = self._handlers
+        newest = self._newest_frame
+        for frame in frames:
+            # The sequence is part of the frame; in thesis framing equal frames are no repetition.
+            if frame == newest and self._is_numbered:
+                self.counters["duplicates"] += 1
+                continue
+            newest = frame
+            for handler in handlers.get(frame[0], ()):
+                try:
+                    handler(frame[1])
+                except Exception:  # noqa: BLE001 - one handler's fault must not cost others a frame
+                    self._handler_failed(handler, frame[0])
+        self._newest_frame = newest
+
+    def _handler_failed(self, handler: FrameHandler, type_: int) -> None:
+        self.counters["failed_handlers"] += 1
+        name = owner_of(handler)
+        if (name, type_) in self._named:
+            return
+        self._named.add((name, type_))
+        self.logger.failure(
+            "{name} failed while handling {type!r} (said once, then counted)",
+            name=name,
+            type=chr(type_),
+        )
+
+    def _expire(self) -> None:
+        """Drop an unfinished frame 100 ms after its newest byte."""
+        now_s = self._seconds()
+        left_s = self._bytes_s + UNFINISHED_TIMEOUT_S - now_s
+        if left_s > 0:
+            self._expiry = self.context.reactor.callLater(left_s, self._expire)
+            return
+        self._expiry = None
+        frames = self._decoder.expire(now_s)
+        if frames:
+            self._handle(frames, now_s)
+
+    def _watch_silence(self) -> None:
+        if self._silence is None:
+            limit_s = self.config.silence_s
+            self._silence = self.context.reactor.callLater(limit_s, self._check_silence)
+
+    def _check_silence(self) -> None:
+        self._silence = None
+        if not self.is_source_open:
+            return
+        limit_s: float = self.config.silence_s
+        silent_s = self._seconds() - self._heard_s
+        if self._is_heard and silent_s >= limit_s:
+            self._log_warning(f"no frame for {limit_s:g} s on {self._opener.path}")
+            self._fall_silent()
+        if silent_s >= TRY_ANOTHER_AFTER_S and self._opener.has_another():
+            self._log_warning(f"nothing is understood on {self._opener.path}: trying another port")
+            self._opener.pass_over()
+            assert self._line is not None
+            self._line.reopen()
+            return
+        wait_s = limit_s - silent_s if self._is_heard else limit_s
+        self._silence = self.context.reactor.callLater(wait_s, self._check_silence)
+
+    def _fall_silent(self) -> None:
+        if self._is_heard:
+            self._is_heard = False
+            for listener in self._listeners:
+                listener.on_line_silent()

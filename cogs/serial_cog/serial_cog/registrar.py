@@ -1,0 +1,12 @@
+"""What is done when the cog is registered."""
+
+from __future__ import annotations
+
+from serial_cog.config import ARDUINO
+from up.cogs.up_registrant import UpRegistrant
+
+
+class Registrant(UpRegistrant):
+    """Registers the serial cog."""
+
+    CONFIG_FILES = (ARDUINO,)
