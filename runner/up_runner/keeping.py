@@ -8,18 +8,22 @@ from collections.abc import Collection
 from pathlib import Path
 
 from up_runner.log_keeper import LogKeeper
+from up_runner.request import NAME
+
+# Everything that a runner ever puts into an instance's folder.
+_CONTENTS = frozenset(("notify", "state.json", ".state.json.tmp", "config", "profile"))
 
 
-def remains(folders: Collection[Path], logs: LogKeeper) -> set[str]:
-    """Return the names of all instances that have a folder or a log."""
-    names = logs.names()
+def remains(folders: Collection[Path]) -> set[str]:
+    """Return the names of all instances that have a folder.
+
+    A folder that holds anything else is somebody else's, whatever its name: a runner may be told
+    to use a folder that others use.
+    """
+    names: set[str] = set()
     for folder in folders:
         with contextlib.suppress(OSError):
-            names |= {
-                each.name
-                for each in folder.iterdir()
-                if each.is_dir() and not each.is_symlink() and not each.name.startswith(".")
-            }
+            names |= {each.name for each in folder.iterdir() if _is_ours(each)}
     return names
 
 
@@ -28,16 +32,26 @@ def prune(
 ) -> list[str]:
     """Remove all but the `keep` latest ended instances, and return whom; waits for the disk.
 
-    `in_use` are left alone and not counted.
+    `in_use` are left alone and not counted. Their logs go with them.
     """
-    ended = [name for name in remains(folders, logs) if name not in in_use]
+    ended = [name for name in remains(folders) if name not in in_use]
     ended.sort(key=lambda name: (max(logs.newest_s(name), _newest_s(folders, name)), name))
     gone = ended[: max(0, len(ended) - keep)]
     for name in gone:
         for folder in folders:
-            shutil.rmtree(folder / name, ignore_errors=True)
+            if _is_ours(folder / name):
+                shutil.rmtree(folder / name, ignore_errors=True)
         logs.remove(name)
     return gone
+
+
+def _is_ours(path: Path) -> bool:
+    if NAME.fullmatch(path.name) is None or path.is_symlink():
+        return False
+    try:
+        return all(each.name in _CONTENTS for each in path.iterdir())
+    except OSError:
+        return False
 
 
 def _newest_s(folders: Collection[Path], name: str) -> float:

@@ -73,13 +73,6 @@ class LogKeeper:
         shown = "".join(letter if letter.isprintable() else "?" for letter in lines[-1])
         return shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "..."
 
-    def names(self) -> set[str]:
-        """Return the instances that have a log."""
-        if not self.folder.is_dir():
-            return set()
-        found = (re.fullmatch(r"(.+)\.log(?:\.[0-9]+)?", each.name) for each in self._files())
-        return {match[1] for match in found if match}
-
     def newest_s(self, name: str) -> float:
         """Return when an instance's log was written last, by the wall clock; 0 without a log."""
         try:

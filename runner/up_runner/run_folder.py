@@ -80,10 +80,9 @@ class RunFolder:
         if found.st_uid != os.geteuid():
             raise RunFolderError(f"the run folder {self.path} belongs to user {found.st_uid}")
         if found.st_mode & 0o077:
-            # A service manager makes it 0755; nobody else may have put anything in it yet.
-            if found.st_mode & 0o022:
-                raise RunFolderError(f"the run folder {self.path} can be written by other users")
-            self.path.chmod(0o700)
+            raise RunFolderError(
+                f"the run folder {self.path} is open to other users; chmod 700 closes it"
+            )
 
     def _take_lock(self) -> None:
         lock = os.open(

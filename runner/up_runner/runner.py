@@ -95,8 +95,8 @@ class Runner:
                 f"port {self._config.port} cannot be listened on: {error.socketError}; "
                 "port in runner.yml or --port names another"
             ) from None
-        self._log.info("listens on port {port}", port=self.port)
         self.instances.open()
+        self._log.info("listens on port {port}", port=self.port)
         self._notifier.ready(self.instances.summary())
         self._pinger.start()
         if self._config.autostart.aircraft:

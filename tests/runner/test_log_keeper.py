@@ -74,7 +74,6 @@ def test_names_with_dots_are_told_apart(tmp_path):
     for name in ("a.log", "a.log.1", "a.log.1.log", "a.log.log.2", "a.b.log", "other.txt"):
         (tmp_path / name).write_text("")
     keeper = LogKeeper(tmp_path, 10, 1)
-    assert keeper.names() == {"a", "a.log.1", "a.log", "a.b"}
     keeper.remove("a")
     assert sorted(files(tmp_path)) == ["a.b.log", "a.log.1.log", "a.log.log.2", "other.txt"]
 
@@ -85,12 +84,29 @@ def test_the_oldest_traces_are_removed_those_in_use_stay(tmp_path):
         os.close(logs.open(name))
         for folder in (run, state):
             (folder / name).mkdir(parents=True)
-            (folder / name / "file").write_text("")
+            (folder / name / "profile").write_text("")
             os.utime(folder / name, (1000 + age, 1000 + age))
         os.utime(logs.path(name), (1000 + age, 1000 + age))
     (run / ".lock").write_text("")
     assert prune([run, state], logs, {"a", "c"}, 1) == ["b", "d"]
     assert sorted(path.name for path in run.iterdir()) == [".lock", "a", "c", "e"]
     assert sorted(path.name for path in state.iterdir()) == ["a", "c", "e"]
-    assert logs.names() == {"a", "c", "e"}
+    assert sorted(files(logs.folder)) == ["a.log", "c.log", "e.log"]
     assert prune([run, state], logs, {"a", "c"}, 1) == []
+
+
+def test_what_others_keep_in_the_same_folders_is_never_removed(tmp_path):
+    logs = LogKeeper(tmp_path, 10, 1)
+    (tmp_path / "photos").mkdir()
+    (tmp_path / "photos" / "state.json").write_text("")
+    (tmp_path / "photos" / "holiday.jpg").write_text("")
+    (tmp_path / "dpkg.log").write_text("")
+    (tmp_path / "bad name").mkdir()
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "profile").write_text("")
+    (tmp_path / "ours").mkdir()
+    (tmp_path / "ours" / "config").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "elsewhere")
+    assert prune([tmp_path], logs, ["elsewhere"], 0) == ["ours"]
+    left = {"photos", "dpkg.log", "bad name", "elsewhere", "link"}
+    assert {path.name for path in tmp_path.iterdir()} == left

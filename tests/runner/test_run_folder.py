@@ -24,16 +24,14 @@ def test_it_is_made_private(short_path):
     folder.take()
     assert stat.S_IMODE(folder.path.stat().st_mode) == 0o700
     folder.release()
-    folder.path.chmod(0o755)
-    folder.take()
-    assert stat.S_IMODE(folder.path.stat().st_mode) == 0o700
-    folder.release()
 
 
-def test_one_that_others_can_write_is_refused(short_path):
-    short_path.chmod(0o777)
-    with pytest.raises(RunFolderError, match="can be written by other users"):
+@pytest.mark.parametrize("mode", [0o777, 0o755, 0o710])
+def test_one_that_others_can_look_into_is_refused_and_left_as_it_is(short_path, mode):
+    short_path.chmod(mode)
+    with pytest.raises(RunFolderError, match="is open to other users; chmod 700 closes it"):
         RunFolder(short_path).take()
+    assert stat.S_IMODE(short_path.stat().st_mode) == mode
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a folder away")
