@@ -53,5 +53,8 @@ setup(
         "up-runner = up_runner.main:main",
         "up-proxy = up_proxy.main:main",
         "up-ground = up_ground.main:main",
+    ], "up.config_files": [
+        "runner = up_runner.config:RUNNER",
+        "proxy = up_proxy.config:PROXY",
     ]},
 )

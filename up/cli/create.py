@@ -101,7 +101,7 @@ def _create_part(values: argparse.Namespace) -> int:
     is_module = values.kind == "module"
     ending = "module" if is_module else "command"
     name = Name.of(values.name, ending=ending)
-    place = None if values.file else _place()
+    place = None if values.file else package_at(Path.cwd())
     words = _words(name, package=place.package if place else "")
     if is_module:
         template = f"module_{values.type}"
@@ -122,14 +122,6 @@ def _create_part(values: argparse.Namespace) -> int:
         if is_module and (place.root / MANIFEST_FILE).is_file():
             say(f"next: 'up explore -w' lists it in {MANIFEST_FILE}")
     return 0
-
-
-def _place() -> Application:
-    """Return the cog or the application that the current folder belongs to."""
-    try:
-        return package_at(Path.cwd())
-    except CliError:
-        return Application.find(Path.cwd())
 
 
 def _write_test(

@@ -45,22 +45,19 @@ def run(values: argparse.Namespace) -> int:
 
 
 def package_at(start: Path) -> Application:
-    """Return the package to explore: a cog's, from its inside or outside, or an application's.
+    """Return the package to work on: a cog's, from its inside or outside, or an application's.
 
-    Raises CliError where there is neither.
+    Raises NoApplicationError where there is neither, ConfigErrors for a broken UpFile.
     """
-    if (start / f"{REGISTRANT_MODULE}.py").is_file():
-        return _package(start)
-    inside = sorted(path.parent for path in start.glob(f"*/{REGISTRANT_MODULE}.py"))
-    if len(inside) == 1:
-        return _package(inside[0])
     if (start / UP_FILE).is_file():
         return Application.at(start)
+    inner = start / start.name.replace("-", "_")
+    for folder in (start, inner, *sorted(path.parent for path in start.glob(f"*/{MANIFEST_FILE}"))):
+        if (folder / f"{REGISTRANT_MODULE}.py").is_file():
+            return _package(folder)
     if (start / "modules").is_dir():
         return _package(start)
-    raise CliError(
-        f"{start} is neither a cog (no {REGISTRANT_MODULE}.py) nor an application (no {UP_FILE})"
-    )
+    return Application.find(start)
 
 
 def _package(folder: Path) -> Application:

@@ -53,7 +53,8 @@ def _install(missing: Sequence[WantedCog], wanted: Sequence[WantedCog], tell: Sa
 
 def _register_anew(application: Application) -> None:
     """Register in a new interpreter: this one does not see what pip has put beside it."""
-    command = [sys.executable, "-m", "up.cli", "--file", str(application.root)]
+    # -P: a cog's outer folder in the current one would hide the package inside it.
+    command = [sys.executable, "-P", "-m", "up.cli", "--file", str(application.root)]
     done = subprocess.run([*command, "gather", "--no-install"], check=False)
     if done.returncode != 0:
         raise CogError("the cogs are installed but not all of them are registered")

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from tests.support.application import write_application
-from tests.support.virtual_environment import REPOSITORY
+from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
 
 MODULE = (
     "from dataclasses import dataclass\n"
@@ -134,6 +134,41 @@ def test_schemas_of_every_file(up, application, tmp_path):
     assert gauge["properties"]["interval_s"]["maximum"] == 9
     for name in ("config", "disabled_modules", "UpFile"):
         assert (tmp_path / f"out/schemas/{name}.schema.json").exists()
+
+
+def test_files_of_other_programs_are_known_by_their_entry_points(tmp_path):
+    write_application(tmp_path / "plane", {"config/tool.yml": "port: 1\n"}, "plane")
+    tool = tmp_path / "tool"
+    (tool / "ground_tool").mkdir(parents=True)
+    (tool / "ground_tool/__init__.py").write_text(
+        "from dataclasses import dataclass\n"
+        "from up.config import ConfigFile, key\n"
+        "@dataclass(frozen=True, slots=True)\n"
+        "class ToolConfig:\n"
+        '    port: int = key(1, "Port.", minimum=1)\n'
+        'TOOL = ConfigFile("tool.yml", ToolConfig)\n'
+    )
+    (tool / "setup.py").write_text(
+        "from setuptools import setup\n"
+        "setup(name='ground-tool', version='1', packages=['ground_tool'],\n"
+        "      entry_points={'up.config_files': ['tool = ground_tool:TOOL']})\n"
+    )
+    environment = VirtualEnvironment(tmp_path / "environment")
+    plane = tmp_path / "plane"
+    assert "tool.yml: no module" in environment.up("check", cwd=plane).stderr
+    install = ("install", "--quiet", "--no-deps", "--no-build-isolation", "--use-pep517", str(tool))
+    environment.run("-m", "pip", *install, cwd=tmp_path)
+    assert "tool.yml" not in environment.up("check", cwd=plane).stderr
+    (plane / "config/tool.yml").write_text("port: 0\n")
+    assert "tool.yml:1:7: port:" in environment.up("check", cwd=plane, status=2).stderr
+    environment.up("schemas", "out", cwd=plane)
+    assert (plane / "out/tool.schema.json").exists()
+
+
+def test_explore_in_the_repositorys_root_is_about_raspilot(up):
+    outcome = up("explore", cwd=REPOSITORY)
+    assert outcome.status == 0
+    assert all(line.startswith("raspilot.") for line in outcome.out.splitlines())
 
 
 def test_explore_lists_and_writes(up, tmp_path):

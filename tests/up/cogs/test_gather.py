@@ -65,6 +65,13 @@ def test_what_a_person_registered_is_not_unregistered(environment, application, 
     assert registered(application) == {"alpha_cog": "manual"}
 
 
+def test_the_current_folder_may_be_the_one_of_the_cogs(environment, application, tree):
+    """The outer folder alpha_cog is no package, and must not hide the one that is."""
+    cogfile(application, BOTH)
+    environment.run("-P", "-m", "up.cli", "-f", str(application), "gather", cwd=tree)
+    assert registered(application) == {"alpha_cog": "cogfile", "beta_cog": "cogfile"}
+
+
 def test_an_edited_source_needs_no_new_gathering(environment, application, tree):
     cogfile(application, BOTH)
     environment.up("gather", cwd=application)
