@@ -17,6 +17,9 @@ from up_runner.record import Record
 from up_runner.request import Request
 from up_runner.upkeep import Upkeep
 
+SAME_AGAIN_S = 1.0
+_REMEMBERED = 100
+
 
 class Instances:
     """Starts and finds instances; at most `limit` at once, the traces of `kept` ended ones."""
@@ -37,6 +40,7 @@ class Instances:
         self._instances: dict[str, Instance] = {}
         self._upkeep = Upkeep(host, kept, lambda: list(self._instances))
         self._closed = False
+        self._failures: dict[str, tuple[float, Request, str]] = {}
         self._log = Logger(namespace="runner")
         host.on_change = self._on_instance_change
 
@@ -77,9 +81,13 @@ class Instances:
             return Answer(name, error="the runner is stopping")
         if len(self._instances) >= self._limit:
             return Answer(name, error=f"all {self._limit} instances of this host are in use")
+        if (error := self._failed_just_now(request)) is not None:
+            return Answer(name, error=error)
         instance = Instance(request, self._host.reactor, self._policy, self._host, keep=keep)
         self._instances[name] = instance
         error = await instance.start()
+        if error is not None:
+            self._remember_failure(request, error)
         return instance.answer(spawned=True, error=error)
 
     def status(self, name: str) -> Answer:
@@ -116,6 +124,20 @@ class Instances:
         if request.wants_configuration and not request.same_configuration(instance.request):
             error = f"{instance.name} runs with another configuration, which was not changed"
         return instance.answer(spawned=False, error=error)
+
+    def _failed_just_now(self, request: Request) -> str | None:
+        """Return why the same request failed a moment ago: asked in a loop it is not tried again.
+
+        A phone that repeats itself must not keep the machine busy with starts that fail.
+        """
+        at_s, failed, error = self._failures.get(request.aircraft, (0.0, None, ""))
+        is_recent = self._host.reactor.seconds() - at_s < SAME_AGAIN_S
+        return error if is_recent and failed == request else None
+
+    def _remember_failure(self, request: Request, error: str) -> None:
+        if len(self._failures) >= _REMEMBERED:
+            self._failures.clear()
+        self._failures[request.aircraft] = (self._host.reactor.seconds(), request, error)
 
     def _on_instance_change(self, name: str) -> None:
         instance = self._instances.get(name)

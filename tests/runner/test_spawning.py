@@ -98,6 +98,22 @@ def test_when_the_start_fails_all_askers_hear_so(runners):
     assert runner.status()["running"] is False
 
 
+def test_the_same_request_in_a_loop_does_not_start_a_process_each_time(runners):
+    runner = runners().start()
+    runner.write("blackbox/behaviour.yml", {"complaint": "no good"})
+    talk = runner.talk()
+    for _ in range(100):
+        assert "no good" in talk.ask({"aircraft": "glider-1"})["error"]
+    assert runner.log().count("started as") < 100
+    runner.write("blackbox/behaviour.yml", {})
+    assert talk.ask({"aircraft": "glider-2"})["spawned"] is True
+
+    def asked_again():
+        return talk.ask({"aircraft": "glider-1"})["spawned"]
+
+    wait_until(asked_again, "a moment later it is tried again")
+
+
 def test_several_instances_run_side_by_side_on_ports_of_their_own(runners):
     runner = runners().start()
     answers = [runner.spawn(f"glider-{number}") for number in range(4)]

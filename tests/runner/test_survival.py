@@ -154,7 +154,7 @@ def test_killed_at_any_moment_of_a_start_it_doubles_nobody(runners):
         answer = runner.ask(aircraft="glider-1")
         if not answer["running"]:
             # The runner died before the process could say that it was ready.
-            wait_until(lambda: runner.spawn()["running"], "it runs")
+            wait_until(lambda: runner.ask(aircraft="glider-1")["running"], "it runs")
         assert len(runner.instances()) == 1
         runner.terminate()
 
