@@ -1,0 +1,40 @@
+"""arduino.yml."""
+
+from pathlib import Path
+
+import pytest
+from serial_cog.config import ARDUINO, SerialConfig, odd_speed
+
+from up.config import ConfigErrors
+
+ROOT = Path(__file__).parents[3]
+
+
+def test_the_shipped_file_is_the_template():
+    assert (ROOT / "config" / "arduino.yml").read_text() == ARDUINO.template()
+
+
+def test_the_prototypes_file_is_read():
+    values = ARDUINO.parse("port: /dev/ttyAMA0\nbaud_rate: 9600\n", Path("arduino.yml"))
+    assert (values.port, values.baud_rate, values.framing) == ("/dev/ttyAMA0", 9600, "checked")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("framing: bare\n", "framing"),
+        ("baud_rate: 1200\n", "baud_rate"),
+        ("wait_for_arduino: true\n", "is gone"),
+        ("prot: /dev/ttyUSB0\n", "did you mean"),
+    ],
+)
+def test_mistakes_are_named(text, says):
+    with pytest.raises(ConfigErrors, match=says):
+        ARDUINO.parse(text, Path("arduino.yml"))
+
+
+def test_framings_and_speeds_that_seldom_go_together_are_said():
+    assert "9600 baud, not at 115200" in odd_speed(SerialConfig(framing="thesis"))
+    assert "framing: thesis" in odd_speed(SerialConfig(baud_rate=9600))
+    assert not odd_speed(SerialConfig())
+    assert not odd_speed(SerialConfig(framing="thesis", baud_rate=9600))
