@@ -20,8 +20,8 @@ PAUSED = select.EPOLLRDHUP
 """Reads nothing, hears of a peer that is gone."""
 
 _BATCH = 256
-_NEXT_S = 0.001
-_STAY_S = 0.005
+STAY_S = 0.01
+"""Longer than a tick of the kernel: a nearer timeout would cost a timer interrupt a line."""
 _log = UpLogger.get_logger("proxy")
 
 
@@ -58,6 +58,7 @@ class Poller:
         self._epoll = select.epoll()
         self._handlers: dict[int, Handler] = {}
         self._ending: list[Handler] = []
+        self.stay_s = STAY_S
         self.now_s = seconds()
 
     def start(self) -> None:
@@ -117,16 +118,16 @@ class Poller:
         """Handle the events that are there, and those that follow closely.
 
         Under load the next line comes before the reactor has finished its round: waiting for it
-        here, never longer than _STAY_S in all, saves that round.
+        here saves that round; the reactor's own affairs wait for at most twice `stay_s`.
         """
         poll = self._epoll.poll
         events = poll(0, _BATCH)
-        leave_s = self._seconds() + _STAY_S
+        leave_s = self._seconds() + self.stay_s
         while events:
             self._handle(events)
             if self.now_s >= leave_s:
                 return
-            events = poll(_NEXT_S, _BATCH)
+            events = poll(self.stay_s, _BATCH)
 
     def _handle(self, events: list[tuple[int, int]]) -> None:
         handlers = self._handlers

@@ -94,6 +94,7 @@ class Bench:
             limits=LimitsConfig(**limits),
         )
         self.proxy = Proxy(self.reactor, config)
+        self.proxy._poller.stay_s = 0.001
         self.proxy.start()
 
     def __enter__(self):
