@@ -81,3 +81,25 @@ def test_a_cog_from_outside_flies(environment, tmp_path, road):
     done = environment.up("start", cwd=plane, status=2)
     assert "lidar_cog cannot be imported" in done.stderr and "'up gather'" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_broken_file_does_not_keep_the_rest_from_running(environment, tmp_path):
+    environment.up("create", "new", "-n", "plane", cwd=tmp_path)
+    plane = tmp_path / "plane"
+    (plane / "modules/broken.py").write_text("x = = 1\n")
+    process = start(environment, "-m", "up.cli", "s", cwd=plane)
+    said = read_until(process, b"arming is refused")
+    assert b"modules/broken.py:1: syntax" in said
+    assert b"plane.modules.broken" in said
+    assert stop(process) == 0
+
+
+def test_mistakes_in_the_configuration_stop_the_start(environment, tmp_path):
+    environment.up("create", "new", "-n", "plane", cwd=tmp_path)
+    plane = tmp_path / "plane"
+    (plane / "config/config.yml").write_text("mode: sideways\nlog levl: info\n")
+    done = environment.up("start", cwd=plane, status=2)
+    lines = done.stderr.splitlines()
+    assert lines[0].startswith(f"{plane}/config/config.yml:1:7: mode: must be one of")
+    assert lines[1].startswith(f"{plane}/config/config.yml:2:1: unknown key")
+    assert "Traceback" not in done.stderr

@@ -5,7 +5,11 @@ from pathlib import Path
 import pytest
 
 from tests.support.application import plan_of, write_application
+from up.context import Context
 from up.loading.plan import Plan
+from up.mode import Mode
+from up.testing import StillClock
+from up.up import Up
 
 GOOD = "from up.base_module import BaseModule\n\n\nclass GoodModule(BaseModule):\n    pass\n"
 
@@ -179,6 +183,12 @@ def test_a_class_that_cannot_be_built_is_named(load, tmp_path, body, what):
     assert what in only_problem(plan)
     assert plan.problems[0].name.endswith(".modules.bad.Bad")
     assert names(plan) == ["GoodModule"]
+
+
+def test_what_is_broken_is_an_arming_veto_by_name(load, tmp_path):
+    plan = load({"modules/broken.py": "x = = 1\n"})
+    up = Up(plan, Context(StillClock(), Mode.AUTO, tmp_path))
+    assert [veto for veto in up.vetoes.own if ".modules.broken" in veto]
 
 
 def test_a_broken_file_can_be_accepted_by_name(tmp_path):
