@@ -105,7 +105,7 @@ def _names(cls: type[BaseCommand]) -> tuple[str, ...]:
 
 
 def _sentence(text: str | None) -> str:
-    return " ".join((text or "").split("\n\n")[0].split())
+    return " ".join((text or "").split("\n\n")[0].replace("``", "").split())
 
 
 def _cog_commands(problems: list[str]) -> Iterator[type[BaseCommand]]:

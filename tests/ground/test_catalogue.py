@@ -1,0 +1,90 @@
+"""Which Commands a ground may send."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from up_ground.catalogue import Catalogue, describe, fault_of, role_of
+
+PROTOCOLS = Path(__file__).parents[2] / "docs" / "protocols.md"
+
+
+@pytest.fixture(scope="module")
+def catalogue():
+    return Catalogue.installed()
+
+
+def rows():
+    """Return (name, direction, role) for every Command of the page."""
+    section = PROTOCOLS.read_text(encoding="utf-8").split("## 5 Commands")[1].split("## 6")[0]
+    return [
+        (match[1], match[2], match[3])
+        for match in re.finditer(r"^\| `([^`]+)`[^|]*\| ([^|]*) \| ([^|]*) \|", section, re.M)
+    ]
+
+
+def test_every_command_of_the_page_that_a_ground_may_send_is_listed(catalogue):
+    grounds = ("observer", "operator", "pilot", "any")
+    wanted = {name for name, _, role in rows() if any(word in role for word in grounds)}
+    assert {"up.arm", "android.speak", "arduino.pids.tunings", "up.heading.change"} <= wanted
+    assert wanted <= {cls.NAME for cls in catalogue.sendable()}
+
+
+def test_what_only_boards_and_modules_send_is_not_listed(catalogue):
+    hidden = {name for name, _, role in rows() if role in ("board", "–", "sensor")}
+    assert "up.system.stop" in hidden
+    assert not hidden & {cls.NAME for cls in catalogue.sendable()}
+
+
+def test_a_command_teaches_its_fields(catalogue):
+    text = "\n".join(describe(catalogue.get("up.telemetry.frequency")))
+    assert "frequency   a number between 20 and 10000 ms" in text
+    assert "[operator or more]" in text
+    assert "its beacon is echoed" in "\n".join(describe(catalogue.get("up.arm")))
+
+
+def test_a_mistyped_name_finds_its_neighbours(catalogue):
+    assert catalogue.suggestions("up.flightmode.set")[0] == "up.flight_mode.set"
+    assert "up.arm" in catalogue.suggestions("UP.ARM")
+    assert "android.speak" in catalogue.suggestions("speak")
+    assert catalogue.suggestions("zzzzzzzzzz") == []
+    assert catalogue.suggestions("") == []
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "sentence"),
+    [
+        ("up.flight_mode.set", {"mode": "FBW"}, ""),
+        ("up.flight_mode.set", {"mode": "ACRO"}, "mode must be one of"),
+        ("up.flight_mode.set", {}, "mode is missing"),
+        ("up.flight_mode.set", {"mode": "FBW", "mood": 1}, "has no field mood"),
+        ("up.telemetry.frequency", {"frequency": 5}, "between 20 and 10000 ms"),
+        ("arduino.pids.tunings", {"pids": {"ratePIDs": {}}}, "stabPIDs is missing"),
+    ],
+)
+def test_mistakes_are_found_before_anything_is_sent(catalogue, name, data, sentence):
+    fault = fault_of(catalogue.get(name), data)
+    assert sentence in fault
+    assert bool(fault) == bool(sentence)
+
+
+def test_roles(catalogue):
+    assert role_of(catalogue.get("up.arm")) == "pilot"
+    assert role_of(catalogue.get("up.heading.change")) == "depends"
+    assert role_of(catalogue.get("up.output.set")) == ""
+
+
+def test_two_commands_of_one_name_are_told_and_survived():
+    from up.commands.arming_commands import ArmCommand
+    from up.commands.command import BaseCommand
+
+    class Impostor(BaseCommand):
+        NAME = "up.arm"
+
+    class Nameless(BaseCommand):
+        pass
+
+    catalogue = Catalogue([ArmCommand, Impostor, Nameless])
+    assert catalogue.get("up.arm") is ArmCommand
+    assert len(catalogue.problems) == 2

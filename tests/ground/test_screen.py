@@ -1,0 +1,230 @@
+"""The picture: pure, so every moment can be looked at."""
+
+import re
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.ground.aircraft import frame
+from up.protocols.general_message import GeneralMessage
+from up_ground.canvas import MOST_COLUMNS, MOST_ROWS, Canvas, Style
+from up_ground.horizon import draw_horizon
+from up_ground.link_status import LinkState, LinkStatus
+from up_ground.panels import bar
+from up_ground.plain_line import plain_line
+from up_ground.screen import State, draw, render
+from up_ground.settings import Seat, Settings
+from up_ground.telemetry import NAME, Telemetry
+from up_ground.wording import age_text, number_text
+
+SGR = re.compile(r"\x1b\[[0-9;]*m")
+OURS = {f"\x1b[0;{style.value}m" for style in Style} | {"\x1b[0m"}
+
+
+def state(data=None, now_s=100.0, **status):
+    known = LinkStatus(LinkState.OPEN, now_s, is_aircraft_online=True, **status)
+    telemetry = Telemetry()
+    if data is not None:
+        telemetry.take(GeneralMessage(NAME, data, None, 1), now_s)
+    return State(Settings(), known, telemetry)
+
+
+def text_of(state, now_s=100.0, size=(80, 24)):
+    return draw(state, now_s, size).plain()
+
+
+def style_at(picture, text):
+    """Return the SGR that is in force where a text begins."""
+    row = next(each for each in picture.split("\n") if text in SGR.sub("", each))
+    place, seen, current = SGR.sub("", row).index(text), 0, ""
+    for part in re.split(r"(\x1b\[[0-9;]*m)", row):
+        if part.startswith("\x1b"):
+            current = part
+        elif seen + len(part) > place:
+            return current
+        else:
+            seen += len(part)
+    raise AssertionError(text)
+
+
+def test_everything_that_is_known_is_there():
+    picture = text_of(state(frame(vetoes=["gyro is warm", "AUX2 low"], armed=True)))
+    for text in (
+        "roll    +12.5 deg    +1.0 deg/s",
+        "pitch    -3.2 deg",
+        "yaw     271.0 deg",
+        "ATTITUDE arduino 0.01 s",
+        "flight controller (arduino)",
+        "flight mode FBW  switch AUTO",
+        "ARMED",
+        "vetoes gyro is warm; AUX2 low",
+        "LOCATION android 0.60 s",
+        "50.075500   14.437800 deg",
+        "home 1204 m, bearing 271 deg",
+        "altitude    311.4 m",
+        "heading 88, required 90 deg",
+        "battery 83 % phone connected",
+        "load 12 % memory 31 % panic no",
+        "ailerons  1511",
+        "elevator  1200",
+        "Arduino connected, checked",
+        "aircraft online",
+    ):
+        assert text in picture, text
+
+
+def test_what_is_not_known_is_two_dashes():
+    picture = text_of(state({}))
+    for text in ("roll       -- deg", "altitude       -- m", "battery -- %", "flight mode --"):
+        assert text in picture
+    assert "vetoes --" in picture
+    assert "None" not in picture
+    assert "null" not in picture
+
+
+def test_fresh_numbers_are_plain_and_old_ones_dim_with_their_age():
+    dim = "\x1b[0;2m"
+    dead = state(frame(age_ms={"orientation": 1200, "altitude": 10}))
+    picture = render(dead, 100.0, (80, 24))
+    assert style_at(picture, "roll  ") == dim
+    assert "ATTITUDE arduino 1.20 s" in SGR.sub("", picture)
+    assert style_at(picture, "altitude  ") != dim
+
+
+def test_a_silent_aircraft_greys_all_within_a_second():
+    alive = state(frame(armed=True))
+    texts = ("roll  ", "flight mode FBW", "ARMED", "home 1204", "battery 83", "ailerons  1511")
+    fresh, silent = render(alive, 100.1, (80, 24)), render(alive, 100.95, (80, 24))
+    for text in texts:
+        assert style_at(fresh, text) != "\x1b[0;2m", text
+        assert style_at(silent, text) == "\x1b[0;2m", text
+    assert "SILENT age 0.95 s" in SGR.sub("", silent)
+    assert not re.search(r"\x1b\[0;(37;44|30;43|32|33)m", silent)
+
+
+def test_panic_failsafe_and_a_lost_aircraft_are_loud():
+    data = frame(load={"panic": True, "delay_ms": 150}, arduino={"failsafe": True, "switch": "LOW"})
+    loud = state(data)
+    loud.status.is_aircraft_online = False
+    picture = render(loud, 100.0, (80, 24))
+    for text in ("PANIC 150 ms", "FAILSAFE", "aircraft offline"):
+        assert style_at(picture, text) == "\x1b[0;1;31m", text
+
+
+def test_a_broken_link_says_why_and_since_when():
+    broken = state(frame())
+    broken.status.failures = 3
+    broken.status.disconnected(LinkState.WAITING, 100.0, "cannot reach proxy:1: refused")
+    picture = text_of(broken, 107.0)
+    assert "down for 7.00 s, attempt 4" in picture
+    assert "cannot reach proxy:1: refused" in picture.splitlines()[-1]
+
+
+def test_the_seat_and_who_asks_for_it():
+    holder = state(frame(), seat=Seat.COMMAND, holder=1, is_holder_known=True, asked_by=3)
+    assert "seat command" in text_of(holder)
+    assert "ground 3 asks for the seat: press g" in text_of(holder)
+    listener = state(frame(), seat=Seat.LISTEN, holder=2, is_holder_known=True)
+    assert "seat listen (ground 2 commands)" in text_of(listener)
+
+
+@pytest.mark.parametrize(
+    "size", [(80, 24), (200, 60), (60, 40), (20, 5), (1, 1), (0, 0), (9999, 9999)]
+)
+def test_every_size_is_kept(size):
+    rows = text_of(state(frame()), size=size).split("\n")
+    assert len(rows) == max(1, min(size[1], MOST_ROWS))
+    assert max(map(len, rows)) <= max(1, min(size[0], MOST_COLUMNS))
+
+
+HOSTILE = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text(st.characters(codec="utf-8"), max_size=60)
+    | st.sampled_from(["\x1b[2J\x1b[?1049l", "\x9b5n", "\n\r\x07\x08", "\u202e", "\u0301" * 9]),
+    lambda inner: st.lists(inner, max_size=4),
+    max_leaves=4,
+)
+SHAPE = frame(load={"cpu": 1, "ram": 1, "panic": 1, "delay_ms": 1})
+
+
+@st.composite
+def hostile_frames(draw):
+    def spoil(value):
+        if isinstance(value, dict):
+            return {key: spoil(each) for key, each in value.items()}
+        return draw(HOSTILE)
+
+    return draw(HOSTILE) if draw(st.integers(0, 20)) == 0 else spoil(SHAPE)
+
+
+@settings(max_examples=60)
+@given(hostile_frames(), st.tuples(st.integers(0, 130), st.integers(0, 50)), st.text(max_size=80))
+def test_nothing_from_the_air_reaches_the_terminal_raw(data, size, notice):
+    spoilt = state(data if isinstance(data, dict) else {"mode": data})
+    spoilt.notice = notice
+    picture = render(spoilt, 100.2, size)
+    assert set(SGR.findall(picture)) <= OURS
+    for row in SGR.sub("", picture).split("\n"):
+        assert row.isprintable()
+        assert len(row) <= max(1, size[0])
+    line = plain_line(spoilt.status, spoilt.telemetry, 100.2)
+    assert line.isprintable()
+
+
+def horizon(roll_deg, pitch_deg):
+    canvas = Canvas(37, 9)
+    draw_horizon(canvas, 0, 0, (37, 9), (roll_deg, pitch_deg), False)
+    return canvas.plain().split("\n")
+
+
+def earth(rows, columns):
+    return sum(row[columns].count(":") for row in (each.ljust(37) for each in rows))
+
+
+def test_a_right_bank_raises_the_earth_on_the_right():
+    left, right = slice(0, 18), slice(19, 37)
+    rows = horizon(30, 0)
+    assert earth(rows, right) > earth(rows, left) + 20
+    rows = horizon(-30, 0)
+    assert earth(rows, left) > earth(rows, right) + 20
+
+
+def test_nose_up_shows_sky_and_nose_down_earth_in_any_bank():
+    everywhere = slice(0, 37)
+    for roll in (0, 45, 90, 180):
+        assert earth(horizon(roll, 20), everywhere) < earth(horizon(roll, -20), everywhere) - 50
+    assert earth(horizon(0, 80), everywhere) == 0
+
+
+def test_no_attitude_no_horizon():
+    assert "--" in "\n".join(horizon(None, 1.0))
+    assert "=" not in "\n".join(horizon(1.0, None))
+
+
+def test_bars():
+    assert bar(1500, 5) == "[  #  ]"
+    assert bar(2000, 5) == "[  ###]"
+    assert bar(1000, 5) == "[###  ]"
+    assert bar(2200, 5) == "[  ##>]"
+    assert bar(0, 5) == "[<##  ]"
+    assert bar(None, 5) == "[  |  ]"
+
+
+def test_numbers_and_ages():
+    assert number_text(None, 1, 6) == "    --"
+    assert number_text(-0.04, 1) == "0.0"
+    assert number_text(-0.04, 1, sign=True) == "+0.0"
+    assert number_text(123456.0, 1, 5) == "*****"
+    assert [age_text(each) for each in (None, -1, 0.5, 12.34, 120, 7200, 1e9)] == [
+        "--",
+        "0.00 s",
+        "0.50 s",
+        "12.3 s",
+        "2 min",
+        "2 h",
+        "days",
+    ]

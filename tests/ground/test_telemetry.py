@@ -1,0 +1,99 @@
+"""How old is what is known."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.ground.aircraft import frame
+from up.protocols.general_message import GeneralMessage
+from up_ground.telemetry import NAME, Telemetry
+
+
+def told(data=None, now_s=100.0, beacon=None):
+    telemetry = Telemetry()
+    telemetry.take(GeneralMessage(NAME, frame() if data is None else data, None, beacon), now_s)
+    return telemetry
+
+
+def test_nothing_is_known_before_the_first_frame():
+    telemetry = Telemetry()
+    assert telemetry.is_silent(0)
+    assert telemetry.age_s(0) is None
+    assert telemetry.reading_age_s("orientation", 0) is None
+    assert telemetry.is_stale("orientation", 0)
+    assert telemetry.rate_hz(0) is None
+
+
+def test_the_age_of_a_reading_is_that_on_board_and_on_the_way_and_since():
+    telemetry = told()
+    telemetry.delay_s = 0.1
+    assert telemetry.reading_age_s("orientation", 100.5) == pytest.approx(0.012 + 0.1 + 0.5)
+    assert telemetry.reading_age_s("nothing", 100.5) is None
+
+
+def test_everything_is_stale_before_a_second_of_silence_is_over():
+    telemetry = told()
+    assert not telemetry.is_stale("orientation", 100.5)
+    assert not telemetry.is_stale("battery", 100.5)
+    for reading in ("orientation", "rx", "location", "battery", "never told"):
+        assert telemetry.is_stale(reading, 100.95)
+
+
+@pytest.mark.parametrize(
+    ("reading", "fresh_ms", "stale_ms"),
+    [("orientation", 500, 950), ("location", 1100, 2000), ("battery", 60000, 130000)],
+)
+def test_a_dead_source_on_a_live_aircraft_is_stale(reading, fresh_ms, stale_ms):
+    assert not told(frame(age_ms={reading: fresh_ms})).is_stale(reading, 100)
+    assert told(frame(age_ms={reading: stale_ms})).is_stale(reading, 100)
+
+
+def test_frames_that_did_not_come_are_counted():
+    telemetry = told(beacon=10)
+    for beacon in (11, 14, 5, 6, 5000):
+        telemetry.take(GeneralMessage(NAME, {}, None, beacon), 101)
+    assert (telemetry.frames, telemetry.lost, telemetry.beacon) == (6, 2, 5000)
+
+
+def test_the_rate_is_measured_and_falls_in_silence():
+    telemetry = Telemetry()
+    for place in range(21):
+        telemetry.take(GeneralMessage(NAME, {}), place / 10)
+    assert telemetry.rate_hz(2.0) == pytest.approx(10)
+    assert telemetry.rate_hz(4.0) == pytest.approx(5)
+    assert telemetry.rate_hz(20.0) is None
+
+
+def test_another_message_is_no_telemetry():
+    telemetry = Telemetry()
+    assert not telemetry.take(GeneralMessage("up.system.state"), 1)
+    assert telemetry.frames == 0
+
+
+def test_a_field_of_a_wrong_type_is_not_known():
+    data = {"a": "1", "b": True, "c": [1], "d": 1e300, "e": 10**19, "f": {"g": None}, "h": float}
+    telemetry = told(data)
+    for path in (*("abcdeh"), "zz"):
+        assert telemetry.number(path) is None
+    assert telemetry.number("f", "g", "h") is None
+    assert telemetry.number("a", "b") is None
+    assert telemetry.flag("a") is None
+    assert telemetry.flag("b") is True
+    assert telemetry.text("b") is None
+    assert telemetry.texts("a") is None
+    assert told({"v": ["x\x1b", 1, "y"]}).texts("v") == ["x\\x1b", "y"]
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=20),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner),
+    max_leaves=10,
+)
+
+
+@given(st.dictionaries(st.sampled_from(["age_ms", "source", "a"]), JSON))
+def test_no_data_break_it(data):
+    telemetry = told(data)
+    telemetry.is_stale("a", 101)
+    telemetry.text("source", "a")
+    telemetry.number("a", "b")
