@@ -69,4 +69,6 @@ class VirtualEnvironment:
         }
         # No index at all, so that what a test does not give cannot come from anywhere.
         closed = {"PIP_CONFIG_FILE": os.devnull, "PIP_NO_INDEX": "1", "PIP_NO_CACHE_DIR": "1"}
+        # pip's own spelling of --no-build-isolation: setuptools is here and on no test's index.
+        closed["PIP_NO_BUILD_ISOLATION"] = "0"
         return {**kept, **closed, **(more or {})}

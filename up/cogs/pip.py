@@ -15,7 +15,12 @@ from up.cogs.cog_error import CogError
 from up.cogs.cogfile import WantedCog
 from up.cogs.installed import distribution_of
 from up.cogs.say import Say
-from up.cogs.source_tree import distribution_name, neighbours, normal_name
+from up.cogs.source_tree import (
+    builds_with_setuptools,
+    distribution_name,
+    neighbours,
+    normal_name,
+)
 
 FRAMEWORK = "raspilot"
 _SHOWN_LINES = 12
@@ -24,24 +29,30 @@ _SHOWN_LINES = 12
 def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], tell: Say) -> None:
     """Install cogs; raises CogError with pip's last lines and one sentence.
 
-    ``in_tree`` are all the path cogs of the Cogfile: their names, and those of the folders beside
-    them, are never fetched from the index, whoever depends on them.
+    All folders go to one call of pip, which resolves what they need of each other. ``in_tree`` are
+    all the path cogs of the Cogfile: their names, and those of the folders beside them, are never
+    fetched from the index, whoever depends on them.
     """
     check_environment()
-    explicit = {each.folder for each in missing if each.folder is not None}
+    folders = [each for each in missing if each.folder is not None]
+    remote = [each for each in missing if each.folder is None]
+    # Of a repository pip takes nothing anew while the version's number is the same.
+    replaced = [each for each in remote if each.spec.url and distribution_of(each.cog)]
     with tempfile.TemporaryDirectory(prefix="up-gather-") as scratch:
         constraints = Path(scratch, "constraints.txt")
-        constraints.write_text(_constraints(in_tree, explicit), encoding="utf-8")
+        given = {each.folder for each in folders if each.folder is not None}
+        constraints.write_text(_constraints(in_tree, given), encoding="utf-8")
         command = [sys.executable, "-m", "pip", "install", "--no-input", "--progress-bar", "off"]
         command += ["--disable-pip-version-check", "--use-pep517", "--constraint", str(constraints)]
-        if _can_build():
-            command.append("--no-build-isolation")
-        # Of a repository pip takes nothing anew while the version's number is the same.
-        replaced = [each for each in missing if each.spec.url and distribution_of(each.cog)]
-        run_pip([*command, *(word for each in missing for word in _arguments(each))], tell)
-        if replaced:
-            command += ["--force-reinstall", "--no-deps"]
-            run_pip([*command, *(word for each in replaced for word in _arguments(each))], tell)
+        here = ["--no-build-isolation"] if _can_build(given) else []
+        for options, cogs in (
+            (here, folders),
+            ([], remote),
+            (["--force-reinstall", "--no-deps"], replaced),
+        ):
+            if cogs:
+                wanted = [word for each in cogs for word in _arguments(each)]
+                run_pip([*command, *options, *wanted], tell)
 
 
 def run_pip(command: Sequence[str], tell: Say) -> None:
@@ -125,8 +136,10 @@ def _is_there(name: str) -> bool:
     return True
 
 
-def _can_build() -> bool:
-    """Return whether setuptools is here to build with, so that no network is needed for it."""
+def _can_build(folders: set[Path]) -> bool:
+    """Return whether setuptools is here to build the folders, so that no network is needed."""
+    if not all(builds_with_setuptools(folder) for folder in folders):
+        return False
     try:
         version = importlib.metadata.version("setuptools")
     except importlib.metadata.PackageNotFoundError:

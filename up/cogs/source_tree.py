@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import tomllib
 from pathlib import Path
+from typing import Any
 
 
 def distribution_name(folder: Path) -> str:
@@ -27,12 +28,22 @@ def neighbours(folder: Path) -> dict[str, Path]:
     return found
 
 
+def builds_with_setuptools(folder: Path) -> bool:
+    """Return whether setuptools, rather than another tool, builds the distribution."""
+    backend = _table(folder / "pyproject.toml", "build-system").get("build-backend", "setuptools")
+    return str(backend).startswith("setuptools")
+
+
 def _name_in_project(path: Path) -> str:
+    return str(_table(path, "project").get("name", ""))
+
+
+def _table(path: Path, name: str) -> dict[str, Any]:
     try:
-        project = tomllib.loads(path.read_text(encoding="utf-8")).get("project", {})
+        table = tomllib.loads(path.read_text(encoding="utf-8")).get(name, {})
     except (OSError, ValueError):
-        return ""
-    return str(project.get("name", "")) if isinstance(project, dict) else ""
+        return {}
+    return table if isinstance(table, dict) else {}
 
 
 def _name_in_setup(path: Path) -> str:
