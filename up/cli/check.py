@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterator
 
-from up.cli.system import cog_files, program_files, system_of
-from up.cogs.cogfile import COGFILE, load_cogfile
+from up.cli.system import cog_files, cogfile_problems, program_files, system_of
 from up.cogs.say import say
-from up.config import ConfigErrors
-from up.loading.application import Application
 from up.loading.checking import check_application
-from up.loading.external_modules import EXTERNAL_MODULES
 
 EXIT_MISTAKES = 2
 
@@ -22,7 +17,7 @@ def run(values: argparse.Namespace) -> int:
     system = system_of(values)
     files = (*cog_files(system.application), *program_files())
     findings = check_application(system.application, system.context, files)
-    problems = list(dict.fromkeys([*_cogfile_problems(system.application), *findings.problems]))
+    problems = list(dict.fromkeys([*cogfile_problems(system.application), *findings.problems]))
     for warning in findings.warnings:
         print(f"warning: {warning}", file=sys.stderr)  # noqa: T201 - the user's answer
     for problem in problems:
@@ -37,18 +32,3 @@ def run(values: argparse.Namespace) -> int:
         f" for {system.context.config_folder}"
     )
     return 0
-
-
-def _cogfile_problems(application: Application) -> Iterator[str]:
-    try:
-        wanted = load_cogfile(application.root)
-        registered = EXTERNAL_MODULES.load(application.root)
-    except ConfigErrors as errors:
-        yield from map(str, errors.problems)
-        return
-    for each in wanted:
-        if each.cog not in registered:
-            yield (
-                f"{application.root / COGFILE}: {each.cog} is wanted and not registered: run"
-                " 'up gather'"
-            )

@@ -6,7 +6,7 @@ import argparse
 import sys
 from collections.abc import Iterable
 
-from up.cli.system import system_of
+from up.cli.system import cogfile_problems, system_of
 from up.cogs.say import say
 from up.loading.checking import check_application
 from up.loading.plan import Plan
@@ -28,7 +28,7 @@ def run(values: argparse.Namespace) -> int:
     if plan.commands:
         say("Commands besides those of Up:")
         _table(("", cls.NAME, f"{cls.__module__}.{cls.__qualname__}") for cls in plan.commands)
-    for problem in findings.problems:
+    for problem in (*cogfile_problems(system.application), *findings.problems):
         print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
     return EXIT_MISTAKES if findings.problems else 0
 

@@ -14,6 +14,7 @@ from twisted.internet.task import Clock
 from up.cli.cli_error import CliError
 from up.cli.place import application_of
 from up.cogs.cog_error import CogError
+from up.cogs.cogfile import COGFILE, load_cogfile
 from up.cogs.registration import find_registrant
 from up.config import ConfigErrors, ConfigFile
 from up.context import Context
@@ -77,3 +78,19 @@ def cog_files(application: Application) -> Iterator[ConfigFile[Any]]:
         except CogError:
             continue
         yield from getattr(registrant, "CONFIG_FILES", ())
+
+
+def cogfile_problems(application: Application) -> Iterator[str]:
+    """Yield the mistakes in the Cogfile and what it wants that is not registered."""
+    try:
+        wanted = load_cogfile(application.root)
+        registered = EXTERNAL_MODULES.load(application.root)
+    except ConfigErrors as errors:
+        yield from map(str, errors.problems)
+        return
+    for each in wanted:
+        if each.cog not in registered:
+            yield (
+                f"{application.root / COGFILE}: {each.cog} is wanted and not registered: run"
+                " 'up gather'"
+            )

@@ -18,12 +18,12 @@ from up.version import VERSION
 
 def run(values: argparse.Namespace) -> int:
     """Upgrade the distribution that this command belongs to."""
-    command = [sys.executable, "-m", "pip", "install", *_what()]
+    command = [sys.executable, "-P", "-m", "pip", "install", *_what()]
     if values.dry_run:
         say(shlex.join(command))
         return 0
     pip.check_environment()
-    say(f"Up {VERSION} in {sys.prefix}: {shlex.join(command[1:])}")
+    say(f"Up {VERSION} in {sys.prefix}: {shlex.join(command[2:])}")
     pip.run_pip([*command, "--no-input", "--disable-pip-version-check"], say)
     say("done; 'up --version' tells the version")
     return 0

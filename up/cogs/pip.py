@@ -42,7 +42,16 @@ def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], tell: Sa
         constraints = Path(scratch, "constraints.txt")
         given = {each.folder for each in folders if each.folder is not None}
         constraints.write_text(_constraints(in_tree, given), encoding="utf-8")
-        command = [sys.executable, "-m", "pip", "install", "--no-input", "--progress-bar", "off"]
+        command = [
+            sys.executable,
+            "-P",
+            "-m",
+            "pip",
+            "install",
+            "--no-input",
+            "--progress-bar",
+            "off",
+        ]
         command += ["--disable-pip-version-check", "--use-pep517", "--constraint", str(constraints)]
         here = ["--no-build-isolation"] if _can_build(given) else []
         for options, cogs in (

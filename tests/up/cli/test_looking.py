@@ -91,6 +91,7 @@ def test_a_wanted_cog_that_is_not_registered_is_a_mistake(up, application, tmp_p
     outcome = up("check")
     assert outcome.status == 2
     assert "lidar_cog is wanted and not registered: run 'up gather'" in outcome.err
+    assert "run 'up gather'" in up("modules").err
 
 
 def test_another_configuration_folder(up, application, tmp_path):

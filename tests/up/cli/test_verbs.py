@@ -121,7 +121,7 @@ def test_update_follows_the_installation(up, monkeypatch, origin, words):
 
     monkeypatch.setattr(update.importlib.metadata, "distribution", lambda name: Installed())
     command = up("update", "--dry-run").out.splitlines()[-1]
-    assert shlex.split(command)[3:] == ["install", *words]
+    assert shlex.split(command)[4:] == ["install", *words]
 
 
 def test_a_reader_that_leaves_early_is_no_traceback(tmp_path):
