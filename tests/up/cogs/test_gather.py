@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -116,6 +117,17 @@ def test_from_the_index_with_a_version(environment, application, outside, index)
     done = environment.up("gather", cwd=application, environ=index.environ)
     assert "lidar_cog: is registered" in done.stdout
     assert len(index.asked) == asked, "nothing to do asks nobody"
+
+    newer = Path(shutil.copytree(outside, application.parent / "newer"))
+    setup = (newer / "setup.py").read_text()
+    (newer / "setup.py").write_text(setup.replace('version="0.1.0"', 'version="0.2.0"'))
+    build = "from setuptools import build_meta\nbuild_meta.build_wheel('dist')\n"
+    environment.run("-c", build, cwd=newer)
+    index.add(next((newer / "dist").glob("*0.2.0*.whl")))
+    cogfile(application, 'lidar-cog: {pypi: raspilot-lidar-cog, version: "0.2"}\n')
+    environment.up("gather", cwd=application, environ=index.environ)
+    tell = "import importlib.metadata as m; print(m.version('raspilot-lidar-cog'))"
+    assert environment.run("-c", tell, cwd=application).stdout == "0.2.0\n"
 
 
 def test_a_version_that_is_not_there_is_pips_last_lines_and_a_sentence(
