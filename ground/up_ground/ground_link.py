@@ -7,6 +7,7 @@ from typing import Protocol as Interface
 
 from twisted.internet.defer import Deferred
 from twisted.internet.endpoints import HostnameEndpoint
+from twisted.internet.error import ConnectionRefusedError, TimeoutError
 from twisted.internet.protocol import Factory
 from twisted.python.failure import Failure
 
@@ -214,8 +215,7 @@ class GroundLink:
     def _failed(self, failure: Failure) -> None:
         self._attempt = None
         if self.status.state is not LinkState.STOPPED:
-            reason = failure.getErrorMessage().rstrip(".")
-            self._retry(f"cannot reach {self._settings.address}: {reason}")
+            self._retry(f"cannot reach {self._settings.address}: {_why(failure)}")
 
     def _retry(self, reason: str) -> None:
         if self.status.state is LinkState.STOPPED:
@@ -224,3 +224,11 @@ class GroundLink:
         self.status.failures += 1
         self._timer = self._reactor.callLater(self._backoff.pause_s(), self._connect)
         self._listener.on_link()
+
+
+def _why(failure: Failure) -> str:
+    if failure.check(ConnectionRefusedError):
+        return "connection refused"
+    if failure.check(TimeoutError):
+        return f"no answer within {CONNECT_TIMEOUT_S:g} s"
+    return str(failure.getErrorMessage()).rstrip(".")

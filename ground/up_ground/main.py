@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import signal
 import sys
@@ -195,6 +196,10 @@ _VERBS: dict[str, Callable[[argparse.Namespace], int]] = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status (docs/ground.md)."""
+    # A terminal that is not UTF-8 shows what it cannot show as an escape.
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     parser, options = parse_arguments(arguments, os.environ)
     carry_out = _VERBS.get(options.verb)
     if carry_out is None:
@@ -206,6 +211,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader, such as 'head', has seen enough; nothing more can be written.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return EXIT_DONE
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
 
 
 if __name__ == "__main__":

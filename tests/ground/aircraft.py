@@ -1,4 +1,4 @@
-"""A small aircraft for the ground station's tests, and the program `up-ground` as users start it."""
+"""A small aircraft for the ground station's tests, and `up-ground` as users start it."""
 
 import contextlib
 import json

@@ -1,6 +1,7 @@
 """One connection on a virtual clock."""
 
 import socket
+from itertools import pairwise
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -139,7 +140,7 @@ def test_how_the_bytes_are_cut_makes_no_difference(data, cuts):
     with Bench() as whole, Bench() as pieces:
         whole.protocol.dataReceived(data)
         places = [0, *sorted(cuts), len(data)]
-        for start, end in zip(places, places[1:], strict=False):
+        for start, end in pairwise(places):
             pieces.protocol.dataReceived(data[start:end])
         assert pieces.owner.lines == whole.owner.lines
         assert pieces.owner.controls == whole.owner.controls

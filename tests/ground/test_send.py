@@ -134,8 +134,7 @@ def test_arming_is_not_sent_without_a_beacon(proxy, tmp_path):
 def test_a_closed_port_is_one_sentence(tmp_path):
     status, said, complained = ground(tmp_path, 1, "send", "up.disarm")
     assert (status, said) == (3, "")
-    assert complained.startswith("up-ground: cannot reach 127.0.0.1:1: ")
-    assert complained.count("\n") == 1
+    assert complained == "up-ground: cannot reach 127.0.0.1:1: connection refused\n"
 
 
 def test_who_commands_is_named_when_the_seat_is_taken(proxy, tmp_path):
@@ -217,12 +216,12 @@ def test_who_answers_no_hello_is_told_apart_from_a_proxy(tmp_path):
 
 
 def test_a_refusal_of_the_proxy_is_shown(tmp_path):
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        with Ground(tmp_path, server.getsockname()[1], "send", "up.disarm") as sending:
-            peer, _ = server.accept()
-            with peer:
-                peer.sendall(b'UP1 error code=full reason="as many grounds as it may"\n')
-                assert sending.wait() == 1
-    assert sending.complained == (
-        "up-ground: the proxy refuses: as many grounds as it may (full)\n"
-    )
+    with (
+        socket.create_server(("127.0.0.1", 0)) as server,
+        Ground(tmp_path, server.getsockname()[1], "send", "up.disarm") as sending,
+    ):
+        peer, _ = server.accept()
+        with peer:
+            peer.sendall(b'UP1 error code=full reason="as many grounds as it may"\n')
+            assert sending.wait() == 1
+    assert sending.complained == "up-ground: the proxy refuses: as many grounds as it may (full)\n"
