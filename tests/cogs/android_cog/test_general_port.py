@@ -5,6 +5,7 @@ import socket
 from pathlib import Path
 
 import pytest
+from twisted.logger import globalLogPublisher
 
 from tests.cogs.android_cog.flight import Flight
 from tests.cogs.peers import UdpPeer
@@ -280,5 +281,36 @@ def test_telemetry_that_json_cannot_hold_is_said_and_flies_on(tmp_path):
             assert f.up.command_executor.counters["failed_handlers"] == 0
             await until(lambda: phone.named("up.telemetry.update"))
             assert all(len(json.dumps(m)) < 16384 for m in phone.messages)
+
+    run_in_reactor(flight)
+
+
+def test_a_phone_that_comes_and_goes_does_not_fill_the_log(tmp_path):
+    async def flight():
+        async with Flight(tmp_path) as f:
+            said = []
+            globalLogPublisher.addObserver(said.append)
+            try:
+                for _ in range(20):
+                    phone = await f.phone()
+                    await until(lambda: f.provider.connected)
+                    await phone.close()
+                    await until(lambda: not f.provider.connected)
+            finally:
+                globalLogPublisher.removeObserver(said.append)
+            texts = [event.get("log_format") or "" for event in said]
+            assert sum("phone" in text for text in texts) == 2
+
+    run_in_reactor(flight)
+
+
+def test_a_flood_of_connections_leaves_the_newest(tmp_path):
+    async def flight():
+        async with Flight(tmp_path) as f:
+            peers = [await f.phone() for _ in range(50)]
+            peers[-1].say(battery(42, id="last"))
+            await peers[-1].answer("last")
+            await until(lambda: sum(peer.is_open for peer in peers) == 1)
+            assert peers[-1].is_open
 
     run_in_reactor(flight)

@@ -58,4 +58,7 @@ def test_nothing_waits_across_a_reconnect():
     telemetry.forget()
     clock.advance(10)
     assert sent == [(0, 1)]
+    telemetry.offer(frame(3))
+    clock.advance(10)
+    assert sent == [(0, 1), (10, 3)]
     assert not clock.getDelayedCalls()

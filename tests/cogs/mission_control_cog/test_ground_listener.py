@@ -101,6 +101,23 @@ def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_the_seat(tmp_pa
     run_in_reactor(fly)
 
 
+@pytest.mark.parametrize("token", ["00" * 16, "ab", "z" * 40])
+def test_another_token_takes_no_seat(tmp_path, token):
+    async def fly():
+        async with Aircraft(tmp_path, None, LISTENER) as a:
+            (holder,) = await grounds(a, b"UP1 aircraft=default seat=command\n")
+            hello = f"UP1 aircraft=default seat=command token={token}\n"
+            (thief,) = await grounds(a, hello.encode())
+            assert b"seat=listen" in thief.lines[0]
+            assert token.encode() not in thief.lines[0]
+            holder.say(heading(5, "mine"))
+            assert (await holder.answer("mine"))["name"] == "up.ack"
+            for peer in (holder, thief):
+                await peer.close()
+
+    run_in_reactor(fly)
+
+
 def test_who_asks_to_listen_does_not_get_the_seat(tmp_path):
     async def fly():
         async with Aircraft(tmp_path, None, LISTENER) as a:

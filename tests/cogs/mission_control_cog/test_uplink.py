@@ -2,6 +2,7 @@
 
 import pytest
 from mission_control_cog.uplink import Uplink
+from twisted.logger import globalLogPublisher
 
 from tests.cogs.mission_control_cog.system import Aircraft
 from tests.cogs.peers import Server
@@ -115,11 +116,21 @@ def test_a_refused_hello_is_tried_again_without_the_token(tmp_path):
     run_in_reactor(fly)
 
 
-@pytest.mark.parametrize("answer", [b'{"name": "up.heading.change"}\n', b"x" * 600, b"UP1 what\n"])
-def test_something_else_than_an_answer_ends_the_connection(tmp_path, answer):
+@pytest.mark.parametrize(
+    ("answer", "says"),
+    [
+        (b'{"name": "up.heading.change"}\n', "does not answer the hello"),
+        (b"UP1 what\n", "does not answer the hello"),
+        (b"x" * 600, "too long"),
+        (b"x" * 600 + b"\n", "too long"),
+    ],
+)
+def test_something_else_than_an_answer_ends_the_connection(tmp_path, answer, says):
     async def fly():
         server = Server(reactor)
         port = await server.open()
+        events = []
+        globalLogPublisher.addObserver(events.append)
         async with Aircraft(tmp_path, port) as a:
             peer = await server.peer()
             await until(lambda: peer.received)
@@ -128,6 +139,8 @@ def test_something_else_than_an_answer_ends_the_connection(tmp_path, answer):
             await accepted(server, 1)
             await until(lambda: a.provider.connected)
             assert a.up.command_receiver.counters["received"] == 0
+        globalLogPublisher.removeObserver(events.append)
+        assert any(says in str(event.get("why")) for event in events)
         await server.close()
 
     run_in_reactor(fly)
@@ -232,6 +245,7 @@ def test_a_command_to_the_ground_says_whether_it_left(tmp_path):
             assert a.provider.telemetry_content["counters"]["mission_control"] == {
                 "connects": 1,
                 "unsent": 1,
+                "telemetry_faults": 0,
             }
         await server.close()
 

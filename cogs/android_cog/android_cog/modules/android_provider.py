@@ -22,6 +22,7 @@ from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand, SystemStopCommand
 from up.commands.telemetry_commands import TelemetryCommand
+from up.log.limits import Limited
 from up.mode import Mode
 from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
 from up.protocols.general_message_link import GeneralMessageLink
@@ -31,6 +32,8 @@ from up.system.plain_peers import PlainPeers
 
 LINK = "android"
 PRIORITY = 0
+_LOG_INTERVAL_S = 10.0
+"""A phone that comes and goes, or two that replace each other, must not fill the log."""
 
 
 class AndroidProvider(BaseStartedModule):
@@ -80,6 +83,7 @@ class AndroidProvider(BaseStartedModule):
         self._panic: PanicCommand | None = None
         self._is_connected = False
         self._telemetry_faults = 0
+        self._said = Limited(clock, _LOG_INTERVAL_S)
         self._subscribe()
 
     def _subscribe(self) -> None:
@@ -109,6 +113,7 @@ class AndroidProvider(BaseStartedModule):
             "replaced": self._phone.replaced,
             "too_long": self._phone.dropped_too_long,
             "unasked_answers": self._route.unasked_answers,
+            "telemetry_faults": self._telemetry_faults,
         }
         return {"android": {"connected": self.connected}, "counters": {"android": counters}}
 
@@ -152,6 +157,7 @@ class AndroidProvider(BaseStartedModule):
         await self._ports.close()
         self._orientation.close()
         await self._phone.close()
+        self._said.stop()
 
     def _on_message(self, link: GeneralMessageLink, message: GeneralMessage) -> None:
         self._speaker = link
@@ -165,14 +171,14 @@ class AndroidProvider(BaseStartedModule):
         return self._stream_link if self._phone.is_stream(link) else self._datagram_link
 
     def _on_connected(self, link: GeneralMessageLink) -> None:
-        self._log_info(f"the phone is connected from {link.peer}")
+        self._said.log(self.logger.info, "the phone is connected from {peer}", peer=link.peer)
         self._forward.forget()
         if self._panic is not None:
             link.send(encode(self._panic.NAME, self._panic.data))
         self._tell_state()
 
     def _on_lost(self, link: GeneralMessageLink, why: str) -> None:
-        self._log_warning(f"the phone's link is lost: {why}")
+        self._said.log(self.logger.warn, "the phone's link is lost: {why}", why=why)
         self._route.on_lost(link)
         self._tell_state()
 
@@ -186,11 +192,11 @@ class AndroidProvider(BaseStartedModule):
         self.up.command_executor.execute_command(OrientationCommand(*frame), self._origin)
 
     def _on_orientation_connected(self) -> None:
-        self._log_info("the phone's orientation comes")
+        self._said.log(self.logger.info, "the phone's orientation comes")
         self._absence.cancel()
 
     def _on_orientation_lost(self) -> None:
-        self._log_warning("the phone's orientation is lost")
+        self._said.log(self.logger.warn, "the phone's orientation is lost")
         if (
             self.started
             and self.config.stop_if_orientation_is_lost

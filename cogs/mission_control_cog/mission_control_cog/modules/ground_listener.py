@@ -18,12 +18,15 @@ from up.base_started_module import BaseStartedModule
 from up.commands.command_link import CommandLink
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
+from up.log.limits import Limited
 from up.needs import needs
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.start_result import StartFailedError
 from up.system.plain_peers import PlainPeers
 
 LINK = "ground"
+_LOG_INTERVAL_S = 10.0
+"""A station that comes and goes must not fill the log."""
 
 
 class GroundListener(BaseStartedModule):
@@ -53,6 +56,7 @@ class GroundListener(BaseStartedModule):
         )
         self._port: Any = None
         self._has_holder = False
+        self._said = Limited(self.context.reactor, _LOG_INTERVAL_S)
         self.mission_control.add_outlet(self._grounds)
 
     @property
@@ -87,6 +91,7 @@ class GroundListener(BaseStartedModule):
         if port is not None:
             await port.stopListening()
         await self._grounds.close()
+        self._said.stop()
 
     def _open_link(self, send: Any) -> CommandLink:
         return self.up.open_link(LINK, Role(self.config.role), send, role_key=ROLE_KEY)
@@ -99,9 +104,9 @@ class GroundListener(BaseStartedModule):
 
     def _on_holder(self, peer: str) -> None:
         if peer:
-            self._log_info(f"the ground station {peer} commands")
+            self._said.log(self.logger.info, "the ground station {peer} commands", peer=peer)
         else:
-            self._log_warning("no ground station commands here any more")
+            self._said.log(self.logger.warn, "no ground station commands here any more")
         if self._has_holder != bool(peer):
             self._has_holder = bool(peer)
             self.up.command_executor.execute_command(LinkStateCommand(LINK, bool(peer)))

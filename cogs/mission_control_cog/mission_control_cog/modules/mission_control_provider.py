@@ -72,7 +72,11 @@ class MissionControlProvider(BaseMissionControlProvider):
     def telemetry_content(self) -> Mapping[str, Any]:
         """Return the counters of the link."""
         connects = 0 if self._uplink is None else self._uplink.connects
-        counters = {"connects": connects, "unsent": self.unsent}
+        counters = {
+            "connects": connects,
+            "unsent": self.unsent,
+            "telemetry_faults": self._telemetry_faults,
+        }
         return {"counters": {"mission_control": counters}}
 
     def transmit_telemetry(self, command: TelemetryCommand) -> None:
