@@ -7,7 +7,7 @@ from __future__ import annotations
 import json
 
 from twisted.internet.defer import Deferred
-from twisted.internet.endpoints import TCP4ClientEndpoint, TCP4ServerEndpoint
+from twisted.internet.endpoints import TCP4ClientEndpoint, TCP4ServerEndpoint, TCP6ClientEndpoint
 from twisted.internet.protocol import DatagramProtocol, Factory, Protocol
 
 from tests.support.reactor import until
@@ -104,7 +104,8 @@ async def connect(reactor, port, host="127.0.0.1"):
     """Connect a Peer."""
     factory = Factory.forProtocol(Peer)
     factory.noisy = False
-    return await TCP4ClientEndpoint(reactor, host, port).connect(factory)
+    endpoint = TCP6ClientEndpoint if ":" in host else TCP4ClientEndpoint
+    return await endpoint(reactor, host, port).connect(factory)
 
 
 class UdpPeer(DatagramProtocol):

@@ -29,7 +29,8 @@ class AndroidConfig:
     )
     address: str = key(
         "",
-        "Address of the interface that the phone connects to. Empty: every interface.",
+        "Address of the interface that the phone connects to. Empty: every one, by IPv4; '::': by "
+        "IPv6 as well.",
         max_length=64,
     )
     i_accept_plain: bool = key(

@@ -40,7 +40,9 @@ class ListenerConfig:
         maximum=65535,
     )
     address: str = key(
-        "", "Address of the interface to listen on. Empty: every interface.", max_length=64
+        "",
+        "Address of the interface to listen on. Empty: every one, by IPv4; '::': by IPv6 as well.",
+        max_length=64,
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:

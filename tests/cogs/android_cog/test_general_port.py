@@ -8,8 +8,9 @@ import pytest
 from twisted.logger import globalLogPublisher
 
 from tests.cogs.android_cog.flight import Flight
-from tests.cogs.peers import UdpPeer
+from tests.cogs.peers import UdpPeer, connect
 from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.tools import unavailable
 from up.commands.arming_commands import ArmCommand
 from up.commands.location_command import LocationCommand
 from up.commands.panic_command import PanicCommand
@@ -312,5 +313,26 @@ def test_a_flood_of_connections_leaves_the_newest(tmp_path):
             await peers[-1].answer("last")
             await until(lambda: sum(peer.is_open for peer in peers) == 1)
             assert peers[-1].is_open
+
+    run_in_reactor(flight)
+
+
+def test_ipv6_and_ipv4_on_one_port(tmp_path):
+    if not socket.has_dualstack_ipv6():
+        unavailable("no IPv6")
+
+    async def flight():
+        ports = "general port: 0\norientation port: 0\naddress: '::'\n"
+        async with Flight(tmp_path, ports=ports) as f:
+            for number, host in enumerate(("127.0.0.1", "::1")):
+                phone = await connect(reactor, f.up.ports["general"], host)
+                f.peers.append(phone)
+                phone.say(battery(10 + number, id=f"t{number}"))
+                await phone.answer(f"t{number}")
+                stranger = UdpPeer(reactor, host)
+                f.peers.append(stranger)
+                stranger.say(battery(20 + number), f.up.ports["general"], host)
+                await until(lambda n=number: f.telemetry["android"]["batteryLevel"] == 20 + n)
+            assert f.telemetry["counters"]["android"]["refused_peers"] == 0
 
     run_in_reactor(flight)
