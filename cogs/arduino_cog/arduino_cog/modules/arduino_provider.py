@@ -181,7 +181,7 @@ class ArduinoProvider(BaseStartedModule):
 
     def _execute_start(self) -> bool:
         if self.is_checked:
-            self._keep_alive()
+            self._alive = self.context.reactor.callLater(ALIVE_S, self._keep_alive)
         return True
 
     def _execute_stop(self) -> None:

@@ -1,0 +1,136 @@
+"""A small board of the tests' own, written from the protocols page, behind a Rig's port."""
+
+from __future__ import annotations
+
+import struct
+
+from arduino_cog.modules.arduino_altitude_module import ArduinoAltitudeModule
+from arduino_cog.modules.arduino_arming import ArduinoArming
+from arduino_cog.modules.arduino_flight_mode import ArduinoFlightMode
+from arduino_cog.modules.arduino_heading_module import ArduinoHeadingModule
+from arduino_cog.modules.arduino_location_module import ArduinoLocationModule
+from arduino_cog.modules.arduino_output import ArduinoOutput
+from arduino_cog.modules.arduino_panic import ArduinoPanic
+from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
+from serial_cog.modules.serial_provider import SerialProvider
+
+from tests.cogs.serial_cog.rig import Rig
+from up.commands.origin import INTERNAL
+
+MODULES = [
+    SerialProvider,
+    ArduinoProvider,
+    ArduinoArming,
+    ArduinoFlightMode,
+    ArduinoOutput,
+    ArduinoAltitudeModule,
+    ArduinoHeadingModule,
+    ArduinoLocationModule,
+    ArduinoPanic,
+    PIDTuningsProvider,
+]
+STREAMS = "hbBluSv"
+ARMED, AT_AUTO, RECEIVER, IMU, GAINS_STORED = 1, 2, 4, 8, 64
+FACTORY = tuple(float(each) for each in range(1, 19))
+PUSHED = "gt"
+
+
+class BoardRig(Rig):
+    """A system with the Arduino cog, and a board that answers as ``answers`` says.
+
+    ``refuse`` maps a type to the reason it is refused for; types in ``mute`` get no answer.
+    """
+
+    def __init__(self, folder, framing="checked", config=None, modules=()):
+        super().__init__([*MODULES, *modules], folder, framing, config)
+        self.gains = list(FACTORY)
+        self.refuse = {}
+        self.mute = set()
+        self.flags = AT_AUTO | RECEIVER | IMU | GAINS_STORED
+        self.vetoes = 0
+        self.uptime_s = 10
+        self.mode = b"f"
+        self.on_command = self.answer
+
+    @property
+    def arduino(self):
+        return self.module(ArduinoProvider)
+
+    def two_axes(self):
+        return struct.pack(">12f", *self.gains[0:6], *self.gains[9:15])
+
+    def answer(self, command):
+        letter = command.type if not isinstance(command, int) else ""
+        if letter in self.mute or not letter:
+            return
+        if letter in self.refuse:
+            self.port.send("!", bytes((ord(letter), command.sequence, self.refuse[letter])))
+            return
+        if letter == "g":
+            self.gains[:] = struct.unpack(">18f", command.payload)
+        elif letter == "t":
+            values = struct.unpack(">12f", command.payload)
+            self.gains[0:6], self.gains[9:15] = values[:6], values[6:]
+        if letter == "G":
+            self.port.send("G", struct.pack(">18f", *self.gains))
+        elif letter == "T":
+            self.port.send("T", self.two_axes())
+        elif letter not in STREAMS and self.port.framing == "checked":
+            self.port.send("K", bytes((ord(letter), command.sequence)))
+
+    def status(self, *, armed=None, uptime_s=None, version=1, vetoes=None, cause=1):
+        if armed is not None:
+            self.flags = self.flags | ARMED if armed else self.flags & ~ARMED
+        if uptime_s is not None:
+            self.uptime_s = uptime_s
+        if vetoes is not None:
+            self.vetoes = vetoes
+        self.say(
+            "x",
+            struct.pack(
+                ">BcBBBBHHHHHHH",
+                version, self.mode, 2, self.flags, self.vetoes, cause,
+                2000, 48, 3, 1, self.uptime_s, 12, 4,
+            ),
+        )  # fmt: skip
+
+    def start_alone(self):
+        """Start before any board is there: the port is open and says nothing."""
+        self.on_command = lambda command: None
+        self.start()
+        self.on_command = self.answer
+
+    def connect(self, *, armed=False):
+        """Start, and let the board say that it is there."""
+        self.start()
+        self.status(armed=armed)
+
+    def sent(self, letters):
+        """Return the payloads of those types that came since the last call of ``forget``."""
+        found = [each for each in self.port.heard if not isinstance(each, int)]
+        return [each.payload for each in found if each.type in letters]
+
+    def forget(self):
+        self.port.heard.clear()
+
+    def publish(self, command, **origin):
+        self.up.command_executor.execute_command(command, **origin)
+        self.turn()
+
+    def ask(self, command):
+        """Publish a Command and return a list that its outcome, or its failure, comes into."""
+        outcome = []
+        done = self.up.command_executor.execute_for_outcome(command, INTERNAL)
+        done.addCallbacks(lambda _: outcome.append("done"), lambda fail: outcome.append(fail.value))
+        self.turn()
+        return outcome
+
+    def heard_on_bus(self, command):
+        taken = []
+
+        def take(each):
+            taken.append((each, self.up.command_executor.origin))
+
+        self.up.command_executor.register_command(command, take)
+        return taken

@@ -1,0 +1,197 @@
+"""The cog and the stand-in board of the virtual aircraft, two processes on a real pty."""
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from tests.cogs.arduino_cog.board import MODULES
+from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.system import build_up, started
+from up.commands.arming_commands import ArmCommand, DisarmCommand
+from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.origin import INTERNAL
+from up.commands.output_command import OutputCommand
+from up.commands.pid_tunings_commands import PIDTuningsCommand
+from up.commands.refusal import CommandRefusedError
+from up.flight_controller.pids_file import PIDS
+
+from arduino_cog.modules.arduino_provider import ArduinoProvider  # isort: skip
+from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider  # isort: skip
+
+LOOP = {axis: {"p": 3.25, "i": 0.5, "d": 0.1} for axis in ("ailerons", "elevator", "rudder")}
+
+
+class Aircraft:
+    """The program, in a process of its own."""
+
+    def __init__(self, link, *options):
+        self.link = link
+        self.options = options
+        self.process = None
+
+    def fly(self):
+        self.process = subprocess.Popen(
+            [
+                *(sys.executable, "-m", "up_simulator", "--no-phone", "--wind", "0"),
+                *("--turbulence", "0", "--pty-link", str(self.link), *self.options),
+            ],
+            stdout=subprocess.DEVNULL,
+        )
+
+    async def is_there(self):
+        await until(self.link.exists, what="the board's pty")
+
+    def end(self, number=signal.SIGTERM):
+        if self.process is not None:
+            self.process.send_signal(number)
+            self.process.wait(30)
+            self.process = None
+
+
+@pytest.fixture
+def aircraft(tmp_path):
+    made = []
+
+    def make(*options):
+        made.append(Aircraft(tmp_path / "board", *options))
+        made[-1].fly()
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.end()
+
+
+def system(tmp_path, framing="checked", controller="arduino"):
+    config = {
+        "arduino.yml": f"port: {tmp_path / 'board'}\nframing: {framing}\n",
+        "pids.yml": PIDS.template(),
+        "config.yml": f"flight controller: {controller}\n",
+    }
+    return build_up(MODULES, reactor, tmp_path / "config", config=config)
+
+
+async def ask(up, command):
+    """Return nothing, or the reason for a refusal."""
+    try:
+        await up.command_executor.execute_for_outcome(command, INTERNAL)
+    except CommandRefusedError as error:
+        return error.reason
+    return None
+
+
+def test_readings_arming_modes_and_gains(aircraft, tmp_path):
+    async def fly():
+        plane = aircraft()
+        await plane.is_there()
+        up = system(tmp_path)
+        life = await started(up)
+        arduino = up.get_module(ArduinoProvider)
+        gains = up.get_module(PIDTuningsProvider)
+        await until(lambda: arduino.status is not None and arduino.status.is_at_auto)
+        content = up.telemetry_controller.collect()
+        assert content["arduino"]["connected"]
+        assert content["rx"]["aux1"] > 1900
+        await until(lambda: gains.held is not None and gains.held.rate.ailerons.p == 2.1)
+        up.vetoes.set("a module", "did not start")
+        assert await ask(up, ArmCommand()) == "arming is vetoed: a module: did not start"
+        up.vetoes.clear("a module")
+        # The virtual pilot's AUX2 goes high after a second, and arms.
+        await until(lambda: arduino.is_armed)
+        assert await ask(up, ArmCommand()) is None
+        assert await ask(up, FlightModeCommand("FBW")) is None
+        assert await ask(up, PIDTuningsCommand(pids={"ratePIDs": LOOP, "stabPIDs": LOOP})) is None
+        assert gains.held.rate.rudder.d == 0.1
+        assert await ask(up, DisarmCommand()) is None
+        await until(lambda: arduino.is_armed is False)
+        await life.stop()
+
+    run_in_reactor(fly)
+
+
+def test_outputs_move_the_servos_and_those_of_old_frames_do_not(aircraft, tmp_path):
+    async def fly():
+        plane = aircraft()
+        await plane.is_there()
+        up = system(tmp_path, controller="raspberry")
+        executor = up.command_executor
+        lag = 0
+
+        def control(orientation):
+            sequence = (orientation.sequence - lag) % 65536
+            executor.execute_command(OutputCommand(1600, 1400, 0, 1550, sequence))
+
+        executor.register_command(OrientationCommand, control)
+        life = await started(up)
+        arduino = up.get_module(ArduinoProvider)
+        await until(lambda: arduino.is_armed)
+        await until(lambda: arduino.servo.ailerons_us == 1600)
+        assert (arduino.servo.elevator_us, arduino.servo.rudder_us) == (1400, 1550)
+        lag = 60
+        await until(lambda: arduino.servo.ailerons_us != 1600)
+        assert arduino.counters["refused_frames"]
+        await life.stop()
+
+    run_in_reactor(fly)
+
+
+def test_an_aircraft_that_dies_and_comes_back_is_used_again(aircraft, tmp_path):
+    async def fly():
+        plane = aircraft()
+        await plane.is_there()
+        up = system(tmp_path)
+        life = await started(up)
+        arduino = up.get_module(ArduinoProvider)
+        await until(lambda: arduino.status is not None)
+        plane.end(signal.SIGKILL)
+        await until(lambda: not arduino.connected)
+        assert arduino.status is None
+        plane.fly()
+        await until(lambda: arduino.status is not None)
+        assert up.get_module(PIDTuningsProvider) is not None
+        await life.stop()
+
+    run_in_reactor(fly)
+
+
+def test_an_old_firmware_with_its_boot_text(aircraft, tmp_path):
+    async def fly():
+        plane = aircraft(
+            *("--framing", "thesis", "--old-confirms"), *("--boot-text", "DMP init failed (code 1)")
+        )
+        await plane.is_there()
+        up = system(tmp_path, "thesis")
+        life = await started(up)
+        arduino = up.get_module(ArduinoProvider)
+        gains = up.get_module(PIDTuningsProvider)
+        await until(lambda: arduino.servo is not None)
+        await until(lambda: gains.held is not None and gains.held.rate.ailerons.p == 2.1)
+        two_axes = {axis: LOOP[axis] for axis in ("ailerons", "elevator")}
+        command = PIDTuningsCommand(pids={"ratePIDs": two_axes, "stabPIDs": two_axes})
+        assert await ask(up, command) is None
+        assert gains.held.stabilize.elevator.p == 3.25
+        assert "framing: thesis" in await ask(up, ArmCommand())
+        content = up.telemetry_controller.collect()
+        assert content["orientation"]["roll"] is not None
+        assert "rx" not in content
+        await life.stop()
+
+    run_in_reactor(fly)
+
+
+def test_the_ports_descriptor_is_given_back(aircraft, tmp_path):
+    async def fly():
+        plane = aircraft()
+        await plane.is_there()
+        up = system(tmp_path)
+        life = await started(up)
+        await until(lambda: up.get_module(ArduinoProvider).connected)
+        await life.stop()
+
+    before = len(os.listdir("/proc/self/fd"))  # noqa: PTH208
+    run_in_reactor(fly)
+    assert len(os.listdir("/proc/self/fd")) <= before  # noqa: PTH208
