@@ -9,6 +9,7 @@ from pathlib import Path
 
 from up.cogs.cog_error import CogError
 from up.cogs.package_name import package_name
+from up.cogs.source_tree import is_distribution_name
 from up.config import key
 from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
 from up.config.problems import Problems
@@ -19,7 +20,6 @@ from up.config.validator import Validator
 
 COGFILE = "Cogfile.yml"
 
-_DISTRIBUTION = re.compile(r"[A-Za-z0-9]([A-Za-z0-9._-]*[A-Za-z0-9])?", re.ASCII)
 _VERSION = re.compile(r"[0-9]+[A-Za-z0-9.!+]*", re.ASCII)
 _REVISION = re.compile(r"[A-Za-z0-9][A-Za-z0-9._/-]*", re.ASCII)
 _URL = re.compile(r"(git\+)?(https|ssh|file)://[^\s@#]*(@[^\s@#/]+/[^\s@#]*)?", re.ASCII)
@@ -39,7 +39,7 @@ class CogSpec:
         """Yield what is not usable or does not fit together."""
         if not self.path.isprintable():
             yield "path", "must be the path of a folder"
-        if self.pypi and not _DISTRIBUTION.fullmatch(self.pypi):
+        if self.pypi and not is_distribution_name(self.pypi):
             yield "pypi", "must be the name of a distribution, like raspilot-serial-cog"
         if self.version and not _VERSION.fullmatch(self.version):
             yield "version", 'must be one version, like "1.2.3"'

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import ast
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
 
+_NAME = re.compile(r"[A-Za-z0-9]([A-Za-z0-9._-]*[A-Za-z0-9])?", re.ASCII)
+
 
 def distribution_name(folder: Path) -> str:
     """Return the name of the distribution that a folder builds; empty where it is not plain."""
-    return _name_in_project(folder / "pyproject.toml") or _name_in_setup(folder / "setup.py")
+    name = _name_in_project(folder / "pyproject.toml") or _name_in_setup(folder / "setup.py")
+    return name if is_distribution_name(name) else ""
+
+
+def is_distribution_name(name: str) -> bool:
+    """Return whether a distribution can be called that."""
+    return _NAME.fullmatch(name) is not None
 
 
 def normal_name(name: str) -> str:
@@ -41,7 +50,7 @@ def _name_in_project(path: Path) -> str:
 def _table(path: Path, name: str) -> dict[str, Any]:
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8")).get(name, {})
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
     return table if isinstance(table, dict) else {}
 
@@ -49,7 +58,7 @@ def _table(path: Path, name: str) -> dict[str, Any]:
 def _name_in_setup(path: Path) -> str:
     try:
         tree = ast.parse(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError, SyntaxError):
+    except (OSError, ValueError, SyntaxError, RecursionError, MemoryError):
         return ""
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and _is_setup(node.func):

@@ -1,6 +1,8 @@
 """What a folder's packaging says, read without running it."""
 
 import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
 
 from up.cogs.source_tree import builds_with_setuptools, distribution_name, neighbours, normal_name
 
@@ -12,6 +14,7 @@ from up.cogs.source_tree import builds_with_setuptools, distribution_name, neigh
         ({"setup.py": "import setuptools\nsetuptools.setup(name='a')\n"}, "a"),
         ({"setup.py": "raise SystemExit\nsetup(name='a')\n"}, "a"),
         ({"setup.py": "setup(name=NAME)\n"}, ""),
+        ({"setup.py": "setup(name='--index-url x')\n"}, ""),
         ({"setup.py": "setup(\n"}, ""),
         ({"setup.py": "print('no setup')\n"}, ""),
         ({"pyproject.toml": "[project]\nname = 'b'\n", "setup.py": "setup(name='a')\n"}, "b"),
@@ -39,6 +42,20 @@ def test_what_builds_it(tmp_path, text, is_setuptools):
     assert builds_with_setuptools(tmp_path)
     (tmp_path / "pyproject.toml").write_text(text)
     assert builds_with_setuptools(tmp_path) is is_setuptools
+
+
+@given(text=st.text())
+@example("(" * 5000)
+@example("-" * 5000 + "1")
+@example("a = " + "[" * 5000)
+@example("setup(name='a\\0')")
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+def test_no_content_raises(tmp_path, text):
+    data = text.encode("utf-8", "surrogatepass")
+    for file in ("setup.py", "pyproject.toml"):
+        (tmp_path / file).write_bytes(data)
+    assert isinstance(distribution_name(tmp_path), str)
+    assert isinstance(builds_with_setuptools(tmp_path), bool)
 
 
 def test_neighbours_are_known_by_normal_names(tmp_path):

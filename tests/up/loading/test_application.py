@@ -13,8 +13,9 @@ def test_it_is_found_from_every_place_that_belongs_to_it(tmp_path):
     root = write_application(tmp_path / "plane", {"modules/deep/er/x.txt": ""}, "plane").root
     for start in (root, root / "modules", root / "modules/deep/er", tmp_path):
         assert Application.find(start).root == root
+    (tmp_path / "empty").mkdir()
     with pytest.raises(NoApplicationError, match="no UpFile in"):
-        Application.find(tmp_path.parent)
+        Application.find(tmp_path / "empty")
 
 
 def test_the_nearest_one_wins(tmp_path):
