@@ -129,3 +129,19 @@ def test_a_board_that_was_reset_is_told_anew(rig):
     assert rig.sent("B") == [struct.pack(">h", 90)]
     rig.publish(AltitudeCommand(100.0), origin=PHONE)
     assert rig.sent("h") == [struct.pack(">h", 100)]
+
+
+def test_a_source_that_is_not_followed_does_not_bring_an_old_reading_to_a_new_board(rig):
+    rig.connect()
+    rig.publish(AltitudeCommand(100.0), origin=PHONE)
+    rig.publish(LocationCommand(50.0, 14.5), origin=PHONE)
+    rig.publish(HeadingCommand(10.0, "actual"), origin=PHONE)
+    rig.status(uptime_s=50)
+    rig.advance(0.2)
+    rig.forget()
+    rig.status(uptime_s=0)
+    rig.publish(AltitudeCommand(900.0), origin=OTHER)
+    rig.publish(LocationCommand(-50.0, 14.5), origin=OTHER)
+    rig.publish(HeadingCommand(200.0, "actual"), origin=OTHER)
+    rig.advance(0.2)
+    assert rig.sent("hlb") == []
