@@ -293,3 +293,16 @@ def test_stopping_leaves_no_timer_and_no_reader(rig):
     rig.stop()
     assert not rig.reactor.readers
     assert not rig.reactor.getDelayedCalls()
+
+
+def test_a_board_that_counts_anew_after_reopening_has_lost_no_frame(checked):
+    take(checked)
+    checked.start()
+    checked.say("o", b"ab", sequence=100)
+    checked.port.unplug()
+    checked.turn()
+    checked.port.plug_in()
+    checked.advance(2)
+    checked.say("o", b"ab", sequence=0)
+    assert counts(checked)["lost_by_sequence"] == 0
+    assert counts(checked)["frames"] == 2
