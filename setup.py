@@ -8,8 +8,14 @@ from pathlib import Path
 from setuptools import find_packages, setup
 
 ROOT = Path(__file__).parent
-SOURCES = {"up": ".", "raspilot": ".", "up_runner": "runner", "up_proxy": "proxy",
-           "up_ground": "ground", "up_simulator": "simulator"}
+SOURCES = {
+    "up": ".",
+    "raspilot": ".",
+    "up_runner": "runner",
+    "up_proxy": "proxy",
+    "up_ground": "ground",
+    "up_simulator": "simulator",
+}
 
 
 def version() -> str:
@@ -36,25 +42,55 @@ setup(
     license="MIT",
     python_requires=">=3.11",
     packages=packages(),
-    package_dir={name: str(Path(folder, name)) for name, folder in SOURCES.items()
-                 if folder != "."},
+    package_dir={
+        name: str(Path(folder, name)) for name, folder in SOURCES.items() if folder != "."
+    },
     include_package_data=True,
-    package_data={"": ["*.yml", "*.txt", "*.tmpl", "*.service", "*.conf", "*.md", "UpFile",
-                       "py.typed", "*.csv", "*.xml", "*.gz"]},
-    install_requires=["twisted>=22.4", "pyserial>=3.5", "PyYAML>=6", "psutil>=5.9",
-                      "simple-pid>=2.0"],
+    package_data={
+        "": [
+            "*.yml",
+            "*.txt",
+            "*.tmpl",
+            "*.service",
+            "*.conf",
+            "*.md",
+            "UpFile",
+            "py.typed",
+            "*.csv",
+            "*.xml",
+            "*.gz",
+        ]
+    },
+    install_requires=[
+        "twisted>=22.4",
+        "pyserial>=3.5",
+        "PyYAML>=6",
+        "psutil>=5.9",
+        "simple-pid>=2.0",
+    ],
     extras_require={
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'"],
-        "dev": ["pytest>=8", "hypothesis>=6.100", "ruff>=0.6", "mypy>=1.11",
-                "import-linter>=2.0", "types-PyYAML", "types-psutil", "types-pyserial"],
+        "dev": [
+            "pytest>=8",
+            "hypothesis>=6.100",
+            "ruff>=0.6",
+            "mypy>=1.11",
+            "import-linter>=2.0",
+            "types-PyYAML",
+            "types-psutil",
+            "types-pyserial",
+        ],
     },
-    entry_points={"console_scripts": [
-        "up = up.cli.main:main",
-        "up-runner = up_runner.main:main",
-        "up-proxy = up_proxy.main:main",
-        "up-ground = up_ground.main:main",
-    ], "up.config_files": [
-        "runner = up_runner.config:RUNNER",
-        "proxy = up_proxy.config:PROXY",
-    ]},
+    entry_points={
+        "console_scripts": [
+            "up = up.cli.main:main",
+            "up-runner = up_runner.main:main",
+            "up-proxy = up_proxy.main:main",
+            "up-ground = up_ground.main:main",
+        ],
+        "up.config_files": [
+            "runner = up_runner.config:RUNNER",
+            "proxy = up_proxy.config:PROXY",
+        ],
+    },
 )
