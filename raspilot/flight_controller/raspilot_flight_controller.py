@@ -23,7 +23,7 @@ from up.providers.base_mission_control_provider import BaseMissionControlProvide
 ROLL_RATE_LIMIT_DEG_S = 120.0
 PITCH_RATE_LIMIT_DEG_S = 80.0
 SHORTEST_STEP_S, LONGEST_STEP_S = 1e-4, 0.1
-ASK_AGAIN_S = 1.0
+ASK_AGAIN_S = 5.0
 LOWEST_US, HIGHEST_US = 1000, 2000
 STICK_THROTTLE = 0
 _NO_GAINS = Gains(0.0)
@@ -52,6 +52,7 @@ class RaspilotFlightController(BaseFlightController):
         self._is_asked = True
         self._is_board_ready = False
         self._asked_at_s = float("-inf")
+        self._state: FlightStateCommand | None = None
         self._computed_at_s = float("-inf")
 
     def load(self) -> bool:
@@ -146,12 +147,14 @@ class RaspilotFlightController(BaseFlightController):
         if ready != self._is_board_ready:
             self._is_board_ready = ready
             self._log_info("flies" if ready else "does not fly: the board does not let it")
+        is_news, self._state = command != self._state, command
         if command.is_auto and not ready and self._is_asked:
-            self._ask_for_control()
+            self._ask_for_control(is_news)
 
-    def _ask_for_control(self) -> None:
+    def _ask_for_control(self, at_once: bool) -> None:
+        """Ask the board for AUTO: when its state changed, and now and then in case it was lost."""
         now_s = self.context.reactor.seconds()
-        if now_s - self._asked_at_s >= ASK_AGAIN_S:
+        if at_once or now_s - self._asked_at_s >= ASK_AGAIN_S:
             self._asked_at_s = now_s
             self.up.command_executor.execute_command(FlightModeCommand("AUTO"))
 

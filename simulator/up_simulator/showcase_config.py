@@ -7,6 +7,21 @@ from dataclasses import astuple, dataclass
 from pathlib import Path
 
 
+# Gains for the model of the small glider: deg/s per deg, and 1.25 us per deg/s.
+PIDS = """\
+# Gains for the virtual glider; the ground's tuning is saved here.
+units: degrees per second
+rate:
+  ailerons: {p: 6.0, i: 0.0, d: 0.0}
+  elevator: {p: 3.0, i: 0.0, d: 0.0}
+  rudder: {p: 1.0, i: 0.0, d: 0.0}
+stabilize:
+  ailerons: {p: 8.0, i: 0.0, d: 0.0}
+  elevator: {p: 6.0, i: 0.0, d: 0.0}
+  rudder: {p: 0.0, i: 0.0, d: 0.0}
+"""
+
+
 @dataclass(frozen=True, slots=True)
 class Ports:
     """The TCP ports of a run."""
@@ -65,6 +80,8 @@ def write_config(folder: Path, board: Path, ports: Ports) -> None:
             f"metrics port: {ports.metrics}\n"
         ),
     }
+    if not (folder / "pids.yml").exists():
+        (folder / "pids.yml").write_text(PIDS, encoding="utf-8")
     for name, text in files.items():
         head = "# Written by 'make run', at every start.\n"
         (folder / name).write_text(head + text, encoding="utf-8")

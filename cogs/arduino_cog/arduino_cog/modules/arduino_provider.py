@@ -30,6 +30,7 @@ from arduino_cog.wire import (
 )
 from up.base_started_module import BaseStartedModule
 from up.commands.command_executor import CommandExecutor
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.refusal import Code, CommandRefusedError
@@ -231,6 +232,7 @@ class ArduinoProvider(BaseStartedModule):
         self.status = None
         self.up.vetoes.report(LINK, (_ABSENT,))
         self.exchange.fail_all(_ABSENT)
+        self._execute(FlightStateCommand(None, False, False, False), ORIGIN)
         self._execute(LinkStateCommand(LINK, False))
 
     def _on_orientation(self, payload: bytes) -> None:
@@ -290,6 +292,7 @@ class ArduinoProvider(BaseStartedModule):
         if previous is not None and status.uptime_s < previous.uptime_s:
             self._on_reset(status)
         self._execute(status, ORIGIN)
+        self._execute(flight_state_of(status), ORIGIN)
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
@@ -347,3 +350,10 @@ class ArduinoProvider(BaseStartedModule):
     def _tell_begun(self) -> None:
         for listener in self._begun:
             listener()
+
+
+def flight_state_of(status: ArduinoStatusCommand) -> FlightStateCommand:
+    """Return who flies, in the words that flight controllers listen for."""
+    return FlightStateCommand(
+        flight_mode_name(status.mode), status.is_armed, status.is_at_auto, status.is_failsafe
+    )
