@@ -61,40 +61,55 @@ def make_parser(environ: Mapping[str, str]) -> argparse.ArgumentParser:
         description="The terminal ground station: watches an aircraft and sends it Commands.",
         epilog=_EPILOG,
     )
-    add = parser.add_argument
-    add(
-        "--host",
-        default=environ.get("UP_GROUND_HOST") or DEFAULT_HOST,
-        help="the Ground Station Proxy, or the aircraft itself (now %(default)s)",
+    _add_connection(
+        parser,
+        environ.get("UP_GROUND_HOST") or DEFAULT_HOST,
+        environ.get("UP_GROUND_PORT") or DEFAULT_PORT,
+        environ.get("UP_GROUND_AIRCRAFT") or DEFAULT_AIRCRAFT,
+        environ.get("UP_GROUND_DIRECT", "") not in ("", "0"),
     )
-    add(
-        "--port",
-        type=_port,
-        default=environ.get("UP_GROUND_PORT") or DEFAULT_PORT,
-        metavar="N",
-        help="its port: 3004 of a proxy, 50002 of an aircraft (now %(default)s)",
-    )
-    add(
-        "--aircraft",
-        type=_aircraft,
-        default=environ.get("UP_GROUND_AIRCRAFT") or DEFAULT_AIRCRAFT,
-        metavar="NAME",
-        help="which aircraft of the proxy (now %(default)s)",
-    )
-    add(
-        "--direct",
-        action="store_true",
-        default=environ.get("UP_GROUND_DIRECT", "") not in ("", "0"),
-        help="say no hello: for a proxy of the thesis and for an old aircraft on the same LAN",
-    )
-    add("--version", action="version", version=f"up-ground {VERSION}")
+    parser.add_argument("--version", action="version", version=f"up-ground {VERSION}")
     verbs = parser.add_subparsers(dest="verb", metavar="VERB", parser_class=_Parser)
     _add_watch(verbs)
     _add_send(verbs)
     _add_seat(verbs)
+    for verb in verbs.choices.values():
+        # People write them behind the verb as well; there an absent one must change nothing.
+        _add_connection(verb, *(argparse.SUPPRESS,) * 4)
     commands = verbs.add_parser("commands", help="list the Commands that a ground may send")
     commands.add_argument("name", nargs="?", help="only this one")
     return parser
+
+
+def _add_connection(
+    parser: argparse.ArgumentParser, host: object, port: object, aircraft: object, direct: object
+) -> None:
+    """Add the options that say whom to talk to, with their defaults."""
+    now = "" if host is argparse.SUPPRESS else " (now %(default)s)"
+    group = parser.add_argument_group("whom to talk to")
+    group.add_argument(
+        "--host", default=host, help=f"the Ground Station Proxy, or the aircraft itself{now}"
+    )
+    group.add_argument(
+        "--port",
+        type=_port,
+        default=port,
+        metavar="N",
+        help=f"its port: 3004 of a proxy, 50002 of an aircraft{now}",
+    )
+    group.add_argument(
+        "--aircraft",
+        type=_aircraft,
+        default=aircraft,
+        metavar="NAME",
+        help=f"which aircraft of the proxy{now}",
+    )
+    group.add_argument(
+        "--direct",
+        action="store_true",
+        default=direct,
+        help="say no hello: for a proxy of the thesis and for an old aircraft on the same LAN",
+    )
 
 
 def settings_of(options: argparse.Namespace, seat: Seat) -> Settings:

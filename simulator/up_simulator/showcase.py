@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import select
 import signal
 import sys
 import time
@@ -19,6 +20,7 @@ from up_simulator.showcase_config import Ports, choose_ports, write_config
 
 ROOT = Path(__file__).resolve().parents[2]
 START_LIMIT_S = 30.0
+READING_S = 5
 
 
 class Stopped(Exception):  # noqa: N818 - a signal is no error
@@ -108,23 +110,38 @@ def _hints(ports: Ports) -> None:
 def _stay(options: argparse.Namespace, children: list[Child]) -> int:
     end_s = None if options.seconds is None else time.monotonic() + options.seconds
     watch: Child | None = None
-    if not options.no_watch:
-        config = children[0].folder / "config"
-        watch = Child.in_foreground(
-            "ground",
-            [sys.executable, "-m", "up_ground.main", "watch", "--port", _ground_port(config)],
-            children[0].folder,
-        )
-        children.append(watch)
+    wants_watch = not options.no_watch
+    if wants_watch and sys.stdin.isatty():
+        _say(f"The ground station opens in {READING_S} s; q leaves it.")
+        time.sleep(READING_S)
     while end_s is None or time.monotonic() < end_s:
+        if wants_watch and watch is None:
+            watch = _open_watch(children[0].folder)
+            children.append(watch)
         for child in children:
             status = child.poll()
-            if status is not None and child is watch:
-                return 0
-            if status is not None:
+            if status == 0 and child is watch:
+                children.remove(child)
+                watch, wants_watch = None, False
+                _say("It flies on. Enter: the ground station again; Ctrl-C: stop everything.")
+            elif status is not None:
                 raise ChildFailedError(child.last_words(status))
+        if watch is None and _enter_was_pressed():
+            wants_watch = True
         time.sleep(0.1)
     return 0
+
+
+def _open_watch(folder: Path) -> Child:
+    port = _ground_port(folder / "config")
+    command = [sys.executable, "-m", "up_ground.main", "watch", "--port", port]
+    return Child.in_foreground("ground", command, folder)
+
+
+def _enter_was_pressed() -> bool:
+    if not sys.stdin.isatty() or not select.select([sys.stdin], [], [], 0)[0]:
+        return False
+    return bool(sys.stdin.readline())
 
 
 def _ground_port(config: Path) -> str:

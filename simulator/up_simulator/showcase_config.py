@@ -6,7 +6,6 @@ import socket
 from dataclasses import astuple, dataclass
 from pathlib import Path
 
-
 # Gains for the model of the small glider: deg/s per deg, and 1.25 us per deg/s.
 PIDS = """\
 # Gains for the virtual glider; the ground's tuning is saved here.
