@@ -28,6 +28,10 @@ _PRIORITIES = {
 }
 
 
+# "log_legacy" marks what comes through Twisted's old module, which nobody here uses.
+_TWISTED = ("twisted.", "log_legacy")
+
+
 def level_named(name: str) -> NamedConstant:
     """Return the level for debug, info, warn or warning, or error, in any case; else ValueError."""
     try:
@@ -40,7 +44,7 @@ def level_named(name: str) -> NamedConstant:
 def level_of(event: LogEvent) -> NamedConstant:
     """Return the level of an event; what Twisted says about its own doings is for debugging."""
     level = event.get("log_level", LogLevel.info)
-    if level is LogLevel.info and str(event.get("log_namespace", "")).startswith("twisted."):
+    if level is LogLevel.info and str(event.get("log_namespace", "")).startswith(_TWISTED):
         return LogLevel.debug
     return level
 

@@ -20,7 +20,7 @@ _MAX_TEXT = 4000
 
 def source_of(event: LogEvent) -> str:
     """Return who speaks: the logger's name."""
-    source = event.get("log_namespace") or "-"
+    source = _short(str(event.get("log_namespace") or "-"))
     if source == "log_legacy":
         source = event.get("log_system") or "-"
     return printable(str(source))
@@ -113,3 +113,9 @@ def _clock_text(event: LogEvent) -> str:
     moment = event.get("log_time", 0.0)
     milliseconds = int(moment * 1000) % 1000
     return f"{time.strftime('%H:%M:%S', time.localtime(moment))}.{milliseconds:03d}"
+
+
+def _short(namespace: str) -> str:
+    """Return a class's bare name, which is what people call a module; other names stay whole."""
+    last = namespace.rpartition(".")[2]
+    return last if last[:1].isupper() else namespace
