@@ -1,0 +1,109 @@
+"""Writes the tables of docs/configuration.md: ``python -m tests.docs.configuration_page``."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from up.cli.system import cog_files, system_of
+from up.config import ConfigFile
+from up.config.disabled_modules import DISABLED_MODULES
+from up.config.shape import Entry, ListOf, MapOf, Shape
+from up.config.template import yaml_scalar
+from up.config.values import plain_value
+from up.fields import Constraint, number_text
+from up.flight_controller.pids_file import PIDS
+from up.loading.application import UP_FILE_CONFIG
+from up.loading.checking import check_application
+from up_proxy.config import PROXY
+from up_runner.config import RUNNER
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "configuration.md"
+BEGIN = "<!-- tables: begin -->\n"
+END = "<!-- tables: end -->\n"
+
+
+def configuration_files() -> list[ConfigFile[Any]]:
+    """Every file that Up, Raspilot, its cogs and the programs read, by name; config.yml first."""
+    system = system_of(argparse.Namespace(file=str(ROOT / "raspilot"), config=None, mode=None))
+    more = (DISABLED_MODULES, PIDS, PROXY, RUNNER, *cog_files(system.application))
+    found = check_application(system.application, system.context, more).files
+    named = {file.filename: file for file in found if file is not UP_FILE_CONFIG}
+    first = ["config.yml", "disabled_modules.yml", "providers.yml"]
+    return [named[name] for name in [*first, *sorted(set(named) - set(first))]]
+
+
+def tables() -> str:
+    """Return the generated part of the page."""
+    return "\n".join(line for file in configuration_files() for line in _table(file))
+
+
+def keys_of(shape: Shape, above: str = "") -> Iterator[str]:
+    """Yield every key of a file, those of sections as ``section: key``."""
+    for entry in shape.entries:
+        yield above + entry.name
+        if isinstance(entry.spec, Shape):
+            yield from keys_of(entry.spec, f"{above}{entry.name}: ")
+
+
+def _table(file: ConfigFile[Any]) -> Iterator[str]:
+    yield f"## {file.filename}\n"
+    yield f"{' '.join(file.shape.comment.split())}\n"
+    yield "| key | default | unit, range | |"
+    yield "|---|---|---|---|"
+    yield from _rows(file.shape.entries, "")
+    yield ""
+
+
+def _rows(entries: Iterable[Entry], above: str) -> Iterator[str]:
+    for entry in entries:
+        comment = " ".join(entry.comment.split()).replace("|", "\\|")
+        name = f"`{above}{entry.name}`"
+        if isinstance(entry.spec, Shape):
+            yield f"| {name} | | | {comment} |"
+            yield from _rows(entry.spec.entries, f"{above}{entry.name}: ")
+        else:
+            yield f"| {name} | {_default(entry)} | {_bounds(entry)} | {comment} |"
+
+
+def _default(entry: Entry) -> str:
+    value = plain_value(entry.spec, entry.default)
+    if isinstance(value, dict):
+        return ", ".join(f"`{each}`" for each in value) or "none"
+    if isinstance(value, list):
+        return ", ".join(f"`{each}`" for each in value) or "none"
+    return "empty" if value == "" else f"`{yaml_scalar(value)}`"
+
+
+def _bounds(entry: Entry) -> str:
+    spec = entry.spec
+    if isinstance(spec, ListOf | MapOf):
+        return f"at most {spec.max_length} entries"
+    if not isinstance(spec, Constraint):
+        return ""
+    if spec.type_ is bool:
+        return "true, false" + (", null" if spec.nullable else "")
+    if spec.choices is not None:
+        return ", ".join(yaml_scalar(choice) for choice in spec.choices)
+    parts = [spec.unit] if spec.unit else []
+    if spec.minimum is not None and spec.maximum is not None:
+        parts.append(f"{number_text(spec.minimum)} to {number_text(spec.maximum)}")
+    elif spec.minimum is not None:
+        parts.append(f"at least {number_text(spec.minimum)}")
+    if spec.nullable:
+        parts.append("null")
+    return ", ".join(parts)
+
+
+def main() -> None:
+    """Write the page's tables anew."""
+    head, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
+    _, _, tail = rest.partition(END)
+    PAGE.write_text(f"{head}{BEGIN}\n{tables()}\n{END}{tail}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
