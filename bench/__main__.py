@@ -1,0 +1,60 @@
+"""Measures everything, or what is named, and prints one table: ``python -m bench [NAME ...]``."""
+
+import argparse
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from importlib import import_module
+
+from bench.table import Row, print_table
+
+SUBJECTS = {
+    "bus": "publishing to 1, 10 and 100 subscribers",
+    "codecs": "the serial line and orientation from bytes",
+    "cascade": "the control loop's arithmetic",
+    "latency": "sensor to actuator through the running daemon",
+    "startup": "start to ports bound, and memory",
+    "load": "CPU of the daemon in flight and idle",
+    "relay": "the proxy beside HAProxy and socat",
+}
+FAILED = "failed"
+
+
+def measure(names: Iterable[str], quick: bool, say: Callable[[str], object]) -> list[Row]:
+    """Return the rows of the subjects with these names; one that cannot run is a row too."""
+    rows: list[Row] = []
+    for name in names:
+        say(f"{name}: {SUBJECTS[name]} ...")
+        subject = import_module(f"bench.{name}")
+        try:
+            for row in subject.rows(quick):
+                say(f"    {row.what}: {row.ours} {row.ratio}".rstrip())
+                rows.append(row)
+        except (RuntimeError, OSError) as error:
+            say(f"    {error}")
+            rows.append(Row(name, FAILED, peer=str(error).splitlines()[0][:80], met=False))
+    return rows
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print the table; the exit status says whether everything ran, not how fast it was."""
+    parser = argparse.ArgumentParser(
+        prog="python -m bench",
+        description="Measures this project beside its peers. Progress goes to stderr.",
+        epilog="; ".join(f"{name}: {text}" for name, text in SUBJECTS.items()),
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(SUBJECTS))
+    parser.add_argument(
+        "--quick", action="store_true", help="a look in about a minute, with coarse figures"
+    )
+    values = parser.parse_args(arguments)
+    unknown = [name for name in values.names if name not in SUBJECTS]
+    if unknown:
+        parser.error(f"there is no {unknown[0]}; there are {', '.join(SUBJECTS)}")
+    names = values.names or list(SUBJECTS)
+    rows = measure(names, values.quick, lambda text: print(text, file=sys.stderr, flush=True))
+    print_table(rows)
+    return int(any(row.ours == FAILED for row in rows))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,129 @@
+"""The bus beside a dict of lists, pluggy and blinker: one publish, handlers that do nothing.
+
+Only ours isolates a handler's fault, notes the origin and times the dispatch.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import ClassVar
+
+from bench.table import Row
+from bench.timing import Work, best_ns
+from up.commands.command import BaseCommand, value
+from up.commands.command_executor import CommandExecutor
+from up.commands.command_registry import CommandRegistry
+from up.commands.origin import Origin
+from up.commands.roles import Role
+
+TARGETS = {1: 2.6, 10: 1.6, 100: 1.3}
+PEERS = ("pluggy", "blinker")
+
+
+@dataclass(frozen=True, slots=True)
+class BenchCommand(BaseCommand):
+    """Carries one number."""
+
+    NAME: ClassVar[str] = "bench.tick"
+    number: int = value(0)
+
+
+class Subscriber:
+    """Does nothing with what it hears, by a method, as modules do."""
+
+    def on_command(self, command: BenchCommand) -> None:
+        """Hear a Command."""
+
+
+def ours(count: int) -> Work:
+    """Return a publish on the bus of this project."""
+    bus = CommandExecutor(CommandRegistry(()), lambda call, *arguments: call(*arguments))
+    for _ in range(count):
+        bus.register_command(BenchCommand, Subscriber().on_command)
+    publish, command, origin = bus.execute_command, BenchCommand(1), Origin("bench", Role.BOARD)
+    return lambda: publish(command, origin)
+
+
+def dict_of_lists(count: int) -> Work:
+    """Return the least that a bus can be: nothing isolated, nothing known of who sent."""
+    handlers = {BenchCommand.NAME: [Subscriber().on_command for _ in range(count)]}
+    command = BenchCommand(1)
+
+    def publish(command: BenchCommand) -> None:
+        for handler in handlers[command.NAME]:
+            handler(command)
+
+    return lambda: publish(command)
+
+
+def pluggy(count: int) -> Work | None:
+    """Return a call of a pluggy hook; None: not installed."""
+    try:
+        library = import_module("pluggy")
+    except ImportError:
+        return None
+    spec, implementation = library.HookspecMarker("bench"), library.HookimplMarker("bench")
+
+    class Specification:
+        @spec
+        def on_command(self, command: BenchCommand) -> None:
+            """Hear a Command."""
+
+    class Plugin:
+        @implementation
+        def on_command(self, command: BenchCommand) -> None:
+            """Hear a Command."""
+
+    manager = library.PluginManager("bench")
+    manager.add_hookspecs(Specification)
+    for _ in range(count):
+        manager.register(Plugin())
+    hook, command = manager.hook.on_command, BenchCommand(1)
+    return lambda: hook(command=command)
+
+
+def blinker(count: int) -> Work | None:
+    """Return a send of a blinker signal; None: not installed."""
+    try:
+        library = import_module("blinker")
+    except ImportError:
+        return None
+    signal, command = library.Signal(), BenchCommand(1)
+    subscribers = [Subscriber() for _ in range(count)]
+    for each in subscribers:
+        signal.connect(each.on_command)
+
+    def send(_keep: object = subscribers) -> None:  # a signal holds its receivers weakly
+        signal.send(command)
+
+    return send
+
+
+def rows(quick: bool = False) -> Iterable[Row]:
+    """Yield a row for each peer and number of subscribers."""
+    makers: dict[str, Callable[[int], Work | None]] = {"pluggy": pluggy, "blinker": blinker}
+    for count, target in TARGETS.items():
+        what = f"publish to {count} subscriber{'s' * (count > 1)}"
+        works = {"ours": ours(count), "dict of lists": dict_of_lists(count)}
+        for name, make in makers.items():
+            peer = make(count)
+            if peer is not None:
+                works[name] = peer
+        rounds, calls = (3, 200) if quick else (20, max(500, 20_000 // count))
+        times = dict(zip(works, best_ns(list(works.values()), rounds, calls), strict=True))
+        mine = times["ours"]
+        for name in ("dict of lists", *makers):
+            if name not in times:
+                yield Row(what, f"{mine:.0f} ns", name, "not installed")
+                continue
+            ratio = mine / times[name]
+            aim = name == "dict of lists"
+            yield Row(
+                what,
+                f"{mine:.0f} ns",
+                name,
+                f"{times[name]:.0f} ns",
+                f"{ratio:.2f}x" if ratio >= 1 else f"{1 / ratio:.1f}x faster",
+                f"<= {target}x" if aim else "",
+                ratio <= target if aim else None,
+            )

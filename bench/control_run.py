@@ -1,0 +1,23 @@
+"""Runs Raspilot with Python's own garbage collector in place of the quiet one: the control run.
+
+The same program otherwise; for the benchmark only.
+"""
+
+import sys
+from pathlib import Path
+
+import up.program
+from raspilot.main import main
+from up.system.garbage import QuietCollector
+
+
+class DefaultCollector(QuietCollector):
+    """Leaves everything to Python: nothing is frozen, the automatic collector stays on."""
+
+    def start(self) -> None:
+        """Do nothing."""
+
+
+if __name__ == "__main__":
+    up.program.QuietCollector = DefaultCollector
+    sys.exit(main(sys.argv[1:], Path(__file__).resolve().parents[1]))

@@ -1,0 +1,76 @@
+"""Raspilot as a user runs it, ``python main.py --config DIR``, in a configuration of its own."""
+
+import socket
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from bench.processes import running
+
+ROOT = Path(__file__).resolve().parents[1]
+MAIN = ROOT / "main.py"
+CONTROL = Path(__file__).with_name("control_run.py")
+
+
+@dataclass(frozen=True, slots=True)
+class Ports:
+    """Ports that nobody had a moment ago."""
+
+    general: int
+    orientation: int
+    discovery: int
+
+
+@dataclass(frozen=True, slots=True)
+class Daemon:
+    """A running daemon: its pid, its ports and where it logs."""
+
+    pid: int
+    ports: Ports
+    log: Path
+
+
+def free_ports() -> Ports:
+    """Return three ports that are free at this moment, for TCP."""
+    with ExitStack() as stack:
+        probes = [stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in range(3)]
+        return Ports(*(int(probe.getsockname()[1]) for probe in probes))
+
+
+def write_config(
+    folder: Path, ports: Ports, serial: str = "", proxy_port: int = 0, priority: int = 0
+) -> None:
+    """Write a configuration: the Raspberry Pi flies, everything else as it is shipped."""
+    files = {
+        "config.yml": f"flight controller: raspberry\nrealtime priority: {priority}\n",
+        "android.yml": f"general port: {ports.general}\norientation port: {ports.orientation}\n",
+        "discovery.yml": f"port: {ports.discovery}\n",
+        "arduino.yml": f"port: {serial!r}\n",
+    }
+    if proxy_port:
+        files["mission_control.yml"] = (
+            f"remote_server:\n  url: 127.0.0.1\n  port: {proxy_port}\n"
+        )
+    for name, text in files.items():
+        (folder / name).write_text(text)
+    (folder / "pids.yml").write_text((ROOT / "config" / "pids.yml").read_text())
+
+
+@contextmanager
+def daemon(
+    serial: str = "", proxy_port: int = 0, priority: int = 0, program: Path = MAIN
+) -> Iterator[Daemon]:
+    """Run the daemon on a serial port until the block ends."""
+    ports = free_ports()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        write_config(folder, ports, serial, proxy_port, priority)
+        log = folder / "log"
+        with (
+            log.open("w") as stream,
+            running((sys.executable, program, "--config", folder), stream, ROOT) as process,
+        ):
+            yield Daemon(process.pid, ports, log)
