@@ -59,8 +59,9 @@ class MissionControlConfig:
 
     remote_server: RemoteServerConfig = section(RemoteServerConfig)
     aircraft: str = key(
-        "default",
-        "Name that the proxy knows this aircraft by: 1 to 32 letters, digits, _ . or -",
+        "",
+        "Name that the proxy knows this aircraft by: 1 to 32 letters, digits, _ . or -. Empty: "
+        "the name that a runner started it with, else default.",
         max_length=32,
     )
     hello: bool = key(
@@ -84,8 +85,13 @@ class MissionControlConfig:
 
     def problems(self) -> Iterator[tuple[str, str]]:
         """Yield what the proxy would refuse."""
-        if not _AIRCRAFT.fullmatch(self.aircraft):
+        if self.aircraft and not _AIRCRAFT.fullmatch(self.aircraft):
             yield "aircraft", "must be 1 to 32 letters, digits, _ . or -"
+
+
+def aircraft_name(config: MissionControlConfig, instance: str) -> str:
+    """Return the name that this aircraft goes by; ``instance`` is what a runner calls it."""
+    return config.aircraft or instance or "default"
 
 
 MISSION_CONTROL = ConfigFile("mission_control.yml", MissionControlConfig)

@@ -7,7 +7,7 @@ from typing import Any
 
 from twisted.internet.error import CannotListenError
 
-from mission_control_cog.config import MISSION_CONTROL
+from mission_control_cog.config import MISSION_CONTROL, aircraft_name
 from mission_control_cog.grounds import Grounds
 from mission_control_cog.modules.mission_control_provider import (
     PLAIN_KEY,
@@ -48,7 +48,7 @@ class GroundListener(BaseStartedModule):
         self._grounds = Grounds(
             self.context.reactor,
             self._peers,
-            config.aircraft,
+            aircraft_name(config, self.context.instance),
             open_link=self._open_link,
             on_message=self._on_message,
             on_malformed=self._on_malformed,

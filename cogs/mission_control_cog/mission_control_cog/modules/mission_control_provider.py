@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from mission_control_cog.config import MISSION_CONTROL
+from mission_control_cog.config import MISSION_CONTROL, aircraft_name
 from mission_control_cog.uplink import Uplink
 from up.commands.origin import Origin
 from up.commands.roles import Role
@@ -52,7 +52,7 @@ class MissionControlProvider(BaseMissionControlProvider):
                 self.context.reactor,
                 server.url,
                 server.port,
-                config.aircraft if config.hello else None,
+                aircraft_name(config, self.context.instance) if config.hello else None,
                 on_message=self._on_message,
                 on_malformed=self._on_malformed,
                 on_ready=self._on_ready,

@@ -1,0 +1,43 @@
+"""What `config/` ships: templates as they are, and Black Box Mode ready-made."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+from android_cog.config import ANDROID
+from load_guard_cog.config import LOAD_GUARD
+from mission_control_cog.config import MISSION_CONTROL
+from up_proxy.config import PROXY
+
+from up.config.application import APPLICATION, ApplicationConfig
+from up.config.disabled_modules import DISABLED_MODULES
+from up.config.providers import PROVIDERS
+
+CONFIG = Path(__file__).parents[1] / "config"
+BLACK_BOX = CONFIG / "blackbox"
+
+
+@pytest.mark.parametrize(
+    "file", [APPLICATION, DISABLED_MODULES, PROVIDERS, PROXY, LOAD_GUARD], ids=lambda f: f.filename
+)
+def test_the_shipped_file_is_the_template(file):
+    assert (CONFIG / file.filename).read_text(encoding="utf-8") == file.template()
+    assert file.load(CONFIG) == file.cls()
+
+
+def test_black_box_mode_differs_from_the_defaults_by_its_mode_alone():
+    assert APPLICATION.load(BLACK_BOX) == ApplicationConfig(mode="black box")
+    for file in (DISABLED_MODULES, PROVIDERS, ANDROID, LOAD_GUARD, MISSION_CONTROL):
+        assert file.load(BLACK_BOX) == file.cls()
+
+
+def test_every_shipped_key_has_a_comment():
+    for path in sorted(CONFIG.rglob("*.yml")):
+        if path.parent.name == "tuning":
+            continue
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for number, line in enumerate(lines):
+            if line and not line.startswith((" ", "#", "-")):
+                before = [each for each in lines[:number] if each.strip()]
+                assert before and before[-1].lstrip().startswith("#"), f"{path}:{number + 1}"
+        assert yaml.safe_load(path.read_text(encoding="utf-8")) is not None, path
