@@ -7,11 +7,11 @@ import yaml
 from android_cog.config import ANDROID
 from load_guard_cog.config import LOAD_GUARD
 from mission_control_cog.config import MISSION_CONTROL
-from up_proxy.config import PROXY
 
 from up.config.application import APPLICATION, ApplicationConfig
 from up.config.disabled_modules import DISABLED_MODULES
 from up.config.providers import PROVIDERS
+from up_proxy.config import PROXY
 
 CONFIG = Path(__file__).parents[1] / "config"
 BLACK_BOX = CONFIG / "blackbox"
