@@ -64,7 +64,7 @@ class BaseThreadModule(BaseStartedModule):
         while not self.stop_event.is_set():
             try:
                 self._loop()
-            except Exception:  # noqa: BLE001 - a fault of a module ends neither thread nor program
+            except (Exception, SystemExit):  # noqa: BLE001 - a fault ends neither thread nor program
                 self.faults += 1
                 self.logger.failure("{name} failed in its thread", name=self.class_name)
                 self.stop_event.wait(_PAUSE_AFTER_FAULT_S)

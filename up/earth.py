@@ -26,4 +26,11 @@ def bearing_deg(
     east = radians(longitude_b - longitude_a)
     y = sin(east) * cos(b)
     x = cos(a) * sin(b) - sin(a) * cos(b) * cos(east)
-    return degrees(atan2(y, x)) % 360.0
+    return compass_deg(degrees(atan2(y, x)))
+
+
+def compass_deg(angle_deg: float) -> float:
+    """Return an angle as 0 to less than 360 degrees."""
+    turned = angle_deg % 360.0
+    # The remainder of a tiny negative number is 360.0 itself.
+    return 0.0 if turned == 360.0 else turned

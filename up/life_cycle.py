@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable
+from collections.abc import Coroutine
 from typing import Any
 
-from twisted.internet.defer import Deferred, TimeoutError
+from twisted.internet.defer import CancelledError, Deferred, TimeoutError
 from twisted.logger import Logger
+from twisted.python.failure import Failure
 
 from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule
@@ -18,6 +19,8 @@ from up.up import Up
 START_LIMIT_S = 10.0
 STOP_LIMIT_S = 1.5
 _LEAST_STOP_S = 0.2
+# sys.exit() in a module is a fault of that module, no wish of the program.
+_FAULTS = (Exception, SystemExit)
 
 
 class BootStoppedError(Exception):
@@ -37,10 +40,17 @@ class LifeCycle:
         self._reactor = up.context.reactor
         self.started: list[BaseStartedModule] = []
         self._failed: list[BaseModule] = []
+        self._starting: Deferred[Any] | None = None
+        self._is_stopping = False
 
     async def start(self) -> None:
-        """Start every module in order; raises BootStoppedError with the reason of the end."""
+        """Start every module in order; raises BootStoppedError with the reason of the end.
+
+        A stop meanwhile gives up the module that starts, and starts no other.
+        """
         for module in self._up.modules:
+            if self._is_stopping:
+                return
             if not isinstance(module, BaseStartedModule):
                 self._skip_if_need_failed(module)
                 continue
@@ -51,10 +61,14 @@ class LifeCycle:
                 raise BootStoppedError(
                     f"{module.class_name} did not start, and without it the system does not run"
                 )
-        self._check_sources()
+        if not self._is_stopping:
+            self._check_sources()
 
     async def stop(self) -> None:
         """Stop what was started, in reverse; one that hangs or raises does not keep the others."""
+        self._is_stopping = True
+        if self._starting is not None:
+            self._starting.cancel()
         deadline_s = self._reactor.seconds() + STOP_LIMIT_S
         while self.started:
             module = self.started.pop()
@@ -63,7 +77,7 @@ class LifeCycle:
                 await self._bounded(module.stop(), limit_s)
             except TimeoutError:
                 self.log.error("{name} did not stop in time", name=module.class_name)
-            except Exception:  # noqa: BLE001 - a module's fault must not keep the others running
+            except _FAULTS:
                 self.log.failure("{name} failed to stop", name=module.class_name)
 
     @property
@@ -73,21 +87,28 @@ class LifeCycle:
             try:
                 if not module.is_healthy:
                     return False
-            except Exception:  # noqa: BLE001 - a module that cannot say is not healthy
+            except _FAULTS:
                 return False
         return True
 
     async def _start_one(self, module: BaseStartedModule) -> StartResult:
         reason = ""
         try:
-            result: StartResult = await self._bounded(module.start(), START_LIMIT_S)
+            self._starting = self._bounded(module.start(), START_LIMIT_S)
+            result: StartResult = await self._starting
+        except CancelledError:
+            if self._is_stopping:
+                return StartResult.FAILED_GO_ON
+            result, reason = module.failure_result, "CancelledError"
         except TimeoutError:
             result, reason = module.failure_result, f"not started within {START_LIMIT_S:.0f} s"
         except (StartFailedError, ConfigErrors) as error:
             result, reason = module.failure_result, str(error)
-        except Exception as error:  # noqa: BLE001 - a module that raises has failed, no more
+        except _FAULTS as error:
             self.log.failure("{name} failed to start", name=module.path)
             result, reason = module.failure_result, f"{type(error).__name__}: {error}"
+        finally:
+            self._starting = None
         if result is StartResult.STARTED:
             self.started.append(module)
         else:
@@ -122,7 +143,22 @@ class LifeCycle:
                 f"neither {names} has its port open: no data could come, so there is nothing to run"
             )
 
-    async def _bounded(self, work: Awaitable[Any], limit_s: float) -> Any:
-        task: Deferred[Any] = Deferred.fromCoroutine(work)  # type: ignore[arg-type]
-        task.addTimeout(limit_s, self._reactor)
-        return await task
+    def _bounded(self, work: Coroutine[Any, Any, Any], limit_s: float) -> Deferred[Any]:
+        """Return what becomes of the work; after the limit a TimeoutError, whatever it does."""
+        task: Deferred[Any] = Deferred.fromCoroutine(work)
+        outcome: Deferred[Any] = Deferred(lambda _: task.cancel())
+
+        def settle(result: Any) -> None:
+            if limit.active():
+                limit.cancel()
+            if not outcome.called:
+                outcome.callback(result)
+
+        def give_up() -> None:
+            if not outcome.called:
+                outcome.errback(Failure(TimeoutError()))
+            task.cancel()
+
+        limit = self._reactor.callLater(limit_s, give_up)
+        task.addBoth(settle)
+        return outcome

@@ -7,7 +7,9 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 Conflict = Callable[[str, str, str], object]
-_PLAIN = (str, int, bool, type(None))
+DEEPEST = 16
+LONGEST = 1000
+_INT_LIMIT = 2**63
 
 
 def merge(
@@ -17,13 +19,18 @@ def merge(
 
     Two different values under one key are a conflict: ``on_conflict(key path, first module, later
     module)`` is told, the earlier value stays and only the later module's key is dropped. Numbers
-    that are not finite become null, and values that JSON does not have are dropped as conflicts
-    of the module with itself.
+    that are not finite become null. What JSON or a General Message does not have (other types,
+    nesting beyond ``DEEPEST``, text or lists beyond ``LONGEST``, whole numbers of more than 64
+    bits, lone surrogates) is dropped as a conflict of the module with itself, and so is the rest
+    of a map that fails while it is read.
     """
     merged: dict[str, Any] = {}
     owners: dict[tuple[str, ...], str] = {}
     for module, content in contents:
-        _merge_into(merged, content, module, (), owners, on_conflict)
+        try:
+            _merge_into(merged, content, module, (), owners, on_conflict)
+        except Exception:  # noqa: BLE001 - a module's map must not cost the others' contents
+            on_conflict("*", module, module)
     return merged
 
 
@@ -38,6 +45,9 @@ def _merge_into(
     for raw_key, raw in content.items():
         key = raw_key if isinstance(raw_key, str) else str(raw_key)
         here = (*path, key)
+        if len(here) > DEEPEST or not _is_sound(key):
+            on_conflict(".".join(path), module, module)
+            continue
         if isinstance(raw, Mapping):
             below = target.get(key)
             if key in target and not isinstance(below, dict):
@@ -60,13 +70,27 @@ def _merge_into(
         owners.setdefault(here, module)
 
 
-def _json_value(value: Any) -> Any:
+def _json_value(value: Any, depth: int = 0) -> Any:
     if isinstance(value, float):
         return value if math.isfinite(value) else None
-    if isinstance(value, _PLAIN):
+    if value is None or isinstance(value, bool):
         return value
-    if isinstance(value, list | tuple):
-        return [_json_value(each) for each in value]
-    if isinstance(value, Mapping):
-        return {str(key): _json_value(each) for key, each in value.items()}
-    raise TypeError(f"no JSON for {value!r}")
+    if isinstance(value, int) and -_INT_LIMIT <= value < _INT_LIMIT:
+        return value
+    if isinstance(value, str) and _is_sound(value):
+        return value
+    if isinstance(value, list | tuple) and len(value) <= LONGEST and depth < DEEPEST:
+        return [_json_value(each, depth + 1) for each in value]
+    if isinstance(value, Mapping) and depth < DEEPEST:
+        return {str(key): _json_value(each, depth + 1) for key, each in value.items()}
+    raise TypeError("no JSON, or too much of it")
+
+
+def _is_sound(text: str) -> bool:
+    if len(text) > LONGEST:
+        return False
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True

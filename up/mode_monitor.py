@@ -24,6 +24,7 @@ class ModeMonitor(BaseStartedModule):
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self.is_provisional = False
+        self._is_over = False
         self._timer: Timer | None = None
 
     @property
@@ -54,6 +55,7 @@ class ModeMonitor(BaseStartedModule):
         return True
 
     def _execute_stop(self) -> None:
+        self._is_over = True
         self._forget()
 
     def _on_link(self, command: LinkStateCommand) -> None:
@@ -68,7 +70,7 @@ class ModeMonitor(BaseStartedModule):
             self._log_warning("the Arduino answers: back in Flight Controller Mode")
 
     def _wait(self) -> None:
-        if self._timer is None and not self.is_provisional:
+        if self._timer is None and not self.is_provisional and not self._is_over:
             self._timer = self.context.reactor.callLater(PATIENCE_S, self._give_up)
 
     def _forget(self) -> None:

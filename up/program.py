@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import threading
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -22,6 +21,7 @@ from up.loading.files import config_files
 from up.loading.plan import BootError
 from up.log import start_logging
 from up.mode import Mode
+from up.system.forced_end import ForcedEnd
 from up.system.garbage import QuietCollector
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.reactor_monitor import ReactorMonitor
@@ -32,6 +32,7 @@ from up.up_loader import UpLoader
 EXIT_OK = 0
 EXIT_STOPPED = 1
 EXIT_CONFIG = 2
+EXIT_INTERRUPTED = 130
 FORCED_AFTER_S = 3.0
 USER_ERRORS = (ConfigErrors, NoApplicationError, CogImportError, BootError)
 
@@ -53,6 +54,8 @@ class Program:
             self._reactor, lambda: not up.command_executor.dispatching_since
         )
         self._monitor = ReactorMonitor(up.command_executor, self._reactor.callFromThread)
+        up.count("reactor", self._monitor.culprits)
+        self._forced_end = ForcedEnd(FORCED_AFTER_S)
         self._exit_status = EXIT_OK
         self._stopping = False
         self._running = False
@@ -66,6 +69,7 @@ class Program:
         self._up.command_executor.register_command(
             SystemStopCommand, lambda _: self.stop("a module asked for it")
         )
+        self._forced_end.start()
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, self._on_signal)
         self._reactor.callWhenRunning(self._begin)
@@ -79,15 +83,13 @@ class Program:
         self._stopping = True
         self.log.info("stopping: {why}", why=why)
         self._notifier.stopping(why)
-        forced = threading.Timer(FORCED_AFTER_S, _force, (self._exit_status or EXIT_STOPPED,))
-        forced.daemon = True
-        forced.start()
+        self._forced_end.ask(self._exit_status or EXIT_STOPPED)
         done = Deferred.fromCoroutine(self._end())
         done.addErrback(lambda failure: self.log.failure("stopping failed", failure))
-        done.addCallback(self._ended, forced)
+        done.addCallback(self._ended)
 
-    def _ended(self, result: None, forced: threading.Timer) -> None:
-        forced.cancel()
+    def _ended(self, result: None) -> None:
+        self._forced_end.call_off()
         self._reactor.stop()
 
     def _begin(self) -> None:
@@ -132,6 +134,8 @@ class Program:
         self._signals += 1
         if self._signals > 1:
             _force(128 + number)
+        # Asked for here, as something may hold the reactor that would have to do it.
+        self._forced_end.ask(EXIT_STOPPED)
         self._reactor.callFromThread(self.stop, signal.Signals(number).name)
 
 
@@ -160,6 +164,8 @@ def run_application(
     except USER_ERRORS as error:
         print(error, file=sys.stderr)  # noqa: T201 - the user's answer
         return EXIT_CONFIG
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
     return Program(up, environ).run()
 
 

@@ -10,6 +10,7 @@ from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule
 from up.commands.panic_command import PanicCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
+from up.log.limits import Once
 from up.merge import merge
 from up.system.clock import Timer
 
@@ -32,9 +33,9 @@ class TelemetryController(BaseStartedModule):
         self.frames = 0
         self.conflicts = 0
         self.faults = 0
-        self._named: set[str] = set()
+        self._said = Once()
         self._timer: Timer | None = None
-        self._due_s = 0.0
+        self._sent_s = 0.0
 
     @property
     def period_ms(self) -> float:
@@ -57,7 +58,7 @@ class TelemetryController(BaseStartedModule):
         executor.register_command(PanicCommand, self._on_panic)
 
     def _execute_start(self) -> bool:
-        self._due_s = self.context.reactor.seconds()
+        self._sent_s = self.context.reactor.seconds()
         self._schedule()
         return True
 
@@ -77,16 +78,16 @@ class TelemetryController(BaseStartedModule):
     def _reschedule(self) -> None:
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
-            self._due_s = self.context.reactor.seconds()
             self._schedule()
 
     def _schedule(self) -> None:
+        # Counted from the frame before: whoever sets the period again and again delays nothing.
         now_s = self.context.reactor.seconds()
-        period_s = self.period_ms / 1000
-        self._due_s = max(self._due_s + period_s, now_s)
+        self._due_s = max(self._sent_s + self.period_ms / 1000, now_s)
         self._timer = self.context.reactor.callLater(self._due_s - now_s, self._transmit)
 
     def _transmit(self) -> None:
+        self._sent_s = self._due_s
         self._schedule()
         self.frames += 1
         content = self.collect()
@@ -102,20 +103,19 @@ class TelemetryController(BaseStartedModule):
     def _content_of(self, module: BaseModule) -> Mapping[str, Any] | None:
         try:
             content = module.telemetry_content
-        except Exception:  # noqa: BLE001 - a module's fault must not cost the whole frame
+            if content is None or isinstance(content, Mapping):
+                return content
+            raise TypeError(f"telemetry_content is {type(content).__name__}, no map")
+        except (Exception, SystemExit):  # noqa: BLE001 - a fault must not cost the whole frame
             self.faults += 1
-            if module.path not in self._named:
-                self._named.add(module.path)
+            if self._said.first(module.path):
                 self.logger.failure("the telemetry of {name} failed", name=module.class_name)
             return None
-        return content if isinstance(content, Mapping) else None
 
     def _on_conflict(self, key: str, first: str, later: str) -> None:
         self.conflicts += 1
-        name = f"{key} {first} {later}"
-        if name in self._named:
+        if not self._said.first((key, first, later)):
             return
-        self._named.add(name)
         if first == later:
             self._log_error(f"{later} gives telemetry {key} a value that JSON does not have")
         else:

@@ -41,6 +41,7 @@ class Up:
             self.command_executor, self.beacons, context.reactor
         )
         self.ports: dict[str, int] = {}
+        self._counted: dict[str, Mapping[str, int]] = {}
         self.on_ports_changed: Callable[[], object] = lambda: None
         self._modules = list(plan.modules)
         self._handlers: Sequence[BaseCommandHandler] = plan.handlers
@@ -100,6 +101,7 @@ class Up:
             "counters": {
                 "bus": dict(executor.counters),
                 "receiver": dict(self.command_receiver.counters),
+                **{part: dict(counters) for part, counters in self._counted.items()},
             },
         }
 
@@ -108,6 +110,10 @@ class Up:
         self.ports[name] = port
         self.log.info("{name} listens on port {port}", name=name, port=port)
         self.on_ports_changed()
+
+    def count(self, part: str, counters: Mapping[str, int]) -> None:
+        """Show the counters of a part of the program in telemetry, ``counters.<part>.<name>``."""
+        self._counted[part] = counters
 
     def open_link(self, name: str, role: Any, send: Any, **more: Any) -> CommandLink:
         """Return the Command Receiver's view of a link that a module opens."""
@@ -118,7 +124,7 @@ class Up:
 
         A module that raises is taken out, with what needs it; it becomes an arming veto by name.
         """
-        from up.loading.order import needed_by
+        from up.loading.order import forget_wanted, needed_by
 
         failed: list[BaseModule] = []
         for module in self._modules:
@@ -127,15 +133,27 @@ class Up:
                 self._exclude(module, f"needs {missing.class_name}, which failed")
                 failed.append(module)
                 continue
+            subscribers = self.command_executor.subscribers
             try:
                 module.initialize(self)
-            except Exception as error:  # noqa: BLE001 - one module must not keep the rest from flying
+            except (Exception, SystemExit) as error:  # noqa: BLE001 - one module, not all of them
                 self.log.failure("{name} failed to initialize", name=module.path)
+                self.command_executor.restore(subscribers)
                 self._exclude(module, f"failed to initialize: {type(error).__name__}: {error}")
                 failed.append(module)
         self._modules = [module for module in self._modules if module not in failed]
+        for module in self._modules:
+            forget_wanted(module, failed)
         for handler in self._handlers:
+            self._register(handler)
+
+    def _register(self, handler: BaseCommandHandler) -> None:
+        try:
             self.command_executor.register_command(handler.COMMAND, handler)
+        except (ValueError, TypeError, NameError) as error:
+            name = type(handler).__name__
+            self.log.error("{name} cannot be registered: {error}", name=name, error=error)
+            self.vetoes.set(name, f"cannot be registered: {error}")
 
     def _exclude(self, module: BaseModule, reason: str) -> None:
         self.log.error("{name} is left out: {reason}", name=module.path, reason=reason)

@@ -5,14 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
+from twisted.internet.defer import Deferred
+from twisted.python.failure import Failure
+
 from raspilot.flight_controller import sticks
 from raspilot.flight_controller.cascade import Cascade
+from raspilot.flight_controller.gains_keeper import GainsKeeper
 from raspilot.flight_controller.yaw_damper import YawDamper
 from up.commands.flight_mode_command import FlightModeCommand
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.output_command import OutputCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
+from up.commands.refusal import Code, CommandRefusedError
+from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
 from up.flight_controller.gains import Gains, GainSet
 from up.flight_controller.pids_file import PidsFile
@@ -22,8 +28,9 @@ from up.providers.base_mission_control_provider import BaseMissionControlProvide
 
 ROLL_RATE_LIMIT_DEG_S = 120.0
 PITCH_RATE_LIMIT_DEG_S = 80.0
-SHORTEST_STEP_S, LONGEST_STEP_S = 1e-4, 0.1
+SHORTEST_STEP_S, LONGEST_STEP_S = 1e-3, 0.1
 ASK_AGAIN_S = 5.0
+FLYING_S = 0.25
 LOWEST_US, HIGHEST_US = 1000, 2000
 STICK_THROTTLE = 0
 _NO_GAINS = Gains(0.0)
@@ -34,7 +41,8 @@ class RaspilotFlightController(BaseFlightController):
 
     FBW: the sticks ask for bank and pitch, the rudder is stick plus yaw damper. ACRO: the sticks
     pass through, where orientation is missing. The throttle is always the stick's. Without a valid
-    receiver nothing is sent: the board's own failsafe acts. Loaded with ``flight controller:
+    receiver, or from an orientation that is not the board's, nothing is sent: the board's own
+    failsafe acts. Loaded with ``flight controller:
     raspberry``.
     """
 
@@ -64,17 +72,24 @@ class RaspilotFlightController(BaseFlightController):
         """Return what is flown and what is missing."""
         return {
             "flight_control": {
-                "mode": self.flight_mode if self._is_board_ready else None,
+                "mode": self.flight_mode if self.is_flying else None,
                 "offered": self.offered_modes,
                 "missing": self.missing_for("FBW"),
             },
             "counters": {"flight_control": {"outputs": self.outputs}},
         }
 
+    @property
+    def is_flying(self) -> bool:
+        """Return whether Outputs go to the board now."""
+        now_s = self.context.reactor.seconds()
+        return self._is_board_ready and now_s - self._computed_at_s <= FLYING_S
+
     def _execute_initialization(self) -> None:
         super()._execute_initialization()
-        self._pids = PidsFile(self.context.config_folder)
-        self.gains, problem = self._pids.load()
+        pids = PidsFile(self.context.config_folder)
+        self._keeper = GainsKeeper(pids, self.context.reactor)
+        self.gains, problem = pids.load()
         if problem:
             self._log_error(problem)
             self.up.vetoes.set("pids.yml", problem)
@@ -94,18 +109,22 @@ class RaspilotFlightController(BaseFlightController):
     def _on_orientation(self, command: OrientationCommand) -> None:
         if not self._is_board_ready or command.sequence is None:
             return
+        if self.up.command_executor.origin.role is not Role.BOARD:
+            # A phone's frame could name a sequence too; only the board knows its own.
+            return
         rx = self.rx.usable(self.FLIGHT_MODES["ACRO"]["rx"])
         if rx is None:
             return
-        reading = self.orientation.reading
+        reading = self.orientation.usable(self.FLIGHT_MODES["FBW"]["orientation"])
         if reading is None or reading.value is not command:
             return
         now_s = reading.time_s
         dt_s = now_s - self._computed_at_s
         self._computed_at_s = now_s
-        if dt_s > LONGEST_STEP_S:
+        if dt_s > LONGEST_STEP_S or self.flight_mode != "FBW":
+            # The controllers slept: what they remember is not of this flight any more.
             self._reset()
-            dt_s = LONGEST_STEP_S
+            dt_s = min(dt_s, LONGEST_STEP_S)
         if command.roll_rate_deg_s is None:
             self.flight_mode = "ACRO"
             output = _pass_through(command.sequence, rx.value)
@@ -161,7 +180,7 @@ class RaspilotFlightController(BaseFlightController):
     def _on_flight_mode(self, command: FlightModeCommand) -> None:
         self._is_asked = command.mode == "AUTO"
 
-    def _on_tunings(self, command: PIDTuningsCommand) -> None:
+    def _on_tunings(self, command: PIDTuningsCommand) -> Deferred[None] | None:
         gains = command.gains
         if gains is not None:
             self.gains = gains.completed(self.gains)
@@ -169,17 +188,19 @@ class RaspilotFlightController(BaseFlightController):
             self._pitch.tune(self.gains.rate.elevator, self.gains.stabilize.elevator)
             self._yaw.tune(self.gains.rate.rudder or _NO_GAINS)
             self._log_info("flies with other gains")
-            self._save()
-        elif self.mission_control is not None:
-            self.mission_control.send_command(PIDTuningsValuesCommand.of(self.gains))
+            return self._keeper.save(self.gains).addCallbacks(self._on_saved, self._on_unsaved)
+        if self.mission_control is None:
+            raise CommandRefusedError("no ground station is configured", Code.UNAVAILABLE)
+        if not self.mission_control.send_command(PIDTuningsValuesCommand.of(self.gains)):
+            raise CommandRefusedError("the ground station is not connected", Code.UNAVAILABLE)
+        return None
 
-    def _save(self) -> None:
-        try:
-            self._pids.save(self.gains)
-        except OSError as error:
-            self._log_error(f"the gains cannot be saved: {error.strerror or error}")
-        else:
-            self.up.vetoes.clear("pids.yml")
+    def _on_saved(self, _: None) -> None:
+        self.up.vetoes.clear("pids.yml")
+
+    def _on_unsaved(self, failure: Failure) -> Failure:
+        self._log_error(failure.getErrorMessage())
+        return failure
 
 
 def _pass_through(sequence: int, rx: Any) -> OutputCommand:

@@ -8,7 +8,7 @@ from typing import ClassVar
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 
-_ANYBODY = frozenset({Role.SENSOR, Role.OBSERVER})
+_ANYBODY = frozenset(Role)
 
 
 @dataclass(frozen=True, slots=True)

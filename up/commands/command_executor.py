@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import Counter, deque
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
@@ -21,7 +21,10 @@ from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
 
 Handler = Callable[[Any], Any]
+Subscribers = Mapping[str, tuple[tuple[UUID, Handler], ...]]
 _LOGGED_NAMES_LIMIT = 100
+# sys.exit() in a handler is a fault of that handler, no wish of the program.
+_FAULTS = (Exception, SystemExit)
 
 
 class CommandExecutor:
@@ -38,6 +41,7 @@ class CommandExecutor:
 
     __slots__ = (
         "_call_from_thread",
+        "_faults",
         "_handlers",
         "_logged_names",
         "_subscribers",
@@ -64,6 +68,7 @@ class CommandExecutor:
         self._handlers: dict[str, tuple[Handler, ...]] = {}
         self._waiting: deque[tuple[BaseCommand | _Asked, Origin]] = deque()
         self._logged_names: set[str] = set()
+        self._faults: Counter[tuple[str, str]] = Counter()
 
     def adopt_thread(self) -> None:
         """Make the calling thread the reactor thread; the program does so before it runs."""
@@ -97,6 +102,19 @@ class CommandExecutor:
         self._subscribers[name] = left
         self._rebuild(name)
 
+    @property
+    def subscribers(self) -> Subscribers:
+        """Return who is subscribed now, for ``restore``."""
+        return dict(self._subscribers)
+
+    def restore(self, subscribers: Subscribers) -> None:
+        """Undo what was subscribed since ``subscribers`` was taken."""
+        for name in [
+            name for name, now in self._subscribers.items() if now != subscribers.get(name)
+        ]:
+            self._subscribers[name] = subscribers.get(name, ())
+            self._rebuild(name)
+
     def has_handlers(self, command: type[BaseCommand] | str) -> bool:
         """Return whether anybody subscribed to a Command."""
         return bool(self._handlers.get(self._name_of(command)))
@@ -120,14 +138,19 @@ class CommandExecutor:
         except KeyError:
             handlers = ()
             self._count_unhandled(command.NAME)
-        for handler in handlers:
-            try:
-                result = handler(command)
-                if result is not None:
-                    self._settle(handler, command, result)
-            except Exception:  # noqa: BLE001 - the bus isolates every handler from the others
-                self._failed(Failure(), handler, command)
-        self.dispatching_since = 0.0
+        try:
+            for handler in handlers:
+                try:
+                    result = handler(command)
+                    if result is not None:
+                        later = _later(result)
+                        if later is not None:
+                            later.addErrback(self._failed, handler, command)
+                except _FAULTS:
+                    self._failed(Failure(), handler, command)
+        finally:
+            # Whatever ended it: a bus that thinks it is busy would never deliver again.
+            self.dispatching_since = 0.0
         if self._waiting:
             self._drain()
 
@@ -158,16 +181,20 @@ class CommandExecutor:
         self.origin = origin
         self.dispatching = command
         self.dispatching_since = perf_counter()
-        for handler in handlers:
-            try:
-                result = handler(command)
-            except Exception:  # noqa: BLE001 - the bus isolates every handler from the others
-                faults.append(Failure())
-                self._failed(faults[-1], handler, command)
-            else:
-                if isinstance(result, Deferred):
-                    waiting.append(result)
-        self.dispatching_since = 0.0
+        try:
+            for handler in handlers:
+                try:
+                    result = handler(command)
+                    if result is not None:
+                        later = _later(result)
+                        if later is not None:
+                            later.addErrback(self._failed_later, handler, command)
+                            waiting.append(later)
+                except _FAULTS:
+                    faults.append(Failure())
+                    self._failed(faults[-1], handler, command)
+        finally:
+            self.dispatching_since = 0.0
         _join(waiting, faults, done)
         if self._waiting:
             self._drain()
@@ -194,7 +221,11 @@ class CommandExecutor:
         return command.NAME
 
     def _rebuild(self, name: str) -> None:
-        self._handlers[name] = tuple(call for _, call in self._subscribers[name])
+        handlers = tuple(call for _, call in self._subscribers[name])
+        if handlers:
+            self._handlers[name] = handlers
+        else:
+            self._handlers.pop(name, None)
 
     def _count_unhandled(self, name: str) -> None:
         self.counters["unhandled"] += 1
@@ -214,14 +245,22 @@ class CommandExecutor:
             )
             return
         self.counters["failed_handlers"] += 1
-        self.log.failure(
-            "{owner} failed while handling {name}", failure, owner=owner, name=command.NAME
-        )
+        self._faults[owner, command.NAME] += 1
+        count = self._faults[owner, command.NAME]
+        if str(count).strip("0") == "1":
+            # A handler of a fast Command fails often: the first, tenth, hundredth... are enough.
+            self.log.failure(
+                "{owner} failed while handling {name} ({count} times now)",
+                failure,
+                owner=owner,
+                name=command.NAME,
+                count=count,
+            )
         self.on_handler_failed(owner)
 
-    def _settle(self, handler: Handler, command: BaseCommand, result: Any) -> None:
-        if isinstance(result, Deferred):
-            result.addErrback(self._failed, handler, command)
+    def _failed_later(self, failure: Failure, handler: Handler, command: BaseCommand) -> Failure:
+        self._failed(failure, handler, command)
+        return failure
 
 
 @dataclass(frozen=True, slots=True)
@@ -242,6 +281,13 @@ def owner_of(handler: Handler) -> str:
     if owner is not None:
         return type(owner).__name__
     return getattr(handler, "__qualname__", None) or type(handler).__name__
+
+
+def _later(result: Any) -> Deferred[Any] | None:
+    """Return what tells the outcome of a handler that is not done yet; None: it is done."""
+    if isinstance(result, Coroutine):
+        return Deferred.fromCoroutine(result)
+    return result if isinstance(result, Deferred) else None
 
 
 def _join(waiting: list[Deferred[Any]], faults: list[Failure], done: Deferred[None]) -> None:

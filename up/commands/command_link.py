@@ -57,6 +57,8 @@ class CommandLink:
         self._forget()
         known = self._answers.get(command_id)
         if known is None:
+            while len(self._answers) >= REMEMBERED:
+                self._answers.popitem(last=False)
             self._answers[command_id] = _Answer(self._clock.seconds())
             return False
         if known.message is not None:
@@ -87,7 +89,5 @@ class CommandLink:
     def _forget(self) -> None:
         oldest = self._clock.seconds() - REMEMBERED_S
         answers = self._answers
-        while answers and (
-            len(answers) >= REMEMBERED or next(iter(answers.values())).time_s < oldest
-        ):
+        while answers and next(iter(answers.values())).time_s < oldest:
             answers.popitem(last=False)

@@ -20,6 +20,7 @@ from up.protocols.general_message import GeneralMessage, MalformedMessage
 
 OUTCOME_LIMIT_S = 2.0
 _LOGGED_LIMIT = 100
+_FAILED = "carrying it out failed; the log says where"
 Route = Callable[[BaseCommand, CommandLink, str | None], "Deferred[None] | None"]
 
 
@@ -51,8 +52,19 @@ class CommandReceiver:
         self._routes[name] = route
 
     def receive(self, message: GeneralMessage, link: CommandLink) -> None:
-        """Take one message from a link: publish it, route it, or refuse it."""
+        """Take one message from a link: publish it, route it, or refuse it.
+
+        A Command or route of a cog that raises costs this message, not the link.
+        """
         self.counters["received"] += 1
+        try:
+            self._receive(message, link)
+        except Exception:  # noqa: BLE001 - the border isolates the links from the Commands' faults
+            if self._is_first(link, f"{Code.FAILED.value} {message.name}"):
+                self.log.failure("{name} from {link} failed", name=message.name, link=link.name)
+            self._refuse(link, message, Code.FAILED, _FAILED)
+
+    def _receive(self, message: GeneralMessage, link: CommandLink) -> None:
         cls = self._executor.registry.get(message.name)
         if message.id is not None and link.is_repeated(message.id):
             self.counters["repeated"] += 1
@@ -130,7 +142,7 @@ class CommandReceiver:
         elif isinstance(error, TimeoutError):
             self._refuse(link, message, Code.TIMEOUT, "no answer from whoever carries it out")
         else:
-            self._refuse(link, message, Code.FAILED, "carrying it out failed; the log says where")
+            self._refuse(link, message, Code.FAILED, _FAILED)
 
     def _forbidden(self, command: BaseCommand, link: CommandLink) -> str:
         wanted = " or ".join(sorted(role.value for role in command.roles())) or "nobody"
@@ -145,8 +157,12 @@ class CommandReceiver:
         link.nack(message.id, code, reason)
 
     def _log_once(self, link: CommandLink, what: str, text: str) -> None:
+        if self._is_first(link, what):
+            self.log.warn("{link} {text} (said once, then counted)", link=link.name, text=text)
+
+    def _is_first(self, link: CommandLink, what: str) -> bool:
         key = (link.name, what[:96])
         if key in self._logged or len(self._logged) >= _LOGGED_LIMIT:
-            return
+            return False
         self._logged.add(key)
-        self.log.warn("{link} {text} (said once, then counted)", link=link.name, text=text)
+        return True

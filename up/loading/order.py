@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
 from up.base_module import BaseModule
 from up.loading.plan import BootError
@@ -46,6 +46,14 @@ def needed_by(module: BaseModule) -> list[BaseModule]:
         for need in declared_needs(type(module))
         if not need.optional
     ]
+
+
+def forget_wanted(module: BaseModule, failed: Container[BaseModule]) -> None:
+    """Let a module do without what it only wanted and what has failed."""
+    references = vars(module).get("_references", {})
+    for need in declared_needs(type(module)):
+        if need.optional and references.get(need.attribute) in failed:
+            references[need.attribute] = None
 
 
 def _fill(

@@ -85,8 +85,10 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
             priority = self._priorities.get(origin.link, origin.priority)
             if not self._arbiter.accepts(origin.link, priority, now_s):
                 return
-        elif self._arbiter.current not in ("", origin.link):
-            return
+        else:
+            self._arbiter.note_invalid(origin.link, now_s)
+            if self._arbiter.current not in ("", origin.link):
+                return
         self._reading = Reading(value, origin.link, now_s, valid)
         self._on_changed(self._reading)
 

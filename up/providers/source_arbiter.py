@@ -20,7 +20,7 @@ class SourceArbiter:
 
     A source is fresh while its data are at most ``max_age_s`` old. A source of lower priority is
     taken when those above it are not fresh; going back to a higher one needs ``RETURN_AFTER_S`` of
-    good data from it. Times are monotonic seconds.
+    good data from it, without an invalid one between. Times are monotonic seconds.
     """
 
     def __init__(self, max_age_s: float, on_switch: Callable[[str, str], object]) -> None:
@@ -41,6 +41,12 @@ class SourceArbiter:
         if source == self.current:
             return True
         return self._takes_over(source, known, now_s)
+
+    def note_invalid(self, source: str, now_s: float) -> None:
+        """Note data that the source itself calls invalid: its good time begins anew."""
+        known = self._sources.get(source)
+        if known is not None:
+            known.good_since_s = now_s
 
     def _takes_over(self, source: str, candidate: _Source, now_s: float) -> bool:
         current = self._sources.get(self.current)

@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand
 from up.commands.heading_command import HeadingCommand
+from up.earth import compass_deg
 from up.providers.base_provider import BaseProvider
 from up.providers.reading import Reading
 
@@ -36,7 +37,7 @@ class UpHeadingProvider(BaseProvider[float]):
         }
 
     def _value_of(self, command: Any) -> float | None:
-        heading: float = command.heading_deg % 360.0
+        heading = compass_deg(command.heading_deg)
         if command.mode == "required":
             self.required_heading = heading
             self._on_required_heading_changed()

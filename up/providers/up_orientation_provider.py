@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import isfinite
 from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand
@@ -20,6 +21,17 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
     def _value_of(self, command: Any) -> OrientationCommand:
         value: OrientationCommand = command
         return value
+
+    def _is_valid(self, command: Any) -> bool:
+        # Modules build the Command unchecked; one NaN would stay in a controller for ever.
+        return isfinite(
+            command.roll_deg
+            + command.pitch_deg
+            + command.yaw_deg
+            + (command.roll_rate_deg_s or 0.0)
+            + (command.pitch_rate_deg_s or 0.0)
+            + (command.yaw_rate_deg_s or 0.0)
+        )
 
     @property
     def roll(self) -> float | None:

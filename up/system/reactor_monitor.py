@@ -16,16 +16,20 @@ from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.command_executor import CommandExecutor
 
 BUDGET_S = 0.020
-BEAT_S = 0.1
-_SAID_LIMIT = 50
+OTHERS = "others"
+_NAMED_LIMIT = 50
+_WAITING = frozenset({"doPoll", "doSelect"})
+_NOT_TO_BLAME = frozenset({*sys.stdlib_module_names, "twisted", "zope"})
 
 
 class ReactorMonitor:
-    """A thread that looks at the bus every ``BUDGET_S`` and pings the reactor every ``BEAT_S``.
+    """A thread that looks every ``BUDGET_S`` at what the reactor thread does.
 
-    A dispatch, or a ping without an answer, that is older than the budget is blamed on the module
-    or handler that stands in the reactor thread's stack: logged once each and counted. Nothing
-    longer than the budget escapes on the bus: a look that comes early waits for the rest.
+    A dispatch of the bus that is older than the budget, or a reactor that is busy and does not
+    answer within the budget, is blamed on the module or handler that stands in the reactor
+    thread's stack: logged once each, counted once a hold. A look at a dispatch that comes early
+    waits for the rest, so none longer than the budget escapes; of the reactor's other work, none
+    longer than two budgets. An idle reactor is left alone.
     """
 
     log = Logger()
@@ -36,9 +40,10 @@ class ReactorMonitor:
         self._call_from_thread = call_from_thread
         self._reactor_thread = threading.get_ident()
         self._stop = threading.Event()
+        self._is_answered = True
+        self._is_hold_blamed = False
         self._pinged_s = 0.0
-        self._answered = True
-        self._blamed_s = 0.0
+        self._blamed_dispatch_s = 0.0
         self._thread = threading.Thread(target=self._run, name="reactor-monitor", daemon=True)
 
     def start(self) -> None:
@@ -59,35 +64,43 @@ class ReactorMonitor:
 
     def _look_at_bus(self) -> None:
         since_s = self._executor.dispatching_since
-        if not since_s:
+        if not since_s or since_s == self._blamed_dispatch_s:
             return
         rest_s = BUDGET_S - (perf_counter() - since_s)
         if rest_s > 0 and self._stop.wait(rest_s):
             return
+        frame = self._frame()
         if self._executor.dispatching_since == since_s:
-            self._blame(since_s)
+            self._blamed_dispatch_s = since_s
+            self._blame_hold(frame)
 
     def _look_at_reactor(self) -> None:
-        now_s = perf_counter()
-        if not self._answered:
-            if now_s - self._pinged_s > BUDGET_S:
-                self._blame(self._pinged_s)
-        elif now_s - self._pinged_s >= BEAT_S:
-            self._answered = False
-            self._pinged_s = now_s
+        frame = self._frame()
+        if not self._is_answered:
+            if perf_counter() - self._pinged_s >= BUDGET_S:
+                self._blame_hold(frame)
+        elif frame is not None and frame.f_code.co_name not in _WAITING:
+            self._is_answered = False
+            since_s = self._executor.dispatching_since
+            self._is_hold_blamed = bool(since_s) and since_s == self._blamed_dispatch_s
+            self._pinged_s = perf_counter()
             self._call_from_thread(self._answer)
 
     def _answer(self) -> None:
-        self._answered = True
+        self._is_answered = True
 
-    def _blame(self, since_s: float) -> None:
-        if since_s == self._blamed_s:
+    def _frame(self) -> FrameType | None:
+        return sys._current_frames().get(self._reactor_thread)
+
+    def _blame_hold(self, frame: FrameType | None) -> None:
+        if not self._is_answered and self._is_hold_blamed:
             return
-        self._blamed_s = since_s
-        frame = sys._current_frames().get(self._reactor_thread)
+        self._is_hold_blamed = True
         culprit = culprit_in(frame)
+        if culprit not in self.culprits and len(self.culprits) >= _NAMED_LIMIT:
+            culprit = OTHERS
         self.culprits[culprit] += 1
-        if self.culprits[culprit] == 1 and len(self.culprits) <= _SAID_LIMIT:
+        if self.culprits[culprit] == 1:
             self.log.error(
                 "{culprit} holds the reactor for more than {ms:.0f} ms, and with it everything"
                 " (said once, then counted)",
@@ -97,13 +110,24 @@ class ReactorMonitor:
 
 
 def culprit_in(frame: FrameType | None) -> str:
-    """Return who stands in a stack: the innermost module or handler, else the innermost line."""
+    """Return who stands in a stack: the innermost module or handler, else a function's name."""
     innermost = frame
     while frame is not None:
         owner = frame.f_locals.get("self")
         if isinstance(owner, BaseModule | BaseCommandHandler):
             return type(owner).__name__
         frame = frame.f_back
+    return _function_in(innermost)
+
+
+def _function_in(innermost: FrameType | None) -> str:
+    """Return the innermost function that neither Python nor Twisted brings."""
+    frame = innermost
+    while frame is not None:
+        name = frame.f_globals.get("__name__", "?")
+        if name.partition(".")[0] not in _NOT_TO_BLAME:
+            return f"{name}.{frame.f_code.co_qualname}"
+        frame = frame.f_back
     if innermost is None:
         return "?"
-    return f"{innermost.f_code.co_filename}:{innermost.f_lineno}"
+    return f"{innermost.f_globals.get('__name__', '?')}.{innermost.f_code.co_qualname}"

@@ -1,0 +1,48 @@
+"""Saves gains without making the flight wait for the disk."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from twisted.internet.defer import Deferred
+
+from up.commands.refusal import Code, CommandRefusedError
+from up.flight_controller.gains import GainSet
+from up.flight_controller.pids_file import PidsFile
+
+
+class GainsKeeper:
+    """Writes pids.yml on a thread of its own: an SD card may take a second over it.
+
+    Saves keep their order. A failed one fails with CommandRefusedError, in the reactor's thread.
+    """
+
+    def __init__(self, file: PidsFile, reactor: Any) -> None:
+        self._file = file
+        self._reactor = reactor
+        self._newest: GainSet | None = None
+        self._lock = threading.Lock()
+
+    def save(self, gains: GainSet) -> Deferred[None]:
+        """Save a set; the result comes when it is on the disk."""
+        done: Deferred[None] = Deferred()
+        self._newest = gains
+        threading.Thread(
+            target=self._write, args=(done,), name="pids.yml writer", daemon=True
+        ).start()
+        return done
+
+    def _write(self, done: Deferred[None]) -> None:
+        with self._lock:
+            gains = self._newest
+            assert gains is not None
+            try:
+                self._file.save(gains)
+            except (OSError, ValueError) as error:
+                reason = getattr(error, "strerror", None) or str(error)
+                text = f"the new gains fly, but pids.yml was not saved: {reason}"
+                failure = CommandRefusedError(text, Code.FAILED)
+                self._reactor.callFromThread(done.errback, failure)
+            else:
+                self._reactor.callFromThread(done.callback, None)
