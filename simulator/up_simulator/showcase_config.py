@@ -6,6 +6,7 @@ import socket
 from dataclasses import astuple, dataclass
 from pathlib import Path
 
+_TRIES = 20
 # Gains for the model of the small glider: deg/s per deg, and 1.25 us per deg/s.
 PIDS = """\
 # Gains for the virtual glider; the ground's tuning is saved here.
@@ -44,16 +45,17 @@ def choose_ports(any_ports: bool = False) -> Ports:
 
 
 def _free_port(wanted: int, any_port: bool, held: list[socket.socket]) -> int:
-    for port in (0,) if any_port else (wanted, 0):
-        probe = socket.socket()
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    """Return a port that is free for TCP and for UDP, and hold it until all are chosen."""
+    for port in (0,) * _TRIES if any_port else (wanted, *(0,) * _TRIES):
+        stream, datagrams = socket.socket(), socket.socket(type=socket.SOCK_DGRAM)
+        held += [stream, datagrams]
+        stream.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            probe.bind(("", port))
+            stream.bind(("", port))
+            bound: int = stream.getsockname()[1]
+            datagrams.bind(("", bound))
         except OSError:
-            probe.close()
             continue
-        held.append(probe)
-        bound: int = probe.getsockname()[1]
         return bound
     raise OSError("no port is free")
 
