@@ -12,12 +12,12 @@ import time
 from collections.abc import Callable, Iterable
 from importlib import import_module
 
-from bench.table import Row, print_table
+from bench.table import Row
 from up.protocols.checked_framing import CheckedDecoder, CheckedEncoder
 from up.protocols.orientation_forward import OrientationDecoder
 
 FRAMES = 6000
-ROUNDS = 25
+ROUNDS, QUICK_ROUNDS = 25, 1
 READ_SIZE = 4096
 TCP_READ_SIZE = 65536
 CHECKED_TARGET_US = 0.6
@@ -30,13 +30,13 @@ SIZES = {ord("r"): 8, ord("i"): 13, ord("O"): 26}
 Work = Callable[[], int]
 
 
-def cpu_us(*works: Work) -> list[float]:
+def cpu_us(*works: Work, rounds: int = ROUNDS) -> list[float]:
     """Return the CPU time in us that each work takes for one of the frames that it counts."""
     best = [math.inf] * len(works)
     gc.collect()
     gc.disable()
     try:
-        for _ in range(ROUNDS):
+        for _ in range(rounds):
             for index, work in enumerate(works):
                 began = time.process_time()
                 frames = work()
@@ -168,12 +168,12 @@ def prototype_work(pieces: list[bytes]) -> Work:
     return work
 
 
-def serial_rows() -> Iterable[Row]:
+def serial_rows(rounds: int) -> Iterable[Row]:
     """Yield the rows of the serial line."""
     payloads = serial_payloads()
     mavlink = pymavlink_work()
     works = [checked_work(payloads), table_work(payloads)] + ([mavlink] if mavlink else [])
-    ours, table, *others = cpu_us(*works)
+    ours, table, *others = cpu_us(*works, rounds=rounds)
     yield Row(
         "checked serial frame, parse",
         f"{ours:.2f} us",
@@ -199,14 +199,14 @@ def serial_rows() -> Iterable[Row]:
     )
 
 
-def orientation_rows() -> Iterable[Row]:
+def orientation_rows(rounds: int) -> Iterable[Row]:
     """Yield the rows of Orientation Forward: a full read, and frame by frame for comparison."""
     for what, size, is_target in (
         (f"orientation over TCP, reads of {TCP_READ_SIZE // 1024} KiB", TCP_READ_SIZE, True),
         ("orientation over TCP, a frame a read", 24, False),
     ):
         pieces = cut(orientation_wire(FRAMES if size == 24 else 4 * size // 24), size)
-        ours, naive = cpu_us(orientation_work(pieces), prototype_work(pieces))
+        ours, naive = cpu_us(orientation_work(pieces), prototype_work(pieces), rounds=rounds)
         ratio = naive / ours
         yield Row(
             what,
@@ -219,11 +219,8 @@ def orientation_rows() -> Iterable[Row]:
         )
 
 
-def rows() -> Iterable[Row]:
+def rows(quick: bool = False) -> Iterable[Row]:
     """Yield the codecs' rows of the table."""
-    yield from serial_rows()
-    yield from orientation_rows()
-
-
-if __name__ == "__main__":
-    print_table(rows())
+    rounds = QUICK_ROUNDS if quick else ROUNDS
+    yield from serial_rows(rounds)
+    yield from orientation_rows(rounds)

@@ -51,9 +51,7 @@ def write_config(
         "arduino.yml": f"port: {serial!r}\n",
     }
     if proxy_port:
-        files["mission_control.yml"] = (
-            f"remote_server:\n  url: 127.0.0.1\n  port: {proxy_port}\n"
-        )
+        files["mission_control.yml"] = f"remote_server:\n  url: 127.0.0.1\n  port: {proxy_port}\n"
     for name, text in files.items():
         (folder / name).write_text(text)
     (folder / "pids.yml").write_text((ROOT / "config" / "pids.yml").read_text())

@@ -1,7 +1,7 @@
 """The proxy beside HAProxy and socat: added round trip, CPU, memory.
 
-`python bench/relay.py` prints the table. Relay and load generator are processes of their own, on
-a core each where there are two; every figure is from one run on one machine.
+Relay and load generator are processes of their own, on a core each where there are two; every
+figure is from one run on one machine.
 """
 
 import json
@@ -19,9 +19,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
-from bench.table import Row, print_table
+from bench.table import Row
 
 PAIRS = 100
 RATE_HZ = 50
@@ -135,8 +133,8 @@ def wait_for_port(port: int) -> None:
 class Load:
     """The load generator's process."""
 
-    def __init__(self, mode: str, **ports: int) -> None:
-        job = {"mode": mode, "pairs": PAIRS, "rate_hz": RATE_HZ, "seconds": SECONDS,
+    def __init__(self, mode: str, seconds: float, **ports: int) -> None:
+        job = {"mode": mode, "pairs": PAIRS, "rate_hz": RATE_HZ, "seconds": seconds,
                "size": SIZE, "cpu": cores()[1], "echo": 0, **ports}  # fmt: skip
         self._process = subprocess.Popen(
             [sys.executable, str(LOAD)], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE
@@ -170,17 +168,17 @@ class Load:
         return Figures(end["p50_us"], end["p99_us"], used_s * 1e6 / end["count"])
 
 
-def measure_direct() -> Figures:
+def measure_direct(seconds: float) -> Figures:
     """Measure the load generator against itself."""
-    load = Load("direct")
+    load = Load("direct", seconds)
     load.hear("echo")
     return load.figures(None)
 
 
-def measure_ours() -> Figures:
+def measure_ours(seconds: float) -> Figures:
     """Measure up-proxy."""
     with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
-        return Load("proxy", echo=air, send=ground).figures(running.pid)
+        return Load("proxy", seconds, echo=air, send=ground).figures(running.pid)
 
 
 def haproxy_command(folder: Path, port: int, echo: int) -> tuple[str, ...]:
@@ -203,12 +201,12 @@ def socat_command(folder: Path, port: int, echo: int) -> tuple[str, ...]:
     )
 
 
-def measure_peer(name: str) -> Figures | None:
+def measure_peer(name: str, seconds: float) -> Figures | None:
     """Measure HAProxy or socat; None when it is not installed."""
     if shutil.which(name) is None:
         return None
     command = haproxy_command if name == "haproxy" else socat_command
-    load = Load("forward")
+    load = Load("forward", seconds)
     echo = int(load.hear("echo")["echo"])
     port = free_port()
     with tempfile.TemporaryDirectory() as folder, process(*command(Path(folder), port, echo)) as it:
@@ -226,15 +224,15 @@ def best(rounds: list[Figures]) -> Figures:
     )
 
 
-def relay_rows() -> Iterable[Row]:
+def relay_rows(rounds: int = ROUNDS, seconds: float = SECONDS) -> Iterable[Row]:
     """Yield latency and CPU against both peers, the rounds interleaved."""
     names = [name for name in ("haproxy", "socat") if shutil.which(name)]
     runs: dict[str, list[Figures]] = {name: [] for name in ("direct", "ours", *names)}
-    for _ in range(ROUNDS):
-        runs["direct"].append(measure_direct())
-        runs["ours"].append(measure_ours())
+    for _ in range(rounds):
+        runs["direct"].append(measure_direct(seconds))
+        runs["ours"].append(measure_ours(seconds))
         for name in names:
-            figures = measure_peer(name)
+            figures = measure_peer(name, seconds)
             if figures is not None:
                 runs[name].append(figures)
     direct, ours = best(runs["direct"]), best(runs["ours"])
@@ -344,12 +342,13 @@ def stalled_row(seconds: float = 2.0) -> Row:
     )
 
 
-def rows() -> Iterable[Row]:
+def rows(quick: bool = False) -> Iterable[Row]:
     """Yield the relay's rows of the table."""
+    if quick:
+        yield from relay_rows(rounds=1, seconds=1.0)
+        yield from many_pairs_rows(pairs=100, seconds=1)
+        yield stalled_row(seconds=0.5)
+        return
     yield from relay_rows()
     yield from many_pairs_rows()
     yield stalled_row()
-
-
-if __name__ == "__main__":
-    print_table(rows())

@@ -1,0 +1,104 @@
+"""From the command line to bound ports, and the memory of an idle daemon.
+
+The peer is importing Twisted's reactor and nothing else, in the same run, in turns.
+"""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterable
+from contextlib import suppress
+from importlib.util import find_spec
+
+from bench.daemon import Ports, daemon
+from bench.processes import resident_mb, running, wait_until
+from bench.table import Row
+
+IMPORT = "import twisted.internet.reactor"
+RATIO_TARGET = 1.7
+MEMORY_TARGET_MB = 40.0
+ROUNDS, QUICK_ROUNDS = 12, 2
+LOOK_EVERY_S = 0.0005
+LIMIT_S = 60.0
+SETTLE_S = 5.0
+# What a program holds that has the reactor and nothing else.
+HOLD = f"{IMPORT}, time; time.sleep(600)"
+
+
+def wait_for_ports(ports: Ports, limit_s: float = LIMIT_S) -> None:
+    """Return when both TCP ports take connections; raises RuntimeError after the limit."""
+    end_s = time.monotonic() + limit_s
+    for port in (ports.general, ports.orientation):
+        while not _is_open(port):
+            if time.monotonic() > end_s:
+                raise RuntimeError(f"the daemon did not bind port {port}")
+            time.sleep(LOOK_EVERY_S)
+
+
+def _is_open(port: int) -> bool:
+    with socket.socket() as probe, suppress(ConnectionRefusedError):
+        probe.connect(("127.0.0.1", port))
+        return True
+    return False
+
+
+def start_s() -> float:
+    """Return the seconds from the command line to bound ports, once."""
+    began_s = time.perf_counter()
+    with daemon() as running_daemon:
+        wait_for_ports(running_daemon.ports)
+        return time.perf_counter() - began_s
+
+
+def import_s() -> float:
+    """Return the seconds of a Python that imports the reactor and ends, once."""
+    began_s = time.perf_counter()
+    subprocess.run([sys.executable, "-c", IMPORT], check=True)
+    return time.perf_counter() - began_s
+
+
+def start_row(rounds: int) -> Row:
+    """Return start to ports beside the import, the medians of alternating rounds."""
+    starts, imports = [], []
+    start_s()  # the first one writes what Python compiles
+    for _ in range(rounds):
+        imports.append(import_s())
+        starts.append(start_s())
+    mine, theirs = (sorted(times)[len(times) // 2] for times in (starts, imports))
+    return Row(
+        "daemon start to ports bound",
+        f"{mine * 1000:.0f} ms",
+        f"python -c '{IMPORT}'",
+        f"{theirs * 1000:.0f} ms",
+        f"{mine / theirs:.2f}x",
+        f"<= {RATIO_TARGET}x",
+        mine / theirs <= RATIO_TARGET,
+    )
+
+
+def memory_row(settle_s: float) -> Row:
+    """Return the resident memory of an idle daemon beside a Python that holds the reactor."""
+    with daemon() as idle, running((sys.executable, "-c", HOLD)) as holding:
+        wait_for_ports(idle.ports)
+        time.sleep(settle_s)
+        wait_until(lambda: resident_mb(holding.pid) > 20, "the reactor's import")
+        mine, theirs = resident_mb(idle.pid), resident_mb(holding.pid)
+    has_openssl = find_spec("OpenSSL") is not None
+    return Row(
+        f"resident memory idle, {'with' if has_openssl else 'without'} pyOpenSSL",
+        f"{mine:.1f} MB",
+        "the reactor's import",
+        f"{theirs:.1f} MB",
+        f"{mine / theirs:.2f}x",
+        "" if has_openssl else f"<= {MEMORY_TARGET_MB:.0f} MB",
+        None if has_openssl else mine <= MEMORY_TARGET_MB,
+    )
+
+
+def rows(quick: bool = False) -> Iterable[Row]:
+    """Yield start and memory."""
+    yield start_row(QUICK_ROUNDS if quick else ROUNDS)
+    yield memory_row(1.0 if quick else SETTLE_S)
