@@ -89,7 +89,7 @@ def _start_all(options: argparse.Namespace, folder: Path, children: list[Child])
     children.append(daemon)
     daemon.wait_for_line("modules run", START_LIMIT_S)
     _say(f"  raspilot       phone's ports {ports.general} and {ports.orientation}")
-    daemon.wait_for_line("RaspilotFlightController: flies", START_LIMIT_S)
+    daemon.wait_for_line("Controller: flies", START_LIMIT_S)
     _say("It flies: the attitude is held by Raspilot's controller on this machine.")
     _hints(ports)
 

@@ -1,0 +1,109 @@
+"""The virtual aircraft, flown from a copy of the tree with files of a page in place."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.support.virtual_environment import REPOSITORY
+
+LIMIT_S = 120.0
+
+
+@dataclass
+class Flight:
+    """A running ``make run``: its folder, and an environment in which up-ground finds it."""
+
+    tree: Path
+    environ: dict[str, str]
+    process: subprocess.Popen[bytes]
+    said: Path
+
+    def run(self, line: str) -> subprocess.CompletedProcess[str]:
+        """Run a line of a page as a person would, in another terminal."""
+        return subprocess.run(
+            ["bash", "-c", line],
+            cwd=self.tree,
+            env=self.environ,
+            capture_output=True,
+            text=True,
+            timeout=LIMIT_S,
+        )
+
+    def wait_for(self, condition: Callable[[], bool]) -> None:
+        """Wait while everything runs; fails with what was said."""
+        deadline_s = time.monotonic() + LIMIT_S
+        while not condition():
+            assert self.process.poll() is None, self.said.read_text()
+            assert time.monotonic() < deadline_s, self.said.read_text()
+            time.sleep(0.05)
+
+
+def files_of(page: str) -> dict[str, str]:
+    """Return the files that a page shows, by their path in the application."""
+    return dict(re.findall(r"<!-- file: (\S+) -->\n```\w+\n(.*?)```", _text(page), re.DOTALL))
+
+
+def lines_of(page: str, kind: str) -> list[str]:
+    """Return the lines of the blocks that a page marks to be run."""
+    blocks = re.findall(rf"<!-- run: {kind} -->\n```\n(.*?)```", _text(page), re.DOTALL)
+    return [line for block in blocks for line in block.splitlines()]
+
+
+def copy_of_the_tree(folder: Path) -> Path:
+    """A clone of what the pages touch, as it is after ``make run`` has installed everything."""
+    ignored = shutil.ignore_patterns("__pycache__")
+    for name in ("raspilot", "simulator", "cogs"):
+        shutil.copytree(REPOSITORY / name, folder / name, ignore=ignored)
+    shutil.copy(REPOSITORY / "main.py", folder)
+    (folder / "config").mkdir()
+    return folder
+
+
+@contextmanager
+def flying(folder: Path, files: Mapping[str, str]) -> Iterator[Flight]:
+    """Fly until the end of the block, with these files in the application."""
+    tree = copy_of_the_tree(folder / "tree")
+    for name, text in files.items():
+        (tree / "raspilot" / name).write_text(text, encoding="utf-8")
+    said = folder / "said"
+    with said.open("wb") as stream:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "up_simulator.showcase", "--any-ports", "--no-watch"],
+            cwd=tree,
+            env={**os.environ, "PYTHONPATH": str(tree / "simulator")},
+            stdout=stream,
+            stderr=subprocess.STDOUT,
+        )
+    environ = {
+        **os.environ,
+        "XDG_STATE_HOME": str(folder / "state"),
+        "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
+    }
+    flight = Flight(tree, environ, process, said)
+    try:
+        flight.wait_for(lambda: "Ctrl-C stops everything" in said.read_text())
+        port = re.search(r"ground on port (\d+)", said.read_text())
+        assert port is not None
+        environ["UP_GROUND_PORT"] = port[1]
+        yield flight
+    finally:
+        process.send_signal(signal.SIGINT)
+        try:
+            process.wait(LIMIT_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def _text(page: str) -> str:
+    return (REPOSITORY / "docs" / page).read_text(encoding="utf-8")
