@@ -6,7 +6,7 @@ Only ours isolates a handler's fault, notes the origin and times the dispatch.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from bench.table import Row
 from bench.timing import Work, best_ns
@@ -62,6 +62,8 @@ def pluggy(count: int) -> Work | None:
         library = import_module("pluggy")
     except ImportError:
         return None
+    spec: Any
+    implementation: Any
     spec, implementation = library.HookspecMarker("bench"), library.HookimplMarker("bench")
 
     class Specification:

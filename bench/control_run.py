@@ -6,8 +6,8 @@ The same program otherwise; for the benchmark only.
 import sys
 from pathlib import Path
 
-import up.program
 from raspilot.main import main
+from up import program
 from up.system.garbage import QuietCollector
 
 
@@ -19,5 +19,5 @@ class DefaultCollector(QuietCollector):
 
 
 if __name__ == "__main__":
-    up.program.QuietCollector = DefaultCollector
+    program.QuietCollector = DefaultCollector  # type: ignore[attr-defined]
     sys.exit(main(sys.argv[1:], Path(__file__).resolve().parents[1]))

@@ -2,6 +2,7 @@
 
 import socket
 import threading
+from contextlib import suppress
 from types import TracebackType
 
 WELCOME = b"UP1 ok aircraft=default seat=air token=0123456789abcdef0123456789abcdef\n"
@@ -32,10 +33,8 @@ class Ground:
         """Close everything."""
         for each in (self._listener, self._peer):
             if each is not None:
-                try:
+                with suppress(OSError):  # the other side may have been faster
                     each.shutdown(socket.SHUT_RDWR)  # wakes the thread that waits in it
-                except OSError:
-                    pass  # The other side was faster.
                 each.close()
         self._thread.join(5.0)
 

@@ -107,8 +107,8 @@ def floor_rows(mine: Latency, floor: Latency | None) -> Iterable[Row]:
     """Yield the middle and the tail beside the floor."""
     peer = "C floor (epoll echo)"
     for name, figure, theirs, target in (
-        ("p50", mine.p50_us, floor and floor.p50_us, P50_TARGET),
-        ("p99", mine.p99_us, floor and floor.p99_us, P99_TARGET),
+        ("p50", mine.p50_us, floor.p50_us if floor else None, P50_TARGET),
+        ("p99", mine.p99_us, floor.p99_us if floor else None, P99_TARGET),
     ):
         what, ours = f"{WHAT}, {name}", f"{figure:.0f} us"
         if theirs is None:

@@ -23,18 +23,19 @@ PROTOTYPE, MAVPROXY = "thesis: prototype on a Pi B+, 20 + 20 Hz", "MAVProxy idle
 
 def flight_row(seconds: float) -> Row:
     """Return the share with receiver, orientation and Outputs at 50 Hz and telemetry sent."""
-    with Ground() as ground, terminal() as (board_end, port):
-        with daemon(port, proxy_port=ground.port) as running:
-            board = Board(board_end)
-            board.greet(GREET_S)
-            wait_until(lambda: ground.frames, "telemetry on the ground")
-            flying = threading.Thread(
-                target=board.measure, args=(RATE_HZ, SETTLE_S + seconds + 1.0)
-            )
-            flying.start()
-            time.sleep(SETTLE_S)
-            share, frames = _share(running.pid, seconds, ground)
-            flying.join()
+    with (
+        Ground() as ground,
+        terminal() as (board_end, port),
+        daemon(port, proxy_port=ground.port) as running,
+    ):
+        board = Board(board_end)
+        board.greet(GREET_S)
+        wait_until(lambda: ground.frames, "telemetry on the ground")
+        flying = threading.Thread(target=board.measure, args=(RATE_HZ, SETTLE_S + seconds + 1.0))
+        flying.start()
+        time.sleep(SETTLE_S)
+        share, frames = _share(running.pid, seconds, ground)
+        flying.join()
     return Row(
         f"CPU at {RATE_HZ} Hz RX + {RATE_HZ} Hz orientation + {frames / seconds:.0f} Hz telemetry",
         f"{share:.2%}",

@@ -14,6 +14,13 @@ END_S = 5.0
 DEADLINE_S = 60.0
 
 
+def environment() -> dict[str, str]:
+    """Return a user's environment: nothing that changes how Python starts or what Up runs."""
+    return {
+        name: text for name, text in os.environ.items() if not name.startswith(("PYTHON", "UP_"))
+    }
+
+
 @contextmanager
 def running(
     command: Sequence[str | Path], log: IO[str] | int = subprocess.DEVNULL, cwd: Path | None = None
@@ -25,6 +32,7 @@ def running(
         stdout=subprocess.DEVNULL,
         stderr=log,
         cwd=cwd,
+        env=environment(),
     )
     try:
         yield process
@@ -77,6 +85,6 @@ def stat_cpu_s(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / TICKS_S
 
 
-def resident_mb(pid: int) -> float:
-    """Return the resident memory of a process, MB (10^6 bytes)."""
-    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * PAGE / 1e6
+def resident_mib(pid: int) -> float:
+    """Return the resident memory of a process, MiB."""
+    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * PAGE / 2**20

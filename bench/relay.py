@@ -18,6 +18,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 from bench.table import Row
 
@@ -75,10 +76,12 @@ def cores() -> tuple[int, int]:
 
 
 @contextmanager
-def process(*command: str, **options: object) -> Iterator[subprocess.Popen[str]]:
+def process(*command: str, stderr: IO[str] | None = None) -> Iterator[subprocess.Popen[str]]:
     """Run a program on the relay's core, and end it."""
     relay_core, _ = cores()
-    running = subprocess.Popen(["taskset", "-c", str(relay_core), *command], text=True, **options)
+    running = subprocess.Popen(
+        ["taskset", "-c", str(relay_core), *command], text=True, stderr=stderr
+    )
     try:
         yield running
     finally:

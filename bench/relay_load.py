@@ -12,6 +12,7 @@ import select
 import socket
 import sys
 import time
+from typing import Any
 
 WARM_UP_S = 1.0
 
@@ -28,7 +29,7 @@ def dial(port: int, hello: str = "") -> socket.socket:
     return peer
 
 
-def pairs(job: dict) -> list[tuple[socket.socket, socket.socket]]:
+def pairs(job: dict[str, Any]) -> list[tuple[socket.socket, socket.socket]]:
     """Return the sending and the echoing end of each pair."""
     found = []
     listener = None
@@ -51,7 +52,7 @@ def pairs(job: dict) -> list[tuple[socket.socket, socket.socket]]:
     return found
 
 
-def measure(job: dict, ends: list[tuple[socket.socket, socket.socket]]) -> list[int]:
+def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]) -> list[int]:
     """Send at the asked rate, evenly spread over the pairs; return round trips in ns."""
     poll = select.epoll()
     echoes = {echo.fileno(): echo for _, echo in ends}

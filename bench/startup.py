@@ -14,12 +14,12 @@ from contextlib import suppress
 from importlib.util import find_spec
 
 from bench.daemon import Ports, daemon
-from bench.processes import resident_mb, running, wait_until
+from bench.processes import environment, resident_mib, running, wait_until
 from bench.table import Row
 
 IMPORT = "import twisted.internet.reactor"
 RATIO_TARGET = 1.7
-MEMORY_TARGET_MB = 40.0
+MEMORY_TARGET_MIB = 40.0
 ROUNDS, QUICK_ROUNDS = 12, 2
 LOOK_EVERY_S = 0.0005
 LIMIT_S = 60.0
@@ -56,7 +56,7 @@ def start_s() -> float:
 def import_s() -> float:
     """Return the seconds of a Python that imports the reactor and ends, once."""
     began_s = time.perf_counter()
-    subprocess.run([sys.executable, "-c", IMPORT], check=True)
+    subprocess.run([sys.executable, "-c", IMPORT], check=True, env=environment())
     return time.perf_counter() - began_s
 
 
@@ -84,17 +84,17 @@ def memory_row(settle_s: float) -> Row:
     with daemon() as idle, running((sys.executable, "-c", HOLD)) as holding:
         wait_for_ports(idle.ports)
         time.sleep(settle_s)
-        wait_until(lambda: resident_mb(holding.pid) > 20, "the reactor's import")
-        mine, theirs = resident_mb(idle.pid), resident_mb(holding.pid)
+        wait_until(lambda: resident_mib(holding.pid) > 20, "the reactor's import")
+        mine, theirs = resident_mib(idle.pid), resident_mib(holding.pid)
     has_openssl = find_spec("OpenSSL") is not None
     return Row(
         f"resident memory idle, {'with' if has_openssl else 'without'} pyOpenSSL",
-        f"{mine:.1f} MB",
+        f"{mine:.1f} MiB",
         "the reactor's import",
-        f"{theirs:.1f} MB",
+        f"{theirs:.1f} MiB",
         f"{mine / theirs:.2f}x",
-        "" if has_openssl else f"<= {MEMORY_TARGET_MB:.0f} MB",
-        None if has_openssl else mine <= MEMORY_TARGET_MB,
+        "" if has_openssl else f"<= {MEMORY_TARGET_MIB:.0f} MiB",
+        None if has_openssl else mine <= MEMORY_TARGET_MIB,
     )
 
 
