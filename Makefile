@@ -36,7 +36,7 @@ run: $(VENV)/.run-ready
 	@$(PY) -m up_simulator.showcase
 
 test: $(VENV)/.dev-ready
-	$(PY) -m pytest $(TEST)
+	$(PY) -m pytest -n 2 --dist loadfile $(TEST)
 
 check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .

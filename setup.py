@@ -72,6 +72,7 @@ setup(
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'"],
         "dev": [
             "pytest>=8",
+            "pytest-xdist>=3",
             "hypothesis>=6.100",
             "ruff>=0.6",
             "mypy>=1.11",

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -268,7 +269,14 @@ def port_in(text, before):
     return words[0]
 
 
-def test_black_box_flight_through_runner_and_proxy(tmp_path, processes):
+@pytest.fixture
+def short_folder():
+    """A folder whose path leaves room for the name of a Unix socket (107 bytes)."""
+    with tempfile.TemporaryDirectory(prefix="up-") as folder:
+        yield folder
+
+
+def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, processes):
     """Only the phone flies: it asks the runner, Raspilot is spawned, the ground sees it."""
     config = tmp_path / "config"
     black_box = config / "blackbox"
@@ -283,7 +291,7 @@ def test_black_box_flight_through_runner_and_proxy(tmp_path, processes):
         f"remote_server: {{url: 127.0.0.1, port: {airborne}}}\n"
     )
     (config / "runner.yml").write_text(
-        f"port: 0\nrun folder: {tmp_path / 'run'}\nstop instances on exit: true\n"
+        f"port: 0\nrun folder: {short_folder}\nstop instances on exit: true\n"
     )
     runner = processes.start("runner", "-m", "up_runner.main", "--config", config)
     wait(lambda: "listens on port" in runner(), "runner")

@@ -8,7 +8,9 @@ from tests.proxy.test_metrics import value
 from tests.support.tools import need_root, need_tool, unavailable
 
 NAMESPACE = f"up-proxy-{os.getpid()}"
-HERE, THERE = "10.217.31.1", "10.217.31.2"
+# One subnet per process, so that two test runs on one machine do not meet.
+_SUBNET = f"10.{200 + os.getpid() // 250 % 50}.{os.getpid() % 250}"
+HERE, THERE = f"{_SUBNET}.1", f"{_SUBNET}.2"
 
 
 def run(*command):
