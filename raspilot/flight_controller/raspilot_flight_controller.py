@@ -121,7 +121,7 @@ class RaspilotFlightController(BaseFlightController):
         now_s = reading.time_s
         dt_s = now_s - self._computed_at_s
         self._computed_at_s = now_s
-        if dt_s > LONGEST_STEP_S or self.flight_mode != "FBW":
+        if dt_s > LONGEST_STEP_S or self.flight_mode in (None, "ACRO"):
             # The controllers slept: what they remember is not of this flight any more.
             self._reset()
             dt_s = min(dt_s, LONGEST_STEP_S)

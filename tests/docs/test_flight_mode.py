@@ -12,14 +12,17 @@ from tests.support.application import plan_of, write_application
 from tests.support.virtual_environment import REPOSITORY
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
+from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand
 from up.commands.refusal import CommandRefusedError
+from up.commands.roles import Role
 from up.commands.rx_command import RXCommand
 from up.providers.base_rx_provider import UpRXProvider
 from up.providers.up_orientation_provider import UpOrientationProvider
 from up.testing import Bench
 
 PAGE = "how-to/flight-mode.md"
+BOARD = Origin("arduino", Role.BOARD, priority=10)
 LEVEL = "flight_controller/level_flight_controller.py"
 
 
@@ -69,9 +72,9 @@ class Rig:
     def fly(self, ailerons_us, roll_deg):
         """Publish inputs and an attitude; return the Output that follows, or None."""
         self.output = None
-        self.publish(RXCommand(ailerons_us, 1500, 1300, 1500, 2000, 2000, 63))
+        self.publish(RXCommand(ailerons_us, 1500, 1300, 1500, 2000, 2000, 63), BOARD)
         self.sequence += 1
-        self.publish(OrientationCommand(roll_deg, 0.0, 0.0, 0.0, 0.0, 0.0, self.sequence))
+        self.publish(OrientationCommand(roll_deg, 0.0, 0.0, 0.0, 0.0, 0.0, self.sequence), BOARD)
         self.bench.advance(0.02)
         return self.output
 
@@ -87,9 +90,12 @@ def test_level_ignores_the_sticks_and_only_when_it_is_on(controllers, tmp_path):
     rig.publish(FlightStateCommand("OUTPUT", True, True, False))
     assert rig.fly(1900, 0.0).ailerons_us > 1550
     rig.publish(level(on=True))
+    resets = []
+    rig.controller._reset = lambda: resets.append(1)
     assert rig.fly(1900, 0.0).ailerons_us == 1500
     assert rig.fly(1900, 10.0).ailerons_us < 1500
     assert rig.controller.flight_mode == "LEVEL"
+    assert not resets, "a mode of one's own must not cost the controllers their memory"
     rig.publish(level(on=False))
     assert rig.fly(1900, 0.0).ailerons_us > 1550
     rig.bench.stop()
