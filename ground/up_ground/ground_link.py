@@ -12,9 +12,9 @@ from twisted.internet.protocol import Factory
 from twisted.python.failure import Failure
 
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
+from up.system.backoff import Backoff
 from up.system.clock import Timer
 from up_ground import control_line
-from up_ground.backoff import Backoff
 from up_ground.control_line import (
     Accepted,
     AircraftPresence,

@@ -12,11 +12,11 @@ from twisted.internet.interfaces import IAddress
 from twisted.internet.protocol import Factory, Protocol
 from twisted.logger import Logger
 
-from mission_control_cog.backoff import Backoff
 from mission_control_cog.hello import HelloAnswer
 from mission_control_cog.host_addresses import HostAddresses, HostNotFoundError
 from mission_control_cog.uplink_protocol import UplinkProtocol
 from up.protocols.general_message import GeneralMessage, MalformedMessage
+from up.system.backoff import Backoff
 
 CONNECT_LIMIT_S = 5.0
 """Within it the kernel repeats a lost SYN after 1 and 3 s."""

@@ -1,4 +1,4 @@
-"""How long a link waits between two attempts."""
+"""How long a link to a proxy waits between two attempts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ JITTER = 0.2
 class Backoff:
     """Doubles the distance between the beginnings of attempts, each shortened by up to a fifth.
 
-    The jitter keeps many aircraft from coming back to a proxy in one instant.
+    The jitter keeps many peers from coming back to a proxy in one instant.
     """
 
     def __init__(self, draw: Callable[[], float] = random.random) -> None:
@@ -25,7 +25,7 @@ class Backoff:
         """Begin anew: the link was good."""
         self._next_s = FIRST_S
 
-    def pause_s(self, spent_s: float) -> float:
+    def pause_s(self, spent_s: float = 0.0) -> float:
         """Return how long to wait after an attempt that took ``spent_s``, at least ``FIRST_S``."""
         distance_s = self._next_s * (1 - JITTER * self._draw())
         self._next_s = min(self._next_s * 2, LONGEST_S)

@@ -1,6 +1,6 @@
 """How long the link waits between attempts."""
 
-from mission_control_cog.backoff import FIRST_S, LONGEST_S, Backoff
+from up.system.backoff import FIRST_S, LONGEST_S, Backoff
 
 
 def test_the_distance_doubles_up_to_its_bound_and_begins_anew():
