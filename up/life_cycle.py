@@ -138,9 +138,12 @@ class LifeCycle:
         if sources and not any(
             module in self.started and module.is_source_open for module in sources
         ):
-            names = " nor ".join(module.class_name for module in sources)
+            names = [module.class_name for module in sources]
+            which = (
+                f"neither {' nor '.join(names)} has" if names[1:] else f"not even {names[0]} has"
+            )
             raise BootStoppedError(
-                f"neither {names} has its port open: no data could come, so there is nothing to run"
+                f"{which} its port open: no data could come, so there is nothing to run"
             )
 
     def _bounded(self, work: Coroutine[Any, Any, Any], limit_s: float) -> Deferred[Any]:

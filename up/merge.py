@@ -10,6 +10,8 @@ Conflict = Callable[[str, str, str], object]
 DEEPEST = 16
 LONGEST = 1000
 _INT_LIMIT = 2**63
+_PLAIN = frozenset((bool, int, float, str, type(None)))
+"""Spares what is never a map the question whether it is one, which is slow."""
 
 
 def merge(
@@ -48,7 +50,7 @@ def _merge_into(
         if len(here) > DEEPEST or not _is_sound(key):
             on_conflict(".".join(path), module, module)
             continue
-        if isinstance(raw, Mapping):
+        if type(raw) not in _PLAIN and isinstance(raw, Mapping):
             below = target.get(key)
             if key in target and not isinstance(below, dict):
                 on_conflict(".".join(here), owners.get(here, "?"), module)

@@ -9,19 +9,23 @@ from typing import Any, ClassVar
 from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule
 from up.commands.panic_command import PanicCommand
+from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
 from up.log.limits import Once
 from up.merge import merge
 from up.system.clock import Timer
 
 DEFAULT_PERIOD_MS = 100.0
+IDLE_LOOK_S = 0.5
+"""How soon a subscriber is noticed that begins to want telemetry without a link that comes up."""
 
 
 class TelemetryController(BaseStartedModule):
     """Publishes a TelemetryCommand every period; the ground sets the period, panic lengthens it.
 
     A module whose ``telemetry_content`` raises contributes nothing to that frame; a conflict drops
-    the later module's key. Each is named once and counted.
+    the later module's key. Each is named once and counted. Nothing is collected while nobody wants
+    it: a subscriber may have a ``wants_telemetry`` that is false as long as its own peers are away.
     """
 
     LOAD_ORDER: ClassVar[int] = sys.maxsize
@@ -48,6 +52,14 @@ class TelemetryController(BaseStartedModule):
         counters = {"frames": self.frames, "conflicts": self.conflicts, "faults": self.faults}
         return {"counters": {"telemetry": counters}}
 
+    @property
+    def is_wanted(self) -> bool:
+        """Return whether a subscriber of telemetry wants it now."""
+        return any(
+            getattr(getattr(handler, "__self__", None), "wants_telemetry", True)
+            for handler in self.up.command_executor.handlers_of(TelemetryCommand)
+        )
+
     def collect(self) -> dict[str, Any]:
         """Return the merged content of this moment."""
         return merge(self._contents(), self._on_conflict)
@@ -56,6 +68,7 @@ class TelemetryController(BaseStartedModule):
         executor = self.up.command_executor
         executor.register_command(TelemetryFrequencyCommand, self._on_period)
         executor.register_command(PanicCommand, self._on_panic)
+        executor.register_command(LinkStateCommand, self._on_link)
 
     def _execute_start(self) -> bool:
         self._sent_s = self.context.reactor.seconds()
@@ -75,6 +88,10 @@ class TelemetryController(BaseStartedModule):
         self.panic_delay_ms = command.delay_ms if command.panic else 0
         self._reschedule()
 
+    def _on_link(self, command: LinkStateCommand) -> None:
+        if command.connected:
+            self._reschedule()
+
     def _reschedule(self) -> None:
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
@@ -87,6 +104,10 @@ class TelemetryController(BaseStartedModule):
         self._timer = self.context.reactor.callLater(self._due_s - now_s, self._transmit)
 
     def _transmit(self) -> None:
+        if not self.is_wanted:
+            self._timer = self.context.reactor.callLater(IDLE_LOOK_S, self._transmit)
+            self._due_s = self.context.reactor.seconds() + IDLE_LOOK_S
+            return
         self._sent_s = self._due_s
         self._schedule()
         self.frames += 1

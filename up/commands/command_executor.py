@@ -119,6 +119,10 @@ class CommandExecutor:
         """Return whether anybody subscribed to a Command."""
         return bool(self._handlers.get(self._name_of(command)))
 
+    def handlers_of(self, command: type[BaseCommand] | str) -> tuple[Handler, ...]:
+        """Return what is called for a Command, in order."""
+        return self._handlers.get(self._name_of(command), ())
+
     def execute_command(
         self,
         command: BaseCommand,

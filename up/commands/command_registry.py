@@ -21,6 +21,8 @@ class CommandRegistry:
 
     def add(self, cls: type[BaseCommand]) -> None:
         """Register a class; again is harmless, a name that another class has is an error."""
+        if not (isinstance(cls, type) and issubclass(cls, BaseCommand)):
+            raise TypeError(f"{cls!r} is no Command")
         if not cls.NAME:
             raise ValueError(f"{cls.__module__}.{cls.__qualname__} has no NAME")
         wire_fields(cls)

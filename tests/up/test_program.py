@@ -1,0 +1,267 @@
+"""The whole program in real processes: what fails, hangs and is told to end."""
+
+import os
+import queue
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+APPLICATION = ROOT / "tests" / "fixtures" / "apps" / "troubled"
+RUN = (
+    "import sys, pathlib; from up.program import run_application;"
+    "sys.exit(run_application(pathlib.Path(sys.argv[1])))"
+)
+DEADLINE_S = 60.0
+
+
+class Daemon:
+    """A running application; its words are read as they come."""
+
+    def __init__(self, trouble="", **environ):
+        self.text = ""
+        self._words = queue.Queue()
+        self.process = subprocess.Popen(
+            [sys.executable, "-W", "error", "-c", RUN, str(APPLICATION)],
+            cwd=ROOT,
+            env={**os.environ, "TROUBLE": trouble, "PYTHONUNBUFFERED": "1", **environ},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _read(self):
+        for line in self.process.stdout:
+            self._words.put(line)
+        self._words.put(None)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait(DEADLINE_S)
+        self._reader.join(DEADLINE_S)
+        self.process.stdout.close()
+
+    def expect(self, words):
+        """Wait until the program has said these words."""
+        deadline_s = time.monotonic() + DEADLINE_S
+        while words not in self.text:
+            line = self._words.get(timeout=max(0.1, deadline_s - time.monotonic()))
+            assert line is not None, f"ended without {words!r}:\n{self.text}"
+            self.text += line
+
+    def end(self, number=signal.SIGTERM):
+        """Send a signal; return the exit status and how long the end took, s."""
+        began_s = time.monotonic()
+        if number is not None:
+            self.process.send_signal(number)
+        status = self.process.wait(DEADLINE_S)
+        took_s = time.monotonic() - began_s
+        self._reader.join(DEADLINE_S)
+        while (line := self._words.get()) is not None:
+            self.text += line
+        return status, took_s
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_signal_stops_what_was_started_in_reverse_within_two_seconds(number):
+    with Daemon() as daemon:
+        daemon.expect("modules run")
+        status, took_s = daemon.end(number)
+        assert status == 0
+        assert took_s < 2
+        assert "before stops" in daemon.text
+        assert "Traceback" not in daemon.text
+
+
+def test_a_module_may_stop_the_program():
+    with Daemon("stop by command") as daemon:
+        daemon.expect("before stops")
+        assert daemon.end(None)[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("trouble", "words"),
+    [
+        ("construct", "trouble: construct"),
+        ("construct exit", "SystemExit"),
+        ("load", "trouble: load"),
+        ("initialize", "failed to initialize"),
+        ("start", "RuntimeError: trouble: start"),
+        ("telemetry", "the telemetry of Troubled failed"),
+        ("timer raises", "trouble: timer raises"),
+    ],
+)
+def test_a_module_that_raises_is_named_and_the_rest_runs(trouble, words):
+    with Daemon(trouble) as daemon:
+        daemon.expect(words)
+        daemon.expect("modules run")
+        if trouble not in ("telemetry", "timer raises"):
+            daemon.expect("arming is refused")
+        assert daemon.end()[0] == 0
+        assert "before stops" in daemon.text
+
+
+def test_a_module_that_raises_in_its_stop_is_named_and_the_rest_stops():
+    with Daemon("stop") as daemon:
+        daemon.expect("modules run")
+        assert daemon.end()[0] == 0
+        assert "Troubled failed to stop" in daemon.text
+        assert "before stops" in daemon.text
+
+
+@pytest.mark.parametrize(
+    ("trouble", "sentence"),
+    [
+        ("required", "Troubled did not start, and without it the system does not run"),
+        ("no source", "has its port open: no data could come, so there is nothing to run"),
+    ],
+)
+def test_a_boot_that_cannot_go_on_ends_with_one_sentence(trouble, sentence):
+    with Daemon(trouble) as daemon:
+        status, _ = daemon.end(None)
+        assert status == 1
+        assert daemon.text.count(sentence) == 1
+        assert "before stops" in daemon.text
+
+
+def test_a_start_that_hangs_can_be_stopped():
+    with Daemon("start hangs") as daemon:
+        daemon.expect("troubled starts")
+        status, took_s = daemon.end()
+        assert status == 0
+        assert took_s < 2
+        assert "before stops" in daemon.text
+
+
+def test_a_stop_that_hangs_is_given_up():
+    with Daemon("stop hangs") as daemon:
+        daemon.expect("modules run")
+        assert daemon.end()[0] == 0
+        assert "Troubled did not stop in time" in daemon.text
+        assert "before stops" in daemon.text
+
+
+@pytest.mark.parametrize("trouble", ["stop holds", "run holds", "start holds"])
+def test_one_signal_ends_a_program_whose_reactor_is_held(trouble):
+    with Daemon(trouble) as daemon:
+        daemon.expect("modules run" if trouble == "stop holds" else "holding")
+        status, _ = daemon.end()
+        assert status == 1
+
+
+def test_a_second_signal_forces():
+    with Daemon("stop holds") as daemon:
+        daemon.expect("modules run")
+        daemon.process.send_signal(signal.SIGTERM)
+        daemon.expect("holding")
+        assert daemon.end(signal.SIGTERM)[0] == 128 + signal.SIGTERM
+
+
+def test_the_module_that_holds_the_reactor_is_named():
+    with Daemon("run holds") as daemon:
+        daemon.expect("holds the reactor for more than 20 ms")
+        assert "trouble" in daemon.text
+
+
+def test_a_wrong_mode_is_one_sentence():
+    with Daemon(UP_MODE="glider") as daemon:
+        status, _ = daemon.end(None)
+        assert status == 2
+        assert daemon.text.strip().count("\n") == 0
+        assert "flight controller" in daemon.text
+
+
+def test_black_box_mode_builds_nothing_for_the_arduino():
+    with Daemon(UP_MODE=" Black Box ") as daemon:
+        daemon.expect("modules run")
+        assert "built for the Arduino" not in daemon.text
+        assert daemon.end()[0] == 0
+    with Daemon(UP_MODE="auto") as daemon:
+        daemon.expect("modules run")
+        assert "built for the Arduino" in daemon.text
+
+
+class Supervisor:
+    """What systemd hears, on a real socket."""
+
+    def __init__(self, folder):
+        self.path = folder / "notify"
+        self.heard = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self.heard.bind(str(self.path))
+        self.words = []
+
+    def environ(self, **more):
+        return {"NOTIFY_SOCKET": str(self.path), "WATCHDOG_USEC": "200000", **more}
+
+    def hear(self, timeout_s):
+        self.heard.settimeout(timeout_s)
+        try:
+            self.words.append(self.heard.recv(4096).decode())
+        except TimeoutError:
+            return None
+        return self.words[-1]
+
+    def expect(self, word):
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not any(word in each for each in self.words):
+            assert time.monotonic() < deadline_s, (word, self.words)
+            self.hear(1.0)
+
+    def pings_in(self, seconds):
+        before = len(self.words)
+        end_s = time.monotonic() + seconds
+        while time.monotonic() < end_s:
+            self.hear(max(0.01, end_s - time.monotonic()))
+        return sum("WATCHDOG=1" in each for each in self.words[before:])
+
+    def silence(self, seconds):
+        """Wait until no ping came for a while."""
+        deadline_s = time.monotonic() + DEADLINE_S
+        while self.pings_in(seconds):
+            assert time.monotonic() < deadline_s
+
+
+@pytest.fixture
+def supervisor(tmp_path):
+    made = Supervisor(tmp_path)
+    yield made
+    made.heard.close()
+
+
+def test_the_supervisor_hears_readiness_ports_pings_and_the_end(supervisor):
+    with Daemon("port", **supervisor.environ()) as daemon:
+        supervisor.expect("READY=1")
+        ready = next(i for i, each in enumerate(supervisor.words) if "READY=1" in each)
+        assert "X_UP_PORTS=general:4321" in supervisor.words[:ready]
+        supervisor.expect("X_UP_PORTS=general:4321 late:99")
+        before = sum("WATCHDOG=1" in each for each in supervisor.words)
+        while sum("WATCHDOG=1" in each for each in supervisor.words) < before + 3:
+            assert supervisor.hear(DEADLINE_S)
+        assert daemon.end()[0] == 0
+        supervisor.expect("STOPPING=1")
+
+
+@pytest.mark.parametrize("trouble", ["sick", "healthy raises", "run holds"])
+def test_pings_end_when_a_module_is_sick_or_the_reactor_is_held(supervisor, trouble):
+    with Daemon(trouble, **supervisor.environ()):
+        supervisor.expect("READY=1")
+        supervisor.silence(1.0)
+
+
+def test_readiness_is_not_said_before_the_modules_have_started(supervisor):
+    with Daemon("start hangs", **supervisor.environ()) as daemon:
+        daemon.expect("troubled starts")
+        assert supervisor.pings_in(1.0) > 1
+        assert not any("READY=1" in each for each in supervisor.words)
