@@ -1,0 +1,168 @@
+"""Telemetry is sampled at its period, whatever modules and the ground do."""
+
+import pytest
+from twisted.internet.defer import Deferred
+from twisted.internet.task import Clock
+
+from tests.support.system import build_up, started
+from tests.up.commands.samples import Log
+from up.base_module import BaseModule
+from up.commands.command import InvalidCommandError
+from up.commands.panic_command import PanicCommand
+from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
+from up.telemetry_controller import TelemetryController
+
+
+class Speaker(BaseModule):
+    """Says what it is told to."""
+
+    content = {}
+
+    @property
+    def telemetry_content(self):
+        if isinstance(self.content, BaseException):
+            raise self.content
+        return self.content
+
+
+class Rig:
+    """Telemetry of two modules; ``frames`` are (time, content, beacon)."""
+
+    def __init__(self, folder):
+        self.clock = Clock()
+        rival = type("Rival", (BaseModule,), dict(vars(Speaker)))
+        self.up = build_up((Speaker, rival), self.clock, folder)
+        self.speaker, self.rival = self.up.get_module(Speaker), self.up.get_module(rival)
+        self.controller = self.up.get_module(TelemetryController)
+        self.frames = []
+        self.up.command_executor.register_command(TelemetryCommand, self._hear)
+        got = []
+        Deferred.fromCoroutine(started(self.up)).addBoth(got.append)
+        self.life = got[0]
+
+    def _hear(self, command):
+        self.frames.append((round(self.clock.seconds(), 3), command.content, command.beacon))
+
+    def run(self, seconds, step_s=0.01):
+        self.clock.pump([step_s] * round(seconds / step_s))
+
+    def period(self, period_ms):
+        self.up.command_executor.execute_command(TelemetryFrequencyCommand(period_ms))
+
+    @property
+    def times(self):
+        return [frame[0] for frame in self.frames]
+
+
+@pytest.fixture
+def rig(tmp_path):
+    return Rig(tmp_path)
+
+
+def test_ten_a_second_with_beacons_that_count_up(rig):
+    rig.run(1.05)
+    assert rig.times == pytest.approx([tenth / 10 for tenth in range(1, 11)], abs=0.011)
+    first = rig.frames[0][2]
+    assert [frame[2] for frame in rig.frames] == list(range(first, first + 10))
+    assert rig.up.beacons.is_fresh(first)
+
+
+def test_the_ground_sets_the_period(rig):
+    rig.period(20)
+    rig.run(0.2)
+    assert len(rig.frames) in (9, 10)
+    rig.period(1000)
+    rig.frames.clear()
+    rig.run(3.1)
+    assert len(rig.frames) == 3
+
+
+@pytest.mark.parametrize("bad", [-1, 0, 19, 10_001, "100", None, float("nan"), True])
+def test_a_period_out_of_range_is_refused(bad):
+    with pytest.raises(InvalidCommandError):
+        TelemetryFrequencyCommand.from_data({"frequency": bad})
+
+
+def test_a_ground_that_sets_the_period_again_and_again_starves_nobody(rig):
+    for _ in range(50):
+        rig.period(100)
+        rig.run(0.05)
+    assert len(rig.frames) in (24, 25)
+
+
+def test_panic_lengthens_the_period_and_never_shortens_it(rig):
+    bus = rig.up.command_executor
+    bus.execute_command(PanicCommand(True, 500))
+    rig.run(2.05)
+    assert len(rig.frames) == 4
+    rig.frames.clear()
+    bus.execute_command(PanicCommand(True, 10))
+    rig.run(1.0)
+    assert len(rig.frames) in (10, 11)
+    bus.execute_command(PanicCommand(True, 500))
+    bus.execute_command(PanicCommand(False, 10))
+    rig.frames.clear()
+    rig.run(1.0)
+    assert len(rig.frames) in (10, 11)
+
+
+def test_a_late_reactor_sends_no_backlog(rig):
+    rig.run(0.2)
+    rig.frames.clear()
+    rig.clock.advance(5)
+    rig.run(0.02)
+    assert len(rig.frames) <= 2
+
+
+def test_a_module_that_raises_costs_its_own_content_and_is_named_once(rig):
+    rig.speaker.content = RuntimeError("no telemetry today")
+    rig.rival.content = {"rival": 1}
+    with Log() as log:
+        rig.run(1.05)
+    assert all(frame[1]["rival"] == 1 for frame in rig.frames)
+    assert len(log.failures) == 1
+    assert "the telemetry of Speaker failed" in log.text()
+    assert rig.frames[-1][1]["counters"]["telemetry"]["faults"] >= 9
+
+
+@pytest.mark.parametrize("content", [7, "text", ["list"], SystemExit(1)])
+def test_what_is_no_map_is_a_fault_too(rig, content):
+    rig.speaker.content = content
+    rig.run(0.25)
+    assert len(rig.frames) == 2
+    assert rig.controller.faults == 2
+
+
+def test_a_conflict_names_both_and_is_counted(rig):
+    rig.speaker.content = {"both": {"x": 1}}
+    rig.rival.content = {"both": {"x": 2, "y": 3}}
+    with Log() as log:
+        rig.run(1.05)
+    assert rig.frames[0][1]["both"] == {"x": 1, "y": 3}
+    assert log.text().count("telemetry both.x: Speaker and Rival give it different values") == 1
+    assert rig.controller.conflicts == 10
+
+
+def test_conflicts_with_ever_new_names_do_not_fill_memory_or_log(rig):
+    with Log() as log:
+        for number in range(3000):
+            rig.controller._on_conflict(f"key{number}", "A", "B")
+    assert len(log.events) == 1000
+
+
+def test_the_systems_own_part(rig):
+    rig.up.vetoes.set("pids.yml", "is corrupt")
+    rig.up.count("reactor", {"SlowModule": 3})
+    rig.run(0.15)
+    content = rig.frames[0][1]
+    assert content["vetoes"] == ["pids.yml: is corrupt"]
+    assert content["counters"]["reactor"] == {"SlowModule": 3}
+    assert content["system"] == {"uptime_s": 0}
+    assert content["mode"] == "flight controller"
+
+
+def test_stopping_ends_it(rig):
+    Deferred.fromCoroutine(rig.life.stop())
+    rig.run(1)
+    assert not rig.frames
+    assert not rig.clock.getDelayedCalls()
