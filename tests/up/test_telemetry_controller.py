@@ -9,6 +9,7 @@ from tests.up.commands.samples import Log
 from up.base_module import BaseModule
 from up.commands.command import InvalidCommandError
 from up.commands.panic_command import PanicCommand
+from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
 from up.telemetry_controller import TelemetryController
 
@@ -166,3 +167,30 @@ def test_stopping_ends_it(rig):
     rig.run(1)
     assert not rig.frames
     assert not rig.clock.getDelayedCalls()
+
+
+def test_after_the_first_frame_nothing_is_collected_that_nobody_wants(rig):
+    rig.wants_telemetry = False
+    rig.run(5.0)
+    assert rig.times == [0.1]
+    rig.wants_telemetry = True
+    rig.run(1.0)
+    assert 5.0 < rig.times[1] <= 5.5
+    assert rig.times[2] - rig.times[1] == pytest.approx(0.1)
+
+
+def test_a_link_that_comes_up_has_telemetry_at_once(rig):
+    rig.wants_telemetry = False
+    rig.run(5.05)
+    rig.wants_telemetry = True
+    rig.up.command_executor.execute_command(LinkStateCommand("ground", True))
+    rig.run(0.02)
+    assert len(rig.times) == 2
+
+
+def test_one_subscriber_that_says_nothing_of_it_wants_every_frame(rig):
+    rig.wants_telemetry = False
+    heard = []
+    rig.up.command_executor.register_command(TelemetryCommand, heard.append)
+    rig.run(1.05)
+    assert len(heard) == 10
