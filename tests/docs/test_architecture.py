@@ -1,0 +1,160 @@
+"""The ways that docs/architecture.md describes are those that a frame and a Command really take."""
+
+from __future__ import annotations
+
+import re
+import socket
+import struct
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from mission_control_cog.modules.mission_control_provider import MissionControlProvider
+from twisted.internet.address import IPv4Address
+from twisted.internet.error import ConnectionDone
+from twisted.internet.testing import StringTransport
+from twisted.python.failure import Failure
+
+from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
+from tests.cogs.arduino_cog.board import BoardRig
+from tests.support.virtual_environment import REPOSITORY
+
+PAGE = (REPOSITORY / "docs" / "architecture.md").read_text(encoding="utf-8")
+HELLO = b"UP1 ok aircraft=default seat=air token=" + b"0" * 32 + b"\n"
+
+
+def steps(name):
+    """The file and function of each row of one of the page's tables."""
+    table = re.search(rf"<!-- calls: {name} -->\n\|.*\n\|[-|]+\n((?:\|.*\n)+)", PAGE)[1]
+    return re.findall(r"^\| `([^`]+)` \| `([^`]+)` \|", table, re.MULTILINE)
+
+
+class Wire(StringTransport):
+    """A connection to a proxy whose bytes the test gives; the socket only takes the options."""
+
+    def __init__(self):
+        super().__init__(peerAddress=IPv4Address("TCP", "127.0.0.1", 3003))
+        self.socket = socket.socket()
+
+    def getHandle(self):  # noqa: N802
+        return self.socket
+
+    def setTcpNoDelay(self, enabled):  # noqa: N802
+        pass
+
+    def setTcpKeepAlive(self, enabled):  # noqa: N802
+        pass
+
+    def loseConnection(self):  # noqa: N802
+        self.protocol.connectionLost(Failure(ConnectionDone()))
+        self.socket.close()
+
+
+class Aircraft(BoardRig):
+    """Raspilot's controller between a board on a pty and a proxy."""
+
+    def __init__(self, folder):
+        super().__init__(
+            folder,
+            config={
+                "config.yml": "flight controller: raspberry\n",
+                "mission_control.yml": "remote_server: {url: 127.0.0.1}\n",
+            },
+            modules=[RaspilotFlightController, MissionControlProvider],
+        )
+        self.wire = Wire()
+        self.reactor.connectTCP = self.connect_tcp
+
+    def connect_tcp(self, host, port, factory, timeout=None, bindAddress=None):  # noqa: N803
+        self.protocol = self.wire.protocol = factory.buildProtocol(None)
+        self.protocol.makeConnection(self.wire)
+        self.protocol.dataReceived(HELLO)
+
+    def inputs_and_orientation(self, sequence):
+        inputs = self.port.frame("i", struct.pack(">6HB", 1600, 1500, 1300, 1500, 2000, 2000, 63))
+        attitude = struct.pack(">H6f", sequence, 0.0, 5.0, 10.0, 0.0, 0.0, 0.0)
+        self.port.write(inputs + self.port.frame("O", attitude))
+        self.turn()
+
+
+@pytest.fixture
+def aircraft(tmp_path):
+    rig = Aircraft(tmp_path)
+    rig.mode = b"u"
+    rig.connect(armed=True)
+    rig.inputs_and_orientation(1)
+    rig.forget()
+    yield rig
+    rig.stop()
+
+
+@contextmanager
+def traced():
+    """Collect the functions of this project that are called, in order."""
+    calls = []
+    root = f"{REPOSITORY}/"
+
+    def note(frame, event, argument):
+        code = frame.f_code
+        if event == "call" and code.co_filename.startswith(root):
+            calls.append((code.co_filename.removeprefix(root), code.co_qualname))
+
+    sys.setprofile(note)
+    try:
+        yield calls
+    finally:
+        sys.setprofile(None)
+
+
+def assert_in_order(wanted, calls):
+    rest = iter(calls)
+    done = []
+    for step in wanted:
+        assert step in rest, f"after {done[-3:]} comes no {step}"
+        done.append(step)
+
+
+def test_one_receiver_frame(aircraft):
+    with traced() as calls:
+        aircraft.inputs_and_orientation(2)
+    assert len(aircraft.sent("u")) == 1
+    assert len(steps("frame")) > 15
+    assert_in_order(steps("frame"), calls)
+
+
+def test_telemetry(aircraft):
+    aircraft.wire.clear()
+    with traced() as calls:
+        aircraft.advance(0.12)
+    # What is sent leaves when the transport asks for it.
+    aircraft.wire.producer.resumeProducing()
+    assert b"up.telemetry.update" in aircraft.wire.value()
+    assert_in_order(steps("telemetry"), calls)
+
+
+def test_one_ground_command(aircraft):
+    beacon = aircraft.up.beacons.draw()
+    aircraft.wire.clear()
+    line = b'{"name": "up.flight_mode.set", "data": {"mode": "FBW"}, "id": "a", "beacon": %d}\n'
+    with traced() as calls:
+        aircraft.protocol.dataReceived(line % beacon)
+        aircraft.turn()
+    assert aircraft.sent("M") == [b"f"]
+    aircraft.wire.producer.resumeProducing()
+    assert b'"name": "up.ack", "data": {"id": "a"}' in aircraft.wire.value()
+    assert_in_order(steps("command"), calls)
+
+
+def test_a_wrong_order_would_be_found(aircraft):
+    with traced() as calls:
+        aircraft.inputs_and_orientation(2)
+    wanted = steps("frame")
+    with pytest.raises(AssertionError):
+        assert_in_order([*wanted[1:4], wanted[0]], calls)
+
+
+def test_every_file_of_the_tables_exists():
+    for name in ("frame", "telemetry", "command"):
+        for path, _ in steps(name):
+            assert (REPOSITORY / Path(path)).is_file()
