@@ -104,7 +104,8 @@ class TelemetryController(BaseStartedModule):
         self._timer = self.context.reactor.callLater(self._due_s - now_s, self._transmit)
 
     def _transmit(self) -> None:
-        if not self.is_wanted:
+        # The first frame is always collected: a module whose telemetry fails is named at once.
+        if self.frames and not self.is_wanted:
             self._timer = self.context.reactor.callLater(IDLE_LOOK_S, self._transmit)
             self._due_s = self.context.reactor.seconds() + IDLE_LOOK_S
             return

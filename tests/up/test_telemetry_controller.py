@@ -172,7 +172,7 @@ def test_stopping_ends_it(rig):
 def test_after_the_first_frame_nothing_is_collected_that_nobody_wants(rig):
     rig.wants_telemetry = False
     rig.run(5.0)
-    assert rig.times == [0.1]
+    assert len(rig.times) == 1
     rig.wants_telemetry = True
     rig.run(1.0)
     assert 5.0 < rig.times[1] <= 5.5

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Protocol
 
 ARDUINO, ARDUINO_ORG, FTDI, CH340, CP210X = 0x2341, 0x2A03, 0x0403, 0x1A86, 0x10C4
@@ -22,11 +23,19 @@ class PortInfo(Protocol):
     serial_number: str | None
 
 
+TTYS = Path("/sys/class/tty")
+"""Every serial port of a Linux system has an entry here."""
+
+USB_NAMES = ("ttyUSB", "ttyACM")
+
 Lister = Callable[[], Iterable[Any]]
 
 
 def list_ports() -> Iterable[Any]:
-    """Return the serial ports of this machine."""
+    """Return the serial ports of this machine; none when there is none at USB."""
+    # Nothing plugged in is the usual case while an Arduino is waited for, and cheap to tell.
+    if TTYS.is_dir() and not any(each.name.startswith(USB_NAMES) for each in TTYS.iterdir()):
+        return ()
     # Costs memory, and a configured port never asks for it.
     from serial.tools.list_ports import comports
 

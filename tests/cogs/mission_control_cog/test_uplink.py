@@ -85,7 +85,7 @@ def test_an_absent_proxy_is_no_failure_and_is_found_when_it_comes(tmp_path):
             peer = await accepted(late)
             first = await until(lambda: peer.named("up.telemetry.update"))
             # What was made before the link is not sent later.
-            assert first[0]["beacon"] - a.up.beacons._first >= 3
+            assert first[0]["beacon"] > a.up.beacons._first
             await late.close()
 
     run_in_reactor(fly)

@@ -100,6 +100,11 @@ class AndroidProvider(BaseStartedModule):
         return self._is_connected
 
     @property
+    def wants_telemetry(self) -> bool:
+        """Return whether there is somebody to hand telemetry on to."""
+        return self._is_connected
+
+    @property
     def is_source_open(self) -> bool:
         """Return whether readings could come."""
         return self._ports.are_open

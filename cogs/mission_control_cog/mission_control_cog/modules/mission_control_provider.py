@@ -23,6 +23,9 @@ PLAIN_KEY = "mission_control.yml: i_accept_plain"
 class Outlet(Protocol):
     """Another way to the ground, beside the proxy."""
 
+    def __len__(self) -> int:
+        """Return how many ground stations are connected."""
+
     def send(self, message: bytes) -> bool:
         """Send an encoded message in order; False: nobody is there."""
 
@@ -67,6 +70,11 @@ class MissionControlProvider(BaseMissionControlProvider):
     def connected(self) -> bool:
         """Return whether there is a link to the proxy."""
         return self._uplink is not None and self._uplink.is_ready
+
+    @property
+    def wants_telemetry(self) -> bool:
+        """Return whether telemetry would reach anybody."""
+        return self.connected or any(len(outlet) for outlet in self._outlets)
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:

@@ -99,8 +99,8 @@ class SerialProvider(BaseStartedModule):
         counts: Counter[str] = Counter(self.counters)
         counts.update(self._retired)
         if self._line is not None:
-            counts.update(asdict(self._decoder.counters))
-            counts.update(asdict(self._line.counters))
+            for part in (self._decoder.counters, self._line.counters):
+                counts.update({name: getattr(part, name) for name in part.__slots__})
         return {"counters": {"serial": dict(counts)}}
 
     def add_handler(self, type_: FrameType, handler: FrameHandler, payload_size: int = 0) -> None:
