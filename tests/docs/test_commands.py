@@ -1,0 +1,69 @@
+"""Every command line that a page shows is one that its program understands."""
+
+from __future__ import annotations
+
+import re
+import shlex
+
+import pytest
+
+from tests.docs.test_pages import PAGES, name_of, text_of
+from tests.support.virtual_environment import REPOSITORY
+from up.cli.parser import make_parser
+from up_ground.arguments import make_parser as make_ground_parser
+
+_SPAN = re.compile(r"`((?:up|up-ground|make) [^`\n]+)`")
+_LINE = re.compile(r"^(?: {4}|\$ )?((?:up|up-ground|make) [a-z-].*)$", re.MULTILINE)
+_BLOCK = re.compile(r"^```\n(.*?)^```", re.DOTALL | re.MULTILINE)
+PARSERS = {"up": make_parser, "up-ground": lambda: make_ground_parser({})}
+
+
+def words_of(line):
+    """Return the words of the first command in a line, without what is put there for people."""
+    line = re.split(r" \| | && |   +|…|\.\.\.| \[", line)[0]
+    return shlex.split(line, comments=True)
+
+
+def command_lines(text):
+    outside = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+    indented = "\n".join(line for line in outside.splitlines() if line.startswith("    "))
+    found = _SPAN.findall(outside) + _LINE.findall(indented)
+    for block in _BLOCK.findall(text):
+        found += _LINE.findall(block)
+    return [words for words in map(words_of, found) if len(words) > 1]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_up_understands_what_the_page_says(page, capsys):
+    for program, *arguments in command_lines(text_of(page)):
+        if program == "make":
+            continue
+        parser = PARSERS[program]()
+        # A mention of a verb alone is no whole command: its help must know it.
+        verb_alone = len(arguments) == 1 or (arguments[:1] == ["create"] and len(arguments) == 2)
+        if verb_alone:
+            arguments = [*arguments, "--help"]
+        try:
+            parser.parse_args(arguments)
+        except SystemExit as end:
+            shown = capsys.readouterr()
+            assert end.code == 0, f"{program} {shlex.join(arguments)}: {shown.err}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_make_knows_what_the_page_says(page):
+    makefile = (REPOSITORY / "Makefile").read_text(encoding="utf-8")
+    targets = set(re.findall(r"^([a-z]+):", makefile, re.MULTILINE))
+    for program, target, *_ in command_lines(text_of(page)):
+        assert program != "make" or target in targets, target
+
+
+def test_command_lines_are_found():
+    assert command_lines("`up modules`, `up create cog -n X`") == [
+        ["up", "modules"],
+        ["up", "create", "cog", "-n", "X"],
+    ]
+    assert command_lines("    up check --config DIR     the same\n") == [
+        ["up", "check", "--config", "DIR"]
+    ]
+    assert command_lines("```\nup gather  # all\n```\n") == [["up", "gather"]]
