@@ -21,7 +21,7 @@ PARSERS = {"up": make_parser, "up-ground": lambda: make_ground_parser({})}
 def words_of(line):
     """Return the words of the first command in a line, without what is put there for people."""
     line = re.split(r" \| | && |   +|…|\.\.\.| \[", line)[0]
-    return shlex.split(line, comments=True)
+    return [{"N": "1", "SECONDS": "1"}.get(word, word) for word in shlex.split(line, comments=True)]
 
 
 def command_lines(text):
