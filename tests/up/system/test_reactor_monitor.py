@@ -1,8 +1,11 @@
 """Whoever holds the reactor is named, on a real reactor."""
 
+import signal
 import sys
+import threading
 import time
 from collections import Counter
+from pathlib import Path
 
 import pytest
 from twisted.internet.endpoints import TCP4ClientEndpoint, connectProtocol
@@ -64,7 +67,7 @@ def watch(folder, scenario):
     async def run():
         up = build_up((HoldingModule,), reactor, folder, builtins=False)
         up.command_executor.adopt_thread()
-        monitor = ReactorMonitor(up.command_executor, reactor.callFromThread)
+        monitor = ReactorMonitor(reactor)
         monitor.start()
         try:
             await scenario(up, monitor)
@@ -171,24 +174,54 @@ def test_one_hold_is_counted_once_and_logged_once(tmp_path):
     assert log.text().count("holds the reactor") == 1
 
 
-def test_an_idle_reactor_is_neither_blamed_nor_woken(tmp_path):
-    woken = []
-
+def test_an_idle_reactor_is_not_blamed_and_wakes_nobody(tmp_path):
     async def scenario(up, monitor):
-        monitor._call_from_thread = lambda call: woken.append(call) or reactor.callFromThread(call)
-        before = len(woken)
+        before = switches(monitor)
         await sleep(1.0)
-        assert len(woken) - before < 25
+        assert switches(monitor) - before < 10
 
     assert watch(tmp_path, scenario) == Counter()
 
 
+def switches(monitor):
+    """Return how often the monitor's thread has slept."""
+    status = Path(f"/proc/self/task/{monitor._thread.native_id}/status").read_text()
+    return int(status.partition("voluntary_ctxt_switches:")[2].split()[0])
+
+
+def test_a_thread_that_was_there_before_does_not_end_the_program(tmp_path):
+    over = threading.Event()
+    older = threading.Thread(target=over.wait)
+    older.start()
+
+    async def scenario(up, monitor):
+        module = up.get_module(HoldingModule)
+        for _ in range(3):
+            reactor.callLater(0, module.on_timer)
+            await sleep(0.1)
+
+    watch(tmp_path, scenario)
+    over.set()
+    older.join()
+
+
+def test_afterwards_the_reactor_is_as_it_was(tmp_path):
+    before = reactor._poller
+
+    async def scenario(up, monitor):
+        assert reactor._poller is not before
+
+    watch(tmp_path, scenario)
+    assert reactor._poller is before
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+    assert signal.SIGALRM not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+
 def test_the_names_are_bounded():
-    monitor = ReactorMonitor(None, None)
+    monitor = ReactorMonitor(None)
     for number in range(200):
         frames = {"__name__": f"module_{number}"}
         exec("import sys\nframe = sys._getframe()", frames)
-        monitor._is_answered = True
         monitor._blame_hold(frames["frame"])
     assert len(monitor.culprits) <= 51
     assert monitor.culprits[OTHERS] == 150

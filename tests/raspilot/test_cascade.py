@@ -1,0 +1,167 @@
+"""The cascade: signs, limits, windup, and a closed loop."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from raspilot.flight_controller import sticks
+from raspilot.flight_controller.cascade import OUTPUT_LIMIT, US_PER_UNIT, Cascade
+from raspilot.flight_controller.yaw_damper import WASHOUT_S, YawDamper
+from up.flight_controller.gains import Gains
+
+LIMIT_US = OUTPUT_LIMIT * US_PER_UNIT
+DT_S = 0.02
+
+
+def cascade(rate=None, stabilize=None, limit=120.0):
+    return Cascade(rate or Gains(2.1), stabilize or Gains(2.0), limit)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "angle", "rate", "sign"),
+    [
+        (10, 0, 0, 1),
+        (-10, 0, 0, -1),
+        (0, 10, 0, -1),
+        (0, -10, 0, 1),
+        (0, 0, 30, -1),
+        (0, 0, -30, 1),
+    ],
+)
+def test_it_steers_against_the_error_and_against_the_rotation(wanted, angle, rate, sign):
+    assert math.copysign(1, cascade().hold_angle(wanted, angle, rate, DT_S)) == sign
+
+
+def test_the_figures():
+    assert cascade().hold_angle(10, 0, 0, DT_S) == pytest.approx(10 * 2.0 * 2.1 * 1.25)
+    assert cascade().hold_rate(30, 10, DT_S) == pytest.approx(20 * 2.1 * 1.25)
+    assert cascade().hold_angle(0, 0, 0, DT_S) == 0
+
+
+def test_the_wanted_rate_is_limited():
+    small = Gains(1.0)
+    assert cascade(small, Gains(50.0)).hold_angle(50, -50, 0, DT_S) == pytest.approx(120 * 1.25)
+
+
+@given(
+    st.floats(-360, 360), st.floats(-360, 360), st.floats(-4000, 4000), st.floats(1e-3, 0.1),
+    st.builds(Gains, st.floats(0, 50), st.floats(0, 50), st.floats(0, 50)),
+)  # fmt: skip
+def test_the_output_is_limited_whatever_comes(wanted, angle, rate, dt_s, gains):
+    controller = cascade(gains, gains)
+    for _ in range(3):
+        output = controller.hold_angle(wanted, angle, rate, dt_s)
+        assert -LIMIT_US <= output <= LIMIT_US
+        angle = -angle
+
+
+def test_integrals_do_not_wind_up():
+    controller = cascade(Gains(1.0, 1.0), Gains(1.0, 1.0))
+    for _ in range(10_000):
+        controller.hold_angle(50, -50, 0, DT_S)
+    frames = 0
+    while controller.hold_angle(-50, 50, 0, DT_S) > 0:
+        frames += 1
+        assert frames < 200
+
+
+def test_reset_forgets():
+    controller = cascade(Gains(1.0, 5.0, 0.5), Gains(1.0, 5.0, 0.5))
+    first = controller.hold_angle(20, 0, 0, DT_S)
+    for _ in range(100):
+        controller.hold_angle(20, 0, 0, DT_S)
+    assert controller.hold_angle(20, 0, 0, DT_S) != pytest.approx(first)
+    controller.reset()
+    assert controller.hold_angle(20, 0, 0, DT_S) == pytest.approx(first)
+
+
+def test_tuning_acts_at_once_and_keeps_what_the_integral_holds():
+    controller = cascade(Gains(0.0, 1.0), Gains(1.0))
+    for _ in range(50):
+        held = controller.hold_rate(10, 0, DT_S)
+    controller.tune(Gains(2.0), Gains(1.0))
+    assert controller.hold_rate(0, 0, DT_S) == pytest.approx(held, rel=0.01)
+
+
+def test_time_counts_in_the_integral():
+    slow, fast = cascade(Gains(0, 1.0)), cascade(Gains(0, 1.0))
+    for _ in range(10):
+        slow_us = slow.hold_rate(10, 0, 0.05)
+    for _ in range(50):
+        fast_us = fast.hold_rate(10, 0, 0.01)
+    assert slow_us == pytest.approx(fast_us)
+
+
+def roll_of(controller, wanted_deg, seconds, gust_deg_s2=0.0):
+    """Fly a model whose roll rate follows the ailerons; return its bank over time."""
+    bank, rate, banks = 0.0, 0.0, []
+    for _ in range(round(seconds / DT_S)):
+        deflection = controller.hold_angle(wanted_deg, bank, rate, DT_S) / LIMIT_US
+        rate += (deflection * 900.0 - 5.0 * rate + gust_deg_s2) * DT_S
+        bank += rate * DT_S
+        banks.append(bank)
+    return banks
+
+
+@pytest.mark.parametrize("wanted", [30.0, -45.0])
+def test_the_closed_loop_reaches_the_bank_and_stays(wanted):
+    banks = roll_of(cascade(Gains(2.1), Gains(2.0)), wanted, 10)
+    assert banks[-1] == pytest.approx(wanted, abs=0.5)
+    assert max(abs(bank) for bank in banks) < abs(wanted) * 1.2
+    assert all(bank == pytest.approx(wanted, abs=1.0) for bank in banks[-100:])
+
+
+def test_the_integral_holds_against_a_steady_gust():
+    without = roll_of(cascade(Gains(0.5), Gains(2.0)), 0.0, 20, 100.0)[-1]
+    with_it = roll_of(cascade(Gains(0.5, 0.5), Gains(2.0)), 0.0, 20, 100.0)[-1]
+    assert abs(without) > 5
+    assert abs(with_it) < 0.5
+
+
+def test_a_reversed_sensor_would_be_seen():
+    """The loop above can fail: with the sign turned round it diverges."""
+    controller = cascade(Gains(0.5), Gains(2.0))
+    hold = controller.hold_angle
+    bank, rate = 1.0, 0.0
+    for _ in range(200):
+        deflection = -hold(0.0, bank, rate, DT_S) / LIMIT_US
+        rate += (deflection * 900.0 - 5.0 * rate) * DT_S
+        bank += rate * DT_S
+    assert abs(bank) > 5
+
+
+class TestYawDamper:
+    """Swinging is damped, a turn passes."""
+
+    def test_against_a_swing(self):
+        damper = YawDamper(Gains(0.5))
+        damper.deflection_us(0.0, DT_S)
+        assert damper.deflection_us(20.0, DT_S) < 0
+        assert damper.deflection_us(-20.0, DT_S) > 0
+
+    def test_a_steady_turn_is_let_pass(self):
+        damper = YawDamper(Gains(0.5))
+        damper.deflection_us(0.0, DT_S)
+        pushes = [damper.deflection_us(20.0, DT_S) for _ in range(round(5 * WASHOUT_S / DT_S))]
+        assert pushes[0] < -10
+        assert abs(pushes[-1]) < 0.2
+
+    def test_limits_reset_and_no_gain(self):
+        damper = YawDamper(Gains(50.0))
+        damper.deflection_us(-4000.0, DT_S)
+        assert damper.deflection_us(4000.0, DT_S) == -LIMIT_US
+        damper.reset()
+        assert damper.deflection_us(4000.0, DT_S) == pytest.approx(0, abs=1e-9)
+        damper.tune(Gains(0.0))
+        assert damper.deflection_us(-4000.0, DT_S) == 0
+
+
+@pytest.mark.parametrize(
+    ("stick", "roll", "pitch"),
+    [(1500, 0, 0), (2000, 50, 20), (1000, -50, -25), (3000, 50, 20), (0, -50, -25), (1750, 25, 10)],
+)
+def test_sticks(stick, roll, pitch):
+    assert sticks.roll_deg(stick) == roll
+    assert sticks.pitch_deg(stick) == pitch

@@ -1,0 +1,384 @@
+"""The flight controller on the Raspberry Pi: when it flies, on what, and with which gains."""
+
+import math
+import threading
+
+import pytest
+from twisted.internet.task import Clock
+
+from raspilot.flight_controller.gains_keeper import GainsKeeper
+from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
+from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.system import build_up
+from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.flight_state_command import FlightStateCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.origin import Origin
+from up.commands.output_command import OutputCommand
+from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
+from up.commands.refusal import CommandRefusedError
+from up.commands.roles import Role
+from up.commands.rx_command import ALL_VALID, RXCommand
+from up.flight_controller.gains import Gains, GainSet, LoopGains, gain_set_to_data
+from up.flight_controller.pids_file import PidsFile
+from up.mode import Mode
+from up.providers.base_mission_control_provider import BaseMissionControlProvider
+
+BOARD = Origin("arduino", Role.BOARD, 10)
+PHONE = Origin("android", Role.SENSOR, 0)
+GROUND = Origin("ground", Role.PILOT, 0)
+CONFIG = {"config.yml": "flight controller: raspberry\n"}
+OUTPUT_MODE = FlightStateCommand("OUTPUT", True, True, False)
+FBW_MODE = FlightStateCommand("FBW", True, True, False)
+MANUAL = FlightStateCommand("FBW", True, False, False)
+LOOP = LoopGains(Gains(3.0, 0.5, 0.1), Gains(1.5), Gains(0.25))
+OTHER_GAINS = GainSet(LOOP, LOOP)
+
+
+class Ground(BaseMissionControlProvider):
+    """A ground that keeps what it is sent."""
+
+    def __init__(self):
+        super().__init__()
+        self.sent, self.is_there = [], True
+
+    def send_command(self, command, command_id=None):
+        self.sent.append(command)
+        return self.is_there
+
+    def _transmit_data(self, message):
+        return True
+
+    def _transmit_newest(self, message):
+        pass
+
+
+class Rig:
+    """A flight controller, a board and a pilot."""
+
+    def __init__(self, folder, *, gains=OTHER_GAINS, clock=None, mode=Mode.AUTO, **config):
+        folder.mkdir(exist_ok=True)
+        if gains is not None:
+            PidsFile(folder).save(gains)
+        self.clock = clock or Clock()
+        self.up = build_up(
+            (RaspilotFlightController, Ground), self.clock, folder, mode=mode,
+            config={**CONFIG, **{name + ".yml": text for name, text in config.items()}},
+        )  # fmt: skip
+        self.bus = self.up.command_executor
+        self.controller = self.up.get_module(RaspilotFlightController)
+        self.ground = self.up.get_module(Ground)
+        self.outputs, self.modes = [], []
+        self.bus.register_command(OutputCommand, self.outputs.append)
+        self.bus.register_command(FlightModeCommand, self.modes.append)
+        self.sequence = 0
+
+    def state(self, state=OUTPUT_MODE):
+        self.bus.execute_command(state, BOARD)
+
+    def sticks(self, ailerons=1500, elevator=1500, throttle=1400, rudder=1500, valid=ALL_VALID):
+        self.bus.execute_command(
+            RXCommand(ailerons, elevator, throttle, rudder, 2000, 2000, valid), BOARD
+        )
+
+    def attitude(self, roll=0.0, pitch=0.0, yaw=0.0, rates=(0.0, 0.0, 0.0), origin=BOARD, **more):
+        self.sequence = more.get("sequence", self.sequence + 1)
+        self.bus.execute_command(
+            OrientationCommand(roll, pitch, yaw, *rates, self.sequence), origin
+        )
+
+    def frame(self, *attitude, **more):
+        """Let a period pass and a frame come; return the Output that it made, or None."""
+        self.clock.advance(0.02)
+        count = len(self.outputs)
+        self.attitude(*attitude, **more)
+        return self.outputs[-1] if len(self.outputs) > count else None
+
+    def outcome(self, command, origin=GROUND):
+        got = []
+        self.bus.execute_for_outcome(command, origin).addBoth(got.append)
+        return got
+
+
+@pytest.fixture
+def rig(tmp_path):
+    made = Rig(tmp_path)
+    made.state()
+    made.sticks()
+    return made
+
+
+def test_level_and_centred_it_holds_the_middle_and_leaves_the_throttle_to_the_stick(rig):
+    assert rig.frame() == OutputCommand(1500, 1500, 0, 1500, 1)
+
+
+def test_signs(rig):
+    assert rig.frame(20.0).ailerons_us < 1500
+    assert rig.frame(-20.0).ailerons_us > 1500
+    assert rig.frame(0.0, 10.0).elevator_us < 1500
+    assert rig.frame(0.0, -10.0).elevator_us > 1500
+    rig.sticks(ailerons=1600, elevator=1400)
+    output = rig.frame()
+    assert output.ailerons_us > 1500 > output.elevator_us
+
+
+def test_the_rudder_is_the_stick_and_a_damper(rig):
+    rig.sticks(rudder=1700)
+    assert rig.frame().rudder_us == 1700
+    assert rig.frame(rates=(0.0, 0.0, 30.0)).rudder_us < 1700
+
+
+@pytest.mark.parametrize("sequence", [0, 1, 65535])
+def test_the_sequence_of_the_frame_is_carried(rig, sequence):
+    assert rig.frame(sequence=sequence).sequence == sequence
+
+
+def test_pulses_stay_within_their_limits(rig):
+    rig.sticks(ailerons=3000, elevator=0, rudder=3000)
+    output = rig.frame(-360.0, 360.0, rates=(-4000.0, 4000.0, 0.0))
+    assert (output.ailerons_us, output.elevator_us, output.rudder_us) == (2000, 1000, 2000)
+    OutputCommand.from_data(output.data)
+
+
+class TestNothingIsSent:
+    """Without what control stands on there is no Output: the board flies by itself."""
+
+    def test_before_the_board_lets_it(self, tmp_path):
+        rig = Rig(tmp_path)
+        rig.sticks()
+        assert rig.frame() is None
+
+    @pytest.mark.parametrize(
+        "state", [FBW_MODE, MANUAL, FlightStateCommand(None, False, False, False)]
+    )
+    def test_when_the_board_flies_itself(self, rig, state):
+        assert rig.frame()
+        rig.state(state)
+        assert rig.frame() is None
+        rig.state()
+        assert rig.frame()
+
+    def test_without_a_valid_receiver(self, rig):
+        rig.sticks(valid=ALL_VALID & ~1)
+        assert rig.frame() is None
+        rig.sticks()
+        assert rig.frame()
+
+    def test_with_a_stale_receiver(self, rig):
+        rig.clock.advance(0.22)
+        assert rig.frame()
+        assert rig.frame() is None
+
+    def test_without_any_receiver(self, tmp_path):
+        rig = Rig(tmp_path)
+        rig.state()
+        assert rig.frame() is None
+
+    def test_from_a_frame_without_a_sequence(self, rig):
+        rig.bus.execute_command(OrientationCommand(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None), BOARD)
+        assert not rig.outputs
+
+    def test_from_the_phone_even_if_it_names_a_sequence(self, tmp_path):
+        rig = Rig(tmp_path, providers="orientation: [android, arduino]\n")
+        rig.state()
+        rig.sticks()
+        assert rig.frame(origin=PHONE) is None
+        assert rig.up.get_modules(type(rig.controller.orientation))[0].reading.source == "android"
+        assert rig.frame() is None
+
+    @pytest.mark.parametrize("bad", [math.nan, math.inf])
+    def test_from_what_is_no_number_and_the_next_frame_is_as_good_as_ever(self, rig, bad):
+        good = rig.frame(5.0)
+        assert rig.frame(bad) is None
+        assert rig.frame(rates=(bad, 0.0, 0.0)) is None
+        rig.clock.advance(0.2)
+        rig.sticks()
+        assert rig.frame(5.0).ailerons_us == good.ailerons_us
+        assert rig.bus.counters["failed_handlers"] == 0
+
+
+def test_without_rates_the_sticks_pass_through(rig):
+    rig.sticks(ailerons=1234, elevator=1777, rudder=900)
+    output = rig.frame(30.0, 10.0, rates=(None, None, None))
+    assert output == OutputCommand(1234, 1777, 0, 1000, 1)
+    assert rig.controller.flight_mode == "ACRO"
+
+
+class TestThePast:
+    """Integrals and derivatives are of this flight and this moment."""
+
+    def wind_up(self, rig):
+        for _ in range(20):
+            rig.sticks(ailerons=1600)
+            rig.frame()
+
+    def test_after_a_gap_it_begins_anew(self, rig):
+        rig.sticks(ailerons=1600)
+        rig.clock.advance(0.08)
+        first = rig.frame()
+        self.wind_up(rig)
+        assert rig.outputs[-1].ailerons_us > first.ailerons_us
+        rig.clock.advance(1.0)
+        rig.sticks(ailerons=1600)
+        assert rig.frame().ailerons_us == first.ailerons_us
+
+    def test_after_the_board_flew_for_a_while_it_begins_anew(self, rig):
+        rig.sticks(ailerons=1600)
+        rig.clock.advance(0.08)
+        first = rig.frame()
+        self.wind_up(rig)
+        rig.state(FBW_MODE)
+        for _ in range(20):
+            assert rig.frame() is None
+        rig.state()
+        rig.sticks(ailerons=1600)
+        assert rig.frame().ailerons_us == first.ailerons_us
+
+    def test_after_passing_through_it_begins_anew(self, rig):
+        rig.sticks(ailerons=1600)
+        self.wind_up(rig)
+        wound = rig.outputs[-1].ailerons_us
+        for _ in range(20):
+            rig.sticks(ailerons=1600)
+            rig.frame(rates=(None, None, None))
+        assert rig.frame().ailerons_us < wound
+
+    def test_two_frames_at_once_are_no_division_by_zero_and_no_kick(self, rig):
+        rig.frame()
+        before = rig.frame(0.5)
+        rig.attitude(0.5, rates=(0.01, 0.0, 0.0))
+        assert len(rig.outputs) == 3
+        assert abs(rig.outputs[-1].ailerons_us - before.ailerons_us) < 20
+
+
+class TestModes:
+    """What is offered, shown and asked for."""
+
+    def test_offered_by_what_is_valid(self, tmp_path):
+        rig = Rig(tmp_path)
+        controller = rig.controller
+        assert controller.offered_modes == []
+        assert controller.missing_for("FBW") == ["rx", "orientation"]
+        rig.sticks()
+        assert controller.offered_modes == ["ACRO"]
+        rig.attitude()
+        assert controller.offered_modes == ["FBW", "ACRO"]
+        rig.clock.advance(0.11)
+        assert controller.offered_modes == ["ACRO"]
+        rig.clock.advance(0.2)
+        assert controller.offered_modes == []
+        assert not controller.is_offered("RTH")
+
+    def test_telemetry_shows_what_is_really_flown(self, rig):
+        def shown():
+            return rig.controller.telemetry_content["flight_control"]["mode"]
+
+        assert shown() is None
+        rig.frame()
+        assert shown() == "FBW"
+        rig.clock.advance(0.3)
+        assert shown() is None
+        rig.sticks()
+        rig.frame()
+        rig.state(FBW_MODE)
+        assert shown() is None
+
+    def test_it_asks_for_auto_only_at_auto_and_while_the_ground_wants_it(self, tmp_path):
+        rig = Rig(tmp_path)
+        rig.state(MANUAL)
+        assert not rig.modes
+        rig.state(FBW_MODE)
+        assert rig.modes == [FlightModeCommand("AUTO")]
+        rig.state(FBW_MODE)
+        assert len(rig.modes) == 1
+        rig.clock.advance(5)
+        rig.state(FBW_MODE)
+        assert len(rig.modes) == 2
+        rig.bus.execute_command(FlightModeCommand("FBW"), GROUND)
+        rig.clock.advance(60)
+        rig.state(FBW_MODE)
+        assert len(rig.modes) == 3
+
+    @pytest.mark.parametrize(
+        ("mode", "text", "loaded"),
+        [
+            (Mode.AUTO, "raspberry", True),
+            (Mode.AUTO, "arduino", False),
+            (Mode.BLACK_BOX, "raspberry", False),
+        ],
+    )
+    def test_it_is_loaded_where_the_configuration_says(self, tmp_path, mode, text, loaded):
+        up = build_up(
+            (RaspilotFlightController,), Clock(), tmp_path, mode=mode,
+            config={"config.yml": f"flight controller: {text}\n"},
+        )  # fmt: skip
+        assert (up.get_module(RaspilotFlightController) is not None) is loaded
+
+
+class TestGains:
+    """Taken whole or not at all, saved beside the flight."""
+
+    def test_a_corrupt_file_is_a_veto_and_the_last_good_set_flies(self, tmp_path):
+        PidsFile(tmp_path).save(OTHER_GAINS)
+        (tmp_path / "pids.yml").write_text("rate: {ailerons: {p: 6}}\n")
+        rig = Rig(tmp_path, gains=None)
+        assert "pids.yml" in rig.up.vetoes.own
+        assert rig.controller.gains.rate == LOOP
+
+    def test_asking(self, rig):
+        assert rig.outcome(PIDTuningsCommand(request=True)) == [None]
+        assert rig.ground.sent == [PIDTuningsValuesCommand.of(rig.controller.gains)]
+        rig.ground.is_there = False
+        (got,) = rig.outcome(PIDTuningsCommand(request=True))
+        assert got.check(CommandRefusedError)
+
+    def test_setting_acts_at_once_is_saved_and_mends_the_veto(self, tmp_path):
+        (tmp_path / "pids.yml").write_text("rubbish")
+        new = GainSet(LoopGains(Gains(9.0), Gains(1.0)), LoopGains(Gains(8.0), Gains(1.0)))
+
+        async def scenario():
+            rig = Rig(tmp_path, gains=None, clock=reactor)
+            assert "pids.yml" in rig.up.vetoes.own
+            before = rig.controller.gains
+            got = rig.outcome(PIDTuningsCommand(pids=gain_set_to_data(new)))
+            assert rig.controller.gains == new.completed(before)
+            await until(lambda: got)
+            assert got == [None]
+            assert "pids.yml" not in rig.up.vetoes.own
+            return rig.controller.gains
+
+        flown = run_in_reactor(scenario)
+        assert PidsFile(tmp_path).load() == (flown, None)
+
+    def test_a_slow_disk_holds_nobody_and_the_newest_set_wins(self, tmp_path):
+        saved, disk = [], threading.Event()
+
+        class SlowFile:
+            def save(self, gains):
+                assert disk.wait(60)
+                saved.append(gains)
+
+        async def scenario():
+            keeper = GainsKeeper(SlowFile(), reactor)
+            done = [keeper.save("first"), keeper.save("second"), keeper.save("third")]
+            assert not saved
+            disk.set()
+            for each in done:
+                await each
+
+        run_in_reactor(scenario)
+        assert len(saved) == 3 and saved[-1] == "third"
+
+    def test_a_disk_that_refuses_is_said_and_the_gains_fly(self, tmp_path, monkeypatch):
+        def refuse(self, gains):
+            raise OSError(28, "No space left on device")
+
+        async def scenario():
+            rig = Rig(tmp_path, clock=reactor)
+            monkeypatch.setattr(PidsFile, "save", refuse)
+            got = rig.outcome(PIDTuningsCommand(pids=gain_set_to_data(OTHER_GAINS)))
+            await until(lambda: got)
+            assert "No space left" in got[0].getErrorMessage()
+            assert rig.controller.gains.rate == LOOP
+
+        run_in_reactor(scenario)

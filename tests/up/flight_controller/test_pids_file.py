@@ -1,0 +1,111 @@
+"""pids.yml: never a flight with rubbish, never a lost set."""
+
+import pytest
+
+from up.flight_controller.gains import Gains, GainSet, LoopGains
+from up.flight_controller.pids_file import PidsConfig, PidsFile, gain_set_of
+
+DEFAULT = gain_set_of(PidsConfig())
+LOOP = LoopGains(Gains(3.0, 0.25, 0.003), Gains(1.0), Gains(0.5))
+OURS = GainSet(LOOP, LOOP, LOOP)
+PROTOTYPE = """\
+rate:
+  ailerons: {p: 6.0, i: 0.0, d: 0.0}
+  elevator: {p: 6.0, i: 0.0, d: 0.0}
+stabilize:
+  ailerons: {p: 0.7, i: 0.0, d: 0.0}
+  elevator: {p: 0.7, i: 0.0, d: 0.0}
+"""
+
+
+@pytest.fixture
+def pids(tmp_path):
+    return PidsFile(tmp_path)
+
+
+def test_without_a_file_the_defaults_fly_and_nothing_is_wrong(pids):
+    assert pids.load() == (DEFAULT, None)
+
+
+def test_what_was_saved_comes_back_exactly(pids, tmp_path):
+    pids.save(OURS)
+    assert PidsFile(tmp_path).load() == (OURS, None)
+
+
+def test_a_set_without_a_rudder_keeps_the_saved_one(pids):
+    pids.save(OURS)
+    two = LoopGains(Gains(4.0), Gains(5.0))
+    pids.save(GainSet(two, two))
+    gains, problem = pids.load()
+    assert problem is None
+    assert gains.rate == LoopGains(Gains(4.0), Gains(5.0), LOOP.rudder)
+    assert gains.navigation == LOOP
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        PROTOTYPE,
+        "rate: null\nstabilize: null\n",
+        "",
+        "units: counts\n" + PROTOTYPE,
+        "rate: {ailerons: {p: .nan, i: 0, d: 0}}\n",
+        "\x00\x01",
+        "[",
+    ],
+)
+def test_a_file_that_is_not_whole_or_not_ours_flies_the_last_good_set_and_says_so(
+    pids, tmp_path, text
+):
+    pids.save(OURS)
+    (tmp_path / "pids.yml").write_text(text)
+    gains, problem = PidsFile(tmp_path).load()
+    assert gains == OURS
+    assert "pids.yml" in problem and "last good copy" in problem
+    assert "\n" not in problem
+
+
+def test_the_prototypes_swapped_gains_never_fly(pids, tmp_path):
+    (tmp_path / "pids.yml").write_text(PROTOTYPE)
+    gains, problem = pids.load()
+    assert gains == DEFAULT
+    assert gains.rate.ailerons.p < 3
+    assert problem and "defaults are used" in problem
+
+
+def test_cut_at_every_byte_it_is_never_half_a_set(pids, tmp_path):
+    pids.save(OURS)
+    whole = (tmp_path / "pids.yml").read_bytes()
+    for length in range(0, len(whole) - 1, 7):
+        (tmp_path / "pids.yml").write_bytes(whole[:length])
+        gains, problem = PidsFile(tmp_path).load()
+        assert gains == OURS
+        assert problem or length == len(whole)
+
+
+def test_every_byte_flipped_the_gains_are_valid(pids, tmp_path):
+    pids.save(OURS)
+    whole = (tmp_path / "pids.yml").read_bytes()
+    for place in range(0, len(whole), 11):
+        broken = bytearray(whole)
+        broken[place] ^= 0x11
+        (tmp_path / "pids.yml").write_bytes(broken)
+        gains, _ = PidsFile(tmp_path).load()
+        for loop in (gains.rate, gains.stabilize):
+            assert all(0 <= gain <= 50 for axis in loop.axes for gain in axis)
+        pids.save(OURS)
+
+
+def test_a_disk_that_refuses_loses_nothing(pids, tmp_path, monkeypatch):
+    from up.config import writing
+
+    pids.save(OURS)
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(writing.os, "write", full)
+    with pytest.raises(OSError, match="No space"):
+        pids.save(GainSet(LOOP, LOOP))
+    monkeypatch.undo()
+    assert pids.load() == (OURS, None)
