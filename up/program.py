@@ -53,7 +53,7 @@ class Program:
         self._collector = QuietCollector(
             self._reactor, lambda: not up.command_executor.dispatching_since
         )
-        self._monitor = ReactorMonitor(up.command_executor, self._reactor.callFromThread)
+        self._monitor = ReactorMonitor(self._reactor)
         up.count("reactor", self._monitor.culprits)
         self._forced_end = ForcedEnd(FORCED_AFTER_S)
         self._exit_status = EXIT_OK
@@ -69,6 +69,7 @@ class Program:
         self._up.command_executor.register_command(
             SystemStopCommand, lambda _: self.stop("a module asked for it")
         )
+        self._monitor.start()
         self._forced_end.start()
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, self._on_signal)
@@ -93,7 +94,6 @@ class Program:
         self._reactor.stop()
 
     def _begin(self) -> None:
-        self._monitor.start()
         self._watchdog.start()
         Deferred.fromCoroutine(self._start()).addErrback(self._boot_failed)
 

@@ -2,100 +2,87 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import threading
 from collections import Counter
-from collections.abc import Callable
-from time import perf_counter
 from types import FrameType
+from typing import Any
 
 from twisted.logger import Logger
 
 from up.base_module import BaseModule
 from up.commands.base_command_handler import BaseCommandHandler
-from up.commands.command_executor import CommandExecutor
+from up.system.watched_poller import WatchedPoller
 
 BUDGET_S = 0.020
 OTHERS = "others"
 _NAMED_LIMIT = 50
-_WAITING = frozenset({"doPoll", "doSelect"})
+JOIN_S = 1.0
 _NOT_TO_BLAME = frozenset({*sys.stdlib_module_names, "twisted", "zope"})
 
 
 class ReactorMonitor:
-    """A thread that looks every ``BUDGET_S`` at what the reactor thread does.
+    """A thread that an alarm wakes when the reactor has not waited for ``BUDGET_S``.
 
-    A dispatch of the bus that is older than the budget, or a reactor that is busy and does not
-    answer within the budget, is blamed on the module or handler that stands in the reactor
-    thread's stack: logged once each, counted once a hold. A look at a dispatch that comes early
-    waits for the rest, so none longer than the budget escapes; of the reactor's other work, none
-    longer than two budgets. An idle reactor is left alone.
+    The hold is blamed on the module or handler that stands in the reactor thread's stack at that
+    moment: logged once each, counted once a hold. None longer than the budget escapes, be it a
+    dispatch of the bus, a timer or a connection's data. While nothing is held nothing is woken. A
+    reactor without `epoll` or `poll` is not watched.
     """
 
     log = Logger()
 
-    def __init__(self, executor: CommandExecutor, call_from_thread: Callable[..., object]) -> None:
+    def __init__(self, reactor: Any) -> None:
         self.culprits: Counter[str] = Counter()
-        self._executor = executor
-        self._call_from_thread = call_from_thread
+        self._reactor = reactor
         self._reactor_thread = threading.get_ident()
-        self._stop = threading.Event()
-        self._is_answered = True
-        self._is_hold_blamed = False
-        self._pinged_s = 0.0
-        self._blamed_dispatch_s = 0.0
+        self._poller: WatchedPoller | None = None
+        self._is_stopped = False
         self._thread = threading.Thread(target=self._run, name="reactor-monitor", daemon=True)
 
     def start(self) -> None:
-        """Begin to watch the calling thread, which is the reactor's."""
+        """Begin to watch the calling thread, which is the reactor's and the main one.
+
+        To be called before other threads are started: they must not take the alarm either.
+        """
+        if not hasattr(self._reactor, "_poller"):
+            return
         self._reactor_thread = threading.get_ident()
+        # A thread that does not block the signal would die of it, and the process with it.
+        signal.signal(signal.SIGALRM, _ignore)
+        signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGALRM,))
+        self._poller = WatchedPoller(self._reactor._poller, BUDGET_S)
+        self._reactor._poller = self._poller
+        signal.setitimer(signal.ITIMER_REAL, BUDGET_S)
         self._thread.start()
 
     def stop(self) -> None:
         """Watch no more."""
-        self._stop.set()
-        if self._thread.is_alive():
-            self._thread.join(BUDGET_S * 5)
+        if self._poller is None:
+            return
+        self._reactor._poller, self._poller = self._poller.poller, None
+        self._is_stopped = True
+        # Wakes the thread, if nothing else does.
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.pthread_kill(self._thread.ident or 0, signal.SIGALRM)
+        self._thread.join(JOIN_S)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGALRM,))
 
     def _run(self) -> None:
-        while not self._stop.wait(BUDGET_S):
-            self._look_at_bus()
-            self._look_at_reactor()
-
-    def _look_at_bus(self) -> None:
-        since_s = self._executor.dispatching_since
-        if not since_s or since_s == self._blamed_dispatch_s:
-            return
-        rest_s = BUDGET_S - (perf_counter() - since_s)
-        if rest_s > 0 and self._stop.wait(rest_s):
-            return
-        frame = self._frame()
-        if self._executor.dispatching_since == since_s:
-            self._blamed_dispatch_s = since_s
-            self._blame_hold(frame)
-
-    def _look_at_reactor(self) -> None:
-        frame = self._frame()
-        if not self._is_answered:
-            if perf_counter() - self._pinged_s >= BUDGET_S:
+        while True:
+            signal.sigwait((signal.SIGALRM,))
+            frame = self._frame()
+            poller = self._poller
+            if self._is_stopped or poller is None:
+                return
+            if not poller.is_waiting:
                 self._blame_hold(frame)
-        elif frame is not None and frame.f_code.co_name not in _WAITING:
-            self._is_answered = False
-            since_s = self._executor.dispatching_since
-            self._is_hold_blamed = bool(since_s) and since_s == self._blamed_dispatch_s
-            self._pinged_s = perf_counter()
-            self._call_from_thread(self._answer)
-
-    def _answer(self) -> None:
-        self._is_answered = True
 
     def _frame(self) -> FrameType | None:
         return sys._current_frames().get(self._reactor_thread)
 
     def _blame_hold(self, frame: FrameType | None) -> None:
-        if not self._is_answered and self._is_hold_blamed:
-            return
-        self._is_hold_blamed = True
         culprit = culprit_in(frame)
         if culprit not in self.culprits and len(self.culprits) >= _NAMED_LIMIT:
             culprit = OTHERS
@@ -131,3 +118,7 @@ def _function_in(innermost: FrameType | None) -> str:
     if innermost is None:
         return "?"
     return f"{innermost.f_globals.get('__name__', '?')}.{innermost.f_code.co_qualname}"
+
+
+def _ignore(number: int, frame: FrameType | None) -> None:
+    """Take an alarm that came when nobody waited for it."""
