@@ -181,15 +181,16 @@ class ArduinoProvider(BaseStartedModule):
         self.serial.add_listener(self)
 
     def _execute_start(self) -> bool:
-        if self.is_checked:
-            self._alive = self.context.reactor.callLater(ALIVE_S, self._keep_alive)
         return True
 
     def _execute_stop(self) -> None:
+        self._stop_alive()
+        self.exchange.fail_all("Raspilot stops")
+
+    def _stop_alive(self) -> None:
         if self._alive is not None and self._alive.active():
             self._alive.cancel()
         self._alive = None
-        self.exchange.fail_all("Raspilot stops")
 
     def _subscribe(self) -> None:
         add = self.serial.add_handler
@@ -216,9 +217,12 @@ class ArduinoProvider(BaseStartedModule):
         if self.is_checked:
             self._send_veto()
             self._send_start()
+            if self._alive is None:
+                self._alive = self.context.reactor.callLater(ALIVE_S, self._keep_alive)
 
     def on_line_lost(self) -> None:
-        """Nothing: silence is told apart."""
+        """Tell nobody that this program lives; silence is told apart."""
+        self._stop_alive()
 
     def on_line_heard(self) -> None:
         """Say that the Arduino is there."""

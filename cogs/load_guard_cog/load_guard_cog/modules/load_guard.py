@@ -13,6 +13,9 @@ from up.commands.panic_command import PanicCommand
 from up.commands.system_commands import LinkStateCommand
 from up.system.clock import Timer
 
+MEMORY_EVERY_S = 2.0
+"""Memory is only shown, and looking at it costs more than looking at the load."""
+
 
 class LoadGuard(BaseStartedModule):
     """Publishes a PanicCommand at every switch, and again to a link that comes during panic."""
@@ -24,6 +27,7 @@ class LoadGuard(BaseStartedModule):
         self.meter: Meter | None = None
         self.ram = 0.0
         self._timer: Timer | None = None
+        self._memory_due_s = float("-inf")
 
     @property
     def in_panic(self) -> bool:
@@ -77,8 +81,11 @@ class LoadGuard(BaseStartedModule):
     def _look(self) -> None:
         self._schedule()
         assert self.meter is not None
-        self.ram = self.meter.memory_percent()
-        if self._switch.update(self.meter.load_percent(), self.context.reactor.seconds()):
+        now_s = self.context.reactor.seconds()
+        if now_s >= self._memory_due_s:
+            self._memory_due_s = now_s + MEMORY_EVERY_S
+            self.ram = self.meter.memory_percent()
+        if self._switch.update(self.meter.load_percent(), now_s):
             self._log_warning(
                 f"{'enters' if self.in_panic else 'leaves'} Panic Mode at"
                 f" {self.cpu_utilization} % load: send every {self.delay_ms} ms"
