@@ -1,140 +1,131 @@
-"""How long a publish takes on the bus, beside a dict of lists, pluggy and blinker.
+"""The bus beside a dict of lists, pluggy and blinker: one publish, handlers that do nothing.
 
-All figures are CPU time of this process for one publish, the best of several rounds in which ours
-and the peers take turns. Only the bus isolates handlers, knows the origin and times the dispatch.
+Only ours isolates a handler's fault, notes the origin and times the dispatch.
 """
 
-import importlib.util
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, ClassVar
 
-from bench.codecs import cpu_us
-from bench.table import Row, print_table
+from bench.table import Row
+from bench.timing import Work, best_ns
 from up.commands.command import BaseCommand, value
 from up.commands.command_executor import CommandExecutor
 from up.commands.command_registry import CommandRegistry
+from up.commands.origin import Origin
+from up.commands.roles import Role
 
 TARGETS = {1: 2.6, 10: 1.6, 100: 1.3}
-HANDLER_CALLS = 20_000
-
-Work = Callable[[], int]
+PEERS = ("pluggy", "blinker")
 
 
 @dataclass(frozen=True, slots=True)
-class SampleCommand(BaseCommand):
-    """A Command of usual size."""
+class BenchCommand(BaseCommand):
+    """Carries one number."""
 
-    NAME: ClassVar[str] = "bench.sample"
+    NAME: ClassVar[str] = "bench.tick"
     number: int = value(0)
 
 
-def handler(command: object) -> None:
-    """Do nothing with a Command."""
+class Subscriber:
+    """Does nothing with what it hears, by a method, as modules do."""
+
+    def on_command(self, command: BenchCommand) -> None:
+        """Hear a Command."""
 
 
-def bus_work(subscribers: int, publishes: int) -> Work:
-    """Return publishing on the bus."""
-    bus = CommandExecutor(CommandRegistry((SampleCommand,)), lambda call, *more: call(*more))
-    for _ in range(subscribers):
-        bus.register_command(SampleCommand, handler)
-    command, publish = SampleCommand(1), bus.execute_command
-
-    def work() -> int:
-        for _ in range(publishes):
-            publish(command)
-        return publishes
-
-    return work
+def ours(count: int) -> Work:
+    """Return a publish on the bus of this project."""
+    bus = CommandExecutor(CommandRegistry(()), lambda call, *arguments: call(*arguments))
+    for _ in range(count):
+        bus.register_command(BenchCommand, Subscriber().on_command)
+    publish, command, origin = bus.execute_command, BenchCommand(1), Origin("bench", Role.BOARD)
+    return lambda: publish(command, origin)
 
 
-def dict_work(subscribers: int, publishes: int) -> Work:
-    """Return publishing by a dict of lists, which isolates nothing."""
-    subscribed: dict[str, list[Callable[[object], None]]] = {
-        SampleCommand.NAME: [handler] * subscribers
-    }
-    command = SampleCommand(1)
+def dict_of_lists(count: int) -> Work:
+    """Return the least that a bus can be: nothing isolated, nothing known of who sent."""
+    handlers = {BenchCommand.NAME: [Subscriber().on_command for _ in range(count)]}
+    command = BenchCommand(1)
 
-    def publish(command: BaseCommand) -> None:
-        for call in subscribed[command.NAME]:
-            call(command)
-
-    def work() -> int:
-        for _ in range(publishes):
-            publish(command)
-        return publishes
-
-    return work
-
-
-def pluggy_work(subscribers: int, publishes: int) -> Work:
-    """Return publishing by pluggy's hooks."""
-    pluggy = import_module("pluggy")
-    mark_spec, mark = pluggy.HookspecMarker("bench"), pluggy.HookimplMarker("bench")
-
-    class Spec:
-        @mark_spec  # type: ignore[untyped-decorator]
-        def sample(self, command: Any) -> None:
-            """Hear of a Command."""
-
-    class Plugin:
-        @mark  # type: ignore[untyped-decorator]
-        def sample(self, command: Any) -> None:
+    def publish(command: BenchCommand) -> None:
+        for handler in handlers[command.NAME]:
             handler(command)
 
-    manager = pluggy.PluginManager("bench")
-    manager.add_hookspecs(Spec)
-    for _ in range(subscribers):
+    return lambda: publish(command)
+
+
+def pluggy(count: int) -> Work | None:
+    """Return a call of a pluggy hook; None: not installed."""
+    try:
+        library = import_module("pluggy")
+    except ImportError:
+        return None
+    spec: Any
+    implementation: Any
+    spec, implementation = library.HookspecMarker("bench"), library.HookimplMarker("bench")
+
+    class Specification:
+        @spec
+        def on_command(self, command: BenchCommand) -> None:
+            """Hear a Command."""
+
+    class Plugin:
+        @implementation
+        def on_command(self, command: BenchCommand) -> None:
+            """Hear a Command."""
+
+    manager = library.PluginManager("bench")
+    manager.add_hookspecs(Specification)
+    for _ in range(count):
         manager.register(Plugin())
-    command, publish = SampleCommand(1), manager.hook.sample
-
-    def work() -> int:
-        for _ in range(publishes):
-            publish(command=command)
-        return publishes
-
-    return work
+    hook, command = manager.hook.on_command, BenchCommand(1)
+    return lambda: hook(command=command)
 
 
-def blinker_work(subscribers: int, publishes: int) -> Work:
-    """Return publishing by a blinker signal."""
-    signal = import_module("blinker").Signal()
-    kept = [lambda command: handler(command) for _ in range(subscribers)]
-    for each in kept:
-        signal.connect(each)
-    command, publish = SampleCommand(1), signal.send
+def blinker(count: int) -> Work | None:
+    """Return a send of a blinker signal; None: not installed."""
+    try:
+        library = import_module("blinker")
+    except ImportError:
+        return None
+    signal, command = library.Signal(), BenchCommand(1)
+    subscribers = [Subscriber() for _ in range(count)]
+    for each in subscribers:
+        signal.connect(each.on_command)
 
-    def work() -> int:
-        for _ in range(publishes):
-            publish(command)
-        return publishes if kept else 0
+    def send(_keep: object = subscribers) -> None:  # a signal holds its receivers weakly
+        signal.send(command)
 
-    return work
-
-
-PEERS = {"pluggy": pluggy_work, "blinker": blinker_work}
+    return send
 
 
-def rows() -> Iterable[Row]:
-    """Measure and return the table's rows."""
-    for subscribers, target in TARGETS.items():
-        publishes = max(200, HANDLER_CALLS // subscribers)
-        installed = [name for name in PEERS if importlib.util.find_spec(name)]
-        works = [bus_work(subscribers, publishes), dict_work(subscribers, publishes)]
-        works += [PEERS[name](subscribers, publishes) for name in installed]
-        ours, base, *others = cpu_us(*works)
-        what = f"publish to {subscribers}"
-        yield Row(
-            what, f"{ours * 1000:.0f} ns", "dict of lists", f"{base * 1000:.0f} ns",
-            f"{ours / base:.2f}x", f"<= {target}x", ours <= target * base,
-        )  # fmt: skip
-        for name, figure in zip(installed, others, strict=True):
+def rows(quick: bool = False) -> Iterable[Row]:
+    """Yield a row for each peer and number of subscribers."""
+    makers: dict[str, Callable[[int], Work | None]] = {"pluggy": pluggy, "blinker": blinker}
+    for count, target in TARGETS.items():
+        what = f"publish to {count} subscriber{'s' * (count > 1)}"
+        works = {"ours": ours(count), "dict of lists": dict_of_lists(count)}
+        for name, make in makers.items():
+            peer = make(count)
+            if peer is not None:
+                works[name] = peer
+        rounds, calls = (3, 200) if quick else (20, max(500, 20_000 // count))
+        times = dict(zip(works, best_ns(list(works.values()), rounds, calls), strict=True))
+        mine = times["ours"]
+        for name in ("dict of lists", *makers):
+            if name not in times:
+                yield Row(what, f"{mine:.0f} ns", name, "not installed")
+                continue
+            ratio = mine / times[name]
+            aim = name == "dict of lists"
             yield Row(
-                what, f"{ours * 1000:.0f} ns", name, f"{figure * 1000:.0f} ns",
-                f"{ours / figure:.2f}x",
-            )  # fmt: skip
-
-
-if __name__ == "__main__":
-    print_table(rows())
+                what,
+                f"{mine:.0f} ns",
+                name,
+                f"{times[name]:.0f} ns",
+                f"{ratio:.2f}x" if ratio >= 1 else f"{1 / ratio:.1f}x faster",
+                f"<= {target}x" if aim else "",
+                ratio <= target if aim else None,
+            )
