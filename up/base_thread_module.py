@@ -10,7 +10,8 @@ from twisted.internet.defer import Deferred
 
 from up.base_started_module import BaseStartedModule
 
-STOP_LIMIT_S = 2.0
+# Less than the life cycle has for all stops: what the module itself closes is still closed.
+STOP_LIMIT_S = 1.2
 _LOOK_S = 0.01
 _PAUSE_AFTER_FAULT_S = 1.0
 
@@ -21,7 +22,7 @@ class BaseThreadModule(BaseStartedModule):
     The thread's only way back is the reactor: publish Commands (the bus hands them over) or
     ``call_in_reactor``. ``_loop`` blocks for a while at most and waits with
     ``self.stop_event.wait(seconds)``; one that raises is logged, counted and, after a second,
-    called again. A thread that has not ended 2 s after the stop does not keep the process alive.
+    called again. A thread that has not ended 1.2 s after the stop does not keep the process alive.
     """
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
@@ -70,6 +71,6 @@ class BaseThreadModule(BaseStartedModule):
                 self.stop_event.wait(_PAUSE_AFTER_FAULT_S)
 
     def _pause(self, seconds: float) -> Deferred[None]:
-        done: Deferred[None] = Deferred()
-        self.context.reactor.callLater(seconds, done.callback, None)
+        done: Deferred[None] = Deferred(lambda _: call.cancel())
+        call = self.context.reactor.callLater(seconds, done.callback, None)
         return done

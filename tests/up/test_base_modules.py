@@ -1,0 +1,155 @@
+"""The three kinds of module: what they say of themselves, and threads."""
+
+import threading
+
+import pytest
+from twisted.internet.task import Clock
+
+from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.system import build_up, started
+from tests.up.commands.samples import Log, NumberCommand
+from up import base_thread_module
+from up.base_module import BaseModule
+from up.base_thread_module import BaseThreadModule
+from up.needs import declared_needs, needs, wants
+
+
+class Plain(BaseModule):
+    """Says nothing."""
+
+
+class Heir(Plain):
+    """Needs what it says, and what its base says."""
+
+    other = wants(Plain)
+
+
+def test_what_a_module_says_of_itself():
+    module = Plain()
+    assert module.class_name == "Plain"
+    assert module.path.endswith("test_base_modules.Plain")
+    assert Heir().is_a("Plain") and not module.is_a("Heir")
+    assert module.load() and module.telemetry_content is None
+    with pytest.raises(AttributeError, match="Plain declares no CONFIG"):
+        _ = module.config
+
+
+def test_references_before_initialization_say_when_they_come():
+    class Needy(BaseModule):
+        plain = needs(Plain)
+
+    with pytest.raises(AttributeError, match=r"Needy\.plain is there from initialization on"):
+        _ = Needy().plain
+    assert [need.attribute for need in declared_needs(Needy)] == ["plain"]
+
+
+def test_declarations_are_inherited_and_can_be_replaced():
+    class Base(BaseModule):
+        one = needs(Plain)
+        two = needs(Plain)
+
+    class Derived(Base):
+        two = wants(Heir)
+
+    found = {need.attribute: (need.wanted, need.optional) for need in declared_needs(Derived)}
+    assert found == {"one": (Plain, False), "two": (Heir, True)}
+
+
+class Worker(BaseThreadModule):
+    """Publishes from its thread."""
+
+    def _execute_initialization(self):
+        self.rounds = 0
+
+    def _loop(self):
+        self.rounds += 1
+        self.up.command_executor.execute_command(NumberCommand(1))
+        self.stop_event.wait(0.01)
+
+
+class Faulty(Worker):
+    """Fails in its thread, in a different way each time."""
+
+    def _loop(self):
+        self.rounds += 1
+        raise (RuntimeError("oops"), SystemExit(1))[self.rounds % 2]
+
+
+class Stuck(Worker):
+    """Blocks and does not hear that it shall stop."""
+
+    let_go = threading.Event()
+
+    def _loop(self):
+        self.rounds += 1
+        self.let_go.wait(120)
+
+    def _execute_stop(self):
+        self.is_closed = True
+
+
+def run(folder, cls, scenario):
+    async def whole():
+        up = build_up((cls,), reactor, folder, builtins=False)
+        up.command_executor.adopt_thread()
+        life = await started(up)
+        module = up.get_module(cls)
+        try:
+            await scenario(up, module)
+        finally:
+            await life.stop()
+        return module
+
+    return run_in_reactor(whole)
+
+
+def test_a_thread_publishes_to_the_reactor_and_ends_at_the_stop(tmp_path):
+    heard = []
+
+    async def scenario(up, module):
+        up.command_executor.register_command(
+            NumberCommand, lambda _: heard.append(threading.get_ident())
+        )
+        await until(lambda: len(heard) > 3)
+
+    module = run(tmp_path, Worker, scenario)
+    assert set(heard) == {threading.get_ident()}
+    assert not module._thread.is_alive()
+    assert module._thread.daemon
+
+
+def test_a_loop_that_fails_is_counted_and_called_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(base_thread_module, "_PAUSE_AFTER_FAULT_S", 0.01)
+
+    async def scenario(up, module):
+        await until(lambda: module.faults >= 4)
+
+    with Log() as log:
+        module = run(tmp_path, Faulty, scenario)
+    assert module.rounds >= 4
+    assert "Faulty failed in its thread" in log.text()
+
+
+def test_a_thread_that_does_not_end_keeps_nobody(tmp_path):
+    async def scenario(up, module):
+        await until(lambda: module.rounds)
+
+    try:
+        with Log() as log:
+            module = run(tmp_path, Stuck, scenario)
+        assert module._thread.is_alive()
+        assert "did not end in time and is left behind" in log.text()
+        assert module.is_closed
+    finally:
+        Stuck.let_go.set()
+    module._thread.join(30)
+    assert not module._thread.is_alive()
+
+
+def test_a_thread_without_a_loop_is_named(tmp_path):
+    class Empty(BaseThreadModule):
+        pass
+
+    up = build_up((Empty,), Clock(), tmp_path, builtins=False)
+    with pytest.raises(NotImplementedError, match="Empty does not say"):
+        up.get_module(Empty)._loop()
