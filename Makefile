@@ -7,6 +7,7 @@ PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground simulat
 COGS := $(wildcard cogs/*_cog)
 SETUPS := setup.py pyproject.toml $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
 TEST ?=
+BENCH ?=
 
 .PHONY: help run test check bench format schemas clean
 
@@ -14,7 +15,7 @@ help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
 	@echo 'make test     set up everything and run every test (TEST=tests/up for some)'
 	@echo 'make check    lint, types, import contracts'
-	@echo 'make bench    the performance table'
+	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
 	@echo 'make format   put the code into the project'"'"'s form'
 	@echo 'make schemas  JSON Schema of every configuration file, into build/schemas'
 	@echo 'make clean    remove what the others made'
@@ -45,8 +46,13 @@ check: $(VENV)/.dev-ready
 	@for cog in $(COGS); do echo "mypy $$cog"; $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
 	$(PY) tools/import_contracts.py
 
-bench: $(VENV)/.dev-ready
-	$(PY) -m bench
+# The peers besides; HAProxy, socat and gcc (Debian) are measured where they are installed.
+$(VENV)/.bench-ready: $(SETUPS) | $(PY)
+	@tools/install $(PY) bench,dev,sim
+	@touch $@ $(VENV)/.run-ready $(VENV)/.dev-ready
+
+bench: $(VENV)/.bench-ready
+	$(PY) -m bench $(BENCH)
 
 format: $(VENV)/.dev-ready
 	$(BIN)/ruff check --fix . ; $(BIN)/ruff format .

@@ -70,6 +70,7 @@ setup(
     ],
     extras_require={
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'"],
+        "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6"],
         "dev": [
             "pytest>=8",
             "pytest-xdist>=3",

@@ -49,6 +49,8 @@ def write_config(
         "android.yml": f"general port: {ports.general}\norientation port: {ports.orientation}\n",
         "discovery.yml": f"port: {ports.discovery}\n",
         "arduino.yml": f"port: {serial!r}\n",
+        # Other people's load must not turn this into a measurement of Panic Mode.
+        "load_guard.yml": "panic threshold: 100.0\ncalm down threshold: 99.0\n",
     }
     if proxy_port:
         files["mission_control.yml"] = f"remote_server:\n  url: 127.0.0.1\n  port: {proxy_port}\n"
