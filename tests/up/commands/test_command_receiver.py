@@ -88,18 +88,25 @@ def test_an_outcome_that_comes_later_and_one_that_never_comes(border):
 
 
 def test_a_repeated_id_is_answered_again_and_not_executed_again(border, numbers):
-    for _ in range(3):
+    for _ in range(4):
         border.say("test.number", {"number": 5}, "a")
-    border.say("test.number", {"number": 6}, "a")
     assert numbers == [5]
     assert border.answers == [("ack", "a")] * 4
     assert border.receiver.counters["repeated"] == 3
 
 
+def test_old_peers_put_one_id_on_all_their_commands(border, numbers):
+    for number in (5, 6, 6, 5):
+        border.say("test.number", {"number": number}, "a")
+    assert numbers == [5, 6, 5]
+    assert len(border.link._answers) == 1
+
+
 def test_a_refused_id_is_refused_again(border, numbers):
     border.say("test.number", {"number": -1}, "a")
-    border.say("test.number", {"number": 1}, "a")
+    border.say("test.number", {"number": -1}, "a")
     assert border.codes == ["invalid", "invalid"]
+    assert border.receiver.counters["invalid"] == 1
     assert numbers == []
 
 
