@@ -10,7 +10,6 @@ from twisted.python.failure import Failure
 
 from raspilot.flight_controller import sticks
 from raspilot.flight_controller.cascade import Cascade
-from raspilot.flight_controller.gains_keeper import GainsKeeper
 from raspilot.flight_controller.yaw_damper import YawDamper
 from up.commands.flight_mode_command import FlightModeCommand
 from up.commands.flight_state_command import FlightStateCommand
@@ -21,6 +20,7 @@ from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
 from up.flight_controller.gains import Gains, GainSet
+from up.flight_controller.gains_keeper import GainsKeeper
 from up.flight_controller.pids_file import PidsFile
 from up.mode import WITH_ARDUINO, Mode
 from up.needs import wants
@@ -167,6 +167,8 @@ class RaspilotFlightController(BaseFlightController):
             self._is_board_ready = ready
             self._log_info("flies" if ready else "does not fly: the board does not let it")
         is_news, self._state = command != self._state, command
+        if not command.is_auto:
+            self._is_asked = True
         if command.is_auto and not ready and self._is_asked:
             self._ask_for_control(is_news)
 
@@ -178,7 +180,9 @@ class RaspilotFlightController(BaseFlightController):
             self.up.command_executor.execute_command(FlightModeCommand("AUTO"))
 
     def _on_flight_mode(self, command: FlightModeCommand) -> None:
-        self._is_asked = command.mode == "AUTO"
+        # The board takes a mode with the switch at AUTO only: what it refuses is no wish.
+        if self._state is not None and self._state.is_auto:
+            self._is_asked = command.mode == "AUTO"
 
     def _on_tunings(self, command: PIDTuningsCommand) -> Deferred[None] | None:
         gains = command.gains

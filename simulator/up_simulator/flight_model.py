@@ -6,6 +6,7 @@ import importlib
 import math
 import os
 import platform
+import tempfile
 from collections.abc import Callable
 from typing import Any
 
@@ -175,6 +176,8 @@ def _load(model: str) -> Any:
             f"JSBSim is not installed here ({platform.machine()}: {error})"
         ) from error
     fdm = jsbsim.FGFDMExec(None)
+    # Some aircraft open an output file while they are loaded, in the working directory.
+    fdm.set_output_path(tempfile.gettempdir())
     if not fdm.load_model(model):
         raise FlightUnavailableError(f"JSBSim has no aircraft {model}")
     fdm.disable_output()

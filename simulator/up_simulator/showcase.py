@@ -7,6 +7,7 @@ process that a user would start, with configuration written into a folder of its
 from __future__ import annotations
 
 import argparse
+import fcntl
 import os
 import select
 import signal
@@ -31,7 +32,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run everything; return 0 after Ctrl-C, 1 when a part failed."""
     options = _options(arguments)
     folder = (options.folder or ROOT / "run" / "showcase").resolve()
+    if not (ROOT / "main.py").is_file():
+        print("the showcase runs from a clone of the project: make run", file=sys.stderr)  # noqa: T201
+        return 2
     folder.mkdir(parents=True, exist_ok=True)
+    lock = (folder / "lock").open("w")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        lock.close()
+        print(f"another showcase runs in {folder}: stop it, or use --folder", file=sys.stderr)  # noqa: T201
+        return 1
     signal.signal(signal.SIGTERM, _raise_stopped)
     children: list[Child] = []
     try:

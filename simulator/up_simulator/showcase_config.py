@@ -74,6 +74,7 @@ def write_config(folder: Path, board: Path, ports: Ports) -> None:
             f"  port: {ports.airborne}\n"
             "# On loopback nobody else listens: the ground may arm and tune.\n"
             "role: pilot\n"
+            "tune_in_flight: true\n"
         ),
         "proxy.yml": (
             f"airborne port: {ports.airborne}\n"

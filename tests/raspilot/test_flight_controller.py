@@ -6,7 +6,6 @@ import threading
 import pytest
 from twisted.internet.task import Clock
 
-from raspilot.flight_controller.gains_keeper import GainsKeeper
 from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up
@@ -20,6 +19,7 @@ from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
 from up.flight_controller.gains import Gains, GainSet, LoopGains, gain_set_to_data
+from up.flight_controller.gains_keeper import GainsKeeper
 from up.flight_controller.pids_file import PidsFile
 from up.mode import Mode
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
@@ -382,3 +382,24 @@ class TestGains:
             assert rig.controller.gains.rate == LOOP
 
         run_in_reactor(scenario)
+
+
+def test_a_mode_that_the_board_refuses_is_no_wish(rig):
+    """With the switch elsewhere the board refuses; later at AUTO the Pi still asks for control."""
+    rig.state(MANUAL)
+    rig.bus.execute_command(FlightModeCommand("FBW"), GROUND)
+    rig.modes.clear()
+    rig.state(FBW_MODE)
+    assert [each.mode for each in rig.modes] == ["AUTO"]
+
+
+def test_a_wish_of_the_ground_ends_when_the_switch_leaves_auto(rig):
+    rig.state(FBW_MODE)
+    rig.bus.execute_command(FlightModeCommand("FBW"), GROUND)
+    rig.modes.clear()
+    rig.clock.advance(10)
+    rig.state(FBW_MODE)
+    assert rig.modes == [], "the ground asked for FBW"
+    rig.state(MANUAL)
+    rig.state(FBW_MODE)
+    assert [each.mode for each in rig.modes] == ["AUTO"]

@@ -25,3 +25,27 @@ def test_saved_gains_stay(tmp_path):
     (tmp_path / "pids.yml").write_text("tuned")
     write_config(tmp_path, tmp_path / "board", Ports())
     assert (tmp_path / "pids.yml").read_text() == "tuned"
+
+
+def test_two_showcases_do_not_share_a_folder(tmp_path, capsys):
+    import fcntl
+
+    from up_simulator.showcase import main
+
+    with (tmp_path / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        assert main(["--folder", str(tmp_path)]) == 1
+    assert "another showcase runs in" in capsys.readouterr().err
+
+
+def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
+    import subprocess
+    import sys
+
+    code = (
+        "from up_simulator.flight_model import FlightModel;"
+        "from up_simulator.airframe import AIRFRAMES;"
+        "[FlightModel(each) for each in AIRFRAMES.values()]"
+    )
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True, timeout=60)
+    assert list(tmp_path.iterdir()) == []

@@ -6,10 +6,11 @@ from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from up.commands.command import BaseCommand
 from up.commands.origin import Origin
 from up.commands.refusal import Code
 from up.commands.roles import Role
-from up.protocols.general_message import encode
+from up.protocols.general_message import GeneralMessage, encode
 from up.system.clock import Clock
 
 REMEMBERED = 256
@@ -20,6 +21,7 @@ _REASON_LIMIT = 500
 @dataclass(slots=True)
 class _Answer:
     time_s: float
+    content: int
     message: bytes | None = None
 
 
@@ -27,8 +29,8 @@ class CommandLink:
     """What the Command Receiver knows of one link; it outlives the link's connections.
 
     ``role_key`` names the configuration key that grants the role, for the nack; ``send`` takes an
-    encoded answer and returns whether it left. ``is_public`` says that nothing proves who is on
-    the other side.
+    encoded answer and returns whether it left. ``policy`` may refuse a Command that the role
+    would permit: it returns the reason, or None.
     """
 
     def __init__(
@@ -40,9 +42,11 @@ class CommandLink:
         *,
         role_key: str = "",
         priority: int = 0,
+        policy: Callable[[BaseCommand], str | None] | None = None,
     ) -> None:
         self.origin = Origin(name, role, priority)
         self.role_key = role_key
+        self.policy = policy
         self._send = send
         self._clock = clock
         self._answers: OrderedDict[str, _Answer] = OrderedDict()
@@ -52,14 +56,21 @@ class CommandLink:
         """Return the link's name, which is the source of the readings that come on it."""
         return self.origin.link
 
-    def is_repeated(self, command_id: str) -> bool:
-        """Remember an id; True when it was seen before: its answer is then sent again."""
+    def is_repeated(self, message: GeneralMessage) -> bool:
+        """Remember a message's id; True when the same came before: its answer is sent again.
+
+        An id with other content is another Command: old peers put one id on all of theirs.
+        """
+        if message.id is None:
+            return False
         self._forget()
-        known = self._answers.get(command_id)
-        if known is None:
+        content = hash((message.name, repr(message.data)))
+        known = self._answers.get(message.id)
+        if known is None or known.content != content:
+            self._answers.pop(message.id, None)
             while len(self._answers) >= REMEMBERED:
                 self._answers.popitem(last=False)
-            self._answers[command_id] = _Answer(self._clock.seconds())
+            self._answers[message.id] = _Answer(self._clock.seconds(), content)
             return False
         if known.message is not None:
             self._send(known.message)

@@ -66,7 +66,7 @@ class CommandReceiver:
 
     def _receive(self, message: GeneralMessage, link: CommandLink) -> None:
         cls = self._executor.registry.get(message.name)
-        if message.id is not None and link.is_repeated(message.id):
+        if link.is_repeated(message):
             self.counters["repeated"] += 1
             return
         if cls is None:
@@ -79,6 +79,10 @@ class CommandReceiver:
             return
         if link.origin.role.includes.isdisjoint(command.roles()):
             self._refuse(link, message, Code.FORBIDDEN, self._forbidden(command, link))
+            return
+        reason = None if link.policy is None else link.policy(command)
+        if reason is not None:
+            self._refuse(link, message, Code.FORBIDDEN, f"{command.NAME}: {reason}")
             return
         refusal = self._judge_beacon(command, message)
         if refusal is not None:

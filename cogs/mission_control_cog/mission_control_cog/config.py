@@ -74,6 +74,11 @@ class MissionControlConfig:
         "What a ground station may do: observer sees telemetry; operator also sets the telemetry "
         "rate, the flight mode, required heading and altitude; pilot also arms and tunes gains.",
     )
+    tune_in_flight: bool = key(
+        False,
+        "Whether a pilot on the ground may set gains while the aircraft is armed or its switch "
+        "stands at AUTO.",
+    )
     i_accept_plain: bool = key(
         False,
         "The link proves nothing about who is on the ground. While this is false, a pilot whose "

@@ -124,6 +124,7 @@ class BoardRig(Rig):
         done = self.up.command_executor.execute_for_outcome(command, INTERNAL)
         done.addCallbacks(lambda _: outcome.append("done"), lambda fail: outcome.append(fail.value))
         self.turn()
+        self.reactor.advance(0)
         return outcome
 
     def heard_on_bus(self, command):

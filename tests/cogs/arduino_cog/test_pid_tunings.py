@@ -8,6 +8,7 @@ from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
 from tests.cogs.arduino_cog.board import FACTORY, PUSHED
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import Code, CommandRefusedError
+from up.flight_controller import gains_keeper
 from up.flight_controller.gains import gain_set_to_data
 from up.flight_controller.pids_file import PIDS, PidsFile
 from up.protocols.general_message import decode
@@ -54,7 +55,10 @@ def refusal(outcome):
 
 
 @pytest.fixture
-def tuned(make_rig):
+def tuned(make_rig, monkeypatch):
+    # The clock stands still here: the disk answers at once. The thread has tests of its own.
+    monkeypatch.setattr(gains_keeper, "_in_thread", lambda work: work())
+
     def make(framing="checked", pids=GOOD, **more):
         config = {} if pids is None else {"pids.yml": pids}
         return make_rig(framing, {**config, **more.pop("config", {})}, modules=[Ground], **more)
@@ -262,7 +266,7 @@ def test_a_disk_that_refuses_is_told(tuned, monkeypatch):
     monkeypatch.setattr(PidsFile, "save", full)
     outcome = refusal(rig.ask(tunings()))
     assert outcome.code is Code.FAILED
-    assert "flies the new gains, but pids.yml was not saved: no space" in outcome.reason
+    assert "gains fly, but pids.yml was not saved: no space" in outcome.reason
 
 
 def test_a_request_is_answered_with_what_the_board_holds_in_full_precision(tuned):

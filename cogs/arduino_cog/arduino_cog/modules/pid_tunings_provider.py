@@ -14,6 +14,7 @@ from up.base_module import BaseModule
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller.gains import GainSet
+from up.flight_controller.gains_keeper import GainsKeeper
 from up.flight_controller.pids_file import PIDS, PidsFile
 from up.mode import WITH_ARDUINO
 from up.needs import needs, wants
@@ -55,6 +56,7 @@ class PIDTuningsProvider(BaseModule):
 
     def _execute_initialization(self) -> None:
         self._file = PidsFile(self.context.config_folder)
+        self._keeper = GainsKeeper(self._file, self.context.reactor)
         self._load()
         self._is_thesis = not self.arduino.is_checked
         self.arduino.add_board_listener(self.on_board_begun)
@@ -189,16 +191,15 @@ class PIDTuningsProvider(BaseModule):
         self._is_setting = False
         return outcome
 
-    def _save(self, _: object, gains: GainSet) -> None:
-        """Keep what the Arduino confirmed."""
+    def _save(self, _: object, gains: GainSet) -> Deferred[Any]:
+        """Keep what the Arduino confirmed; the disk may take its time, the bus does not wait."""
         self._is_pushed = True
-        try:
-            self._file.save(gains.completed(self.held or gains))
-        except (OSError, ValueError) as error:
-            reason = f"the Arduino flies the new gains, but pids.yml was not saved: {error}"
-            self._log_error(reason)
-            raise CommandRefusedError(reason, Code.FAILED) from None
-        self._load()
+        whole = gains.completed(self.held or gains)
+        return self._keeper.save(whole).addCallbacks(lambda _: self._load(), self._on_unsaved)
+
+    def _on_unsaved(self, failure: Failure) -> Failure:
+        self._log_error(failure.getErrorMessage())
+        return failure
 
     def _on_failed(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)

@@ -94,7 +94,10 @@ class GroundListener(BaseStartedModule):
         self._said.stop()
 
     def _open_link(self, send: Any) -> CommandLink:
-        return self.up.open_link(LINK, Role(self.config.role), send, role_key=ROLE_KEY)
+        policy = self.mission_control.tuning_policy
+        return self.up.open_link(
+            LINK, Role(self.config.role), send, role_key=ROLE_KEY, policy=policy
+        )
 
     def _on_message(self, message: GeneralMessage, link: CommandLink) -> None:
         self.up.command_receiver.receive(message, link)

@@ -6,7 +6,9 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from mission_control_cog.config import MISSION_CONTROL, aircraft_name
+from mission_control_cog.tuning_policy import TuningPolicy
 from mission_control_cog.uplink import Uplink
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
@@ -48,7 +50,13 @@ class MissionControlProvider(BaseMissionControlProvider):
         super()._execute_initialization()
         config = self.config
         self._role = Role(config.role)
-        self._link = self.up.open_link(LINK, self._role, self._send, role_key=ROLE_KEY)
+        self.tuning_policy = TuningPolicy(config.tune_in_flight)
+        self.up.command_executor.register_command(
+            FlightStateCommand, self.tuning_policy.on_flight_state
+        )
+        self._link = self.up.open_link(
+            LINK, self._role, self._send, role_key=ROLE_KEY, policy=self.tuning_policy
+        )
         server = config.remote_server
         if server.url:
             self._uplink = Uplink(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import Any
 
 from twisted.internet.defer import Deferred
@@ -10,6 +11,11 @@ from twisted.internet.defer import Deferred
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller.gains import GainSet
 from up.flight_controller.pids_file import PidsFile
+
+
+def _in_thread(work: Callable[[], None]) -> None:
+    """Run on a daemon thread: a disk that hangs keeps no program from ending."""
+    threading.Thread(target=work, name="pids.yml writer", daemon=True).start()
 
 
 class GainsKeeper:
@@ -28,9 +34,7 @@ class GainsKeeper:
         """Save a set; the result comes when it is on the disk."""
         done: Deferred[None] = Deferred()
         self._newest = gains
-        threading.Thread(
-            target=self._write, args=(done,), name="pids.yml writer", daemon=True
-        ).start()
+        _in_thread(lambda: self._write(done))
         return done
 
     def _write(self, done: Deferred[None]) -> None:
