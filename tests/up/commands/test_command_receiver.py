@@ -283,3 +283,11 @@ class TestRoutes:
         border.say("test.far", {}, "a")
         assert border.codes == ["forbidden"]
         assert not carried
+
+
+def test_a_links_policy_refuses_what_its_role_would_permit(border, numbers):
+    border.link.policy = lambda command: "not now (x.yml: key)" if command.number else None
+    border.say("test.number", {"number": 5}, "a")
+    border.say("test.number", {"number": 0}, "b")
+    assert numbers == [0]
+    assert border.answers == [("forbidden", "a", "test.number: not now (x.yml: key)"), ("ack", "b")]
