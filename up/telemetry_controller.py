@@ -16,7 +16,7 @@ from up.merge import merge
 from up.system.clock import Timer
 
 DEFAULT_PERIOD_MS = 100.0
-IDLE_LOOK_S = 1.0
+IDLE_LOOK_S = 2.0
 """How soon a subscriber is noticed that begins to want telemetry without a link that comes up."""
 
 

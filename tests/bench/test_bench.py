@@ -16,7 +16,7 @@ from bench.timing import percentile
 SUBJECTS = {
     "bus": (bus, 9),
     "codecs": (codecs, 4),
-    "cascade": (cascade, 2),
+    "cascade": (cascade, 3),
     "latency": (latency, 5),
     "startup": (startup, 2),
     "load": (load, 2),

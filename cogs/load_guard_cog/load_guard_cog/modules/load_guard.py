@@ -13,7 +13,7 @@ from up.commands.panic_command import PanicCommand
 from up.commands.system_commands import LinkStateCommand
 from up.system.clock import Timer
 
-MEMORY_EVERY_S = 2.0
+MEMORY_EVERY_S = 5.0
 """Memory is only shown, and looking at it costs more than looking at the load."""
 
 
