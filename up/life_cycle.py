@@ -12,7 +12,6 @@ from twisted.python.failure import Failure
 from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule
 from up.config import ConfigErrors
-from up.loading.order import needed_by
 from up.start_result import StartFailedError, StartResult
 from up.up import Up
 
@@ -39,7 +38,11 @@ class LifeCycle:
         self._up = up
         self._reactor = up.context.reactor
         self.started: list[BaseStartedModule] = []
-        self._failed: list[BaseModule] = []
+        self._sources = [
+            module
+            for module in up.modules
+            if isinstance(module, BaseStartedModule) and module.DATA_SOURCE
+        ]
         self._starting: Deferred[Any] | None = None
         self._is_stopping = False
 
@@ -48,7 +51,7 @@ class LifeCycle:
 
         A stop meanwhile gives up the module that starts, and starts no other.
         """
-        for module in self._up.modules:
+        for module in list(self._up.modules):
             if self._is_stopping:
                 return
             if not isinstance(module, BaseStartedModule):
@@ -94,7 +97,8 @@ class LifeCycle:
     async def _start_one(self, module: BaseStartedModule) -> StartResult:
         reason = ""
         try:
-            self._starting = self._bounded(module.start(), START_LIMIT_S)
+            with self._up.registrations_of(module).noted():
+                self._starting = self._bounded(module.start(), START_LIMIT_S)
             result: StartResult = await self._starting
         except CancelledError:
             if self._is_stopping:
@@ -111,34 +115,26 @@ class LifeCycle:
             self._starting = None
         if result is StartResult.STARTED:
             self.started.append(module)
+            self._up.registrations_of(module).keep()
         else:
             self._note_failure(module, reason or "its start says that it failed")
         return result
 
     def _skip_if_need_failed(self, module: BaseModule) -> bool:
-        missing = next((each for each in needed_by(module) if each in self._failed), None)
+        missing = self._up.missing_need(module)
         if missing is None:
             return False
         self._note_failure(module, f"needs {missing.class_name}, which did not start")
         return True
 
     def _note_failure(self, module: BaseModule, reason: str) -> None:
-        self._failed.append(module)
-        self._up.vetoes.set(module.path, f"did not start: {reason}")
-        self.log.error(
-            "{name} did not start: {reason}; the boot goes on", name=module.path, reason=reason
-        )
+        self._up.exclude(module, f"did not start: {reason}")
 
     def _check_sources(self) -> None:
-        sources = [
-            module
-            for module in self._up.modules
-            if isinstance(module, BaseStartedModule) and module.DATA_SOURCE
-        ]
-        if sources and not any(
-            module in self.started and module.is_source_open for module in sources
+        if self._sources and not any(
+            module in self.started and module.is_source_open for module in self._sources
         ):
-            names = [module.class_name for module in sources]
+            names = [module.class_name for module in self._sources]
             which = (
                 f"neither {' nor '.join(names)} has" if names[1:] else f"not even {names[0]} has"
             )

@@ -16,7 +16,9 @@ from up.commands.command_link import CommandLink
 from up.commands.command_receiver import CommandReceiver
 from up.commands.command_registry import CommandRegistry
 from up.context import Context
+from up.loading.order import forget_wanted, needed_by
 from up.loading.plan import Plan
+from up.registrations import Registrations, note_undo
 from up.vetoes import Vetoes
 
 _M = TypeVar("_M")
@@ -44,6 +46,8 @@ class Up:
         self._counted: dict[str, Mapping[str, int]] = {}
         self.on_ports_changed: Callable[[], object] = lambda: None
         self._modules = list(plan.modules)
+        self._registrations = {id(module): Registrations() for module in self._modules}
+        self._excluded: list[BaseModule] = []
         self._handlers: Sequence[BaseCommandHandler] = plan.handlers
         self.started_at_s = context.reactor.seconds()
         for problem in plan.problems:
@@ -108,6 +112,7 @@ class Up:
     def advertise_port(self, name: str, port: int) -> None:
         """Say which port a module really bound; the log and a supervisor are told."""
         self.ports[name] = port
+        note_undo(lambda: self._take_port_back(name, port))
         self.log.info("{name} listens on port {port}", name=name, port=port)
         self.on_ports_changed()
 
@@ -124,28 +129,41 @@ class Up:
 
         A module that raises is taken out, with what needs it; it becomes an arming veto by name.
         """
-        from up.loading.order import forget_wanted, needed_by
-
-        failed: list[BaseModule] = []
-        for module in self._modules:
-            missing = next((each for each in needed_by(module) if each in failed), None)
+        for module in list(self._modules):
+            missing = self.missing_need(module)
             if missing is not None:
-                self._exclude(module, f"needs {missing.class_name}, which failed")
-                failed.append(module)
+                self.exclude(module, f"needs {missing.class_name}, which failed")
                 continue
-            subscribers = self.command_executor.subscribers
             try:
-                module.initialize(self)
+                with self.registrations_of(module).noted():
+                    module.initialize(self)
             except (Exception, SystemExit) as error:  # noqa: BLE001 - one module, not all of them
                 self.log.failure("{name} failed to initialize", name=module.path)
-                self.command_executor.restore(subscribers)
-                self._exclude(module, f"failed to initialize: {type(error).__name__}: {error}")
-                failed.append(module)
-        self._modules = [module for module in self._modules if module not in failed]
-        for module in self._modules:
-            forget_wanted(module, failed)
+                self.exclude(module, f"failed to initialize: {type(error).__name__}: {error}")
         for handler in self._handlers:
             self._register(handler)
+
+    def registrations_of(self, module: BaseModule) -> Registrations:
+        """Return what notes the registrations of a module."""
+        return self._registrations[id(module)]
+
+    def missing_need(self, module: BaseModule) -> BaseModule | None:
+        """Return a module that this one cannot do without and that was excluded, or None."""
+        return next((each for each in needed_by(module) if each in self._excluded), None)
+
+    def exclude(self, module: BaseModule, reason: str) -> None:
+        """Take a module that failed out of the system; it is an arming veto by name.
+
+        Its subscriptions, routes and ports are taken back, its telemetry and other modules'
+        ``wants`` of it end. What needs it is for the caller to exclude as well.
+        """
+        self._excluded.append(module)
+        self.registrations_of(module).undo()
+        self._modules = [each for each in self._modules if each is not module]
+        for each in self._modules:
+            forget_wanted(each, self._excluded)
+        self.log.error("{name} is left out: {reason}", name=module.path, reason=reason)
+        self.vetoes.set(module.path, reason)
 
     def _register(self, handler: BaseCommandHandler) -> None:
         try:
@@ -155,6 +173,7 @@ class Up:
             self.log.error("{name} cannot be registered: {error}", name=name, error=error)
             self.vetoes.set(name, f"cannot be registered: {error}")
 
-    def _exclude(self, module: BaseModule, reason: str) -> None:
-        self.log.error("{name} is left out: {reason}", name=module.path, reason=reason)
-        self.vetoes.set(module.path, reason)
+    def _take_port_back(self, name: str, port: int) -> None:
+        if self.ports.get(name) == port:
+            del self.ports[name]
+            self.on_ports_changed()

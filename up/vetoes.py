@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from up.registrations import note_undo
+
 
 class Vetoes:
     """The reasons against arming: those of this program, and those that others report.
@@ -14,7 +16,23 @@ class Vetoes:
     def __init__(self) -> None:
         self._own: dict[str, str] = {}
         self._reported: dict[str, tuple[str, ...]] = {}
-        self.on_changed: Callable[[], object] = lambda: None
+        self._on_changed: Callable[[], object] = lambda: None
+
+    @property
+    def on_changed(self) -> Callable[[], object]:
+        """Return what is called when this program's vetoes change; whoever listens sets it."""
+        return self._on_changed
+
+    @on_changed.setter
+    def on_changed(self, call: Callable[[], object]) -> None:
+        before = self._on_changed
+        self._on_changed = call
+
+        def take_back() -> None:
+            if self._on_changed == call:
+                self._on_changed = before
+
+        note_undo(take_back)
 
     def set(self, name: str, reason: str) -> None:
         """Forbid arming under a name until it is cleared."""

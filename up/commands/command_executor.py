@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import Counter, deque
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
@@ -19,9 +19,9 @@ from up.commands.command import BaseCommand
 from up.commands.command_registry import CommandRegistry
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
+from up.registrations import note_undo
 
 Handler = Callable[[Any], Any]
-Subscribers = Mapping[str, tuple[tuple[UUID, Handler], ...]]
 _LOGGED_NAMES_LIMIT = 100
 # sys.exit() in a handler is a fault of that handler, no wish of the program.
 _FAULTS = (Exception, SystemExit)
@@ -91,29 +91,14 @@ class CommandExecutor:
         handle = uuid4()
         self._subscribers[name] = (*self._subscribers.get(name, ()), (handle, call))
         self._rebuild(name)
+        note_undo(lambda: self._unsubscribe(name, handle))
         return handle
 
     def unregister_command(self, command: type[BaseCommand] | str, handle: UUID) -> None:
         """Undo a subscription; raises KeyError when the handle is not one of this Command's."""
         name = self._name_of(command)
-        left = tuple(each for each in self._subscribers.get(name, ()) if each[0] != handle)
-        if len(left) == len(self._subscribers.get(name, ())):
+        if not self._unsubscribe(name, handle):
             raise KeyError(f"no handler {handle} for {name}")
-        self._subscribers[name] = left
-        self._rebuild(name)
-
-    @property
-    def subscribers(self) -> Subscribers:
-        """Return who is subscribed now, for ``restore``."""
-        return dict(self._subscribers)
-
-    def restore(self, subscribers: Subscribers) -> None:
-        """Undo what was subscribed since ``subscribers`` was taken."""
-        for name in [
-            name for name, now in self._subscribers.items() if now != subscribers.get(name)
-        ]:
-            self._subscribers[name] = subscribers.get(name, ())
-            self._rebuild(name)
 
     def has_handlers(self, command: type[BaseCommand] | str) -> bool:
         """Return whether anybody subscribed to a Command."""
@@ -223,6 +208,15 @@ class CommandExecutor:
             return self.registry.primary_name(command)
         self.registry.add(command)
         return command.NAME
+
+    def _unsubscribe(self, name: str, handle: UUID) -> bool:
+        now = self._subscribers.get(name, ())
+        left = tuple(each for each in now if each[0] != handle)
+        if len(left) == len(now):
+            return False
+        self._subscribers[name] = left
+        self._rebuild(name)
+        return True
 
     def _rebuild(self, name: str) -> None:
         handlers = tuple(call for _, call in self._subscribers[name])

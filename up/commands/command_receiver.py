@@ -17,6 +17,7 @@ from up.commands.command_link import CommandLink
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import Code, CommandRefusedError, UnhandledCommandError
 from up.protocols.general_message import GeneralMessage, MalformedMessage
+from up.registrations import note_undo
 
 OUTCOME_LIMIT_S = 2.0
 _LOGGED_LIMIT = 100
@@ -50,6 +51,7 @@ class CommandReceiver:
         if name in self._routes:
             raise ValueError(f"the route {name!r} is taken")
         self._routes[name] = route
+        note_undo(lambda: self._routes.pop(name, None))
 
     def receive(self, message: GeneralMessage, link: CommandLink) -> None:
         """Take one message from a link: publish it, route it, or refuse it.

@@ -10,6 +10,7 @@ from up.commands.command import BaseCommand
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
 from up.commands.roles import Role
+from up.registrations import Registrations
 
 GROUND = Origin("ground", Role.PILOT)
 
@@ -305,14 +306,21 @@ def test_an_async_handler_without_anybody_waiting(bus):
     assert heard == [NumberCommand(3)]
 
 
-def test_restoring_forgets_what_came_since(bus):
+def test_what_was_registered_is_taken_back_as_a_whole(bus):
     heard = []
     bus.register_command(NumberCommand, lambda _: heard.append("old"))
-    before = bus.subscribers
-    bus.register_command(NumberCommand, lambda _: heard.append("new"))
-    bus.register_command(OtherCommand, lambda _: heard.append("other"))
-    bus.restore(before)
+    registrations = Registrations()
+    with registrations.noted():
+        gone = bus.register_command(NumberCommand, lambda _: heard.append("gone already"))
+        bus.register_command(NumberCommand, lambda _: heard.append("new"))
+        bus.register_command(OtherCommand, lambda _: heard.append("other"))
+    bus.register_command(NumberCommand, lambda _: heard.append("later"))
+    bus.unregister_command(NumberCommand, gone)
+    registrations.undo()
     bus.execute_command(NumberCommand(1))
     bus.execute_command(OtherCommand())
-    assert heard == ["old"]
-    assert bus.counters["unhandled"] == 1
+    assert heard == ["old", "later"]
+    assert not bus.has_handlers(OtherCommand)
+    with registrations.noted():
+        bus.register_command(OtherCommand, lambda _: heard.append("too late"))
+    assert not bus.has_handlers(OtherCommand)
