@@ -50,9 +50,7 @@ class Program:
         self._watchdog = WatchdogPinger(
             self._reactor, lambda: self._life.is_healthy, self._notifier, environ
         )
-        self._collector = QuietCollector(
-            self._reactor, lambda: not up.command_executor.dispatching_since
-        )
+        self._collector = QuietCollector(self._reactor)
         self._monitor = ReactorMonitor(self._reactor)
         up.count("reactor", self._monitor.culprits)
         self._forced_end = ForcedEnd(FORCED_AFTER_S)

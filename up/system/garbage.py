@@ -1,28 +1,24 @@
 """When Python's garbage collector may stop the program: never while it is busy.
 
 A full collection of a program of this size takes tens of milliseconds. What lives after the start
-is frozen out of sight, the automatic collector is off, and young garbage is collected at quiet
-moments; bus and codecs make no cycles, so there is little of it.
+is frozen out of sight, the automatic collector is off, and young garbage is collected once a second
+between two turns of the reactor; bus and codecs make no cycles, so there is little of it.
 """
 
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable
-
 from up.system.clock import Clock, Timer
 
 PERIOD_S = 1.0
 OLDEST_EVERY = 300
-LIMIT_OBJECTS = 50_000
 
 
 class QuietCollector:
     """Replaces the automatic collector once the program has started."""
 
-    def __init__(self, clock: Clock, is_quiet: Callable[[], bool] = lambda: True) -> None:
+    def __init__(self, clock: Clock) -> None:
         self._clock = clock
-        self._is_quiet = is_quiet
         self._rounds = 0
         self._call: Timer | None = None
 
@@ -46,6 +42,4 @@ class QuietCollector:
     def _collect(self) -> None:
         self._schedule()
         self._rounds += 1
-        if not self._is_quiet() and gc.get_count()[0] < LIMIT_OBJECTS:
-            return
         gc.collect(1 if self._rounds % OLDEST_EVERY else 2)

@@ -43,17 +43,6 @@ def test_young_garbage_every_second_and_old_now_and_then(clock, rounds):
     assert rounds == [2, *[1] * (OLDEST_EVERY - 1), 2]
 
 
-def test_a_busy_program_is_left_alone_until_there_is_much(clock, rounds, monkeypatch):
-    collector = QuietCollector(clock, is_quiet=lambda: False)
-    collector.start()
-    clock.pump([1.0] * 5)
-    assert rounds == [2]
-    monkeypatch.setattr(garbage.gc, "get_count", lambda: (garbage.LIMIT_OBJECTS, 0, 0))
-    clock.advance(1.0)
-    assert rounds == [2, 1]
-    collector.stop()
-
-
 def test_cycles_that_modules_make_are_really_freed(clock):
     class Node:
         pass
