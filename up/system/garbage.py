@@ -8,6 +8,7 @@ between two turns of the reactor; bus and codecs make no cycles, so there is lit
 from __future__ import annotations
 
 import gc
+
 from up.system.clock import Clock, Timer
 
 PERIOD_S = 1.0
