@@ -51,7 +51,7 @@ class BaseStartedModule(BaseModule):
         return result
 
     async def stop(self) -> None:
-        """Enter the stop phase; the framework calls this once, only for what was started."""
+        """Enter the stop phase; the framework calls this once, also after a failed start."""
         self._started = False
         outcome = self._execute_stop()
         if isinstance(outcome, Awaitable):
@@ -62,7 +62,7 @@ class BaseStartedModule(BaseModule):
         return True
 
     def _execute_stop(self) -> Any:
-        """Close what the start opened."""
+        """Close what the start opened; after a start that failed, as far as it came."""
 
     def _judge(self, outcome: Any) -> StartResult:
         if isinstance(outcome, StartResult):

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from twisted.internet.defer import Deferred
+from twisted.internet.defer import CancelledError, Deferred
 
 from up.base_started_module import BaseStartedModule
 
@@ -43,14 +43,19 @@ class BaseThreadModule(BaseStartedModule):
         return result
 
     async def stop(self) -> None:
-        """Ask the thread to end, wait for it without blocking the reactor, then stop."""
+        """Ask the thread to end, wait for it without blocking the reactor, then stop.
+
+        A wait that is cancelled, as others took the time, is over like one that was too long.
+        """
         self.stop_event.set()
         deadline_s = self.context.reactor.seconds() + STOP_LIMIT_S
-        while self._thread is not None and self._thread.is_alive():
-            if self.context.reactor.seconds() >= deadline_s:
-                self._log_warning("its thread did not end in time and is left behind")
+        while self._is_thread_alive and self.context.reactor.seconds() < deadline_s:
+            try:
+                await self._pause(_LOOK_S)
+            except CancelledError:
                 break
-            await self._pause(_LOOK_S)
+        if self._is_thread_alive:
+            self._log_warning("its thread did not end in time and is left behind")
         await super().stop()
 
     def call_in_reactor(self, call: Callable[..., Any], *arguments: Any) -> None:
@@ -69,6 +74,10 @@ class BaseThreadModule(BaseStartedModule):
                 self.faults += 1
                 self.logger.failure("{name} failed in its thread", name=self.class_name)
                 self.stop_event.wait(_PAUSE_AFTER_FAULT_S)
+
+    @property
+    def _is_thread_alive(self) -> bool:
+        return self._thread is not None and self._thread.is_alive()
 
     def _pause(self, seconds: float) -> Deferred[None]:
         done: Deferred[None] = Deferred(lambda _: call.cancel())

@@ -6,7 +6,7 @@ from collections.abc import Coroutine
 from typing import Any
 
 from twisted.internet.defer import CancelledError, Deferred, TimeoutError
-from twisted.logger import Logger
+from twisted.logger import Logger, LogLevel
 from twisted.python.failure import Failure
 
 from up.base_module import BaseModule
@@ -16,8 +16,10 @@ from up.start_result import StartFailedError, StartResult
 from up.up import Up
 
 START_LIMIT_S = 10.0
-STOP_LIMIT_S = 1.5
-_LEAST_STOP_S = 0.2
+STOP_LIMIT_S = 1.8
+"""For all stops together; the program is ended by force a little later."""
+ONE_STOP_LIMIT_S = 1.5
+"""For one that hangs; what is left of the time is shared by those that come after it."""
 # sys.exit() in a module is a fault of that module, no wish of the program.
 _FAULTS = (Exception, SystemExit)
 
@@ -44,6 +46,7 @@ class LifeCycle:
             if isinstance(module, BaseStartedModule) and module.DATA_SOURCE
         ]
         self._starting: Deferred[Any] | None = None
+        self._unfinished: BaseStartedModule | None = None
         self._is_stopping = False
 
     async def start(self) -> None:
@@ -68,14 +71,22 @@ class LifeCycle:
             self._check_sources()
 
     async def stop(self) -> None:
-        """Stop what was started, in reverse; one that hangs or raises does not keep the others."""
+        """Stop what was started, in reverse; one that hangs or raises does not keep the others.
+
+        What a start that is given up has opened is closed first. It takes STOP_LIMIT_S at most.
+        """
         self._is_stopping = True
+        unfinished = self._unfinished
         if self._starting is not None:
             self._starting.cancel()
-        deadline_s = self._reactor.seconds() + STOP_LIMIT_S
+        now_s = self._reactor.seconds()
+        one_s, all_s = now_s + ONE_STOP_LIMIT_S, now_s + STOP_LIMIT_S
+        if unfinished is not None and unfinished not in self.started:
+            await self._close(unfinished, one_s - now_s)
         while self.started:
+            now_s = self._reactor.seconds()
+            limit_s = max(0.0, one_s - now_s, (all_s - now_s) / len(self.started))
             module = self.started.pop()
-            limit_s = max(_LEAST_STOP_S, deadline_s - self._reactor.seconds())
             try:
                 await self._bounded(module.stop(), limit_s)
             except TimeoutError:
@@ -96,6 +107,7 @@ class LifeCycle:
 
     async def _start_one(self, module: BaseStartedModule) -> StartResult:
         reason = ""
+        self._unfinished = module
         try:
             with self._up.registrations_of(module).noted():
                 self._starting = self._bounded(module.start(), START_LIMIT_S)
@@ -112,13 +124,24 @@ class LifeCycle:
             self.log.failure("{name} failed to start", name=module.path)
             result, reason = module.failure_result, f"{type(error).__name__}: {error}"
         finally:
-            self._starting = None
+            self._starting = self._unfinished = None
         if result is StartResult.STARTED:
             self.started.append(module)
             self._up.registrations_of(module).keep()
         else:
             self._note_failure(module, reason or "its start says that it failed")
+            if not self._is_stopping:
+                await self._close(module, ONE_STOP_LIMIT_S)
         return result
+
+    async def _close(self, module: BaseStartedModule, limit_s: float) -> None:
+        """Stop a module that is not started: what its start opened may be half open."""
+        try:
+            await self._bounded(module.stop(), limit_s)
+        except TimeoutError:
+            self.log.debug("{name} did not close in time", name=module.class_name)
+        except _FAULTS:
+            self.log.failure("{name} failed to close", name=module.class_name, level=LogLevel.debug)
 
     def _skip_if_need_failed(self, module: BaseModule) -> bool:
         missing = self._up.missing_need(module)

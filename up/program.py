@@ -33,7 +33,7 @@ EXIT_OK = 0
 EXIT_STOPPED = 1
 EXIT_CONFIG = 2
 EXIT_INTERRUPTED = 130
-FORCED_AFTER_S = 3.0
+FORCED_AFTER_S = 2.0
 USER_ERRORS = (ConfigErrors, NoApplicationError, CogImportError, BootError)
 
 
