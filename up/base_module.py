@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from twisted.logger import Logger
@@ -40,9 +40,20 @@ class BaseModule:
         return True
 
     def initialize(self, up: Up) -> None:
-        """Enter the initialization phase; the framework calls this once."""
+        """Enter the initialization phase; the framework calls this once.
+
+        Raises TypeError when the hook is ``async def``: nobody would wait for it.
+        """
         self.up = up
-        self._execute_initialization()
+        hook: Callable[[], Any] = self._execute_initialization
+        outcome = hook()
+        if isinstance(outcome, Awaitable):
+            if isinstance(outcome, Coroutine):
+                outcome.close()
+            raise TypeError(
+                f"{self.class_name}._execute_initialization must be done when it returns: what"
+                " takes time belongs into _execute_start, which may be async"
+            )
 
     def _execute_initialization(self) -> None:
         """Take references, subscribe to Commands, read configuration. No sockets, no ports."""

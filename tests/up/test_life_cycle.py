@@ -353,6 +353,25 @@ class TestInitialization:
         system.up.command_executor.execute_command(NumberCommand(1))
         assert calls == ["Wanting starts"]
 
+    def test_one_that_is_async_is_named_and_not_left_undone(self, tmp_path):
+        class Later(First):
+            async def _execute_initialization(self):
+                calls.append("never")
+
+        class Waiting(Noted):
+            def _execute_initialization(self):
+                return Deferred()
+
+        system = System(tmp_path, Later, Waiting, Second)
+        system.start()
+        assert system.running == []
+        assert (
+            "TypeError: Later._execute_initialization must be done when it returns"
+            in system.reason(Later)
+        )
+        assert "TypeError: Waiting._execute_initialization" in system.reason(Waiting)
+        assert calls == []
+
     def test_a_handler_that_cannot_be_registered_is_a_veto(self, tmp_path):
         class Bad(BaseCommandHandler):
             COMMAND = BaseModule
