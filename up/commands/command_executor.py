@@ -119,14 +119,16 @@ class CommandExecutor:
         if self.dispatching_since or _get_ident() != self._thread:
             self._postpone(command, origin)
             return
-        self.origin = origin
-        self.dispatching = command
-        self.dispatching_since = _now()
         try:
             handlers = self._handlers[command.NAME]
         except KeyError:
-            handlers = ()
-            self._count_unhandled(command.NAME)
+            # Nobody has to care for what a module says; from outside, or unknown, it is a mistake.
+            if origin is not INTERNAL or self.registry.get(command.NAME) is None:
+                self._count_unhandled(command.NAME)
+            return
+        self.origin = origin
+        self.dispatching = command
+        self.dispatching_since = _now()
         try:
             for handler in handlers:
                 try:

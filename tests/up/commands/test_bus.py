@@ -203,11 +203,24 @@ def test_what_nobody_handles_is_counted_and_logged_once(bus):
     bus.unregister_command(NumberCommand, handle)
     with Log() as log:
         for _ in range(50):
-            bus.execute_command(OtherCommand())
-            bus.execute_command(NumberCommand(1))
+            bus.execute_command(OtherCommand(), GROUND)
+            bus.execute_command(NumberCommand(1), GROUND)
     assert bus.counters["unhandled"] == 100
     assert log.text().count("nobody handles test.other") == 1
     assert log.text().count("nobody handles test.number") == 1
+
+
+def test_a_known_command_of_the_inside_needs_nobody(bus):
+    heard = []
+    with Log() as log:
+        bus.execute_command(OtherCommand())
+        bus.register_command(NumberCommand, lambda _: bus.execute_command(OtherCommand()))
+        bus.register_command(NumberCommand, heard.append)
+        bus.execute_command(NumberCommand(1))
+    assert heard == [NumberCommand(1)]
+    assert bus.counters == {}
+    assert not log.events
+    assert not bus.dispatching_since
 
 
 def test_names_without_number_do_not_fill_memory(bus):
