@@ -30,7 +30,9 @@ _REFUSED = _Refused()
 
 
 class Validator:
-    """Reads nodes as a shape says; with `whole`, a map that is there must have all its keys.
+    """Reads nodes as a shape says; with `whole` nothing of a set may be missing.
+
+    With `whole` the file must have all its sections, and a map that is there all its keys.
 
     `removed` maps the dotted name of an old key to the sentence that tells its replacement.
     """
@@ -89,7 +91,9 @@ class Validator:
 
     def _check_whole(self, shape: Shape, node: MapNode, places: dict[str, Node], path: str) -> None:
         for entry in shape.entries:
-            if isinstance(entry.spec, Constraint) and entry.attribute not in places:
+            # Deeper down a section may be absent as a whole (an axis), a file's own may not.
+            is_part = isinstance(entry.spec, Constraint) or (not path and entry.default is not None)
+            if is_part and entry.attribute not in places:
                 self._refuse(node, path, f"the key {show(entry.name)} is missing")
 
     def _fits(

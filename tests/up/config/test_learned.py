@@ -98,9 +98,24 @@ def test_a_file_that_was_edited_by_hand_becomes_the_good_copy(learned):
     assert learned.load()[0] == LATER
 
 
-def test_an_axis_may_be_absent_as_old_files_have_it(learned):
+def test_a_section_of_the_file_may_not_be_absent(learned):
     learned.path.write_text("ailerons: {p: 2, i: 0}\n")
-    assert learned.load() == (Pids(ailerons=Gains(2.0, 0.0)), None)
+    values, problem = learned.load()
+    assert values == Pids()
+    assert 'the key "elevator" is missing' in problem
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A loop with axes."""
+
+    rate: Pids = section(Pids)
+
+
+def test_an_axis_within_a_section_may_be_absent_as_old_files_have_it(tmp_path):
+    learned = LearnedFile(tmp_path / "loop.yml", ConfigFile("loop.yml", Loop))
+    learned.path.write_text("rate: {ailerons: {p: 2, i: 0}}\n")
+    assert learned.load() == (Loop(Pids(ailerons=Gains(2.0, 0.0))), None)
 
 
 def test_values_that_could_not_be_read_back_are_not_saved(learned):

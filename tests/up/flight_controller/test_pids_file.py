@@ -1,6 +1,7 @@
 """pids.yml: never a flight with rubbish, never a lost set."""
 
 import pytest
+import yaml
 
 from up.flight_controller.gains import Gains, GainSet, LoopGains
 from up.flight_controller.pids_file import PidsConfig, PidsFile, gain_set_of
@@ -109,3 +110,18 @@ def test_a_disk_that_refuses_loses_nothing(pids, tmp_path, monkeypatch):
         pids.save(GainSet(LOOP, LOOP))
     monkeypatch.undo()
     assert pids.load() == (OURS, None)
+
+
+@pytest.mark.parametrize("left_out", ["rate", "stabilize"])
+def test_a_file_without_a_whole_loop_is_not_flown(tmp_path, left_out):
+    file = PidsFile(tmp_path)
+    file.save(file.load()[0])
+    (tmp_path / "pids.yml.good").unlink()
+    text = (tmp_path / "pids.yml").read_text(encoding="utf-8")
+    kept = "stabilize" if left_out == "rate" else "rate"
+    body = yaml.safe_load(text)
+    (tmp_path / "pids.yml").write_text(
+        yaml.safe_dump({"units": body["units"], kept: body[kept]}), encoding="utf-8"
+    )
+    _, problem = file.load()
+    assert f'the key "{left_out}" is missing' in problem
