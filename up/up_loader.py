@@ -36,7 +36,7 @@ class UpLoader:
         disabled = self._context.config(DISABLED_MODULES).disabled_modules or ()
         found = discover(self._application, disabled)
         plan = select(found, BUILTIN_MODULES, self._context, disabled)
-        plan.modules = order(plan.modules)
+        plan.modules = order(plan.modules, plan.left_out)
         take_commands(plan, found)
         plan.handlers = build_handlers(plan, found)
         return plan

@@ -77,7 +77,7 @@ def _check_graph(
         plan.handlers = build_handlers(plan, found)
         # What needs a module of a cog that cannot be imported would only repeat that error.
         if not found.cog_errors:
-            plan.modules = order(plan.modules)
+            plan.modules = order(plan.modules, plan.left_out)
     except BootError as error:
         findings.problems += str(error).splitlines()
 

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
+from types import MappingProxyType
 
 from up.base_module import BaseModule
 from up.loading.plan import BootError
 from up.needs import declared_needs
 
 
-def order(modules: Sequence[BaseModule]) -> list[BaseModule]:
+def order(
+    modules: Sequence[BaseModule], left_out: Mapping[type[BaseModule], str] = MappingProxyType({})
+) -> list[BaseModule]:
     """Return the modules so that each comes after what it needs; ``LOAD_ORDER`` breaks ties.
 
     References are filled in. Raises BootError with one sentence for each missing need, or for a
-    circular one.
+    circular one; ``left_out`` tells why a class that was found is not among the modules.
     """
-    missing: list[str] = []
-    uses = {id(module): _fill(module, modules, missing) for module in modules}
+    absent: list[tuple[BaseModule, type[BaseModule]]] = []
+    uses = {id(module): _fill(module, modules, absent) for module in modules}
+    missing = [_missing(module, wanted, left_out) for module, wanted in absent]
     if missing:
         raise BootError("\n".join(missing))
     ranked = sorted(modules, key=lambda module: module.LOAD_ORDER)
@@ -57,21 +61,36 @@ def forget_wanted(module: BaseModule, failed: Container[BaseModule]) -> None:
 
 
 def _fill(
-    module: BaseModule, modules: Sequence[BaseModule], missing: list[str]
+    module: BaseModule,
+    modules: Sequence[BaseModule],
+    absent: list[tuple[BaseModule, type[BaseModule]]],
 ) -> list[BaseModule]:
     references: dict[str, BaseModule | None] = {}
     used: list[BaseModule] = []
     for need in declared_needs(type(module)):
         matching = [each for each in modules if isinstance(each, need.wanted)]
         if not matching and not need.optional:
-            missing.append(
-                f"{module.path} needs {need.wanted.__name__}, which is not loaded: register the"
-                " cog that brings it, or list the module in disabled_modules.yml"
-            )
+            absent.append((module, need.wanted))
         references[need.attribute] = matching[0] if matching else None
         used.extend(matching[:1])
     vars(module)["_references"] = references
     return [each for each in used if each is not module]
+
+
+def _missing(
+    module: BaseModule, wanted: type[BaseModule], left_out: Mapping[type[BaseModule], str]
+) -> str:
+    reasons = [
+        f"{cls.__module__}.{cls.__qualname__}: {reason}"
+        for cls, reason in left_out.items()
+        if issubclass(cls, wanted)
+    ]
+    known = f" ({'; '.join(reasons)})" if reasons else ""
+    way = "mend that" if reasons else "register the cog that brings it"
+    return (
+        f"{module.path} needs {wanted.__name__}, which is not loaded{known}: {way}, or list"
+        f" {module.path} in disabled_modules.yml"
+    )
 
 
 def _circle(left: list[BaseModule], uses: dict[int, list[BaseModule]]) -> str:

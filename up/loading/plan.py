@@ -28,6 +28,8 @@ class Plan:
     rejected: list[Rejected] = field(default_factory=list)
     problems: list[LoadProblem] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
+    left_out: dict[type[BaseModule], str] = field(default_factory=dict)
+    """Why a module class that was found is not loaded, rejected or broken."""
 
 
 class BootError(Exception):

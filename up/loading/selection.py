@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from up.base_module import BaseModule
+from up.builtin_modules import BUILTIN_MODULES
 from up.context import Context
 from up.loading.discovery import IMPORT_FAULTS, Discovered
 from up.loading.plan import BootError, Plan, Rejected
@@ -30,7 +31,7 @@ def select(
         plan.origins[_path(cls)] = found.origins.get(cls, "built in")
         reason = _reason_against(cls, context, refused)
         if reason:
-            plan.rejected.append(Rejected(_path(cls), reason))
+            _reject(plan, cls, reason)
             continue
         module = _build(cls, context, plan)
         if module is not None:
@@ -57,36 +58,60 @@ def _build(cls: type[BaseModule], context: Context, plan: Plan) -> BaseModule | 
     except ConfigErrors:
         raise
     except IMPORT_FAULTS as error:
-        plan.problems.append(problem_of(_path(cls), Path(inspect.getfile(cls)), error))
+        problem = problem_of(_path(cls), Path(inspect.getfile(cls)), error)
+        plan.problems.append(problem)
+        plan.left_out[cls] = problem.what
         return None
     if not wanted:
-        plan.rejected.append(Rejected(_path(cls), "its load() says no"))
+        _reject(plan, cls, "its load() says no")
         return None
     return module
+
+
+def _reject(plan: Plan, cls: type[BaseModule], reason: str) -> None:
+    plan.rejected.append(Rejected(_path(cls), reason))
+    plan.left_out[cls] = reason
 
 
 def _without_overridden(
     modules: list[BaseModule], builtins: Sequence[type[BaseModule]], plan: Plan
 ) -> list[BaseModule]:
     kept: list[BaseModule] = []
+    replaced: list[type[BaseModule]] = []
     for module in modules:
         over = [each for each in modules if _extends(each, module)]
         if over:
-            reason = f"replaced by {over[-1].path}"
-            plan.rejected.append(Rejected(module.path, reason))
+            _reject(plan, type(module), f"replaced by {over[-1].path}")
+            replaced.append(type(module))
         else:
             kept.append(module)
-    conflicts: list[str] = []
-    for builtin in builtins:
-        heirs = [each for each in kept if isinstance(each, builtin)]
-        if len(heirs) > 1:
-            names = " and ".join(each.path for each in heirs)
-            conflicts.append(
-                f"{names} both replace {builtin.__name__}: list one of them in disabled_modules.yml"
-            )
+    conflicts = _conflicts(kept, dict.fromkeys((*builtins, *replaced)))
     if conflicts:
         raise BootError("\n".join(conflicts))
     return kept
+
+
+def _conflicts(kept: list[BaseModule], bases: Iterable[type[BaseModule]]) -> list[str]:
+    """Return a sentence for each set of modules that replace the same one."""
+    found: dict[tuple[str, ...], type[BaseModule]] = {}
+    for base in bases:
+        heirs = tuple(each.path for each in kept if isinstance(each, base))
+        if len(heirs) > 1 and issubclass(base, found.get(heirs, base)):
+            found[heirs] = base
+    return [
+        f"{' and '.join(heirs)} both replace {base.__name__}: list one of them in"
+        f" disabled_modules.yml{_way_out(base)}"
+        for heirs, base in found.items()
+    ]
+
+
+def _way_out(base: type[BaseModule]) -> str:
+    if base in BUILTIN_MODULES:
+        return ""
+    return (
+        f" (if {base.__name__} is only what they have in common, begin its name with an"
+        " underscore, then it is no module)"
+    )
 
 
 def _extends(module: BaseModule, base: BaseModule) -> bool:

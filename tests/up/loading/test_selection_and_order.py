@@ -1,5 +1,6 @@
 """What is chosen among the classes, and in which order it comes."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -76,6 +77,53 @@ def test_two_unrelated_replacements_are_an_error_that_names_both(tmp_path):
         plan(tmp_path, classes)
 
 
+def test_two_replacements_of_the_applications_own_module_are_an_error_too(tmp_path):
+    classes = (
+        "class Base(BaseModule): pass\n"
+        "class Middle(Base): pass\n"
+        "class One(Middle): pass\n"
+        "class Two(Base): pass\n"
+    )
+    with pytest.raises(BootError) as error:
+        plan(tmp_path, classes)
+    assert "\n" not in str(error.value)
+    assert re.search(r"all\.One and .*all\.Two both replace Base: list one of", str(error.value))
+
+
+def test_a_conflict_is_told_once_and_of_what_both_replace(tmp_path):
+    classes = (
+        "class Middle(UpAltitudeProvider): pass\n"
+        "class One(Middle): pass\nclass Two(Middle): pass\n"
+        "class Fine(BaseModule): pass\nclass Finer(Fine): pass\n"
+    )
+    with pytest.raises(BootError) as error:
+        plan(tmp_path, classes)
+    assert str(error.value).count("both replace") == 1
+    assert "both replace Middle" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "base",
+    [
+        "class _Base(BaseModule): pass\n",
+        "class _Base(BaseModule):\n    def load(self): return type(self) is not _Base\n",
+        "class Base(BaseModule):\n    def load(self): return type(self) is not Base\n"
+        "_Base = Base\n",
+    ],
+)
+def test_a_base_that_is_never_loaded_itself_is_shared_freely(tmp_path, base):
+    assert own(plan(tmp_path, base + "class A(_Base): pass\nclass B(_Base): pass\n")) == ["A", "B"]
+
+
+def test_a_disabled_sibling_ends_the_conflict(tmp_path):
+    classes = "class Base(BaseModule): pass\nclass One(Base): pass\nclass Two(Base): pass\n"
+    files = {
+        "modules/all.py": HEAD + classes,
+        "config/disabled_modules.yml": "disabled modules: [tested_siblings.modules.all.Two]\n",
+    }
+    assert own(plan_of(write_application(tmp_path, files, "tested_siblings"))) == ["One"]
+
+
 def test_what_is_needed_comes_before_and_load_order_breaks_ties(tmp_path):
     found = plan(
         tmp_path,
@@ -110,6 +158,43 @@ def test_every_missing_need_is_told_at_once(tmp_path):
     first, second = str(error.value).splitlines()
     assert "all.B needs A, which is not loaded" in first
     assert "all.C needs A, which is not loaded" in second
+
+
+@pytest.mark.parametrize(
+    ("body", "mode", "disabled", "why"),
+    [
+        ("pass", Mode.AUTO, "Line", "all.Line: listed in disabled_modules.yml"),
+        ("MODES = WITH_ARDUINO", Mode.BLACK_BOX, "", "all.Line: not for the mode 'black box'"),
+        ("def load(self): return False", Mode.AUTO, "", "all.Line: its load() says no"),
+        ("def __init__(self): raise OSError('cold')", Mode.AUTO, "", "all.Line: OSError: cold"),
+    ],
+)
+def test_a_missing_need_says_why_it_is_not_loaded(tmp_path, body, mode, disabled, why):
+    name = f"tested_why_{abs(hash(body))}"
+    classes = (
+        f"class Wide(BaseModule, ABC):\n    @abstractmethod\n    def f(self): ...\n"
+        f"class Line(Wide):\n    f = None\n    {body}\n"
+        "class User(BaseModule):\n    line = needs(Line)\n"
+        "class Other(BaseModule):\n    line = needs(Wide)\n"
+    )
+    files = {"modules/all.py": "from abc import ABC, abstractmethod\n" + HEAD + classes}
+    if disabled:
+        listed = f"disabled modules: [{name}.modules.all.{disabled}]\n"
+        files["config/disabled_modules.yml"] = listed
+    with pytest.raises(BootError) as error:
+        plan_of(write_application(tmp_path, files, name), mode)
+    user, other = str(error.value).splitlines()
+    assert "all.User needs Line, which is not loaded (" in user
+    assert "all.Other needs Wide, which is not loaded (" in other
+    for sentence in (user, other):
+        assert why in sentence
+        assert "register the cog" not in sentence
+
+
+def test_a_need_that_nobody_brings_is_a_cogs(tmp_path):
+    classes = "class _Absent(BaseModule): pass\nclass B(BaseModule):\n    a = needs(_Absent)\n"
+    with pytest.raises(BootError, match="is not loaded: register the cog that brings it"):
+        plan(tmp_path, classes)
 
 
 def test_a_circle_is_one_sentence(tmp_path):
