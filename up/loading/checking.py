@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,12 +13,12 @@ from up.config.application import APPLICATION
 from up.config.disabled_modules import DISABLED_MODULES
 from up.context import Context
 from up.loading.application import Application
+from up.loading.commands import take_commands
 from up.loading.discovery import Discovered, survey
 from up.loading.files import config_files
 from up.loading.order import order
 from up.loading.plan import BootError, Plan
 from up.loading.selection import select
-from up.up_loader import build_handlers, take_commands
 
 
 @dataclass(slots=True)
@@ -68,13 +68,12 @@ def read_files(context: Context, files: Iterable[ConfigFile[Any]], findings: Fin
 
 
 def _check_graph(
-    context: Context, found: Discovered, disabled: Iterable[str], findings: Findings
+    context: Context, found: Discovered, disabled: Collection[str], findings: Findings
 ) -> None:
     findings.plan.problems = list(found.problems)
     try:
         plan = findings.plan = select(found, BUILTIN_MODULES, context, disabled)
-        take_commands(plan, found)
-        plan.handlers = build_handlers(plan, found)
+        take_commands(plan, found, disabled)
         # What needs a module of a cog that cannot be imported would only repeat that error.
         if not found.cog_errors:
             plan.modules = order(plan.modules, plan.left_out)
@@ -90,9 +89,9 @@ def _unknown(folder: Path, files: Iterable[ConfigFile[Any]]) -> list[str]:
 
 
 def _disabled_for_nothing(disabled: Iterable[str], found: Discovered) -> list[str]:
-    classes = (*BUILTIN_MODULES, *found.modules)
+    classes = (*BUILTIN_MODULES, *found.modules, *found.commands, *found.handlers)
     known = {f"{cls.__module__}.{cls.__qualname__}" for cls in classes}
-    known |= {cls.__module__ for cls in classes}
+    known |= {cls.__module__ for cls in classes} | found.disabled_files
     return [
         f"{DISABLED_MODULES.filename}: {name} is not there to be disabled"
         for name in disabled

@@ -37,6 +37,7 @@ class Discovered:
     origins: dict[type, str] = field(default_factory=dict)
     problems: list[LoadProblem] = field(default_factory=list)
     cog_errors: list[str] = field(default_factory=list)
+    disabled_files: set[str] = field(default_factory=set)
 
     def add(self, cls: type, origin: str) -> None:
         """Put a class where its base class belongs; one that was found before stays once."""
@@ -133,6 +134,7 @@ def discover_folder(
             continue
         name = f"{application.package}.{folder}.{path.stem}"
         if name in disabled:
+            found.disabled_files.add(name)
             continue
         if not path.stem.isidentifier():
             found.problems.append(

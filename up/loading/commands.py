@@ -1,0 +1,86 @@
+"""Takes the Commands and handlers that were found into the plan."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Container
+
+from up.commands.base_command_handler import BaseCommandHandler
+from up.commands.builtin import BUILTIN_COMMANDS
+from up.commands.command import BaseCommand
+from up.commands.command_registry import CommandRegistry, DuplicateCommandError
+from up.loading.discovery import IMPORT_FAULTS, Discovered
+from up.loading.plan import Plan, Rejected
+from up.loading.problem import LoadProblem
+
+_FAULTS = (DuplicateCommandError, ValueError, TypeError, NameError)
+
+
+def take_commands(plan: Plan, found: Discovered, disabled: Container[str]) -> None:
+    """Add the Commands that can be registered and the handlers that register themselves.
+
+    One that is broken becomes a problem, one that is disabled is rejected, and with a Command its
+    handlers are.
+    """
+    registry = CommandRegistry(BUILTIN_COMMANDS)
+    for cls in found.commands:
+        if _is_rejected(plan, cls, disabled):
+            continue
+        try:
+            registry.add(cls)
+        except _FAULTS as error:
+            plan.problems.append(LoadProblem(_path(cls), found.origins[cls], str(error)))
+        else:
+            plan.commands.append(cls)
+    for handler in found.handlers:
+        if handler.COMMAND and not _is_rejected(plan, handler, disabled):
+            _take_handler(plan, found, handler, registry)
+
+
+def _take_handler(
+    plan: Plan, found: Discovered, cls: type[BaseCommandHandler], registry: CommandRegistry
+) -> None:
+    if cls.COMMAND in found.commands and cls.COMMAND not in plan.commands:
+        reason = f"its Command {getattr(cls.COMMAND, '__name__', cls.COMMAND)} is not loaded"
+        plan.rejected.append(Rejected(_path(cls), reason))
+        return
+    make: Callable[[], BaseCommandHandler] = cls
+    try:
+        _check_command(cls, registry)
+        plan.handlers.append(make())
+    except IMPORT_FAULTS as error:
+        text = str(error) if isinstance(error, _NoCommandError) else _text(error)
+        plan.problems.append(LoadProblem(_path(cls), found.origins[cls], text))
+
+
+class _NoCommandError(Exception):
+    """What a handler says that it handles cannot be published."""
+
+
+def _check_command(cls: type[BaseCommandHandler], registry: CommandRegistry) -> None:
+    command: object = cls.COMMAND
+    if isinstance(command, str):
+        return
+    if not (inspect.isclass(command) and issubclass(command, BaseCommand)):
+        raise _NoCommandError(
+            f"{cls.__name__}.COMMAND is {command!r}: it must be a Command class or the name of one"
+        )
+    try:
+        registry.add(command)
+    except _FAULTS as error:
+        raise _NoCommandError(f"{cls.__name__}.COMMAND: {error}") from error
+
+
+def _is_rejected(plan: Plan, cls: type, disabled: Container[str]) -> bool:
+    if _path(cls) not in disabled and cls.__module__ not in disabled:
+        return False
+    plan.rejected.append(Rejected(_path(cls), "listed in disabled_modules.yml"))
+    return True
+
+
+def _text(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}"
+
+
+def _path(cls: type) -> str:
+    return f"{cls.__module__}.{cls.__qualname__}"
