@@ -16,6 +16,7 @@ from up.config import ConfigErrors, load_all
 from up.context import Context
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application, NoApplicationError
+from up.loading.checking import check_application
 from up.loading.discovery import CogImportError
 from up.loading.files import config_files
 from up.loading.plan import BootError
@@ -142,29 +143,49 @@ def run_application(
 ) -> int:
     """Run the application that a folder belongs to; return the exit status.
 
-    What a user can mend is one sentence a problem on stderr and exit status 2.
+    What a user can mend is one sentence a problem on stderr, all at once, and exit status 2.
     """
     from twisted.internet import reactor
 
     from up.system.clock import use_monotonic_time
 
     use_monotonic_time(reactor)
+    application = None
     try:
         application = Application.find(start)
         context = make_context(application, reactor, config_folder, environ)
         _start_log(context)
         use_realtime_priority(context.application.realtime_priority)
-        loader = UpLoader(application, context)
-        plan = loader.plan()
+        plan = UpLoader(application, context).plan()
         load_all(context.config_folder, config_files(plan.modules))
         up = Up(plan, context)
         up.initialize()
     except USER_ERRORS as error:
-        print(error, file=sys.stderr)  # noqa: T201 - the user's answer
+        problems = str(error).splitlines()
+        if application is not None:
+            problems += _more_problems(application, reactor, config_folder, environ)
+        for problem in dict.fromkeys(problems):
+            print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
         return EXIT_CONFIG
     except KeyboardInterrupt:
         return EXIT_INTERRUPTED
     return Program(up, environ).run()
+
+
+def _more_problems(
+    application: Application,
+    reactor: Any,
+    config_folder: Path | None,
+    environ: Mapping[str, str],
+) -> list[str]:
+    """Return what ``up check`` finds: the error that ended the boot hides those behind it."""
+    for words in (environ, {**environ, "UP_MODE": Mode.AUTO.value}):
+        try:
+            context = make_context(application, reactor, config_folder, words)
+        except USER_ERRORS:
+            continue
+        return check_application(application, context).problems
+    return []
 
 
 def make_context(
