@@ -29,7 +29,7 @@ class LoadGuardConfig:
         maximum=99,
     )
     interval: float = key(
-        0.5, "Time between two looks at the load.", unit="s", minimum=0.1, maximum=10
+        1.0, "Time between two looks at the load.", unit="s", minimum=0.1, maximum=10
     )
     dwell_s: float = key(
         5.0,
