@@ -102,6 +102,17 @@ def test_a_conflict_is_told_once_and_of_what_both_replace(tmp_path):
     assert "both replace Middle" in str(error.value)
 
 
+def test_the_nearest_of_what_both_replace_is_told_whatever_the_order_of_files(tmp_path):
+    heirs = "class Middle(Base): pass\nclass One(Middle): pass\nclass Two(Middle): pass\n"
+    files = {
+        "modules/a.py": "from .z import Base\n" + heirs,
+        "modules/z.py": HEAD + "class Base(BaseModule): pass\n",
+    }
+    with pytest.raises(BootError, match=r"\.One and .*\.Two both replace Middle") as error:
+        plan_of(write_application(tmp_path, files))
+    assert "\n" not in str(error.value)
+
+
 @pytest.mark.parametrize(
     "base",
     [
