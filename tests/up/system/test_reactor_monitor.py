@@ -1,239 +1,27 @@
-"""Whoever holds the reactor is named, on a real reactor."""
+"""Who holds the reactor is named; in a process of its own, for the alarm is the process's.
 
-import signal
+A thread that was there before the monitor (those of a parallel test runner, say) could take the
+alarm away from it; a daemon has none.
+"""
+
+import subprocess
 import sys
-import threading
-import time
-from collections import Counter
 from pathlib import Path
 
-import pytest
-from twisted.internet.endpoints import TCP4ClientEndpoint, connectProtocol
-from twisted.internet.protocol import Factory, Protocol
-
-from tests.support.reactor import reactor, run_in_reactor, sleep, until
-from tests.support.system import build_up
-from tests.up.commands.samples import Log, NumberCommand
-from up.base_module import BaseModule
-from up.commands.base_command_handler import BaseCommandHandler
-from up.system.reactor_monitor import OTHERS, ReactorMonitor, culprit_in
-
-HOLD_S = 0.06
-LONG_HOLD_S = 1.0
-
-
-def hold(seconds=HOLD_S):
-    """Hold the thread in Python, as a loop that is too long does."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        pass
-
-
-class HoldingHandler(BaseCommandHandler):
-    """A handler object that holds."""
-
-    COMMAND = NumberCommand
-
-    def run_action(self, command):
-        hold()
-
-
-class HoldingModule(BaseModule):
-    """Holds wherever it is asked to."""
-
-    def on_number(self, command):
-        hold()
-
-    def on_timer(self):
-        hold()
-
-
-class HoldingProtocol(Protocol):
-    """A connection that belongs to a module, or to nobody."""
-
-    module = None
-
-    def dataReceived(self, data):  # noqa: N802
-        if self.module is None:
-            hold()
-        else:
-            self.module.on_timer()
-        self.transport.loseConnection()
-
-
-def watch(folder, scenario):
-    """Run a scenario under the monitor; return what it named."""
-
-    async def run():
-        up = build_up((HoldingModule,), reactor, folder, builtins=False)
-        up.command_executor.adopt_thread()
-        monitor = ReactorMonitor(reactor)
-        monitor.start()
-        try:
-            await scenario(up, monitor)
-        finally:
-            monitor.stop()
-        return monitor.culprits
-
-    return run_in_reactor(run)
-
-
-class Sender(Protocol):
-    """The other side."""
-
-    is_over = False
-
-    def connectionLost(self, reason):  # noqa: N802
-        self.is_over = True
-
-
-async def send(module):
-    """Send a byte to a connection whose protocol holds."""
-    factory = Factory.forProtocol(HoldingProtocol)
-    HoldingProtocol.module = module
-    port = reactor.listenTCP(0, factory, interface="127.0.0.1")
-    sender = Sender()
-    factory.noisy = False
-    endpoint = TCP4ClientEndpoint(reactor, "127.0.0.1", port.getHost().port)
-    await connectProtocol(endpoint, sender)
-    sender.transport.write(b"x")
-    await until(lambda: sender.is_over)
-    await port.stopListening()
-
-
-def test_a_handler_of_a_module(tmp_path):
-    async def scenario(up, monitor):
-        module = up.get_module(HoldingModule)
-        up.command_executor.register_command(NumberCommand, module.on_number)
-        up.command_executor.execute_command(NumberCommand(1))
-        await until(lambda: monitor.culprits)
-
-    with Log() as log:
-        assert set(watch(tmp_path, scenario)) == {"HoldingModule"}
-    assert "HoldingModule holds the reactor" in log.text()
-
-
-def test_a_handler_object(tmp_path):
-    async def scenario(up, monitor):
-        up.command_executor.register_command(NumberCommand, HoldingHandler())
-        up.command_executor.execute_command(NumberCommand(1))
-        await until(lambda: monitor.culprits)
-
-    assert set(watch(tmp_path, scenario)) == {"HoldingHandler"}
-
-
-def test_a_timer(tmp_path):
-    async def scenario(up, monitor):
-        reactor.callLater(0.05, up.get_module(HoldingModule).on_timer)
-        await until(lambda: monitor.culprits)
-
-    assert set(watch(tmp_path, scenario)) == {"HoldingModule"}
-
-
-def test_data_received_of_a_module_and_of_nobody(tmp_path):
-    async def scenario(up, monitor):
-        await send(up.get_module(HoldingModule))
-        await until(lambda: "HoldingModule" in monitor.culprits)
-        await send(None)
-        await until(lambda: len(monitor.culprits) > 1)
-
-    names = set(watch(tmp_path, scenario))
-    assert "HoldingModule" in names
-    assert any("test_reactor_monitor.hold" in name for name in names)
-
-
-def test_it_is_named_while_it_still_holds(tmp_path):
-    named_after_s = []
-
-    async def scenario(up, monitor):
-        def long():
-            began_s = time.monotonic()
-            while not monitor.culprits and time.monotonic() - began_s < 30:
-                pass
-            named_after_s.append(time.monotonic() - began_s)
-
-        reactor.callLater(0.1, long)
-        await until(lambda: named_after_s)
-
-    watch(tmp_path, scenario)
-    assert named_after_s[0] < 0.25
-
-
-def test_one_hold_is_counted_once_and_logged_once(tmp_path):
-    async def scenario(up, monitor):
-        module = up.get_module(HoldingModule)
-        module.on_number = lambda command: hold(LONG_HOLD_S)
-        up.command_executor.register_command(NumberCommand, lambda c: module.on_number(c))
-        for count in (1, 2):
-            up.command_executor.execute_command(NumberCommand(1))
-            await sleep(0.1)
-            assert sum(monitor.culprits.values()) == count, monitor.culprits
-
-    with Log() as log:
-        watch(tmp_path, scenario)
-    assert log.text().count("holds the reactor") == 1
-
-
-def test_an_idle_reactor_is_not_blamed_and_wakes_nobody(tmp_path):
-    async def scenario(up, monitor):
-        before = switches(monitor)
-        await sleep(1.0)
-        assert switches(monitor) - before < 10
-
-    assert watch(tmp_path, scenario) == Counter()
-
-
-def switches(monitor):
-    """Return how often the monitor's thread has slept."""
-    status = Path(f"/proc/self/task/{monitor._thread.native_id}/status").read_text()
-    return int(status.partition("voluntary_ctxt_switches:")[2].split()[0])
-
-
-def test_a_thread_that_was_there_before_does_not_end_the_program(tmp_path):
-    over = threading.Event()
-    older = threading.Thread(target=over.wait)
-    older.start()
-
-    async def scenario(up, monitor):
-        module = up.get_module(HoldingModule)
-        for _ in range(3):
-            reactor.callLater(0, module.on_timer)
-            await sleep(0.1)
-
-    watch(tmp_path, scenario)
-    over.set()
-    older.join()
-
-
-def test_afterwards_the_reactor_is_as_it_was(tmp_path):
-    before = reactor._poller
-
-    async def scenario(up, monitor):
-        assert reactor._poller is not before
-
-    watch(tmp_path, scenario)
-    assert reactor._poller is before
-    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
-    assert signal.SIGALRM not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
-
-
-def test_the_names_are_bounded():
-    monitor = ReactorMonitor(None)
-    for number in range(200):
-        frames = {"__name__": f"module_{number}"}
-        exec("import sys\nframe = sys._getframe()", frames)
-        monitor._blame_hold(frames["frame"])
-    assert len(monitor.culprits) <= 51
-    assert monitor.culprits[OTHERS] == 150
-
-
-def test_nobody_in_the_stack():
-    assert culprit_in(None) == "?"
-
-
-@pytest.mark.parametrize("bad", [7, object()])
-def test_a_self_that_is_no_module(bad):
-    def inner(self):
-        return culprit_in(sys._getframe())
-
-    assert "inner" in inner(bad)
+ROOT = Path(__file__).parents[3]
+
+
+def test_the_cases_pass_in_a_process_with_one_thread():
+    result = subprocess.run(
+        [
+            *(sys.executable, "-m", "pytest", "-q", "-p", "no:xdist", "-p", "no:cacheprovider"),
+            "tests/up/system/reactor_monitor_cases.py",
+        ],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "13 passed" in result.stdout
