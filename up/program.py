@@ -179,13 +179,15 @@ def _more_problems(
     environ: Mapping[str, str],
 ) -> list[str]:
     """Return what ``up check`` finds: the error that ended the boot hides those behind it."""
-    for words in (environ, {**environ, "UP_MODE": Mode.AUTO.value}):
-        try:
-            context = make_context(application, reactor, config_folder, words)
-        except USER_ERRORS:
-            continue
-        return check_application(application, context).problems
-    return []
+    try:
+        context = make_context(application, reactor, config_folder, environ)
+    except ConfigErrors:
+        words = {**environ, "UP_MODE": Mode.AUTO.value}
+        context = make_context(application, reactor, config_folder, words)
+    except BootError:
+        # No such folder or no such mode: there is nothing that could be looked at.
+        return []
+    return check_application(application, context).problems
 
 
 def make_context(
