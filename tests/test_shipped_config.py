@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from android_cog.config import ANDROID
+from android_cog.config import ANDROID, AndroidConfig
 from load_guard_cog.config import LOAD_GUARD
 from mission_control_cog.config import MISSION_CONTROL
 
@@ -25,10 +25,14 @@ def test_the_shipped_file_is_the_template(file):
     assert file.load(CONFIG) == file.cls()
 
 
-def test_black_box_mode_differs_from_the_defaults_by_its_mode_alone():
+def test_black_box_mode_differs_from_the_defaults_by_its_mode_and_ports():
     assert APPLICATION.load(BLACK_BOX) == ApplicationConfig(mode="black box")
-    for file in (DISABLED_MODULES, PROVIDERS, ANDROID, LOAD_GUARD, MISSION_CONTROL):
+    for file in (DISABLED_MODULES, PROVIDERS, LOAD_GUARD, MISSION_CONTROL):
         assert file.load(BLACK_BOX) == file.cls()
+
+
+def test_black_boxes_take_any_ports_so_that_several_fly_from_one_server():
+    assert ANDROID.load(BLACK_BOX) == AndroidConfig(general_port=0, orientation_port=0)
 
 
 def test_every_shipped_key_has_a_comment():

@@ -213,6 +213,13 @@ def test_ctrl_c_stops_everything_and_leaves_nothing(tmp_path):
     assert "Traceback" not in showcase.said()
 
 
+def test_a_terminal_that_closes_leaves_nothing(tmp_path):
+    showcase = Showcase(tmp_path).ready()
+    daemon = showcase.daemon_pid()
+    assert showcase.stop(signal.SIGHUP) == 0
+    assert not Path(f"/proc/{daemon}").exists()
+
+
 def test_a_part_that_dies_is_told_with_its_log(tmp_path):
     showcase = Showcase(tmp_path).ready()
     os.kill(showcase.daemon_pid(), signal.SIGKILL)

@@ -7,6 +7,7 @@ process that a user would start, with configuration written into a folder of its
 from __future__ import annotations
 
 import argparse
+import contextlib
 import fcntl
 import os
 import select
@@ -43,20 +44,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
         lock.close()
         print(f"another showcase runs in {folder}: stop it, or use --folder", file=sys.stderr)  # noqa: T201
         return 1
-    signal.signal(signal.SIGTERM, _raise_stopped)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _raise_stopped)
     children: list[Child] = []
+    last_words = ""
     try:
         _start_all(options, folder, children)
-        return _stay(options, children)
+        _stay(options, children)
     except (KeyboardInterrupt, Stopped):
-        return 0
+        pass
     except ChildFailedError as error:
-        print(f"\n{error}", file=sys.stderr)  # noqa: T201
-        return 1
+        last_words = str(error)
     finally:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_IGN)
         _stop_all(children)
+    if last_words:
+        # Only now: the picture of the ground station would have wiped it away.
+        _say(f"\n{last_words}")
+    return 1 if last_words else 0
 
 
 def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
@@ -118,7 +124,7 @@ def _hints(ports: Ports) -> None:
     _say("Ctrl-C stops everything.")
 
 
-def _stay(options: argparse.Namespace, children: list[Child]) -> int:
+def _stay(options: argparse.Namespace, children: list[Child]) -> None:
     end_s = None if options.seconds is None else time.monotonic() + options.seconds
     watch: Child | None = None
     wants_watch = not options.no_watch
@@ -140,7 +146,6 @@ def _stay(options: argparse.Namespace, children: list[Child]) -> int:
         if watch is None and _enter_was_pressed():
             wants_watch = True
         time.sleep(0.1)
-    return 0
 
 
 def _open_watch(folder: Path) -> Child:
@@ -176,7 +181,9 @@ def _raise_stopped(number: int, frame: object) -> None:
 
 
 def _say(text: str) -> None:
-    print(text, flush=True)  # noqa: T201
+    # The terminal may be gone by now.
+    with contextlib.suppress(OSError):
+        print(text, flush=True)  # noqa: T201
 
 
 if __name__ == "__main__":
