@@ -49,6 +49,7 @@ def test_the_module_is_shorter_than_15_lines_and_works(plane, tmp_path):
     for altitude_m in (100.0, 250.0, 30.0):
         bench.up.command_executor.execute_command(AltitudeCommand(altitude_m), INTERNAL)
         bench.advance(0.1)
+    bench.up.command_executor.execute_command(AltitudeCommand(900.0, "required"), INTERNAL)
     module = bench.module(loaded["CeilingModule"])
     assert module.telemetry_content == {"ceiling": {"highest_m": 250.0}}
     bench.stop()
