@@ -40,7 +40,7 @@ def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespac
         description="Relay between aircraft and ground stations: the Ground Station Proxy.",
     )
     parser.add_argument(
-        "--config", type=Path, default=Path("config"), metavar="DIR", help="folder of proxy.yml"
+        "--config", type=Path, metavar="DIR", help="folder of proxy.yml (default: config)"
     )
     parser.add_argument("--airborne-port", type=_port, metavar="N", help="0: any free port")
     parser.add_argument("--ground-port", type=_port, metavar="N", help="0: any free port")
@@ -52,7 +52,7 @@ def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespac
 
 def configured(options: argparse.Namespace) -> ProxyConfig:
     """Return proxy.yml with what the command line overrides; raises ConfigErrors."""
-    config = PROXY.load(options.config)
+    config = PROXY.load(options.config or Path("config"))
     overrides = {
         name: value
         for name in ("airborne_port", "ground_port", "metrics_port", "log_level")
@@ -120,6 +120,9 @@ def _say(text: str) -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status."""
     options = parse_arguments(arguments)
+    if options.config is not None and not options.config.is_dir():
+        sys.stderr.write(f"--config {options.config}: no such folder\n")
+        return EXIT_CONFIGURATION
     try:
         config = configured(options)
     except ConfigErrors as errors:

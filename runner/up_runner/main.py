@@ -47,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parse_arguments(arguments)
     folder = options.config or own_root() / "config"
     if options.config is not None and not folder.is_dir():
-        return _fail(f"--config {folder}: there is no such folder", EXIT_CONFIGURATION)
+        return _fail(f"--config {folder}: no such folder", EXIT_CONFIGURATION)
     try:
         config = RUNNER.load(folder)
     except ConfigErrors as errors:

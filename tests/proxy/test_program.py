@@ -77,6 +77,15 @@ def test_a_wrong_port_is_one_sentence_and_exit_2(port):
     assert "a port is a number from 0 to 65535" in shown.stderr
 
 
+def test_a_configuration_folder_that_is_not_there_is_one_sentence_and_exit_2(tmp_path):
+    folder = tmp_path / "nowhere"
+    ports = ("--airborne-port=0", "--ground-port=0", "--metrics-port=0")
+    shown = subprocess.run(
+        [UP_PROXY, "--config", folder, *ports], capture_output=True, text=True, timeout=60
+    )
+    assert (shown.returncode, shown.stderr) == (2, f"--config {folder}: no such folder\n")
+
+
 def test_every_error_of_the_configuration_is_shown_with_its_place(tmp_path):
     text = "airborn port: 1\nground port: x\nlimits:\n  aircraft: 0\n"
     proxy = Program(tmp_path, text, ports=(None, None, None))

@@ -35,7 +35,7 @@ def test_wrong_arguments_are_told():
 def test_a_configuration_folder_that_is_not_there_is_told(tmp_path):
     told = run("--config", str(tmp_path / "nowhere"))
     assert told.returncode == 2
-    assert told.stderr == f"--config {tmp_path / 'nowhere'}: there is no such folder\n"
+    assert told.stderr == f"--config {tmp_path / 'nowhere'}: no such folder\n"
 
 
 def test_all_mistakes_of_the_configuration_are_told_at_once(tmp_path):
