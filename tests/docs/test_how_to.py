@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import importlib
 import re
 import subprocess
 import sys
@@ -12,9 +14,11 @@ import pytest
 from tests.support.application import plan_of, write_application
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
 from up.commands.altitude_command import AltitudeCommand
-from up.commands.origin import INTERNAL
+from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError
+from up.commands.roles import Role
 from up.loading.application import Application
+from up.providers.up_altitude_provider import UpAltitudeProvider
 from up.testing import Bench
 
 _EXAMPLE = re.compile(r"<!-- file: (\S+) -->\n```\w+\n(.*?)```", re.DOTALL)
@@ -53,6 +57,48 @@ def test_the_module_is_shorter_than_15_lines_and_works(plane, tmp_path):
     module = bench.module(loaded["CeilingModule"])
     assert module.telemetry_content == {"ceiling": {"highest_m": 250.0}}
     bench.stop()
+
+
+def test_the_sensor_is_followed_while_it_speaks_and_named_sources_come_first(plane, tmp_path):
+    plan = plan_of(plane("module.md"))
+    assert not plan.problems
+    lidar = next(type(module) for module in plan.modules if module.class_name == "LidarModule")
+    phone = Origin("android", Role.SENSOR, 0)
+
+    def fly(folder: Path) -> tuple[str, str]:
+        """Return the source while both speak, and after the lidar fell silent."""
+        bench = Bench(lidar, UpAltitudeProvider, config_folder=folder)
+        bench.start()
+        altitude = bench.module(UpAltitudeProvider)
+        sources = []
+        for silent in (False, True):
+            bench.module(lidar).read_m = (lambda: None) if silent else (lambda: 312.5)
+            for _ in range(30):
+                bench.advance(0.1)
+                bench.up.command_executor.execute_command(AltitudeCommand(300.0), phone)
+            sources.append(altitude.reading.source)
+        bench.stop()
+        return sources[0], sources[1]
+
+    assert fly(tmp_path) == ("lidar", "android")
+    (tmp_path / "ordered").mkdir()
+    (tmp_path / "ordered" / "providers.yml").write_text("altitude: [android, lidar]\n")
+    assert fly(tmp_path / "ordered") == ("android", "android")
+
+
+def test_the_table_of_sources_names_every_provider_and_its_commands_fields():
+    text = (REPOSITORY / "docs/how-to/module.md").read_text()
+    rows = re.findall(
+        r"^\| (\w+) \| `([\w.]+)` \| `([\w.]+)\.(\w+)` \| (.*) \|$", text, re.MULTILINE
+    )
+    assert {row[0] for row in rows} == {"location", "altitude", "heading", "orientation", "rx"}
+    for _reading, wire_name, module, name, shown in rows:
+        command = getattr(importlib.import_module(module), name)
+        assert wire_name == command.NAME
+        known = [each.name for each in dataclasses.fields(command)]
+        named = re.findall(r"`(\w+)(?:=[^`]*)?`", shown)
+        ignored = {"distance_from_home_m", "required_bearing_deg"}
+        assert named == [each for each in known if each not in ignored]
 
 
 def test_the_modules_test_passes(plane):
