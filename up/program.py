@@ -27,6 +27,7 @@ from up.system.garbage import QuietCollector
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.reactor_monitor import ReactorMonitor
 from up.system.scheduling import use_realtime_priority
+from up.system.signal_wakeup import SignalWakeup
 from up.up import Up
 from up.up_loader import UpLoader
 
@@ -72,6 +73,7 @@ class Program:
         self._forced_end.start()
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, self._on_signal)
+        SignalWakeup(self._reactor).start()
         self._reactor.callWhenRunning(self._begin)
         self._reactor.run(installSignalHandlers=False)
         return self._exit_status

@@ -145,6 +145,15 @@ def test_a_start_that_hangs_can_be_stopped():
         assert "before stops" in daemon.text
 
 
+def test_a_signal_that_another_thread_hears_wakes_the_reactor():
+    with Daemon("another thread hears the signal") as daemon:
+        daemon.expect("a thread hears SIGTERM")
+        status, took_s = daemon.end(None)
+        assert status == 0
+        assert took_s < 2
+        assert "before stops" in daemon.text
+
+
 def test_a_stop_that_hangs_is_given_up():
     with Daemon("stop hangs") as daemon:
         daemon.expect("modules run")

@@ -1,0 +1,50 @@
+"""Lets a signal wake the reactor, wherever the process was when it came."""
+
+from __future__ import annotations
+
+import signal
+import socket
+from typing import Any
+
+from twisted.internet.interfaces import IReadDescriptor
+from zope.interface import implementer
+
+_AT_ONCE = 4096
+
+
+@implementer(IReadDescriptor)
+class SignalWakeup:
+    """Ends the reactor's wait when a signal comes.
+
+    Python runs a handler only between two instructions: without this, a signal that another thread
+    receives, or that comes just before the wait, would be heard when the next timer is due.
+    """
+
+    def __init__(self, reactor: Any) -> None:
+        self._reactor = reactor
+        self._reader, self._writer = socket.socketpair()
+        self._reader.setblocking(False)
+        self._writer.setblocking(False)
+
+    def start(self) -> None:
+        """Begin; to be called from the main thread."""
+        signal.set_wakeup_fd(self._writer.fileno(), warn_on_full_buffer=False)
+        self._reactor.addReader(self)
+
+    def fileno(self) -> int:
+        """Return the descriptor that becomes readable."""
+        return self._reader.fileno()
+
+    def doRead(self) -> None:  # noqa: N802 - Twisted's name
+        """Forget the bytes; that they came is what they say."""
+        self._reader.recv(_AT_ONCE)
+
+    def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
+        """End; the reactor calls this when it stops."""
+        signal.set_wakeup_fd(-1)
+        self._reader.close()
+        self._writer.close()
+
+    def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
+        """Return the name for the log."""
+        return "signals"
