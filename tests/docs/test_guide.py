@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import shlex
+import signal
 import subprocess
+import time
+from contextlib import ExitStack
+from pathlib import Path
 
 import pytest
 
-from tests.docs.flying import copy_of_the_tree, files_of, flying, lines_of
+from tests.docs.flying import LIMIT_S, copy_of_the_tree, files_of, flying, lines_of
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
 
 PAGE = "guide.md"
@@ -49,6 +55,73 @@ def test_a_remark_that_is_too_long_is_refused_in_words(flight):
     done = flight.run(f"up-ground send --force raspilot.remark text={'x' * 81}")
     assert done.returncode == 1
     assert "text" in done.stdout + done.stderr and "80" in done.stdout + done.stderr
+
+
+def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
+    with flying(tmp_path / "flight", {}) as flight:
+        os.kill(_child(flight.process.pid, "up_simulator"), signal.SIGKILL)
+        assert flight.process.wait(LIMIT_S) == 1
+        said = flight.said.read_text()
+        assert "aircraft ended by itself with signal 9; its log " in said
+        proxy, simulator, daemon, _watch = lines_of(PAGE, "by hand")
+        general, orientation = re.findall(
+            r"port: (\d+)", (flight.tree / "run/showcase/config/android.yml").read_text()
+        )
+        simulator += f" --general-port {general} --orientation-port {orientation}"
+        with ExitStack() as stack:
+
+            def start(line: str, log: str) -> tuple[subprocess.Popen[bytes], Path]:
+                return _started(stack, line, flight.tree, flight.environ, tmp_path / log)
+
+            start(proxy, "proxy")
+            board, _said = start(simulator, "board 1")
+            aircraft, log = start(daemon, "aircraft 1")
+            _wait_for("Controller: flies", log)
+            board.send_signal(signal.SIGINT)
+            _wait_for("does not fly", log)
+            _wait_for("provisionally in Black Box Mode", log)
+            assert not (flight.tree / "run/showcase/board").is_symlink()
+            log.write_text("")
+            board, board_said = start(simulator, "board 2")
+            _wait_for("Controller: flies", log)
+            _wait_for("following the Raspberry Pi", board_said)
+            board_said.write_text("")
+            aircraft.kill()
+            _wait_for("sticks pass through", board_said)
+            start(daemon, "aircraft 2")
+            _wait_for("following the Raspberry Pi", board_said)
+
+
+def _child(parent: int, name: str) -> int:
+    """Return the process number of a program's child."""
+    for child in Path(f"/proc/{parent}/task/{parent}/children").read_text().split():
+        if name in Path(f"/proc/{child}/cmdline").read_text().split("\0"):
+            return int(child)
+    raise LookupError(name)
+
+
+def _started(
+    stack: ExitStack, line: str, folder: Path, environ: dict[str, str], log: Path
+) -> tuple[subprocess.Popen[bytes], Path]:
+    """Start a line of the page until the end of the stack; its words go to a file's end."""
+    with log.open("ab") as stream:
+        process = subprocess.Popen(
+            shlex.split(line),
+            cwd=folder,
+            env={**environ, "PYTHONUNBUFFERED": "1"},
+            stdout=stream,
+            stderr=subprocess.STDOUT,
+        )
+    stack.callback(process.wait)
+    stack.callback(process.kill)
+    return process, log
+
+
+def _wait_for(words: str, log: Path) -> None:
+    deadline_s = time.monotonic() + LIMIT_S
+    while words not in log.read_text():
+        assert time.monotonic() < deadline_s, log.read_text()
+        time.sleep(0.05)
 
 
 def test_the_cog_from_outside_is_gathered_and_listed(tmp_path):
