@@ -59,6 +59,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, signal.SIG_IGN)
         _stop_all(children)
+        # A simulator that was killed leaves a link to a pty that will be another program's.
+        (folder / "board").unlink(missing_ok=True)
     if last_words:
         # Only now: the picture of the ground station would have wiped it away.
         _say(f"\n{last_words}")
