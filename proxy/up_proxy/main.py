@@ -3,6 +3,7 @@
 import argparse
 import gc
 import resource
+import signal
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -109,7 +110,10 @@ def run(reactor: "ProxyReactor", config: ProxyConfig) -> int:
 
     reactor.callWhenRunning(on_running)
     reactor.addSystemEventTrigger("before", "shutdown", on_stop)
-    reactor.run()
+    # Also where SIGINT comes ignored, as to what a script starts in the background.
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: reactor.callFromThread(reactor.stop))
+    reactor.run(installSignalHandlers=False)
     return 0
 
 

@@ -35,8 +35,14 @@ class ProxyReactor(Clock, SocketReactor, TcpReactor, Protocol):
     def addSystemEventTrigger(self, phase: str, event: str, callable: Any) -> Any:  # noqa: N802
         """Call when the reactor stops."""
 
-    def run(self) -> None:
-        """Serve until stopped by a signal."""
+    def callFromThread(self, callable: Any) -> Any:  # noqa: N802 - Twisted's name
+        """Call soon, from a signal handler as well."""
+
+    def stop(self) -> None:
+        """End `run`."""
+
+    def run(self, installSignalHandlers: bool = True) -> None:  # noqa: N803 - Twisted's name
+        """Serve until stopped."""
 
 
 class Proxy:

@@ -41,6 +41,14 @@ def test_it_stops_within_two_seconds_whoever_is_connected(tmp_path, how):
     assert "stopped" in proxy.log
 
 
+def test_an_interrupt_ends_it_in_the_background_of_a_script_too(tmp_path):
+    # A shell without job control gives what it starts with & an ignored SIGINT.
+    shell = ("sh", "-c", 'trap "" INT; exec "$@"', "sh")
+    with Program(tmp_path, prefix=shell) as proxy:
+        assert proxy.end(signal.SIGINT) == 0
+    assert "stopped" in proxy.log
+
+
 def test_it_hears_ipv4_and_ipv6(tmp_path):
     with Program(tmp_path) as proxy:
         hosts = ["127.0.0.1"] + (["::1"] if socket.has_dualstack_ipv6() else [])
@@ -61,6 +69,11 @@ def test_a_port_in_use_is_one_sentence_and_exit_1(tmp_path, which):
         f"up-proxy: cannot listen on {which} {port}: address already in use"
     )
     assert "Traceback" not in proxy.log
+
+
+def test_it_is_a_module_that_runs():
+    shown = subprocess.run([sys.executable, "-m", "up_proxy", "--version"], capture_output=True)
+    assert shown.stdout.decode() == f"up-proxy {VERSION}\n"
 
 
 def test_version_and_help_need_no_configuration():
