@@ -26,6 +26,11 @@ def test_it_says_its_version_and_how_it_is_used():
     assert "--config DIR" in shown and "--port N" in shown
 
 
+def test_it_is_a_module_that_runs():
+    shown = subprocess.run([sys.executable, "-m", "up_runner", "--version"], capture_output=True)
+    assert shown.stdout.decode() == f"up-runner {VERSION}\n"
+
+
 def test_wrong_arguments_are_told():
     for port in ("x", "-1", "65536", "1" * 5000):
         told = run("--port", port)
