@@ -5,6 +5,9 @@ BIN := $(VENV)/bin
 PY := $(BIN)/python
 PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground simulator/up_simulator
 COGS := $(wildcard cogs/*_cog)
+# mypy does not see what is installed editable through an import hook.
+empty :=
+MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . $(COGS)))
 SETUPS := setup.py pyproject.toml $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
 TEST ?=
 BENCH ?=
@@ -43,7 +46,8 @@ check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy main.py tools/import_contracts.py $(PACKAGES)
-	@for cog in $(COGS); do echo "mypy $$cog"; $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
+	@for cog in $(COGS); do echo "mypy $$cog"; \
+		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
 	$(PY) tools/import_contracts.py
 
 # The peers besides; HAProxy, socat and gcc (Debian) are measured where they are installed.
