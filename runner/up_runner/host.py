@@ -127,9 +127,9 @@ class Host:
         """Ask the kernel which ports a process has open."""
         return self.in_thread(listening_ports, pid)
 
-    def last_line(self, name: str) -> Deferred[str | None]:
+    def last_words(self, name: str) -> Deferred[str | None]:
         """Read the end of the instance's log."""
-        return self.in_thread(self.logs.last_line, name)
+        return self.in_thread(self.logs.last_words, name)
 
     def save(self, kept: Record) -> None:
         """Write what the next runner must know; says it when the disk refuses."""

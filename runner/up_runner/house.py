@@ -79,8 +79,8 @@ class House(Protocol):
     def open_ports(self, pid: int) -> Deferred[frozenset[int] | None]:
         """Give the ports that a process has open, None when they cannot be known."""
 
-    def last_line(self, name: str) -> Deferred[str | None]:
-        """Give the last line of the instance's log."""
+    def last_words(self, name: str) -> Deferred[str | None]:
+        """Give what the instance's log says of its end."""
 
     def save(self, record: Record) -> None:
         """Keep what the next runner must know; raises nothing."""

@@ -295,12 +295,12 @@ class Instance:
         elif self._why is not None:
             self._on_failure(self._why)
         else:
-            explaining = self._house.last_line(self.name)
+            explaining = self._house.last_words(self.name)
             explaining.addCallback(self._explain, how)
             explaining.addErrback(self._on_bug)
 
     def _explain(self, line: str | None, how: str) -> None:
-        said = f"; the last line of its log: {line}" if line else ""
+        said = f"; its log says: {line}" if line else ""
         self._on_failure(f"Raspilot {how} while starting{said}")
 
     def _on_failure(self, error: str) -> None:

@@ -13,8 +13,15 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-_LINE_END = 4096
+_END = 16384
 _SHOWN = 200
+_SHOWN_LINES = 3
+# A line of Up's own log; what a program says in plain words before it gives up has no time.
+_LOGGED = re.compile(
+    r"(?:\d\d:\d\d:\d\d\.\d{3} (DEBUG|INFO|WARNING|ERROR|CRITICAL)|<([2-7])>)\s*(.*)", re.ASCII
+)
+_QUIET = ("DEBUG", "INFO", "7", "6", "5")
+_WARNING = ("WARNING", "4")
 
 
 class LogKeeper:
@@ -28,6 +35,7 @@ class LogKeeper:
         self.folder = folder
         self._size = size
         self._keep = keep
+        self._begins: dict[str, int] = {}
 
     def path(self, name: str) -> Path:
         """Return where an instance's log is."""
@@ -37,7 +45,9 @@ class LogKeeper:
         """Return a descriptor that appends to an instance's log; raises OSError."""
         self.folder.mkdir(mode=0o750, parents=True, exist_ok=True)
         flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW
-        return os.open(self.path(name), flags, 0o640)
+        log = os.open(self.path(name), flags, 0o640)
+        self._begins[name] = os.fstat(log).st_size
+        return log
 
     def rotate(self, name: str) -> bool:
         """Move the log aside when it is too long and return whether it was; raises OSError.
@@ -56,22 +66,21 @@ class LogKeeper:
                 self._copy_end(path)
         finally:
             os.truncate(path, 0)
+            self._begins.pop(name, None)
         return True
 
-    def last_line(self, name: str) -> str | None:
-        """Return the last line that says something, to explain why an instance ended."""
+    def last_words(self, name: str) -> str | None:
+        """Return what the log says since it was opened last, to explain why an instance ended."""
+        begin = self._begins.get(name, 0)
         try:
             with self.path(name).open("rb") as file:
                 end = file.seek(0, os.SEEK_END)
-                file.seek(max(0, end - _LINE_END))
+                begin = max(begin if begin <= end else 0, end - _END)
+                file.seek(begin)
                 text = file.read().decode("utf-8", "replace")
         except OSError:
             return None
-        lines = [line.strip() for line in text.splitlines() if line.strip()]
-        if not lines:
-            return None
-        shown = "".join(letter if letter.isprintable() else "?" for letter in lines[-1])
-        return shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "..."
+        return last_words(text)
 
     def newest_s(self, name: str) -> float:
         """Return when an instance's log was written last, by the wall clock; 0 without a log."""
@@ -82,6 +91,7 @@ class LogKeeper:
 
     def remove(self, name: str) -> None:
         """Remove all logs of an instance that does not run."""
+        self._begins.pop(name, None)
         pattern = re.compile(re.escape(name) + r"\.log(\.[0-9]+)?")
         for path in list(self._files()):
             if pattern.fullmatch(path.name):
@@ -102,3 +112,34 @@ class LogKeeper:
 
     def _older(self, path: Path, number: int) -> Path:
         return path.with_name(f"{path.name}.{number}")
+
+
+def last_words(text: str) -> str | None:
+    """Return what of a log's end tells most why its writer ended, in one bounded line.
+
+    Plain sentences tell most (several that follow each other are joined), then the last error,
+    then the last warning, then whatever was said last.
+    """
+    plain: list[str] = []
+    found: dict[str, str] = {}
+    is_block_open = False
+    for line in text.splitlines():
+        logged = _LOGGED.match(line)
+        if logged is not None:
+            level, said = logged[1] or logged[2], logged[3]
+            kind = "quiet" if level in _QUIET else "warning" if level in _WARNING else "error"
+            found[kind] = said
+            is_block_open = False
+        # What is set in belongs to the line above, mostly to a traceback.
+        elif line.strip() and not (line[0].isspace() or line.startswith("Traceback (")):
+            plain = [*(plain if is_block_open else ()), line.strip()][-_SHOWN_LINES:]
+            is_block_open = True
+    if plain:
+        return "; ".join(_shown(each) for each in plain)
+    said = found.get("error") or found.get("warning") or found.get("quiet") or ""
+    return _shown(said) if said else None
+
+
+def _shown(line: str) -> str:
+    shown = "".join(letter if letter.isprintable() else "?" for letter in line)
+    return shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "..."

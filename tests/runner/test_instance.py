@@ -86,7 +86,7 @@ class RecordingHouse:
     def open_ports(self, pid):
         return succeed(self.ports)
 
-    def last_line(self, name):
+    def last_words(self, name):
         return succeed("the last words")
 
     def save(self, record):
@@ -342,7 +342,7 @@ def test_a_first_start_that_fails_is_not_tried_again(house):
     house.child.on_end(2)
     assert instance.state is State.ENDED
     assert house.result(outcome) == (
-        "Raspilot ended with exit status 2 while starting; the last line of its log: the last words"
+        "Raspilot ended with exit status 2 while starting; its log says: the last words"
     )
 
 

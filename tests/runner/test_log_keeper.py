@@ -7,6 +7,11 @@ import pytest
 from up_runner.keeping import prune
 from up_runner.log_keeper import LogKeeper
 
+BOOT = b"12:00:00.000 INFO     Program: boots\n"
+WARNING = b"12:00:00.001 WARNING  Load: high\n"
+ERROR = b"12:00:00.002 ERROR    Arduino: no board\n"
+STOP = b"12:00:00.003 INFO     Program: stopping: the boot was stopped\n"
+
 
 def files(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
@@ -56,18 +61,27 @@ def test_a_log_that_is_a_link_is_not_followed(tmp_path):
     [
         (b"", None),
         (b"\n \n", None),
-        (b"one\ntwo\n\n", "two"),
+        (b"one\ntwo\n\n", "one; two"),
+        (b"1\n2\n3\n4", "2; 3; 4"),
+        (b"Traceback (most recent call last):\n  File\nValueError: x", "ValueError: x"),
+        (BOOT + b"port 1 is taken\nuse another\n" + STOP, "port 1 is taken; use another"),
+        (b"old\n" + BOOT + b"new\n" + STOP, "new"),
+        (BOOT + ERROR + b"    a traceback\n" + STOP, "Arduino: no board"),
+        (BOOT + ERROR + WARNING + STOP, "Arduino: no board"),
+        (BOOT + WARNING + STOP, "Load: high"),
+        (BOOT + STOP, "Program: stopping: the boot was stopped"),
+        (b"<3>Arduino: no board\n<6>Program: stopping", "Arduino: no board"),
         (b"x" * 5000, "x" * 197 + "..."),
         (b"\x1b[31mred\xff", "?[31mred\ufffd"),
     ],
 )
-def test_the_last_line_is_for_people(tmp_path, text, line):
+def test_the_last_words_are_for_people_and_tell_the_cause(tmp_path, text, line):
     (tmp_path / "a.log").write_bytes(text)
-    assert LogKeeper(tmp_path, 10, 1).last_line("a") == line
+    assert LogKeeper(tmp_path, 10, 1).last_words("a") == line
 
 
-def test_no_log_has_no_last_line(tmp_path):
-    assert LogKeeper(tmp_path / "nowhere", 10, 1).last_line("a") is None
+def test_no_log_has_no_last_words(tmp_path):
+    assert LogKeeper(tmp_path / "nowhere", 10, 1).last_words("a") is None
 
 
 def test_names_with_dots_are_told_apart(tmp_path):
