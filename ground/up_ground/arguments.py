@@ -154,7 +154,11 @@ def _add_send(verbs: argparse._SubParsersAction[_Parser]) -> None:
         epilog=_SEND_EPILOG,
     )
     send.add_argument("name", metavar="NAME", help="see 'up-ground commands'")
-    send.add_argument("fields", nargs="*", metavar="key=value", help="the Command's fields")
+    fields = send.add_argument(
+        "fields", nargs="*", metavar="key=value", default=[], help="the Command's fields"
+    )
+    # Else argparse calls the fields required where only the name is missing.
+    fields.required = False
     send.add_argument(
         "--force", action="store_true", help="send it unchecked, even with an unknown name"
     )

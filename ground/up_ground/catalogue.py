@@ -16,6 +16,8 @@ from up.commands.command import BaseCommand, InvalidCommandError, constraint_of
 from up.commands.command_registry import CommandRegistry, DuplicateCommandError
 from up.commands.roles import Role
 
+# An aircraft answers with them; a ground has nothing to answer.
+_ANSWERS = ("up.ack", "up.nack")
 _GROUND_ROLES = (Role.OBSERVER, Role.OPERATOR, Role.PILOT, Role.ADMIN)
 
 
@@ -44,7 +46,7 @@ class Catalogue:
 
     def sendable(self) -> list[type[BaseCommand]]:
         """Return what some ground may send, by name."""
-        return [cls for cls in self._registry if role_of(cls)]
+        return [cls for cls in self._registry if role_of(cls) and cls.NAME not in _ANSWERS]
 
     def suggestions(self, name: str) -> list[str]:
         """Return names that look like a mistyped one, the nearest first."""

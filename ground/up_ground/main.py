@@ -186,6 +186,12 @@ def _usage(lines: Iterable[str]) -> int:
     return EXIT_USAGE
 
 
+def _refuse_closed() -> int:
+    if sys.stderr is not None:
+        complain("stdout is closed, so there is nowhere to write: send it to /dev/null instead")
+    return EXIT_USAGE
+
+
 _VERBS: dict[str, Callable[[argparse.Namespace], int]] = {
     "watch": watch,
     "send": send,
@@ -196,6 +202,9 @@ _VERBS: dict[str, Callable[[argparse.Namespace], int]] = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status (docs/ground.md)."""
+    if sys.stdout is None or sys.stderr is None:
+        # Python's own None for a descriptor that the caller closed (`>&-`).
+        return _refuse_closed()
     # A terminal that is not UTF-8 shows what it cannot show as an escape.
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):

@@ -225,3 +225,9 @@ def test_a_refusal_of_the_proxy_is_shown(tmp_path):
             peer.sendall(b'UP1 error code=full reason="as many grounds as it may"\n')
             assert sending.wait() == 1
     assert sending.complained == "up-ground: the proxy refuses: as many grounds as it may (full)\n"
+
+
+def test_only_the_name_is_required(tmp_path):
+    status, said, complained = ground(tmp_path, 1, "send")
+    assert (status, said) == (2, "")
+    assert complained.endswith("the following arguments are required: NAME\n")

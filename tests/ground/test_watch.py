@@ -3,9 +3,11 @@
 import json
 import os
 import subprocess
+import sys
 
 from tests.ground.aircraft import UP_GROUND, Aircraft, Ground, environment, frame, ground, until
 from tests.proxy.program import Program
+from up.version import VERSION
 
 
 def test_one_picture(proxy, tmp_path):
@@ -122,3 +124,18 @@ def test_help_teaches(tmp_path):
     assert "up.arm   [pilot or more]" in listed
     assert "``" not in listed
     assert ground(tmp_path, 1)[0] == 2
+
+
+def test_a_closed_stdout_is_one_sentence(tmp_path):
+    shell = ["sh", "-c", '"$0" watch --for 2 >&-', str(UP_GROUND)]
+    done = subprocess.run(
+        shell, env=environment(tmp_path, 1), stderr=subprocess.PIPE, text=True, timeout=60
+    )
+    assert done.returncode == 2
+    assert done.stderr.startswith("up-ground: stdout is closed")
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_it_is_a_module_that_runs():
+    shown = subprocess.run([sys.executable, "-m", "up_ground", "--version"], capture_output=True)
+    assert shown.stdout.decode() == f"up-ground {VERSION}\n"
