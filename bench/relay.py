@@ -275,10 +275,11 @@ def dial(port: int, hello: str) -> socket.socket:
 
 def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
     """Yield what many pairs cost: memory of an idle one, a core's share with their heartbeats."""
-    _, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     allowed = (hard - 200) // 2 if hard != resource.RLIM_INFINITY else pairs
     pairs = min(pairs, allowed)
-    resource.setrlimit(resource.RLIMIT_NOFILE, (2 * pairs + 200, hard))
+    if soft != resource.RLIM_INFINITY:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, 2 * pairs + 200), hard))
     with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
         keep = [dial(air, "UP1 aircraft=warm\n"), dial(ground, "UP1 aircraft=warm\n")]
         before = resident_bytes(running.pid)
