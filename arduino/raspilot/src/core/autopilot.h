@@ -1,0 +1,48 @@
+/** Everything that flies, apart from the chip: its parts, and the order in which a slot runs. */
+#pragma once
+
+#include "../control/attitude_filter.h"
+#include "../control/flight_controller.h"
+#include "../pilot/authority.h"
+#include "../pilot/pwm_reader.h"
+#include "../protocol/link.h"
+#include "../store/saved_state.h"
+#include "../store/settings.h"
+#include "loop_meter.h"
+#include "types.h"
+
+namespace raspilot {
+
+/** Reset cause bits of the status (docs/protocols.md 2.7, offset 5). */
+enum ResetCause : uint8_t {
+  RESET_POWER_ON = 1,
+  RESET_EXTERNAL = 2,
+  RESET_BROWN_OUT = 4,
+  RESET_WATCHDOG = 8,
+  RESET_RESTORED = 128
+};
+
+class Autopilot {
+ public:
+  Autopilot();
+
+  /** Loads the settings; `restored` is null unless a watchdog reset in flight is to be resumed. */
+  void begin(const SavedState* restored, uint8_t reset_cause, uint32_t now_us);
+  /** One slot of 2000 us: receiver, authority, attitude, control. `sample` is null without one. */
+  void control(const ImuSample* sample, uint32_t now_us);
+  /** One piece of background work of at most 100 us; false when nothing is due. */
+  bool background(uint32_t now_us);
+
+  SavedState state() const;
+
+  Settings settings;
+  PwmReader receiver;
+  Authority authority;
+  AttitudeFilter attitude;
+  FlightController controller;
+  Link link;
+  LoopMeter meter;
+  uint8_t reset_cause;
+};
+
+}  // namespace raspilot

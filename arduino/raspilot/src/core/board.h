@@ -1,0 +1,24 @@
+/**
+ * What the portable part asks of the board. The chip (src/chip) answers it on an ATmega328P; the
+ * host build answers it with fakes. Nothing here waits.
+ */
+#pragma once
+
+#include <stdint.h>
+
+namespace raspilot {
+namespace board {
+
+/** Bytes that the serial line's output buffer takes now. */
+uint8_t serial_room();
+/** Queues one byte; the caller asked serial_room() before. */
+void serial_write(uint8_t byte);
+
+/** Whether EEPROM takes a write now (a byte takes 3.4 ms, data sheet 8.6.3). */
+bool eeprom_is_ready();
+uint8_t eeprom_read(uint16_t address);
+/** Begins the write of one byte; only when eeprom_is_ready(). Equal bytes are not written. */
+void eeprom_write(uint16_t address, uint8_t value);
+
+}  // namespace board
+}  // namespace raspilot

@@ -1,0 +1,68 @@
+/** Values that every part of the firmware shares, with their units. */
+#pragma once
+
+#include <stdint.h>
+
+namespace raspilot {
+
+/** A pulse width or a moment of Timer1 in half microseconds: 1500 us is 3000. */
+typedef int16_t Ticks;
+
+constexpr Ticks us_to_ticks(int16_t us) { return static_cast<Ticks>(us * 2); }
+/** Whole microseconds of a pulse, rounded half up. */
+constexpr uint16_t ticks_to_us(Ticks ticks) { return static_cast<uint16_t>((ticks + 1) / 2); }
+
+/** The receiver's channels in the order of the wire; the first four are servo outputs too. */
+enum Channel : uint8_t { AILERONS, ELEVATOR, THROTTLE, RUDDER, AUX1, AUX2 };
+constexpr uint8_t INPUTS = 6;
+constexpr uint8_t OUTPUTS = 4;
+constexpr uint8_t ALL_INPUTS = 0x3F;
+
+/** Flight modes by their letter on the wire (docs/protocols.md 2.3). */
+enum class Mode : char { ACRO = 'a', RATE = 'r', FBW = 'f', SETPOINT = 's', OUTPUT = 'u' };
+
+/** Why a Command is refused: the codes of docs/protocols.md 2.5; NONE is carried out. */
+enum class Reason : uint8_t {
+  NONE = 0,
+  UNKNOWN_TYPE = 1,
+  WRONG_SIZE = 2,
+  OUT_OF_RANGE = 3,
+  ONLY_DISARMED = 4,
+  NOT_IN_THESIS_FRAMING = 5,
+  TOO_OLD = 6,
+  NOT_AUTO = 7,
+  THROTTLE_NOT_LOW = 8,
+  RECEIVER_INVALID = 9,
+  IMU_INVALID = 10,
+  VETO = 11,
+  NOT_STILL = 12
+};
+
+/**
+ * Attitude and rotation in body axes (x forward, y right, z down): roll right wing down, pitch
+ * nose up, yaw clockwise from above. Angles in hundredths of a degree (yaw and roll -18000 to
+ * 18000, pitch -9000 to 9000), rates in sixteenths of a degree per second.
+ */
+struct Attitude {
+  int16_t roll_cdeg;
+  int16_t pitch_cdeg;
+  int16_t yaw_cdeg;
+  int16_t roll_rate_16;
+  int16_t pitch_rate_16;
+  int16_t yaw_rate_16;
+};
+
+/** What the Raspberry Pi asks for in `S`; throttle 0 is the stick's. */
+struct Setpoint {
+  int16_t roll_cdeg;
+  int16_t pitch_cdeg;
+  int16_t yaw_rate_cdeg_s;
+  uint16_t throttle_us;
+};
+
+/** The four pulses that go to the servos, in ticks. */
+struct Outputs {
+  Ticks ticks[OUTPUTS];
+};
+
+}  // namespace raspilot

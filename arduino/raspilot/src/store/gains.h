@@ -1,0 +1,34 @@
+/** The eighteen gains as `g` carries them and EEPROM keeps them. */
+#pragma once
+
+#include <stdint.h>
+
+namespace raspilot {
+
+constexpr uint8_t GAINS_SIZE = 72;
+constexpr uint8_t TWO_AXIS_GAINS_SIZE = 48;
+constexpr float GREATEST_GAIN = 50.0f;
+
+/** One PID's gains. Rate: units of 1.25 us per deg/s; stabilize: deg/s per degree. */
+struct PidGains {
+  float p, i, d;
+};
+
+/** Axes are ailerons, elevator, rudder. */
+struct Gains {
+  PidGains rate[3];
+  PidGains stabilize[3];
+};
+
+extern const Gains DEFAULT_GAINS;
+
+/** Whether every gain is finite and 0 to 50. */
+bool is_in_range(const Gains& gains);
+/** Reads the 72 bytes of `g`; false and `gains` untouched when one is out of range. */
+bool read_three_axes(const uint8_t* wire, Gains& gains);
+/** Reads the 48 bytes of `t`, the rudder keeps its own; false and untouched likewise. */
+bool read_two_axes(const uint8_t* wire, Gains& gains);
+void write_three_axes(const Gains& gains, uint8_t* wire);
+void write_two_axes(const Gains& gains, uint8_t* wire);
+
+}  // namespace raspilot

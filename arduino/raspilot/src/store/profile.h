@@ -1,0 +1,50 @@
+/** The airframe as `C` carries it and EEPROM keeps it (docs/protocols.md 2.6). */
+#pragma once
+
+#include <stdint.h>
+
+#include "../core/types.h"
+
+namespace raspilot {
+
+constexpr uint8_t PROFILE_SIZE = 54;
+
+enum class Mix : uint8_t { NONE = 0, ELEVON = 1, V_TAIL = 2 };
+
+/** One servo output: direction, trim and end points. */
+struct ServoSetup {
+  bool is_reversed;
+  int16_t trim_us;
+  uint16_t lowest_us;
+  uint16_t highest_us;
+};
+
+/** Everything that differs from airframe to airframe. */
+struct Profile {
+  ServoSetup servos[OUTPUTS];
+  Mix mix;
+  bool has_motor;
+  /** What AUX1 low, middle and high select: `a`, `r`, `f` or `A` (AUTO). */
+  char switch_modes[3];
+  int16_t roll_limit_cdeg;
+  int16_t pitch_up_limit_cdeg;
+  int16_t pitch_down_limit_cdeg;
+  int16_t glide_pitch_cdeg;
+  int16_t circle_bank_cdeg;
+  uint16_t throttle_failsafe_us;
+  uint16_t throttle_lost_us;
+  uint16_t preset_ailerons_us;
+  uint16_t preset_elevator_us;
+  uint16_t preset_rudder_us;
+  bool may_return_with_motor;
+};
+
+/** The profile that the firmware boots with while EEPROM holds none. */
+extern const Profile DEFAULT_PROFILE;
+
+/** Reads the 54 bytes of `C`; false and `profile` untouched when one value is out of range. */
+bool read_profile(const uint8_t* wire, Profile& profile);
+/** Writes the 54 bytes of `C`. */
+void write_profile(const Profile& profile, uint8_t* wire);
+
+}  // namespace raspilot

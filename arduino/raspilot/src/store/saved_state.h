@@ -1,0 +1,34 @@
+/** What survives a watchdog reset in RAM that start-up does not clear. */
+#pragma once
+
+#include <stdint.h>
+
+#include "../control/attitude_filter.h"
+#include "../pilot/authority.h"
+
+namespace raspilot {
+
+struct SavedState {
+  AuthorityState authority;
+  AttitudeState attitude;
+};
+
+/** Two copies with sequence and CRC, written in turn; place it in `.noinit`. */
+class SavedStates {
+ public:
+  void write(const SavedState& state);
+  /** The newest copy whose CRC is right; false when there is none. */
+  bool read(SavedState& state) const;
+  /** Makes both copies unreadable (power-on, brown-out). */
+  void forget();
+
+ private:
+  struct Copy {
+    SavedState state;
+    uint8_t sequence;
+    uint16_t crc;
+  };
+  Copy copies_[2];
+};
+
+}  // namespace raspilot
