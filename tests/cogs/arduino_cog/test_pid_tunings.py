@@ -199,7 +199,7 @@ def test_a_set_that_the_board_does_not_hold_afterwards_is_not_saved(tuned):
         rig.gains[:] = FACTORY
 
     rig.on_command = forgetful
-    assert "holds other gains" in refusal(rig.ask(tunings())).reason
+    assert "holds another set of gains" in refusal(rig.ask(tunings())).reason
     assert (rig.folder / "pids.yml").read_text() == before
 
 

@@ -152,6 +152,11 @@ class ArduinoProvider(BaseStartedModule):
         self.require_connected()
         return self.exchange.request(type_, payload, answer=answer, may_repeat=may_repeat)
 
+    def send_unanswered(self, type_: str, payload: bytes) -> None:
+        """Send what an old firmware does not confirm; raises CommandRefusedError without one."""
+        self.require_connected()
+        self.serial.send_command(type_, payload)
+
     def require_connected(self) -> None:
         """Raise CommandRefusedError when no Arduino is connected."""
         if not self.connected:

@@ -7,6 +7,7 @@ from typing import Any
 from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
+from arduino_cog.board_value import BoardValue
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from arduino_cog.gains_wire import pack_gains, read_gains, without_rudder
 from arduino_cog.modules.arduino_provider import ArduinoProvider
@@ -40,14 +41,17 @@ class PIDTuningsProvider(BaseModule):
     mission_control = wants(BaseMissionControlProvider)
 
     def __init__(self) -> None:
-        self.held: GainSet | None = None
-        self._is_setting = False
         self._is_pushed = False
         self._is_told = False
 
     def load(self) -> bool:
         """Return whether the Arduino is the flight controller, so that its gains are flown."""
         return bool(self.context.application.flight_controller == "arduino")
+
+    @property
+    def held(self) -> GainSet | None:
+        """Return the gains that the Arduino said last; None while they are not known."""
+        return self._board.held
 
     @property
     def pids(self) -> GainSet | None:
@@ -59,6 +63,8 @@ class PIDTuningsProvider(BaseModule):
         self._keeper = GainsKeeper(self._file, self.context.reactor)
         self._load()
         self._is_thesis = not self.arduino.is_checked
+        type_ = "T" if self._is_thesis else "G"
+        self._board = BoardValue(self.arduino, type_, type_, read_gains, "set of gains")
         self.arduino.add_board_listener(self.on_board_begun)
         executor = self.up.command_executor
         executor.register_command(PIDTuningsCommand, self.on_tunings)
@@ -66,11 +72,11 @@ class PIDTuningsProvider(BaseModule):
 
     def on_board_begun(self) -> None:
         """Read the gains of a board that may be another one, or know nothing yet."""
-        self.held = None
+        self._board.held = None
         self._is_told = False
         if not self._is_thesis:
             self._is_pushed = False
-        self._read().addCallbacks(lambda _: self._reconcile(), self._on_failed)
+        self._board.read().addCallbacks(lambda _: self._reconcile(), self._on_failed)
 
     def on_status(self, status: ArduinoStatusCommand) -> None:
         """Send pids.yml when a board that was armed, or not known to be disarmed, is disarmed."""
@@ -95,7 +101,7 @@ class PIDTuningsProvider(BaseModule):
     def _answer(self) -> Deferred[Any]:
         if self.mission_control is None:
             raise CommandRefusedError("no ground station is configured", Code.UNAVAILABLE)
-        return self._read().addCallback(self._send_values)
+        return self._board.read().addCallback(self._send_values)
 
     def _send_values(self, held: GainSet) -> None:
         assert self.mission_control is not None
@@ -103,20 +109,9 @@ class PIDTuningsProvider(BaseModule):
         if not self.mission_control.send_command(values):
             raise CommandRefusedError("the ground station is not connected", Code.UNAVAILABLE)
 
-    def _read(self) -> Deferred[GainSet]:
-        type_ = "T" if self._is_thesis else "G"
-        return self.arduino.request(type_, answer=type_).addCallback(self._on_read)
-
-    def _on_read(self, payload: bytes) -> GainSet:
-        try:
-            self.held = read_gains(payload)
-        except ValueError as error:
-            raise CommandRefusedError(f"the Arduino's gains are not usable: {error}") from None
-        return self.held
-
     def _reconcile(self) -> None:
         """Send pids.yml to the board, if that is needed and harms nothing."""
-        if self._is_pushed or self._is_setting or not self._may_push():
+        if self._is_pushed or self._board.is_setting or not self._may_push():
             return
         self._is_pushed = True
         wanted = self._in_form(self._saved)
@@ -161,7 +156,7 @@ class PIDTuningsProvider(BaseModule):
     def _set(self, gains: GainSet) -> Deferred[Any]:
         if self._is_thesis and gains.has_rudder:
             raise CommandRefusedError("an old firmware (framing: thesis) has no rudder gains")
-        if self._is_setting:
+        if self._board.is_setting:
             raise CommandRefusedError("another set of gains is on its way")
         return self._transmit(gains).addCallback(self._save, gains)
 
@@ -171,25 +166,14 @@ class PIDTuningsProvider(BaseModule):
             payload = pack_gains(gains)
         except ValueError as error:
             raise CommandRefusedError(str(error), Code.INVALID) from None
-        if self._is_thesis:
-            self.arduino.require_connected()
-            self.arduino.serial.send_command("t", payload)
-        else:
-            confirmed = self.arduino.request("g" if gains.has_rudder else "t", payload)
-        self._is_setting = True
+        type_ = "g" if gains.has_rudder else "t"
         # Reading back says what is flown now; an old firmware confirms in no other way.
-        done = self._read() if self._is_thesis else confirmed.addCallback(lambda _: self._read())
-        done.addCallback(self._compare, payload)
-        return done.addBoth(self._settled)
-
-    def _compare(self, held: GainSet, payload: bytes) -> None:
-        form = held if len(payload) == len(pack_gains(held)) else without_rudder(held)
-        if pack_gains(form) != payload:
-            raise CommandRefusedError("the Arduino holds other gains than it was sent")
-
-    def _settled(self, outcome: Any) -> Any:
-        self._is_setting = False
-        return outcome
+        return self._board.send(
+            type_,
+            payload,
+            lambda held: _in_form_of(gains, held) == payload,
+            is_answered=not self._is_thesis,
+        )
 
     def _save(self, _: object, gains: GainSet) -> Deferred[Any]:
         """Keep what the Arduino confirmed; the disk may take its time, the bus does not wait."""
@@ -204,3 +188,8 @@ class PIDTuningsProvider(BaseModule):
     def _on_failed(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)
         self._log_warning(f"gains: {failure.getErrorMessage()}")
+
+
+def _in_form_of(sent: GainSet, held: GainSet) -> bytes:
+    """Return what is held as the wire has it, without the rudder where none was sent."""
+    return pack_gains(held if sent.has_rudder else without_rudder(held))

@@ -1,0 +1,80 @@
+"""One thing that the Arduino keeps, its gains or its profile: read, sent, read back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Generic, Protocol, TypeVar
+
+from twisted.internet.defer import Deferred
+
+from up.commands.refusal import CommandRefusedError
+
+T = TypeVar("T")
+
+
+class Board(Protocol):
+    """What is asked of the link to the Arduino."""
+
+    def request(self, type_: str, payload: bytes = b"", *, answer: str = "K") -> Deferred[bytes]:
+        """Ask the Arduino; raises or fails with CommandRefusedError."""
+
+    def send_unanswered(self, type_: str, payload: bytes) -> None:
+        """Send what an old firmware does not confirm; raises CommandRefusedError."""
+
+
+class BoardValue(Generic[T]):
+    """Reads a value by the request ``ask``, which ``answer`` answers, and sends another.
+
+    ``held`` is what the board said last, None while that is not known. ``decode`` raises
+    ValueError for bytes that cannot be; ``what`` names the value in sentences. Failures are
+    CommandRefusedError, their texts are for the asker.
+    """
+
+    def __init__(
+        self, board: Board, ask: str, answer: str, decode: Callable[[bytes], T], what: str
+    ) -> None:
+        self.held: T | None = None
+        self.is_setting = False
+        self._board = board
+        self._ask = ask
+        self._answer = answer
+        self._decode = decode
+        self._what = what
+
+    def read(self) -> Deferred[T]:
+        """Ask for the value; the result is what the board holds now."""
+        return self._board.request(self._ask, answer=self._answer).addCallback(self._on_read)
+
+    def send(
+        self, type_: str, payload: bytes, is_held: Callable[[T], bool], *, is_answered: bool = True
+    ) -> Deferred[Any]:
+        """Send a value; the result comes when the board has it for certain.
+
+        It is read back: ``is_held`` tells whether that is what was sent. An old firmware confirms
+        in no other way (``is_answered`` false). One at a time: see ``is_setting``.
+        """
+        done: Deferred[Any]
+        if is_answered:
+            done = self._board.request(type_, payload).addCallback(lambda _: self.read())
+        else:
+            self._board.send_unanswered(type_, payload)
+            done = self.read()
+        self.is_setting = True
+        return done.addCallback(self._compare, is_held).addBoth(self._settled)
+
+    def _on_read(self, payload: bytes) -> T:
+        try:
+            self.held = self._decode(payload)
+        except ValueError as error:
+            raise CommandRefusedError(
+                f"what the Arduino holds as {self._what} is not usable: {error}"
+            ) from None
+        return self.held
+
+    def _compare(self, held: T, is_held: Callable[[T], bool]) -> None:
+        if not is_held(held):
+            raise CommandRefusedError(f"the Arduino holds another {self._what} than it was sent")
+
+    def _settled(self, outcome: Any) -> Any:
+        self.is_setting = False
+        return outcome
