@@ -1,0 +1,158 @@
+"""The pages on wiring and airframe agree with the firmware, the board and themselves."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from itertools import pairwise
+
+import pytest
+
+from tests.docs.flying import files_of
+from tests.simulator.program import Program
+from tests.support.virtual_environment import REPOSITORY
+
+PAGE = (REPOSITORY / "docs" / "wiring.md").read_text(encoding="utf-8")
+LINE_LIMIT_S = 60
+
+
+def rows_after(mark):
+    """The cells of the table that follows `mark`, without its two head lines."""
+    table = re.search(r"((?:^\|.*\n)+)", PAGE[PAGE.index(mark) :], re.MULTILINE)[1]
+    cells = [[cell.strip() for cell in line.strip("|\n").split("|")] for line in table.splitlines()]
+    return cells[2:]
+
+
+def numbers_of(text):
+    return [float(number) for number in re.findall(r"\d+(?:\.\d+)?", text)]
+
+
+@pytest.mark.parametrize("column", [1, 2])
+def test_no_pin_is_used_twice(column):
+    pins = [row[column] for row in rows_after("<!-- table: pins -->")]
+    assert len(set(pins)) == len(pins) == 11
+    assert not {"D0", "D1", "A4", "A5"} & set(pins)
+
+
+def test_the_picture_shows_the_default_pins():
+    picture = ElementTree.parse(REPOSITORY / "docs" / "pictures" / "wiring.svg")
+    texts = [(float(each.get("y")), each.text) for each in picture.iter(f"{SVG}text")]
+    for what, pin, _ in rows_after("<!-- table: pins -->"):
+        name = "LED on the board" if what == "LED" else what
+        (height,) = [y for y, text in texts if text == name]
+        assert pin in [text for y, text in texts if y == height], what
+
+
+def test_what_it_draws_adds_up():
+    *parts, total = rows_after("### What it draws")
+    for column in (1, 2):
+        milliamperes = sum(numbers_of(row[column])[0] for row in parts)
+        assert numbers_of(total[column])[0] == pytest.approx(milliamperes / 1000, abs=0.005)
+
+
+def test_how_long_it_lasts_follows_from_the_battery():
+    *parts, _total = rows_after("### What it draws")
+    usable_wh = 1.3 * 7.4 * 0.8
+    drawn_w = 5 * sum(numbers_of(row[1])[0] for row in parts) / 1000
+    rows = rows_after("### How long it lasts")
+    assert numbers_of(rows[0][1])[0] == pytest.approx(drawn_w, abs=0.01)
+    assert numbers_of(rows[1][1])[0] == pytest.approx(drawn_w - 2.5, abs=0.01)
+    for _set_up, at_5_v, from_battery, lasts in rows:
+        battery_w = numbers_of(at_5_v)[0] / 0.85
+        assert numbers_of(from_battery)[0] == pytest.approx(battery_w, abs=0.06)
+        hours_and_minutes = numbers_of(lasts)
+        minutes = hours_and_minutes[-1] + 60 * sum(hours_and_minutes[:-1])
+        assert minutes == pytest.approx(60 * usable_wh / battery_w, abs=1.0)
+
+
+def test_the_weights_add_up():
+    rows = {row[0].strip("*"): row for row in rows_after("## Weight")}
+    total = numbers_of(rows.pop("together")[1])[0]
+    _lighter = rows.pop("without Raspberry Pi and phone (BEC A only, half the casing)")
+    assert total == sum(numbers_of(row[1])[0] for row in rows.values())
+    assert all("estimate" in row[2] for row in rows.values() if "thesis" not in row[2])
+
+
+def test_every_number_of_the_thesis_board_is_there_once():
+    rows = rows_after("## The thesis's board")
+    numbers = [int(number) for row in rows for number in numbers_of(row[0])]
+    assert numbers == list(range(1, 26))
+
+
+SVG = "{http://www.w3.org/2000/svg}"
+PICTURES = sorted((REPOSITORY / "docs" / "pictures").glob("*.svg"))
+# Of the font size: the mean advance of DejaVu Sans, which is wide, and of its bold.
+ADVANCE = {"normal": 0.56, "bold": 0.64}
+
+
+@pytest.mark.parametrize("path", PICTURES, ids=lambda path: path.name)
+def test_pictures_keep_their_words_inside(path):
+    root = ElementTree.parse(path).getroot()
+    assert root.tag == f"{SVG}svg"
+    assert root.findtext(f"{SVG}title")
+    left, top, width, height = map(float, root.get("viewBox").split())
+    for text in root.iter(f"{SVG}text"):
+        first, last = ends_of(text)
+        assert left <= first and last <= left + width, text.text
+        size = float(text.get("font-size"))
+        assert top + size <= float(text.get("y")) <= top + height - size / 4, text.text
+
+
+@pytest.mark.parametrize("path", PICTURES, ids=lambda path: path.name)
+def test_words_of_one_line_of_a_picture_do_not_overlap(path):
+    lines = {}
+    for text in ElementTree.parse(path).iter(f"{SVG}text"):
+        lines.setdefault(text.get("y"), []).append((*ends_of(text), text.text))
+    for words in lines.values():
+        for (_, end, text), (begin, _, next_text) in pairwise(sorted(words)):
+            assert end <= begin, f"{text!r} runs into {next_text!r}"
+
+
+def ends_of(text):
+    """Where a text begins and ends, by the mean width of its letters."""
+    width = (
+        len(text.text) * float(text.get("font-size")) * ADVANCE[text.get("font-weight", "normal")]
+    )
+    x = float(text.get("x"))
+    before = {"start": 0.0, "middle": 0.5, "end": 1.0}[text.get("text-anchor", "start")]
+    return x - before * width, x + (1 - before) * width
+
+
+def test_every_picture_is_on_a_page():
+    pages = [page.read_text(encoding="utf-8") for page in REPOSITORY.glob("docs/**/*.md")]
+    pages.append((REPOSITORY / "README.md").read_text(encoding="utf-8"))
+    for path in PICTURES:
+        assert any(f"pictures/{path.name})" in page for page in pages), path.name
+
+
+@pytest.fixture
+def board(tmp_path):
+    """The stand-in's serial line."""
+    with Program("--no-phone", "--pty-link", tmp_path / "board") as program:
+        program.wait_for("board:")
+        yield tmp_path / "board"
+
+
+def test_the_program_of_the_page_sets_up_a_board(board, tmp_path):
+    script = tmp_path / "board.py"
+    script.write_text(files_of("airframe.md")["board.py"], encoding="utf-8")
+
+    def run(what, line=""):
+        done = subprocess.run(
+            [sys.executable, script, board, what],
+            input=line,
+            capture_output=True,
+            text=True,
+            env=os.environ | {"PYTHONPATH": str(REPOSITORY)},
+            timeout=LINE_LIMIT_S,
+        )
+        assert not done.stderr
+        return done.stdout
+
+    assert run("profile") == "done\n"
+    said = run("receiver", "\n")
+    assert said.startswith("done\n") and said.endswith(": done\n")
+    assert run("level") in {"done\n", "refused: NOT_STILL\n"}
