@@ -3,7 +3,8 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 PY := $(BIN)/python
-PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground simulator/up_simulator
+PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground simulator/up_simulator \
+	arduino/bench/up_rig
 COGS := $(wildcard cogs/*_cog)
 # mypy does not see what is installed editable through an import hook.
 empty :=

@@ -1,4 +1,4 @@
-"""Packaging of Up, Raspilot, the runner, the proxy, the ground station and the simulator.
+"""Packaging of Up, Raspilot, their servers, the ground station, the simulator and the bench rig.
 
 The cogs are distributions of their own (cogs/*/setup.py); ``up gather`` installs them.
 """
@@ -15,6 +15,7 @@ SOURCES = {
     "up_proxy": "proxy",
     "up_ground": "ground",
     "up_simulator": "simulator",
+    "up_rig": "arduino/bench",
 }
 
 
@@ -59,6 +60,8 @@ setup(
             "*.csv",
             "*.xml",
             "*.gz",
+            "*.c",
+            "*.h",
         ]
     },
     install_requires=[

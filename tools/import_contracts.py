@@ -22,6 +22,7 @@ ARROWS: dict[str, set[str]] = {
     "up_ground": {"up"},
     "up_proxy": {"up"},
     "up_simulator": set(),
+    "up_rig": set(),
 }
 # The parts of Up that a program on another machine may use: the proxy knows no modules, no bus.
 PROXY_MAY_USE = {"config", "log", "system", "fields", "version"}

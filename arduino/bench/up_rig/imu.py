@@ -1,0 +1,181 @@
+"""The MPU6050 on its bus: what it measures, and how it fails."""
+
+from __future__ import annotations
+
+import ctypes
+import enum
+import math
+import random
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from up_rig.library import SampleFunction
+
+GRAVITY_M_S2 = 9.80665
+_GYRO_CONFIG, _ACCEL_CONFIG = 27, 28
+_COUNTS_DEG_S, _COUNTS_G = 131.0, 16384.0
+_TEMPERATURE_C = 25.0
+
+
+class Fault(enum.IntEnum):
+    """How the IMU ceases to answer; ``HANGS`` ends when the master clocks the line by hand."""
+
+    NONE = 0
+    NO_ANSWER = 1
+    SDA_LOW = 2
+    SCL_LOW = 3
+    HANGS = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """What moves the aircraft, in its axes: x forward, y right, z down.
+
+    Rates in degrees per second; the specific force in m/s^2 is (0, 0, -9.81) at rest and level.
+    """
+
+    roll_rate_deg_s: float = 0.0
+    pitch_rate_deg_s: float = 0.0
+    yaw_rate_deg_s: float = 0.0
+    force_x_m_s2: float = 0.0
+    force_y_m_s2: float = 0.0
+    force_z_m_s2: float = -GRAVITY_M_S2
+
+
+def motion_at(
+    roll_deg: float, pitch_deg: float, rates_deg_s: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> Motion:
+    """Return the motion of an unaccelerated aircraft that stands at an attitude."""
+    roll, pitch = math.radians(roll_deg), math.radians(pitch_deg)
+    return Motion(
+        *rates_deg_s,
+        GRAVITY_M_S2 * math.sin(pitch),
+        -GRAVITY_M_S2 * math.sin(roll) * math.cos(pitch),
+        -GRAVITY_M_S2 * math.cos(roll) * math.cos(pitch),
+    )
+
+
+class Imu:
+    """The sensor, mounted x forward, y left, z up.
+
+    ``motion`` is a ``Motion`` or a function of the time in seconds that returns one. ``bias_deg_s``
+    and ``noise_deg_s`` (standard deviation), ``bias_m_s2`` and ``noise_m_s2`` spoil it.
+    ``is_frozen`` repeats the last sample; ``is_garbage`` sends noise over the whole range.
+    """
+
+    def __init__(self, library: ctypes.CDLL, handle: int, seed: int = 1) -> None:
+        self._library = library
+        self._handle = handle
+        self._random = random.Random(f"imu {seed}")
+        self._values = [0] * 7
+        self._failure: Exception | None = None
+        self.motion: Motion | Callable[[float], Motion] = Motion()
+        self.bias_deg_s = (0.0, 0.0, 0.0)
+        self.bias_m_s2 = (0.0, 0.0, 0.0)
+        self.noise_deg_s = 0.0
+        self.noise_m_s2 = 0.0
+        self.is_frozen = False
+        self.is_garbage = False
+        # C keeps the address alone: the object must live as long as the rig.
+        self._function = SampleFunction(self._sample)
+        library.rig_imu_on_sample(handle, self._function)
+
+    def unplug(self) -> None:
+        """Take it from the bus: nobody answers, the lines are high."""
+        self._library.rig_imu_plug(self._handle, False)
+
+    def plug(self) -> None:
+        """Put it back; it starts anew, asleep."""
+        self._library.rig_imu_plug(self._handle, True)
+
+    def fail(self, fault: Fault) -> None:
+        """Let it fail now."""
+        self._library.rig_imu_fault(self._handle, int(fault), 0, 0, True)
+
+    def fail_at_byte(self, byte: int, fault: Fault, *, after_transfers: int = 0) -> None:
+        """Let it fail at a byte of a transfer: byte 0 is the first address after a start.
+
+        A repeated start begins a new transfer; ``after_transfers`` of them pass unharmed.
+        """
+        # The start that comes next is counted before its bytes are.
+        transfers = after_transfers + 1
+        self._library.rig_imu_fault(self._handle, int(fault), byte, transfers, False)
+
+    def mend(self) -> None:
+        """End a fault; what it had been set to, it still is."""
+        self._library.rig_imu_fault(self._handle, int(Fault.NONE), 0, 0, False)
+
+    def set_identity(self, who_am_i: int) -> None:
+        """Set what WHO_AM_I reads, 0x68 in the real part."""
+        self._library.rig_imu_identity(self._handle, who_am_i)
+
+    def register(self, number: int) -> int:
+        """Return what the program has set a register to."""
+        return int(self._library.rig_imu_register(self._handle, number))
+
+    @property
+    def fault(self) -> Fault:
+        """Return the fault that is there now."""
+        return Fault(self._library.rig_imu_fault_now(self._handle))
+
+    @property
+    def samples(self) -> int:
+        """Return how many samples were taken."""
+        return int(self._library.rig_imu_samples(self._handle))
+
+    @property
+    def transfers(self) -> int:
+        """Return how many starts the bus has seen."""
+        return int(self._library.rig_imu_transfers(self._handle))
+
+    @property
+    def bus_bytes(self) -> int:
+        """Return how many bytes went over the bus, addresses included."""
+        return int(self._library.rig_twi_bytes(self._handle))
+
+    def raise_failure(self) -> None:
+        """Raise what the motion's function raised during the last run."""
+        if self._failure is not None:
+            failure, self._failure = self._failure, None
+            raise failure
+
+    def _sample(self, cycle: int, into: object) -> None:
+        # An exception cannot pass through C: it is kept and raised after the run.
+        try:
+            if self.is_garbage:
+                self._values = [self._random.randint(-32768, 32767) for _ in range(7)]
+            elif not self.is_frozen:
+                self._values = self._measure(cycle / 16e6)
+        except Exception as failure:  # noqa: BLE001 - whatever the caller's function raises
+            self._failure = failure
+        for at, value in enumerate(self._values):
+            into[at] = value  # type: ignore[index]
+
+    def _measure(self, time_s: float) -> list[int]:
+        motion = self.motion if isinstance(self.motion, Motion) else self.motion(time_s)
+        rates = (motion.roll_rate_deg_s, -motion.pitch_rate_deg_s, -motion.yaw_rate_deg_s)
+        force = (motion.force_x_m_s2, -motion.force_y_m_s2, -motion.force_z_m_s2)
+        gyro_range = self.register(_GYRO_CONFIG) >> 3 & 3
+        accel_range = self.register(_ACCEL_CONFIG) >> 3 & 3
+        gyro = [
+            _count((rate + bias + self._noise(self.noise_deg_s)) * _COUNTS_DEG_S / 2**gyro_range)
+            for rate, bias in zip(rates, self.bias_deg_s, strict=True)
+        ]
+        accel = [
+            _count(
+                (each + bias + self._noise(self.noise_m_s2))
+                / GRAVITY_M_S2
+                * _COUNTS_G
+                / 2**accel_range
+            )
+            for each, bias in zip(force, self.bias_m_s2, strict=True)
+        ]
+        # PS-MPU-6000A-00, 6.2: 340 counts a degree, 0 at 36.53 degrees.
+        return [*accel, _count((_TEMPERATURE_C - 36.53) * 340), *gyro]
+
+    def _noise(self, deviation: float) -> float:
+        return self._random.gauss(0.0, deviation) if deviation else 0.0
+
+
+def _count(value: float) -> int:
+    return max(-32768, min(32767, round(value)))

@@ -1,0 +1,327 @@
+/* The bench: makes the chip, runs it to a cycle, resets it, and hands out what was recorded.
+ *
+ * Instructions are run one by one by simavr's avr_run_one; its own loop, cycle timers, interrupt
+ * queue, sleep and resets are not used, as a watchdog reset would drop every timer and a sleeping
+ * chip would make the process sleep.
+ */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rig.h"
+
+avr_flashaddr_t avr_run_one(avr_t *avr);
+
+static void say_nothing(avr_t *avr, const int level, const char *format, va_list arguments) {
+    (void)avr, (void)level, (void)format, (void)arguments;
+}
+
+/* ---- time of a register access ---- */
+static uint16_t opcode(const avr_t *avr) {
+    return (uint16_t)(avr->flash[avr->pc] | avr->flash[avr->pc + 1] << 8);
+}
+
+static unsigned access_cycles(const avr_t *avr) {
+    return (opcode(avr) & 0xF000) == 0xB000 ? 1 : 2; /* IN and OUT; SBI, CBI, loads, stores */
+}
+
+cycle_t read_time(const rig_t *rig) { return rig->avr->cycle + access_cycles(rig->avr) - 1; }
+cycle_t write_time(const rig_t *rig) { return rig->avr->cycle + access_cycles(rig->avr); }
+
+uint8_t bits_written(const rig_t *rig, uint8_t value) {
+    uint16_t code = opcode(rig->avr);
+    return (code & 0xFF00) == 0x9A00 ? (uint8_t)(1 << (code & 7)) : value;
+}
+
+void hook_read(rig_t *rig, uint16_t address, avr_io_read_t function) {
+    rig->avr->io[AVR_DATA_TO_IO(address)].r.c = function;
+    rig->avr->io[AVR_DATA_TO_IO(address)].r.param = rig;
+}
+
+void hook_write(rig_t *rig, uint16_t address, avr_io_write_t function) {
+    rig->avr->io[AVR_DATA_TO_IO(address)].w.c = function;
+    rig->avr->io[AVR_DATA_TO_IO(address)].w.param = rig;
+}
+
+void in_trouble(rig_t *rig, const char *format, unsigned value) {
+    if (rig->trouble) return;
+    snprintf(rig->trouble_text, sizeof rig->trouble_text, format, value);
+    rig->trouble = rig->trouble_text;
+}
+
+uint32_t next_random(rig_t *rig) {
+    uint32_t x = rig->random;
+    x ^= x << 13, x ^= x >> 17, x ^= x << 5;
+    return rig->random = x;
+}
+
+/* ---- events ---- */
+static cycle_t least(cycle_t one, cycle_t other) { return one < other ? one : other; }
+
+void replan(rig_t *rig) {
+    cycle_t due = rig->queue.count ? rig->queue.items[0].cycle : NEVER;
+    due = least(due, uart_due(rig));
+    if (!rig->reset_until) {
+        due = least(due, timers_due(rig));
+        due = least(due, least(rig->twi.due, rig->watchdog.due));
+    }
+    rig->next_due = least(due, rig->eeprom.done);
+    rig->is_planned = true;
+}
+
+void run_events(rig_t *rig, cycle_t now) {
+    if (!rig->is_planned) replan(rig);
+    while (rig->next_due <= now) {
+        cycle_t when = rig->next_due;
+        while (rig->queue.count && rig->queue.items[0].cycle <= when) {
+            event_t event = queue_take(&rig->queue);
+            if (event.kind == EVENT_PIN) port_drive(rig, event.a, event.b, event.cycle);
+            else if (!rig->reset_until) pin_flag(rig, event.a);
+        }
+        uart_run(rig, when);
+        if (!rig->reset_until) {
+            timers_run(rig, when);
+            twi_run(rig, when);
+            watchdog_run(rig, when);
+        }
+        eeprom_run(rig, when);
+        replan(rig);
+    }
+}
+
+/* ---- reset ---- */
+void want_reset(rig_t *rig, uint8_t cause) { rig->reset_wanted |= cause; }
+
+static void reset(rig_t *rig) {
+    avr_t *avr = rig->avr;
+    uint8_t cause = rig->reset_wanted;
+    uint8_t causes = cause & RESET_POWER ? RESET_POWER : avr->data[R_MCUSR] | cause;
+    memset(avr->data + 0x20, 0, 0xE0);
+    memset(avr->sreg, 0, sizeof avr->sreg);
+    avr->data[R_SPL] = (uint8_t)avr->ramend;
+    avr->data[R_SPH] = (uint8_t)(avr->ramend >> 8);
+    avr->data[R_MCUSR] = causes;
+    avr->pc = avr->reset_pc;
+    avr->state = cpu_Running;
+    avr->interrupt_state = 0;
+    rig->reset_wanted = 0;
+    rig->depth = 0;
+    rig->off_since = avr->cycle + rig->start_up;
+    rig->off_pc = (uint16_t)avr->pc;
+    for (int i = 0; i < 4; i++) rig->meter.resets[i] += cause >> i & 1;
+    rig->reset_until = avr->cycle + rig->start_up;
+    timers_reset(rig, rig->reset_until);
+    twi_reset(rig);
+    uart_reset(rig, avr->cycle);
+    eeprom_reset(rig, avr->cycle);
+    ports_reset(rig, avr->cycle);
+    watchdog_reset(rig, rig->reset_until, cause);
+    interrupts_refresh(rig);
+    replan(rig);
+}
+
+/* ---- running ---- */
+static void note_stack(rig_t *rig, uint16_t code) {
+    /* Where the stack pointer moves down; one half of a pair that is being written is no stack. */
+    bool is_push = (code & 0xFE0F) == 0x920F, is_call = (code & 0xFE0E) == 0x940E;
+    bool is_relative = (code & 0xF000) == 0xD000, is_indirect = code == 0x9509;
+    bool is_low_byte = (code & 0xFE0F) == 0xBE0D;
+    if (!is_push && !is_call && !is_relative && !is_indirect && !is_low_byte) return;
+    const uint8_t *data = rig->avr->data;
+    uint16_t stack = (uint16_t)(data[R_SPL] | data[R_SPH] << 8);
+    if (stack < rig->meter.stack_lowest) rig->meter.stack_lowest = stack;
+}
+
+static void note_interrupts_on(rig_t *rig) {
+    uint64_t off = rig->avr->cycle - rig->off_since;
+    if (off > rig->meter.longest_off) {
+        rig->meter.longest_off = (uint32_t)off;
+        rig->meter.longest_off_pc = rig->off_pc;
+    }
+}
+
+static void preload(rig_t *rig) {
+    for (int i = 0; i < rig->preload_count; i++)
+        memcpy(rig->avr->data + rig->preloads[i].address, rig->preloads[i].bytes,
+               rig->preloads[i].size);
+    rig->break_pc = UINT32_MAX;
+}
+
+static void step(rig_t *rig) {
+    avr_t *avr = rig->avr;
+    if (avr->pc == rig->break_pc) preload(rig);
+    uint16_t code = opcode(avr);
+    uint8_t was_on = avr->sreg[S_I];
+    uint32_t pc = avr->pc;
+    avr->run_cycle_count = 1;
+    avr->pc = avr_run_one(avr);
+    if (code == 0x9518) interrupt_leave(rig);
+    if (avr->sreg[S_I] != was_on) {
+        if (was_on) {
+            rig->off_since = avr->cycle;
+            rig->off_pc = (uint16_t)pc;
+        } else if (code != 0x9518 || rig->off_since) {
+            note_interrupts_on(rig);
+        }
+    }
+    note_stack(rig, code);
+    if (avr->state == cpu_Crashed || avr->state == cpu_Stopped)
+        in_trouble(rig, "the program went wild at address 0x%04x", pc);
+    if (avr->cycle >= rig->next_due || !rig->is_planned) run_events(rig, avr->cycle);
+    /* The instruction after the one that allows interrupts always runs (7.7). */
+    if (rig->pending && avr->sreg[S_I] && was_on && !rig->reset_wanted) interrupt_enter(rig);
+}
+
+static void sleep(rig_t *rig, cycle_t until) {
+    avr_t *avr = rig->avr;
+    if (rig->pending && avr->sreg[S_I]) {
+        interrupt_enter(rig);
+        return;
+    }
+    if (!rig->is_planned) replan(rig);
+    cycle_t next = least(rig->next_due, until);
+    if (next > avr->cycle) {
+        rig->meter.sleep_cycles += next - avr->cycle;
+        avr->cycle = next;
+    }
+    run_events(rig, avr->cycle);
+}
+
+const char *rig_run(rig_t *rig, cycle_t until) {
+    avr_t *avr = rig->avr;
+    while (avr->cycle < until && !rig->trouble) {
+        if (rig->reset_wanted) reset(rig);
+        if (rig->reset_until) {
+            avr->cycle = least(rig->reset_until, until);
+            run_events(rig, avr->cycle);
+            if (avr->cycle >= rig->reset_until) {
+                rig->reset_until = 0;
+                rig->is_planned = false;
+            }
+        } else if (avr->state == cpu_Sleeping) {
+            sleep(rig, until);
+        } else {
+            step(rig);
+        }
+    }
+    return rig->trouble;
+}
+
+/* ---- making ---- */
+static int on_ioctl(avr_io_t *io, uint32_t request, void *parameter);
+
+typedef struct { avr_io_t io; rig_t *rig; } wdr_t;
+
+static int on_ioctl(avr_io_t *io, uint32_t request, void *parameter) {
+    (void)parameter;
+    if (request != AVR_IOCTL_DEF('w', 'd', 't', 'r')) return -1;
+    watchdog_feed(((wdr_t *)io)->rig);
+    return 0;
+}
+
+rig_t *rig_new(uint32_t seed) {
+    avr_global_logger_set(say_nothing);
+    avr_t *avr = avr_make_mcu_by_name("atmega328p");
+    if (!avr) return NULL;
+    avr_init(avr);
+    avr->frequency = CYCLES_PER_US * 1000000;
+    rig_t *rig = calloc(1, sizeof *rig);
+    rig->avr = avr;
+    for (int i = 0; i < MAX_IOs; i++) {
+        if (i + 0x20 == R_SPMCSR) continue;
+        memset(&avr->io[i], 0, sizeof avr->io[i]);
+    }
+    wdr_t *wdr = calloc(1, sizeof *wdr);
+    wdr->rig = rig;
+    wdr->io.kind = "rig";
+    wdr->io.ioctl = on_ioctl;
+    avr_register_io(avr, &wdr->io);
+    rig->random = seed ? seed : 1;
+    rig->break_pc = UINT32_MAX;
+    rig->meter.stack_lowest = (uint16_t)avr->ramend;
+    rig->start_up = 66000 * CYCLES_PER_US; /* 16K CK + 65 ms, SUT of the Nano and the Uno (9.3) */
+    rig->imu.address = rig->imu.identity = 0x68;
+    rig->imu.is_present = true;
+    interrupts_hook(rig);
+    ports_hook(rig);
+    timers_hook(rig);
+    uart_hook(rig);
+    twi_hook(rig);
+    eeprom_hook(rig);
+    watchdog_hook(rig);
+    return rig;
+}
+
+void rig_free(rig_t *rig) {
+    free(rig->edges.items);
+    free(rig->sent.items);
+    free(rig->queue.items);
+    free(rig->uart.line);
+    avr_terminate(rig->avr);
+    free(rig->avr);
+    free(rig);
+}
+
+/* ---- for the caller ---- */
+uint64_t rig_cycle(const rig_t *rig) { return rig->avr->cycle; }
+uint8_t *rig_data(rig_t *rig) { return rig->avr->data; }
+const meter_t *rig_meter(const rig_t *rig) { return &rig->meter; }
+uint64_t rig_overruns(const rig_t *rig) { return rig->uart.overruns; }
+void rig_start_up(rig_t *rig, uint64_t cycles) { rig->start_up = cycles ? cycles : 1; }
+
+void rig_load(rig_t *rig, const uint8_t *bytes, uint32_t size, uint32_t address) {
+    memcpy(rig->avr->flash + address, bytes, size);
+}
+
+void rig_reset_pc(rig_t *rig, uint32_t address) { rig->avr->reset_pc = address; }
+
+void rig_preload(rig_t *rig, uint32_t break_pc, uint16_t address, const uint8_t *bytes,
+                 uint16_t size) {
+    if (rig->preload_count == 16 || size > 64) return;
+    rig->preloads[rig->preload_count].address = address;
+    rig->preloads[rig->preload_count].size = size;
+    memcpy(rig->preloads[rig->preload_count++].bytes, bytes, size);
+    rig->break_pc = break_pc;
+}
+
+void rig_forget_measures(rig_t *rig) {
+    uint64_t resets[4];
+    memcpy(resets, rig->meter.resets, sizeof resets);
+    memset(&rig->meter, 0, sizeof rig->meter);
+    memcpy(rig->meter.resets, resets, sizeof resets);
+    rig->meter.stack_lowest = (uint16_t)rig->avr->ramend;
+    if (!rig->avr->sreg[S_I]) rig->off_since = rig->avr->cycle;
+    for (int i = 0; i < 16; i++) rig->nest[i].entry = rig->avr->cycle;
+}
+
+void rig_reset(rig_t *rig, uint8_t cause) {
+    if (cause & (RESET_POWER | RESET_BROWN_OUT)) {
+        eeprom_power_cut(rig, rig->avr->cycle);
+        imu_power_on(rig, rig->avr->cycle);
+    }
+    want_reset(rig, cause);
+}
+
+void rig_pin_edge(rig_t *rig, uint64_t cycle, uint8_t pin, uint8_t how) {
+    queue_add(&rig->queue, cycle > rig->avr->cycle ? cycle : rig->avr->cycle, EVENT_PIN, pin, how);
+    rig->is_planned = false;
+}
+
+uint8_t rig_pin_level(const rig_t *rig, uint8_t pin) {
+    return rig->ports[pin / 8].level >> pin % 8 & 1;
+}
+
+/* What was recorded since the last forgetting; the pointer holds until the chip runs on. */
+const edge_t *rig_edges(const rig_t *rig, uint64_t *count) {
+    *count = rig->edges.count;
+    return rig->edges.items;
+}
+
+const sent_t *rig_sent(const rig_t *rig, uint64_t *count) {
+    *count = rig->sent.count;
+    return rig->sent.items;
+}
+
+void rig_forget_edges(rig_t *rig) { rig->edges.count = 0; }
+void rig_forget_sent(rig_t *rig) { rig->sent.count = 0; }
