@@ -5,6 +5,9 @@
 
 #include "../core/types.h"
 #include "../store/profile.h"
+#include "arming_switch.h"
+#include "lifetime.h"
+#include "mode_switch.h"
 #include "pwm_reader.h"
 
 namespace raspilot {
@@ -29,6 +32,15 @@ struct AuthorityState {
   bool is_failsafe;
 };
 
+/**
+ * A receiver is valid while all six channels are and the throttle is not below the profile's
+ * threshold, which is the receiver's own failsafe. That failsafe acts at once, any other loss
+ * after 500 ms, in which the sticks hold still. Neither the loss nor the return of a receiver is a
+ * switch that moved: it neither arms nor disarms nor ends the mode that the ground asked for.
+ *
+ * Before the receiver was heard for the first time nothing flies: FBW holds level with centred
+ * sticks, and this is no failsafe. Lifetimes end with the slot in which they run out.
+ */
 class Authority {
  public:
   Authority(const Profile& profile, const PwmReader& receiver);
@@ -36,29 +48,41 @@ class Authority {
   /** Looks at the receiver and at the lifetimes; each slot. */
   void update(bool is_imu_valid, bool is_calibrating, bool is_profile_broken, uint32_t now_us);
 
-  /** What flies now: the mode after switch, asked mode, lifetimes, failsafe and IMU. */
+  /**
+   * What the Raspberry Pi is told: flown_mode(), but OUTPUT also for 500 ms after `M` asked for
+   * it, so that a Raspberry Pi that waits for it learns that it may begin.
+   */
   Mode mode() const;
-  bool is_armed() const;
+  /**
+   * What flies now, after switch, asked mode, lifetimes, failsafe and IMU: FBW at AUTO without a
+   * living Setpoint or Output; ACRO instead of all that needs the IMU while that is invalid.
+   */
+  Mode flown_mode() const;
+  bool is_armed() const { return is_armed_; }
   bool is_auto() const;
-  /** 0 low, 1 middle, 2 high, 255 not known yet. */
-  uint8_t switch_position() const;
-  bool has_receiver() const;
+  /** 0 low, 1 middle, 2 high, 255 not known yet; holds while the receiver is lost. */
+  uint8_t switch_position() const { return switch_.position(); }
+  bool has_receiver() const { return has_receiver_; }
   /** Receiver failsafe acts: circle (IMU valid) or preset surfaces. */
-  bool is_failsafe() const;
+  bool is_failsafe() const { return is_failsafe_; }
   /** Stays after more than 5 s of failsafe until the stick has been low. */
-  bool is_throttle_latched() const;
+  bool is_throttle_latched() const { return is_latched_; }
   uint8_t vetoes() const;
 
   /** The throttle pulse for the ESC by every rule, ticks; 1000 us while disarmed with a motor. */
   Ticks throttle() const;
-  const Setpoint& setpoint() const;
-  const Outputs& asked_outputs() const;
+  /** Means something in mode SETPOINT only. */
+  const Setpoint& setpoint() const { return setpoint_; }
+  /** Means something in flown mode OUTPUT only; throttle 0 is the stick's: see throttle(). */
+  const Outputs& asked_outputs() const { return asked_outputs_; }
 
+  /** Refused by any veto: throttle, receiver and IMU have their own reasons. */
   Reason arm(uint32_t now_us);
+  /** With a motor, refused unless the throttle stick was seen low for the last 2 s. */
   Reason disarm(uint32_t now_us);
   /** `M`: only with the switch at AUTO; never ACRO. */
   Reason ask_mode(char letter, uint32_t now_us);
-  /** `u`; `age_us` is that of the orientation that it was computed from. */
+  /** `u`; `age_us` is that of the orientation that it was computed from. Holds for 250 ms. */
   Reason take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t now_us);
   Reason take_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t now_us);
   /** `v`: holds for 1 s. */
@@ -67,6 +91,40 @@ class Authority {
   AuthorityState state() const;
   /** After a watchdog reset only. */
   void restore(const AuthorityState& state, uint32_t now_us);
+
+ private:
+  uint16_t pass(uint32_t now_us);
+  void follow_receiver(uint16_t passed_ms);
+  void follow_failsafe(bool is_own_failsafe, uint16_t passed_ms);
+  void follow_arming(uint16_t passed_ms);
+  bool is_throttle_low() const;
+  void end_demands();
+  /** Why the Raspberry Pi may not fly in this mode now. */
+  Reason authority_for(Mode mode) const;
+
+  const Profile& profile_;
+  const PwmReader& receiver_;
+  ModeSwitch switch_;
+  ArmingSwitch arming_;
+  Lifetime asked_;
+  Lifetime outputs_;
+  Lifetime demand_;
+  Lifetime veto_;
+  Stopwatch throttle_low_;
+  Stopwatch lost_;
+  Setpoint setpoint_;
+  Outputs asked_outputs_;
+  uint32_t updated_us_ = 0;
+  uint16_t rest_us_ = 0;
+  char asked_mode_ = 0;
+  bool is_armed_ = false;
+  bool is_imu_valid_ = false;
+  bool is_calibrating_ = false;
+  bool is_profile_broken_ = false;
+  bool has_receiver_ = false;
+  bool was_heard_ = false;
+  bool is_failsafe_ = false;
+  bool is_latched_ = false;
 };
 
 }  // namespace raspilot

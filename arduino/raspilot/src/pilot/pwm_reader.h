@@ -1,10 +1,13 @@
 /**
- * Reads the receiver's pulses from stamped edges (thesis 4.4.4): the interrupts store, this decides.
+ * Reads the receiver's pulses from stamped edges (thesis 4.4.4): the interrupts store, this
+ * decides.
  */
 #pragma once
 
 #include "../core/types.h"
 #include "../store/calibration.h"
+#include "input_channel.h"
+#include "range_learner.h"
 
 namespace raspilot {
 
@@ -17,11 +20,16 @@ class PwmReader {
    * whether the stamp may be a few microseconds late. `now_us` is the clock now.
    */
   void on_edge(uint16_t stamp_ticks, uint8_t levels, bool is_late, uint32_t now_us);
+  /** Edges were lost (the ring was full): what is being measured is forgotten. */
+  void on_lost_edges() { is_lost_ = true; }
   /** Forgets channels without a good pulse for 100 ms; each slot. */
   void check(uint32_t now_us);
 
-  /** The channel's newest good pulse, calibrated to 1000..1500..2000 us and filtered, in ticks. */
-  Ticks pulse(Channel channel) const;
+  /**
+   * The channel's newest good pulse, calibrated to 1000..1500..2000 us and filtered, in ticks;
+   * before the first 1500 us, the throttle's 1000 us.
+   */
+  Ticks pulse(Channel channel) const { return channels_[channel].pulse(); }
   /** The newest pulse as measured, us, whatever its width; 0 before the first. */
   uint16_t measured_us(Channel channel) const;
   /** A bit a channel: fresh (100 ms) and within 885 to 2115 us. */
@@ -36,10 +44,22 @@ class PwmReader {
    */
   bool take_rise(Channel channel, uint16_t& stamp_ticks);
 
-  /** End points are learned between these two; false (and nothing kept) when a range is too small. */
-  void begin_range_learning();
+  /** End points are learned from here to there; false, and nothing kept, as RangeLearner says. */
+  void begin_range_learning() { learner_.begin(); }
   bool end_range_learning(Calibration& learned);
-  bool is_learning() const;
+  bool is_learning() const { return learner_.is_learning(); }
+
+ private:
+  void on_change(uint8_t index, uint16_t stamp, bool is_high, bool is_late, uint32_t now_us);
+
+  const Calibration& calibration_;
+  InputChannel channels_[INPUTS];
+  RangeLearner learner_;
+  uint32_t newest_us_ = 0;
+  uint32_t checked_us_ = 0;
+  uint8_t levels_ = 0;
+  bool is_lost_ = true;
+  bool has_age_ = false;
 };
 
 }  // namespace raspilot

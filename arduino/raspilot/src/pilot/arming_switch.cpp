@@ -1,0 +1,32 @@
+#include "arming_switch.h"
+
+namespace raspilot {
+
+namespace {
+
+constexpr int16_t MIDDLE_US = 1500;
+constexpr int16_t HYSTERESIS_US = 20;
+constexpr uint16_t DEBOUNCE_MS = 300;
+
+}  // namespace
+
+ArmingSwitch::Event ArmingSwitch::take(Ticks pulse, uint16_t passed_ms) {
+  const int16_t width_us = now_ == HIGH ? -HYSTERESIS_US : now_ == LOW ? HYSTERESIS_US : 0;
+  const Level level =
+      pulse >= us_to_ticks(static_cast<int16_t>(MIDDLE_US + width_us)) ? HIGH : LOW;
+  if (level != now_) {
+    now_ = level;
+    since_.start();
+    return NOTHING;
+  }
+  since_.pass(passed_ms);
+  if (settled_ == now_ || since_.ms() < DEBOUNCE_MS) return NOTHING;
+  const bool was_low = settled_ == LOW;
+  settled_ = now_;
+  if (now_ == LOW) return FELL;
+  return was_low ? ROSE : NOTHING;
+}
+
+void ArmingSwitch::forget() { now_ = settled_ = UNKNOWN; }
+
+}  // namespace raspilot

@@ -1,0 +1,31 @@
+/** The pilot's AUX2 switch: debounced, and its edge from low to high, which arms. */
+#pragma once
+
+#include "../core/types.h"
+#include "lifetime.h"
+
+namespace raspilot {
+
+class ArmingSwitch {
+ public:
+  enum Event : uint8_t { NOTHING, ROSE, FELL };
+
+  /**
+   * Takes the pulse of a valid receiver; `passed_ms` since the last one. A position counts after
+   * 300 ms. ROSE needs a low that counted before it; what it stands at first is no edge.
+   */
+  Event take(Ticks pulse, uint16_t passed_ms);
+  /** The receiver is lost: whatever it says afterwards begins anew. */
+  void forget();
+  /** Stands at high, and has for 300 ms. */
+  bool is_high() const { return settled_ == HIGH && now_ == HIGH; }
+
+ private:
+  enum Level : uint8_t { UNKNOWN, LOW, HIGH };
+
+  Stopwatch since_;
+  Level now_ = UNKNOWN;
+  Level settled_ = UNKNOWN;
+};
+
+}  // namespace raspilot

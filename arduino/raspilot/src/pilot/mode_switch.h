@@ -1,0 +1,24 @@
+/** The pilot's AUX1 switch: which of its three positions, with hysteresis. */
+#pragma once
+
+#include "../core/types.h"
+
+namespace raspilot {
+
+class ModeSwitch {
+ public:
+  static constexpr uint8_t UNKNOWN = 255;
+
+  /** 0 low, 1 middle, 2 high, UNKNOWN before the first pulse. */
+  uint8_t position() const { return position_; }
+  /** Follows the pulse at once; moves at 1300 and 1700 us, each way 20 us beyond them. */
+  void take(Ticks pulse);
+  void restore(uint8_t position) { position_ = position <= 2 ? position : UNKNOWN; }
+
+ private:
+  bool is_beyond(Ticks pulse, int16_t edge_us, uint8_t position_above) const;
+
+  uint8_t position_ = UNKNOWN;
+};
+
+}  // namespace raspilot

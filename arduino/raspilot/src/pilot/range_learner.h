@@ -1,0 +1,36 @@
+/** Learns where a receiver's channels end and rest, because makers differ (thesis 2.4.1). */
+#pragma once
+
+#include "../core/types.h"
+#include "../store/calibration.h"
+
+namespace raspilot {
+
+/**
+ * Keeps the smallest and the greatest pulse of each channel from begin() to end().
+ *
+ * The pilot moves all sticks and switches through, then centres ailerons, elevator and rudder
+ * before end(): where these stand is their centre. Throttle and the switches rest nowhere: the
+ * middle of their range is their centre.
+ */
+class RangeLearner {
+ public:
+  void begin();
+  void take(Channel channel, Ticks pulse);
+  /**
+   * Ends learning; `resting` are the newest pulses, ticks. False, and `ranges` untouched, when
+   * it had not begun, a range is below 400 us, or a centre is within 100 us of an end.
+   */
+  bool end(const Ticks* resting, ChannelRange* ranges);
+  bool is_learning() const { return is_learning_; }
+
+ private:
+  Ticks lowest_[INPUTS];
+  Ticks highest_[INPUTS];
+  bool is_learning_ = false;
+};
+
+/** The pulse on the scale 1000, 1500, 2000 us, ticks; beyond the ends the lines go on. */
+Ticks calibrated(const ChannelRange& range, Ticks pulse);
+
+}  // namespace raspilot
