@@ -21,8 +21,13 @@ CONNECT_LIMIT_S = 8.0
 TELEMETRY_LIMIT_S = 5.0
 ANSWER_LIMIT_S = 3.0
 CONTENT_LIMIT_S = 2.0
-_CONTENT_OF = {"arduino.pids.tunings": "arduino.pids.values"}
+_CONTENT_OF = {
+    "arduino.pids.tunings": "arduino.pids.values",
+    "arduino.profile.request": "arduino.profile.values",
+}
 """What comes besides the ack when a Command asks for something."""
+_MAY_SET = ("arduino.pids.tunings",)
+"""Asks for something only with ``request=true``."""
 _QUIET = (TELEMETRY, "up.system.state")
 
 
@@ -55,7 +60,8 @@ class Send(Errand):
         self._id = secrets.token_hex(8)
         self._sent_s: float | None = None
         self._may_do_without = False
-        self._awaited = _CONTENT_OF.get(name, "") if data.get("request") is True else ""
+        is_asking = name not in _MAY_SET or data.get("request") is True
+        self._awaited = _CONTENT_OF.get(name, "") if is_asking else ""
         self._is_acked = False
 
     def start(self) -> None:

@@ -69,6 +69,17 @@ def pack_profile(profile: Profile) -> bytes:
     )
     if not all(-90 <= angle <= 90 for angle in angles) or min(angles[:3]) < 0:
         raise ValueError("an angle of the profile is out of range")
+    pulses = (
+        profile.throttle_failsafe_us,
+        profile.preset_ailerons_us,
+        profile.preset_elevator_us,
+        profile.preset_rudder_us,
+    )
+    if (
+        not all(800 <= pulse <= 2200 for pulse in pulses)
+        or not 0 <= profile.throttle_lost_us <= 2200
+    ):
+        raise ValueError("a pulse of the profile is out of range")
     return _PROFILE.pack(
         *chain.from_iterable(
             (each.reversed, each.trim_us, each.lowest_us, each.highest_us) for each in channels

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from arduino_cog.airframe import AIRFRAME
 from up.cogs.up_registrant import UpRegistrant
 from up.flight_controller.pids_file import PIDS
 
@@ -9,4 +10,4 @@ from up.flight_controller.pids_file import PIDS
 class Registrant(UpRegistrant):
     """Registers the Arduino cog."""
 
-    CONFIG_FILES = (PIDS,)
+    CONFIG_FILES = (PIDS, AIRFRAME)

@@ -6,17 +6,21 @@ import struct
 
 from arduino_cog.modules.arduino_altitude_module import ArduinoAltitudeModule
 from arduino_cog.modules.arduino_arming import ArduinoArming
+from arduino_cog.modules.arduino_calibration import ArduinoCalibration
 from arduino_cog.modules.arduino_flight_mode import ArduinoFlightMode
 from arduino_cog.modules.arduino_heading_module import ArduinoHeadingModule
 from arduino_cog.modules.arduino_location_module import ArduinoLocationModule
 from arduino_cog.modules.arduino_output import ArduinoOutput
 from arduino_cog.modules.arduino_panic import ArduinoPanic
+from arduino_cog.modules.arduino_profile import ArduinoProfile
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
 from serial_cog.modules.serial_provider import SerialProvider
 
 from tests.cogs.serial_cog.rig import Rig
 from up.commands.origin import INTERNAL
+from up.protocols.general_message import decode
+from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
 MODULES = [
     SerialProvider,
@@ -29,11 +33,35 @@ MODULES = [
     ArduinoLocationModule,
     ArduinoPanic,
     PIDTuningsProvider,
+    ArduinoProfile,
+    ArduinoCalibration,
 ]
 STREAMS = "hbBluSv"
 ARMED, AT_AUTO, RECEIVER, IMU, GAINS_STORED = 1, 2, 4, 8, 64
 FACTORY = tuple(float(each) for each in range(1, 19))
 PUSHED = "gt"
+# What a new Arduino holds, as the protocols page orders it (2.6).
+PROFILE = (
+    *(0, 0, 1000, 2000) * 4, 0, 1, b"afA", 5000, 2000, 2500, -300, 2000,
+    1000, 900, 1500, 1500, 1500, 0,
+)  # fmt: skip
+PROFILE_FORMAT = ">" + "BhHH" * 4 + "BB3s3h2h2H3HB"
+
+
+class Ground(BaseMissionControlProvider):
+    """Keeps what would go to the ground."""
+
+    def __init__(self, config=None, silent=False):
+        super().__init__(config, silent)
+        self.sent = []
+        self.is_there = True
+
+    def _transmit_data(self, message):
+        self.sent.append(decode(message))
+        return self.is_there
+
+    def _transmit_newest(self, message):
+        pass
 
 
 class BoardRig(Rig):
@@ -45,6 +73,7 @@ class BoardRig(Rig):
     def __init__(self, folder, framing="checked", config=None, modules=()):
         super().__init__([*MODULES, *modules], folder, framing, config)
         self.gains = list(FACTORY)
+        self.profile = struct.pack(PROFILE_FORMAT, *PROFILE)
         self.refuse = {}
         self.mute = set()
         self.flags = AT_AUTO | RECEIVER | IMU | GAINS_STORED
@@ -72,7 +101,11 @@ class BoardRig(Rig):
         elif letter == "t":
             values = struct.unpack(">12f", command.payload)
             self.gains[0:6], self.gains[9:15] = values[:6], values[6:]
-        if letter == "G":
+        elif letter == "C":
+            self.profile = command.payload
+        if letter == "c":
+            self.port.send("C", self.profile)
+        elif letter == "G":
             self.port.send("G", struct.pack(">18f", *self.gains))
         elif letter == "T":
             self.port.send("T", self.two_axes())
@@ -126,6 +159,15 @@ class BoardRig(Rig):
         self.turn()
         self.reactor.advance(0)
         return outcome
+
+    def throttle(self, pulse_us):
+        self.say("r", struct.pack(">4H", 1500, 1500, pulse_us, 1500))
+
+    def alive(self, seconds=1.0, **status):
+        """Let time pass on a board that says its status five times a second."""
+        for _ in range(round(seconds / 0.2)):
+            self.advance(0.2)
+            self.status(**status)
 
     def heard_on_bus(self, command):
         taken = []

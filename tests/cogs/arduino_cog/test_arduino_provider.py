@@ -85,6 +85,10 @@ def test_telemetry_has_the_arduinos_keys(rig):
         "late_us": 48,
         "frame_errors": 3,
         "reset_cause": "power-on",
+        "restored": False,
+        "bias_stored": False,
+        "receiver_valid": True,
+        "imu_valid": True,
     }
     assert content["armed"] is False
     assert content["flight_mode"] == "FBW"
@@ -97,6 +101,25 @@ def test_telemetry_has_the_arduinos_keys(rig):
     assert content["vetoes"] == ["arduino: the throttle is not low", "arduino: AUX2 is low"]
     assert content["age_ms"]["servo"] == 100
     assert content["source"]["servo"] == "arduino"
+
+
+def test_telemetry_tells_an_old_gyro_bias_and_a_state_that_came_back(rig):
+    rig.start()
+    rig.flags = 0b100001
+    rig.status(cause=0x88)
+    arduino = rig.up.telemetry_controller.collect()["arduino"]
+    assert arduino["restored"] is arduino["bias_stored"] is True
+    assert arduino["receiver_valid"] is arduino["imu_valid"] is False
+    assert arduino["reset_cause"] == "watchdog, state restored"
+
+
+def test_every_veto_has_words(rig):
+    rig.start()
+    for bit in range(8):
+        rig.status(vetoes=1 << bit)
+        (veto,) = rig.up.vetoes.all
+        assert veto.startswith("arduino: ")
+        assert len(veto) > 15
 
 
 def test_what_is_not_known_is_null(rig):

@@ -5,35 +5,17 @@ import struct
 import pytest
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
 
-from tests.cogs.arduino_cog.board import FACTORY, PUSHED
+from tests.cogs.arduino_cog.board import FACTORY, PUSHED, Ground
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller import gains_keeper
 from up.flight_controller.gains import gain_set_to_data
 from up.flight_controller.pids_file import PIDS, PidsFile
-from up.protocols.general_message import decode
-from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
 GOOD = PIDS.template()
 AXES = ("ailerons", "elevator", "rudder")
 # The gains of the template, in the order of `g`.
 SAVED = (2.1, 0, 0, 1.0, 0, 0, 0.5, 0, 0, 2.0, 0, 0, 4.1, 0, 0, 0, 0, 0)
-
-
-class Ground(BaseMissionControlProvider):
-    """Keeps what would go to the ground."""
-
-    def __init__(self, config=None, silent=False):
-        super().__init__(config, silent)
-        self.sent = []
-        self.is_there = True
-
-    def _transmit_data(self, message):
-        self.sent.append(decode(message))
-        return self.is_there
-
-    def _transmit_newest(self, message):
-        pass
 
 
 def loop(first, axes=AXES):
@@ -66,16 +48,10 @@ def tuned(make_rig, monkeypatch):
     return make
 
 
-def alive(rig, seconds=1.0, **status):
-    for _ in range(round(seconds / 0.2)):
-        rig.advance(0.2)
-        rig.status(**status)
-
-
 def test_a_disarmed_board_that_differs_gets_pids_yml_once(tuned):
     rig = tuned()
     rig.connect()
-    alive(rig, 2)
+    rig.alive(2)
     assert rig.sent(PUSHED) == [wire(SAVED)]
     assert rig.module(PIDTuningsProvider).held.rate.ailerons.p == 2.1
 
@@ -84,7 +60,7 @@ def test_a_board_that_does_not_differ_is_left_alone(tuned):
     rig = tuned()
     rig.gains[:] = struct.unpack(">18f", wire(SAVED))
     rig.connect()
-    alive(rig, 2)
+    rig.alive(2)
     assert rig.sent("G") == [b""]
     assert rig.sent(PUSHED) == []
 
@@ -94,14 +70,14 @@ def test_a_board_whose_eeprom_holds_none_gets_them_stored(tuned):
     rig.gains[:] = struct.unpack(">18f", wire(SAVED))
     rig.flags &= ~64
     rig.connect()
-    alive(rig, 2)
+    rig.alive(2)
     assert rig.sent(PUSHED) == [wire(SAVED)]
 
 
 def test_nothing_is_pushed_to_an_armed_board(tuned):
     rig = tuned()
     rig.connect(armed=True)
-    alive(rig, 3)
+    rig.alive(3)
     assert rig.sent("G") == [b""]
     assert rig.sent(PUSHED) == []
     assert rig.gains == list(FACTORY)
@@ -121,8 +97,8 @@ def test_nothing_is_pushed_before_the_board_said_that_it_is_disarmed(tuned):
 def test_a_board_that_was_armed_gets_them_when_it_is_disarmed(tuned):
     rig = tuned()
     rig.connect(armed=True)
-    alive(rig, 1)
-    alive(rig, 1, armed=False)
+    rig.alive(1)
+    rig.alive(1, armed=False)
     assert rig.sent(PUSHED) == [wire(SAVED)]
 
 
@@ -132,7 +108,7 @@ def test_an_armed_board_that_was_reset_is_asked_and_gets_nothing(tuned):
     rig.status(uptime_s=100)
     rig.forget()
     rig.status(uptime_s=0, cause=0x88)
-    alive(rig, 2)
+    rig.alive(2)
     assert rig.sent("G") == [b""]
     assert rig.sent(PUSHED) == []
 
@@ -140,7 +116,7 @@ def test_an_armed_board_that_was_reset_is_asked_and_gets_nothing(tuned):
 def test_without_pids_yml_nothing_is_pushed(tuned):
     rig = tuned(pids=None)
     rig.connect()
-    alive(rig, 1)
+    rig.alive(1)
     assert rig.sent(PUSHED) == []
     assert not (rig.folder / "pids.yml").exists()
 
@@ -159,7 +135,7 @@ def test_a_corrupt_file_forbids_arming_and_is_not_pushed(tuned, corrupt):
     rig = tuned(pids=corrupt)
     assert "pids.yml" in rig.up.vetoes.own
     rig.connect()
-    alive(rig, 1)
+    rig.alive(1)
     assert rig.sent(PUSHED) == []
     assert set(rig.sent("v")) == {b"\1"}
 
@@ -174,8 +150,8 @@ def test_a_set_from_the_ground_flies_and_is_saved_after_the_board_confirmed(tune
     saved, problem = PidsFile(rig.folder).load()
     assert problem is None
     assert gain_set_to_data(saved)["ratePIDs"] == loop(3.0)
-    alive(rig, 1)
-    alive(rig, 1, armed=False)
+    rig.alive(1)
+    rig.alive(1, armed=False)
     assert len(rig.sent(PUSHED)) == 1, "what was tuned is not pushed back"
 
 
@@ -234,7 +210,7 @@ def test_a_set_while_another_is_on_its_way_is_refused(tuned):
     first = rig.ask(tunings())
     assert "on its way" in refusal(rig.ask(tunings(rate=9.0))).reason
     rig.mute = set()
-    alive(rig, 0.8)
+    rig.alive(0.8)
     assert first == ["done"]
     assert rig.gains[0] == 3.0
     assert rig.ask(tunings(rate=9.0)) == ["done"]
@@ -302,19 +278,15 @@ def test_gains_that_a_board_cannot_have_are_not_believed(tuned):
     rig = tuned()
     rig.gains[4] = float("nan")
     rig.connect(armed=False)
-    alive(rig, 1)
+    rig.alive(1)
     assert rig.module(PIDTuningsProvider).held is None
     assert "not usable" in refusal(rig.ask(PIDTuningsCommand(request=True))).reason
-
-
-def throttle(rig, pulse_us):
-    rig.say("r", struct.pack(">4H", 1500, 1500, pulse_us, 1500))
 
 
 def test_an_old_firmware_gets_them_when_it_is_met_and_the_throttle_is_low(tuned):
     rig = tuned("thesis")
     rig.start()
-    throttle(rig, 1000)
+    rig.throttle(1000)
     rig.advance(0.5)
     assert rig.sent("t") == [wire((*SAVED[0:6], *SAVED[9:15]))]
     rig.port.unplug()
@@ -323,7 +295,7 @@ def test_an_old_firmware_gets_them_when_it_is_met_and_the_throttle_is_low(tuned)
     rig.gains[:] = FACTORY
     rig.port.plug_in()
     rig.advance(2)
-    throttle(rig, 1000)
+    rig.throttle(1000)
     rig.advance(0.5)
     assert rig.sent("T") != []
     assert rig.sent("t") == [], "one that comes back may be flying"
@@ -332,7 +304,7 @@ def test_an_old_firmware_gets_them_when_it_is_met_and_the_throttle_is_low(tuned)
 def test_an_old_firmware_under_throttle_gets_nothing(tuned):
     rig = tuned("thesis")
     rig.start()
-    throttle(rig, 1400)
+    rig.throttle(1400)
     rig.advance(0.5)
     assert rig.sent("T") == [b""]
     assert rig.sent("t") == []
@@ -341,7 +313,7 @@ def test_an_old_firmware_under_throttle_gets_nothing(tuned):
 def test_an_old_firmware_takes_two_axes_only(tuned):
     rig = tuned("thesis")
     rig.start()
-    throttle(rig, 1400)
+    rig.throttle(1400)
     assert "no rudder gains" in refusal(rig.ask(tunings())).reason
     assert rig.sent("t") == []
     assert rig.ask(tunings(AXES[:2])) == ["done"]
@@ -354,6 +326,6 @@ def test_an_old_firmware_takes_two_axes_only(tuned):
 def test_where_the_raspberry_controls_this_module_does_not(tuned):
     rig = tuned(config={"config.yml": "flight controller: raspberry\n"})
     rig.connect()
-    alive(rig, 1)
+    rig.alive(1)
     assert rig.module(PIDTuningsProvider) is None
     assert rig.sent("GTgt") == []

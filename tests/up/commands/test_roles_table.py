@@ -9,6 +9,11 @@ from android_cog.commands.android_battery_command import (
     AndroidBatteryLowCommand,
 )
 from android_cog.commands.android_speak_command import AndroidSpeakCommand
+from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand
+from arduino_cog.commands.arduino_profile_commands import (
+    ArduinoProfileRequestCommand,
+    ArduinoProfileValuesCommand,
+)
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 
 from tests.up.commands.samples import Border
@@ -18,7 +23,15 @@ from up.commands.command_registry import CommandRegistry
 from up.commands.roles import Role
 
 ROOT = Path(__file__).parents[3]
-COGS = (AndroidBatteryCommand, AndroidBatteryLowCommand, AndroidSpeakCommand, ArduinoStatusCommand)
+COGS = (
+    AndroidBatteryCommand,
+    AndroidBatteryLowCommand,
+    AndroidSpeakCommand,
+    ArduinoCalibrateCommand,
+    ArduinoProfileRequestCommand,
+    ArduinoProfileValuesCommand,
+    ArduinoStatusCommand,
+)
 REGISTRY = CommandRegistry((*BUILTIN_COMMANDS, *COGS))
 NOBODY = "\N{EN DASH}"
 LADDER = ("observer", "operator", "pilot", "admin")
@@ -53,6 +66,9 @@ SAMPLES = {
     "android.battery": {"level": 5},
     "android.battery.low": {"level": 5, "low": True},
     "android.speak": {"text": "hello"},
+    "arduino.calibrate": {"what": "level"},
+    "arduino.profile.request": {},
+    "arduino.profile.values": {"profile": {}},
     "arduino.pids.tunings": {"pids": {"ratePIDs": GAINS, "stabPIDs": GAINS}},
     "arduino.pids.values": {"pids": {"ratePIDs": GAINS, "stabPIDs": GAINS}},
 }  # fmt: skip

@@ -25,7 +25,9 @@ VETOES = (
     "the Raspberry Pi vetoes",
     "calibrating",
     "the profile is invalid",
+    "a veto that this program does not know",
 )
+_PROFILE_INVALID = 1 << 6
 _RESET_CAUSES = ("power-on", "external", "brown-out", "watchdog")
 _RESTORED = 1 << 7
 _BYTE = 255
@@ -61,6 +63,31 @@ class ArduinoStatusCommand(BaseCommand):
     def is_at_auto(self) -> bool:
         """Return whether the pilot's switch stands at AUTO."""
         return bool(self.flags & _AT_AUTO)
+
+    @property
+    def is_receiver_valid(self) -> bool:
+        """Return whether the pilot's receiver is heard and in range."""
+        return bool(self.flags & _RECEIVER)
+
+    @property
+    def is_imu_valid(self) -> bool:
+        """Return whether the IMU gives good samples, so that the Arduino can stabilise."""
+        return bool(self.flags & _IMU)
+
+    @property
+    def is_bias_stored(self) -> bool:
+        """Return whether the gyro bias is an old one from EEPROM: it was not still at start."""
+        return bool(self.flags & _BIAS_STORED)
+
+    @property
+    def is_profile_valid(self) -> bool:
+        """Return whether the EEPROM's profile of the airframe, if any, can be read."""
+        return not self.vetoes & _PROFILE_INVALID
+
+    @property
+    def is_restored(self) -> bool:
+        """Return whether the last reset came in flight, and the state before it came back."""
+        return bool(self.reset_cause & _RESTORED)
 
     @property
     def is_failsafe(self) -> bool:

@@ -1,0 +1,37 @@
+"""The profile of the airframe: asked for and told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from arduino_cog.profile import Profile
+from arduino_cog.profile_data import profile_to_data
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class ArduinoProfileRequestCommand(BaseCommand):
+    """Asks for the profile of the airframe that the Arduino holds now."""
+
+    NAME: ClassVar[str] = "arduino.profile.request"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OBSERVER})
+
+
+@dataclass(frozen=True, slots=True)
+class ArduinoProfileValuesCommand(BaseCommand):
+    """The profile that flies now; its keys are called as in airframe.yml."""
+
+    NAME: ClassVar[str] = "arduino.profile.values"
+    profile: dict[str, Any] = value()
+
+    @classmethod
+    def of(cls, profile: Profile) -> ArduinoProfileValuesCommand:
+        """Build the Command of a profile."""
+        return cls(profile_to_data(profile))
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Return the profile itself: there is no outer key."""
+        return self.profile

@@ -1,0 +1,36 @@
+"""Calibrating the Arduino by Command."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from twisted.internet.defer import Deferred
+
+from arduino_cog.commands.arduino_calibrate_command import CALIBRATIONS, ArduinoCalibrateCommand
+from arduino_cog.modules.arduino_provider import ArduinoProvider
+from up.base_module import BaseModule
+from up.mode import WITH_ARDUINO
+from up.needs import needs
+
+_END = "receiver_end"
+
+
+class ArduinoCalibration(BaseModule):
+    """Passes `arduino.calibrate` to the Arduino, which alone knows whether it may be done now."""
+
+    MODES = WITH_ARDUINO
+
+    arduino = needs(ArduinoProvider)
+
+    def _execute_initialization(self) -> None:
+        self.up.command_executor.register_command(ArduinoCalibrateCommand, self.on_calibrate)
+
+    def on_calibrate(self, command: ArduinoCalibrateCommand) -> Deferred[Any]:
+        """Calibrate; the end of the receiver's is asked once: the second time nothing is begun."""
+        self.arduino.require_checked("calibrating")
+        payload = bytes((CALIBRATIONS[command.what],))
+        done = self.arduino.request("e", payload, may_repeat=command.what != _END)
+        return done.addCallback(self._say, command.what)
+
+    def _say(self, _: object, what: str) -> None:
+        self._log_info(f"the Arduino calibrated: {what}")

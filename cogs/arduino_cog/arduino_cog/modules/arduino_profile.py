@@ -1,0 +1,174 @@
+"""The profile of the airframe that the Arduino holds, and what airframe.yml wants of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from twisted.internet.defer import Deferred
+from twisted.python.failure import Failure
+
+from arduino_cog.airframe import AIRFRAME
+from arduino_cog.board_value import BoardValue
+from arduino_cog.commands.arduino_profile_commands import (
+    ArduinoProfileRequestCommand,
+    ArduinoProfileValuesCommand,
+)
+from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
+from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.profile import Profile, pack_profile, read_profile
+from arduino_cog.profile_data import differences, flat, with_changes
+from up.base_module import BaseModule
+from up.commands.refusal import Code, CommandRefusedError
+from up.config.values import plain_value
+from up.mode import WITH_ARDUINO
+from up.needs import needs, wants
+from up.providers.base_mission_control_provider import BaseMissionControlProvider
+
+FIRST_WAIT_S = 1.0
+LONGEST_WAIT_S = 60.0
+_VETO = AIRFRAME.filename
+
+
+class ArduinoProfile(BaseModule):
+    """Brings what airframe.yml says into the Arduino's profile, whose other values stay.
+
+    It is compared whenever a board answers that may be another one, and sent only while that is
+    disarmed and only where it differs, again and again at growing distances. Until the board holds
+    it, arming is vetoed under the file's name. An airframe.yml that says nothing does nothing, and
+    an old firmware (thesis framing) has no profile.
+    """
+
+    MODES = WITH_ARDUINO
+    CONFIG = AIRFRAME
+
+    arduino = needs(ArduinoProvider)
+    mission_control = wants(BaseMissionControlProvider)
+
+    def __init__(self) -> None:
+        self._is_settled = False
+        self._is_asking = False
+        self._is_told = False
+        self._wait_s = FIRST_WAIT_S
+        self._next_s = float("-inf")
+
+    def _execute_initialization(self) -> None:
+        self._wishes = dict(flat(plain_value(AIRFRAME.shape, self.config)))
+        self._board = BoardValue(self.arduino, "c", "C", read_profile, "profile")
+        executor = self.up.command_executor
+        executor.register_command(ArduinoProfileRequestCommand, self.on_request)
+        if not self._wishes:
+            return
+        if not self.arduino.is_checked:
+            self._log_warning(
+                f"{_VETO} is not used: an old firmware (framing: thesis) keeps no profile"
+            )
+            return
+        self.arduino.add_board_listener(self.on_board_begun)
+        executor.register_command(ArduinoStatusCommand, self.on_status)
+
+    def on_request(self, command: ArduinoProfileRequestCommand) -> Deferred[Any]:
+        """Answer with what the Arduino holds now."""
+        self.arduino.require_checked("the profile")
+        if self.mission_control is None:
+            raise CommandRefusedError("no ground station is configured", Code.UNAVAILABLE)
+        return self._board.read().addCallback(self._send_values)
+
+    def on_board_begun(self) -> None:
+        """Compare anew: this board may be another one, or know nothing yet."""
+        self._board.held = None
+        self._is_settled = self._is_told = False
+        self._wait_s = FIRST_WAIT_S
+        self._next_s = float("-inf")
+        self.up.vetoes.set(_VETO, "the Arduino's profile is not known yet")
+        self._reconcile()
+
+    def on_status(self, status: ArduinoStatusCommand) -> None:
+        """Go on with what waits: for an answer, for its time, or for the board to be disarmed."""
+        if not status.is_profile_valid and self._board.held is not None:
+            self._is_settled = False
+        self._reconcile()
+
+    def _reconcile(self) -> None:
+        is_busy = self._is_asking or self._board.is_setting
+        if self._is_settled or is_busy or self.context.reactor.seconds() < self._next_s:
+            return
+        held = self._board.held
+        if held is None:
+            self._is_asking = True
+            self._board.read().addCallbacks(self._on_read, self._on_failed)
+        else:
+            self._compare(held)
+
+    def _compare(self, held: Profile) -> None:
+        """Send the profile where that is needed and harms nothing."""
+        try:
+            payload = pack_profile(with_changes(held, self._wishes))
+        except ValueError as error:
+            self._give_up(f"does not fit the Arduino's profile: {error}")
+            return
+        # As the wire rounds it, so that it can be found again in what is read back.
+        wanted = read_profile(payload)
+        status = self.arduino.status
+        changes = differences(held, wanted)
+        if status is not None and not status.is_profile_valid:
+            changes.append("the Arduino's copy is damaged")
+        if not changes:
+            self._settle()
+            return
+        text = "; ".join(changes)
+        self.up.vetoes.set(_VETO, f"the Arduino has another profile ({text})")
+        if self.arduino.is_armed is None:
+            return
+        if self.arduino.is_armed:
+            self._tell_armed(text)
+            return
+        self._log_info(f"the Arduino gets the profile of {_VETO}, which differs: {text}")
+        sent = self._board.send("C", payload, lambda now: now == wanted)
+        sent.addCallbacks(lambda _: self._on_sent(), self._on_failed)
+
+    def _back_off(self) -> None:
+        """Let nothing be tried for a while, the next time for longer."""
+        self._next_s = self.context.reactor.seconds() + self._wait_s
+        self._wait_s = min(self._wait_s * 2, LONGEST_WAIT_S)
+
+    def _on_read(self, held: Profile) -> None:
+        self._is_asking = False
+        self._compare(held)
+
+    def _on_sent(self) -> None:
+        self._log_info("the Arduino has taken the profile")
+        # If it then says that its copy is damaged, its EEPROM is worn: it is spared.
+        self._back_off()
+        self._settle()
+
+    def _settle(self) -> None:
+        self._is_settled = True
+        self.up.vetoes.clear(_VETO)
+
+    def _give_up(self, reason: str) -> None:
+        self._is_settled = True
+        self._log_error(f"{_VETO} {reason}")
+        self.up.vetoes.set(_VETO, reason)
+
+    def _tell_armed(self, changes: str) -> None:
+        if not self._is_told:
+            self._is_told = True
+            self._log_warning(
+                f"the Arduino is armed and flies another profile than {_VETO} has: it stays"
+                f" ({changes})"
+            )
+
+    def _on_failed(self, failure: Failure) -> None:
+        failure.trap(CommandRefusedError)
+        self._is_asking = False
+        # A lost answer leaves open what the board holds now.
+        self._board.held = None
+        self._back_off()
+        reason = failure.getErrorMessage()
+        self._log_warning(f"profile: {reason}")
+        self.up.vetoes.set(_VETO, f"the Arduino's profile is not as it says: {reason}")
+
+    def _send_values(self, held: Profile) -> None:
+        assert self.mission_control is not None
+        if not self.mission_control.send_command(ArduinoProfileValuesCommand.of(held)):
+            raise CommandRefusedError("the ground station is not connected", Code.UNAVAILABLE)

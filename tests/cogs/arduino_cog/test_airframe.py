@@ -1,0 +1,113 @@
+"""airframe.yml, and what it says as a profile."""
+
+import struct
+from pathlib import Path
+
+import pytest
+from arduino_cog.airframe import AIRFRAME, AirframeConfig
+from arduino_cog.profile import pack_profile, read_profile
+from arduino_cog.profile_data import differences, flat, profile_from_data, profile_to_data
+from arduino_cog.profile_data import with_changes as changed
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT
+from up.config import ConfigErrors
+from up.config.values import plain_value
+
+FACTORY = read_profile(struct.pack(PROFILE_FORMAT, *PROFILE))
+PATH = Path("config/airframe.yml")
+
+
+def wishes(text):
+    return dict(flat(plain_value(AIRFRAME.shape, AIRFRAME.parse(text, PATH))))
+
+
+def test_the_shipped_file_asks_for_nothing():
+    assert AIRFRAME.parse(AIRFRAME.template(), PATH) == AirframeConfig()
+    assert wishes(AIRFRAME.template()) == {}
+
+
+def test_every_key_has_a_place_in_the_profile_and_the_other_way_round():
+    keys = set()
+
+    def walk(shape, above=""):
+        for entry in shape.entries:
+            if hasattr(entry.spec, "entries"):
+                walk(entry.spec, f"{above}{entry.name}.")
+            else:
+                keys.add(above + entry.name)
+
+    walk(AIRFRAME.shape)
+    assert keys == dict(flat(profile_to_data(FACTORY))).keys()
+
+
+def test_a_profile_that_was_told_can_be_written_into_the_file():
+    data = profile_to_data(FACTORY)
+    assert profile_from_data(data) == FACTORY
+    lines = []
+    for name, value in data.items():
+        if isinstance(value, dict):
+            lines += [f"{name}:", *(f"  {key}: {each}" for key, each in value.items())]
+        else:
+            lines.append(f"{name}: {value}")
+    text = "\n".join(lines).replace("True", "true").replace("False", "false")
+    assert changed(FACTORY, wishes(text)) == FACTORY
+
+
+def test_only_what_is_said_changes():
+    said = wishes(
+        "rudder: {reversed: true, trim_us: -20}\nmix: V-tail\nswitch: {low: fbw}\n"
+        "receiver_lost: {glide_pitch_deg: -2.5}\n"
+    )
+    profile = changed(FACTORY, said)
+    assert profile.rudder.reversed
+    assert profile.switch == ("FBW", "FBW", "AUTO")
+    assert differences(FACTORY, profile) == [
+        "rudder.reversed false, wanted true",
+        "rudder.trim_us 0, wanted -20",
+        "switch.low ACRO, wanted FBW",
+        "mix none, wanted V-tail",
+        "receiver_lost.glide_pitch_deg -3.0, wanted -2.5",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "sentence"),
+    [
+        ("ailerons: {trim: 5}", "1:12", "unknown key"),
+        ("ailerons: {trim: 5}", "1:12", "did you mean 'trim_us'?"),
+        ("rudder:\n  trim_us: 201", "2:12", "rudder.trim_us: must be a whole number between -200"),
+        ("rudder:\n  lowest_us: 1500\n  highest_us: 1500", "3:15", "must be above lowest_us"),
+        ("mix: delta", "1:6", "mix: must be one of"),
+        ("switch: {high: RTH}", "1:16", "switch.high: must be one of"),
+        ("fly_by_wire: {roll_deg: -1}", "1:25", "between 0 and 90 deg"),
+        ("fly_by_wire: {roll_deg: .nan}", "1:25", "fly_by_wire.roll_deg: must be"),
+        ("motor: maybe", "1:8", "motor: must be true or false"),
+    ],
+)
+def test_mistakes_are_told_with_their_place(text, place, sentence):
+    with pytest.raises(ConfigErrors) as caught:
+        AIRFRAME.parse(text, PATH)
+    (problem,) = caught.value.problems
+    assert str(problem).startswith(f"{PATH}:{place}: ")
+    assert sentence in str(problem)
+
+
+@given(
+    st.fixed_dictionaries(
+        {},
+        optional={
+            "elevator.trim_us": st.integers(-200, 200),
+            "throttle.highest_us": st.integers(1001, 2200),
+            "fly_by_wire.roll_deg": st.floats(0, 90),
+            "receiver_lost.circle_bank_deg": st.floats(-90, 90),
+            "mix": st.sampled_from(["none", "elevon", "V-tail"]),
+            "motor": st.booleans(),
+        },
+    )
+)
+def test_what_is_asked_for_is_found_in_what_is_read_back(changes):
+    sent = pack_profile(changed(FACTORY, changes))
+    held = read_profile(sent)
+    assert pack_profile(changed(held, changes)) == sent

@@ -1,0 +1,54 @@
+"""Calibrating from the ground: the board alone says no."""
+
+import pytest
+from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand
+from arduino_cog.wire import Reason
+
+from up.commands.command import InvalidCommandError
+from up.commands.refusal import Code, CommandRefusedError
+
+
+@pytest.mark.parametrize(
+    ("what", "number"), [("level", 0), ("receiver_begin", 1), ("receiver_end", 2), ("gyro", 3)]
+)
+def test_each_goes_to_the_board_whose_answer_is_the_answer(rig, what, number):
+    rig.connect(armed=True)
+    assert rig.ask(ArduinoCalibrateCommand(what)) == ["done"]
+    assert rig.sent("e") == [bytes((number,))]
+
+
+@pytest.mark.parametrize(
+    ("reason", "words"),
+    [(Reason.ONLY_DISARMED, "only while disarmed"), (Reason.NOT_STILL, "not still enough")],
+)
+def test_a_refusal_is_told_in_words(rig, reason, words):
+    rig.connect()
+    rig.refuse = {"e": reason}
+    (error,) = rig.ask(ArduinoCalibrateCommand("gyro"))
+    assert isinstance(error, CommandRefusedError)
+    assert error.reason == f"the Arduino refused: {words}"
+
+
+@pytest.mark.parametrize(("what", "asked"), [("level", 2), ("receiver_end", 1)])
+def test_the_end_of_the_receivers_is_asked_once(rig, what, asked):
+    rig.connect()
+    rig.mute = {"e"}
+    outcome = rig.ask(ArduinoCalibrateCommand(what))
+    rig.alive(1.2)
+    assert len(rig.sent("e")) == asked
+    assert outcome[0].code is Code.TIMEOUT
+
+
+def test_without_an_arduino_and_with_an_old_one_it_is_refused(make_rig):
+    rig = make_rig()
+    rig.start_alone()
+    assert rig.ask(ArduinoCalibrateCommand("gyro"))[0].code is Code.UNAVAILABLE
+    old = make_rig("thesis")
+    old.start()
+    assert "framing: thesis" in old.ask(ArduinoCalibrateCommand("gyro"))[0].reason
+
+
+@pytest.mark.parametrize("data", [{}, {"what": "compass"}, {"what": 0}, {"what": None}])
+def test_what_is_no_calibration_is_no_command(data):
+    with pytest.raises(InvalidCommandError, match="what"):
+        ArduinoCalibrateCommand.from_data(data)
