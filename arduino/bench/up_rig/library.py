@@ -107,6 +107,7 @@ def _declare(library: ctypes.CDLL) -> None:
     declare("new", rig, u32)
     declare("free", None, rig)
     declare("load", None, rig, text, u32, u32)
+    declare("measure", None, rig, ctypes.c_bool)
     declare("reset_pc", None, rig, u32)
     declare("preload", None, rig, u32, u16, text, u16)
     declare("start_up", None, rig, u64)

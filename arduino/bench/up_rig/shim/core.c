@@ -1,8 +1,9 @@
 /* The bench: makes the chip, runs it to a cycle, resets it, and hands out what was recorded.
  *
- * Instructions are run one by one by simavr's avr_run_one; its own loop, cycle timers, interrupt
- * queue, sleep and resets are not used, as a watchdog reset would drop every timer and a sleeping
- * chip would make the process sleep.
+ * Instructions are run by simavr's avr_run_one; its own loop, cycle timers, interrupt queue, sleep
+ * and resets are not used, as a watchdog reset would drop every timer and a sleeping chip would
+ * make the process sleep. It runs one instruction at a time while the rig measures, and otherwise
+ * up to the next event or the next access to a register.
  */
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,10 +14,6 @@
 
 avr_flashaddr_t avr_run_one(avr_t *avr);
 
-static void say_nothing(avr_t *avr, const int level, const char *format, va_list arguments) {
-    (void)avr, (void)level, (void)format, (void)arguments;
-}
-
 /* ---- time of a register access ---- */
 static uint16_t opcode(const avr_t *avr) {
     return (uint16_t)(avr->flash[avr->pc] | avr->flash[avr->pc + 1] << 8);
@@ -26,8 +23,14 @@ static unsigned access_cycles(const avr_t *avr) {
     return (opcode(avr) & 0xF000) == 0xB000 ? 1 : 2; /* IN and OUT; SBI, CBI, loads, stores */
 }
 
-cycle_t read_time(const rig_t *rig) { return rig->avr->cycle + access_cycles(rig->avr) - 1; }
-cycle_t write_time(const rig_t *rig) { return rig->avr->cycle + access_cycles(rig->avr); }
+/* What a register does may concern the next instruction: the run of instructions ends here. */
+static cycle_t end_run(const rig_t *rig) {
+    rig->avr->run_cycle_count = 1;
+    return rig->avr->cycle + access_cycles(rig->avr);
+}
+
+cycle_t read_time(const rig_t *rig) { return end_run(rig) - 1; }
+cycle_t write_time(const rig_t *rig) { return end_run(rig); }
 
 uint8_t bits_written(const rig_t *rig, uint8_t value) {
     uint16_t code = opcode(rig->avr);
@@ -54,6 +57,13 @@ uint32_t next_random(rig_t *rig) {
     uint32_t x = rig->random;
     x ^= x << 13, x ^= x >> 17, x ^= x << 5;
     return rig->random = x;
+}
+
+/* simavr goes on after what it only logs: here such a program is stopped. */
+static void on_log(avr_t *avr, const int level, const char *format, va_list arguments) {
+    (void)format, (void)arguments;
+    if (avr && avr->custom.data && level <= LOG_ERROR)
+        in_trouble(avr->custom.data, "the program went wild at address 0x%04x", avr->pc);
 }
 
 /* ---- events ---- */
@@ -148,29 +158,34 @@ static void preload(rig_t *rig) {
     rig->break_pc = UINT32_MAX;
 }
 
-static void step(rig_t *rig) {
+static void step(rig_t *rig, cycle_t until) {
     avr_t *avr = rig->avr;
     if (avr->pc == rig->break_pc) preload(rig);
+    bool is_stepping = rig->is_measuring || rig->break_pc != UINT32_MAX ||
+                       (rig->pending && avr->sreg[S_I]);
     uint16_t code = opcode(avr);
     uint8_t was_on = avr->sreg[S_I];
     uint32_t pc = avr->pc;
-    avr->run_cycle_count = 1;
+    cycle_t end = least(rig->next_due, until);
+    avr->run_cycle_count = is_stepping || end <= avr->cycle ? 1 : end - avr->cycle;
+    avr->interrupt_state = 0;
     avr->pc = avr_run_one(avr);
-    if (code == 0x9518) interrupt_leave(rig);
-    if (avr->sreg[S_I] != was_on) {
-        if (was_on) {
+    if (rig->is_measuring) {
+        if (was_on && !avr->sreg[S_I]) {
             rig->off_since = avr->cycle;
             rig->off_pc = (uint16_t)pc;
-        } else if (code != 0x9518 || rig->off_since) {
+        } else if (!was_on && avr->sreg[S_I]) {
             note_interrupts_on(rig);
         }
+        note_stack(rig, code);
     }
-    note_stack(rig, code);
     if (avr->state == cpu_Crashed || avr->state == cpu_Stopped)
-        in_trouble(rig, "the program went wild at address 0x%04x", pc);
+        in_trouble(rig, "the program went wild at address 0x%04x", avr->pc);
     if (avr->cycle >= rig->next_due || !rig->is_planned) run_events(rig, avr->cycle);
-    /* The instruction after the one that allows interrupts always runs (7.7). */
-    if (rig->pending && avr->sreg[S_I] && was_on && !rig->reset_wanted) interrupt_enter(rig);
+    /* The instruction after the one that allows interrupts always runs (7.7); simavr marks that
+     * one by its own state. */
+    if (rig->pending && avr->sreg[S_I] && !avr->interrupt_state && !rig->reset_wanted)
+        interrupt_enter(rig);
 }
 
 static void sleep(rig_t *rig, cycle_t until) {
@@ -202,32 +217,38 @@ const char *rig_run(rig_t *rig, cycle_t until) {
         } else if (avr->state == cpu_Sleeping) {
             sleep(rig, until);
         } else {
-            step(rig);
+            step(rig, until);
         }
     }
     return rig->trouble;
 }
 
 /* ---- making ---- */
-static int on_ioctl(avr_io_t *io, uint32_t request, void *parameter);
-
 typedef struct { avr_io_t io; rig_t *rig; } wdr_t;
 
 static int on_ioctl(avr_io_t *io, uint32_t request, void *parameter) {
     (void)parameter;
     if (request != AVR_IOCTL_DEF('w', 'd', 't', 'r')) return -1;
     watchdog_feed(((wdr_t *)io)->rig);
+    ((wdr_t *)io)->rig->avr->run_cycle_count = 1;
     return 0;
 }
 
+/* simavr tells a RETI by the number of the interrupt that goes on, 0 as it knows of none. */
+static void on_return(avr_irq_t *irq, uint32_t value, void *parameter) {
+    (void)irq, (void)value;
+    interrupt_leave(parameter);
+}
+
 rig_t *rig_new(uint32_t seed) {
-    avr_global_logger_set(say_nothing);
+    avr_global_logger_set(on_log);
     avr_t *avr = avr_make_mcu_by_name("atmega328p");
     if (!avr) return NULL;
     avr_init(avr);
     avr->frequency = CYCLES_PER_US * 1000000;
     rig_t *rig = calloc(1, sizeof *rig);
     rig->avr = avr;
+    avr->custom.data = rig;
     for (int i = 0; i < MAX_IOs; i++) {
         if (i + 0x20 == R_SPMCSR) continue;
         memset(&avr->io[i], 0, sizeof avr->io[i]);
@@ -243,6 +264,8 @@ rig_t *rig_new(uint32_t seed) {
     rig->start_up = 66000 * CYCLES_PER_US; /* 16K CK + 65 ms, SUT of the Nano and the Uno (9.3) */
     rig->imu.address = rig->imu.identity = 0x68;
     rig->imu.is_present = true;
+    rig->is_measuring = true;
+    avr_irq_register_notify(avr->interrupts.irq + AVR_INT_IRQ_RUNNING, on_return, rig);
     interrupts_hook(rig);
     ports_hook(rig);
     timers_hook(rig);
@@ -273,6 +296,8 @@ void rig_start_up(rig_t *rig, uint64_t cycles) { rig->start_up = cycles ? cycles
 void rig_load(rig_t *rig, const uint8_t *bytes, uint32_t size, uint32_t address) {
     memcpy(rig->avr->flash + address, bytes, size);
 }
+
+void rig_measure(rig_t *rig, bool is_measuring) { rig->is_measuring = is_measuring; }
 
 void rig_reset_pc(rig_t *rig, uint32_t address) { rig->avr->reset_pc = address; }
 

@@ -81,12 +81,13 @@ bool interrupt_enter(rig_t *rig) {
     return true;
 }
 
+/* A RETI begins. */
 void interrupt_leave(rig_t *rig) {
     if (!rig->depth) return;
     rig->depth--;
     if (rig->depth >= 16) return;
     uint8_t vector = rig->nest[rig->depth].vector;
-    uint64_t taken = rig->avr->cycle - rig->nest[rig->depth].entry;
+    uint64_t taken = rig->avr->cycle + 4 - rig->nest[rig->depth].entry;
     if (taken > rig->meter.longest[vector]) rig->meter.longest[vector] = (uint32_t)taken;
     if (!rig->depth) rig->meter.interrupt_cycles += taken;
 }
@@ -107,6 +108,7 @@ static void on_flags(avr_t *avr, avr_io_addr_t address, uint8_t value, void *par
 }
 
 static void on_masks(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
+    run_events(of(param), write_time(of(param)));
     avr->data[address] = value;
     interrupts_refresh(of(param));
 }

@@ -151,6 +151,7 @@ struct rig {
     char trouble_text[96];
     cycle_t next_due;
     bool is_planned;
+    bool is_measuring;       /* interrupts off and stack: needs one instruction at a time */
     queue_t queue;
     uint32_t pending;        /* bit of each vector whose flag and mask are set */
     port_t ports[PORTS];

@@ -1,0 +1,118 @@
+"""Pins, pin changes, interrupts, sleep, and what the rig measures of them."""
+
+import time
+
+import pytest
+
+from tests.arduino.rig.firmware import build, make_rig
+from up_rig import CrashError
+from up_rig.pins import pin
+
+LED = pin("D13")
+
+
+@pytest.fixture
+def case(tmp_path):
+    def make(number, **options):
+        options.setdefault("start_up_us", 100)
+        return make_rig(build("pins", tmp_path, f"-DCASE={number}"), **options)
+
+    return make
+
+
+def test_a_driven_input_keeps_its_level_when_port_is_written(case):
+    rig = case(1)
+    rig.receiver.edge("ailerons", 16 * 200, 1)
+    rig.receiver.edge("aux1", 16 * 200, 2)
+    rig.run_us(5000)
+    # D2 is driven high, D7 is let go and pulled up, the others are driven low.
+    assert rig.serial.read() == bytes([0x84] * 4 + [8]) + b"\xee"
+
+
+def test_edges_at_one_moment_cost_one_interrupt_and_lose_nothing(case):
+    rig = case(2)
+    at = 16 * 600
+    for channel in ("ailerons", "elevator", "throttle"):
+        rig.receiver.edge(channel, at, 1)
+    rig.run_us(5000)
+    said = rig.serial.read()
+    assert said[:2] == bytes([0, 1])
+    assert said[2] & 0xF4 == 0x34
+
+
+def test_a_change_while_interrupts_are_off_is_kept(case):
+    rig = case(2)
+    rig.receiver.edge("rudder", 16 * 1200, 1)
+    rig.run_us(5000)
+    said = rig.serial.read()
+    assert said[:2] == bytes([4, 1])
+    assert said[2] & 0xF4 == 0x40
+
+
+def test_two_edges_closer_than_an_interrupt_are_two_interrupts(case):
+    rig = case(2)
+    rig.receiver.glitch("rudder", 600, 1.0)
+    rig.run_us(5000)
+    said = rig.serial.read()
+    assert said[1] == 2
+    assert [level & 0xF4 for level in said[2:4]] == [0, 0]
+
+
+def test_entering_an_interrupt_takes_its_cycles(case):
+    rig = case(3)
+    latencies = set()
+    for number in range(40):
+        edge = 16 * 500 + number * 161
+        rig.receiver.edge("aux2", edge, 1 - number % 2)
+        rig.run_until_us(edge / 16 + 9)
+        rises = [cycle for cycle, level in rig.servo.pin_edges(LED) if level]
+        latencies.add(rises[-1] - edge)
+    # 3 to the flag, up to 2 of the running instruction, 4 of entry, 3 of the vector's jump, 2 of
+    # SBI: never less than the sum of what is certain.
+    assert min(latencies) == 3 + 4 + 3 + 2
+    assert max(latencies) <= 12 + 3
+
+
+def test_sleeping_takes_simulated_time_alone(case):
+    rig = case(4)
+    rig.receiver.edge("ailerons", 16 * 3_000_000, 1)
+    begun_s = time.process_time()
+    rig.run_us(2_900_000)
+    assert rig.serial.read() == b""
+    rig.run_us(200_000)
+    assert rig.serial.read() == b"\x01\xee"
+    assert rig.measures().sleep_cycles > 2.8e6 * 16
+    assert time.process_time() - begun_s < 2.0
+
+
+def test_time_without_interrupts_and_the_stack_are_measured(case):
+    rig = case(5, is_measuring=True)
+    rig.run_until_us(101)
+    rig.forget_measures()
+    rig.run_us(2000)
+    measures = rig.measures()
+    assert 1000 <= measures.longest_off_cycles <= 1006
+    assert 3 <= measures.stack_bytes <= 8
+
+
+def test_without_measuring_the_same_happens(case):
+    said = []
+    for is_measuring in (True, False):
+        rig = case(2, is_measuring=is_measuring)
+        rig.receiver.glitch("rudder", 600, 1.0)
+        rig.receiver.edge("throttle", 16 * 1234, 1)
+        rig.run_us(5000)
+        said.append([(each.cycle, each.value) for each in rig.serial.read_stamped()])
+    assert said[0] == said[1] != []
+
+
+def test_what_is_not_modelled_is_said(case):
+    rig = case(6)
+    with pytest.raises(CrashError, match="INT0 and INT1 are not modelled"):
+        rig.run_us(1000)
+
+
+def test_a_program_that_goes_wild_ends_in_one_sentence(case):
+    rig = case(7)
+    with pytest.raises(CrashError, match="went wild at address 0x"):
+        rig.run_us(1000)
