@@ -118,7 +118,13 @@ def draw_board(pen: Pen, row: int, column: int) -> int:
     pen.value(row, column, text, style=style)
     loop = number_text(telemetry.number("arduino", "loop_us"), 0)
     late = number_text(telemetry.number("arduino", "late_us"), 0)
-    pen.value(row + 1, column, f"loop {loop} us, late {late} us")
+    end = pen.value(row + 1, column, f"loop {loop} us, late {late} us")
+    if telemetry.flag("arduino", "imu_valid") is False:
+        pen.value(row + 1, end + 1, "NO IMU", style=Style.BAD)
+    elif telemetry.flag("arduino", "restored"):
+        pen.value(row + 1, end + 1, "was reset", style=Style.WARNING)
+    elif telemetry.flag("arduino", "bias_stored"):
+        pen.value(row + 1, end + 1, "old bias", style=Style.WARNING)
     return row + 2
 
 

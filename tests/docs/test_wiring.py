@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
-import sys
 import xml.etree.ElementTree as ElementTree
 from itertools import pairwise
 
 import pytest
+from arduino_cog.airframe import AIRFRAME
 
 from tests.docs.flying import files_of
-from tests.simulator.program import Program
 from tests.support.virtual_environment import REPOSITORY
 
 PAGE = (REPOSITORY / "docs" / "wiring.md").read_text(encoding="utf-8")
-LINE_LIMIT_S = 60
 
 
 def rows_after(mark):
@@ -128,31 +124,8 @@ def test_every_picture_is_on_a_page():
         assert any(f"pictures/{path.name})" in page for page in pages), path.name
 
 
-@pytest.fixture
-def board(tmp_path):
-    """The stand-in's serial line."""
-    with Program("--no-phone", "--pty-link", tmp_path / "board") as program:
-        program.wait_for("board:")
-        yield tmp_path / "board"
-
-
-def test_the_program_of_the_page_sets_up_a_board(board, tmp_path):
-    script = tmp_path / "board.py"
-    script.write_text(files_of("airframe.md")["board.py"], encoding="utf-8")
-
-    def run(what, line=""):
-        done = subprocess.run(
-            [sys.executable, script, board, what],
-            input=line,
-            capture_output=True,
-            text=True,
-            env=os.environ | {"PYTHONPATH": str(REPOSITORY)},
-            timeout=LINE_LIMIT_S,
-        )
-        assert not done.stderr
-        return done.stdout
-
-    assert run("profile") == "done\n"
-    said = run("receiver", "\n")
-    assert said.startswith("done\n") and said.endswith(": done\n")
-    assert run("level") in {"done\n", "refused: NOT_STILL\n"}
+def test_the_airframe_of_the_page_is_one_that_is_understood():
+    text = files_of("airframe.md")["airframe.yml"]
+    airframe = AIRFRAME.parse(text, REPOSITORY / "docs" / "airframe.md")
+    assert airframe.rudder.trim_us == -20
+    assert airframe.mix == "V-tail"

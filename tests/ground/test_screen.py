@@ -112,6 +112,22 @@ def test_panic_failsafe_and_a_lost_aircraft_are_loud():
         assert style_at(picture, text) == "\x1b[0;1;31m", text
 
 
+@pytest.mark.parametrize(
+    ("flags", "word"),
+    [
+        ({"imu_valid": True, "restored": False, "bias_stored": False}, ""),
+        ({"imu_valid": True, "restored": False, "bias_stored": True}, "old bias"),
+        ({"imu_valid": True, "restored": True, "bias_stored": True}, "was reset"),
+        ({"imu_valid": False, "restored": True, "bias_stored": True}, "NO IMU"),
+    ],
+)
+def test_the_worst_of_the_board_stands_beside_its_loop(flags, word):
+    data = frame()
+    data["arduino"] = {**data["arduino"], **flags}
+    line = next(each for each in text_of(state(data)).splitlines() if " loop " in each)
+    assert line.split(" us")[-1].strip() == word
+
+
 def test_a_broken_link_says_why_and_since_when():
     broken = state(frame())
     broken.status.failures = 3

@@ -73,6 +73,25 @@ def test_what_was_asked_for_is_printed_with_the_ack(proxy, tmp_path, is_acked_fi
     assert "ack after" in said
 
 
+def test_a_profile_that_was_asked_for_is_printed(proxy, tmp_path):
+    def answer(message):
+        profile = {"mix": "V-tail", "rudder": {"trim_us": -20}}
+        return [("up.ack", {"id": message["id"]}), ("arduino.profile.values", profile)]
+
+    with Aircraft(proxy.airborne_port, {"arduino.profile.request": answer}):
+        status, said, _ = ground(tmp_path, proxy.ground_port, "send", "arduino.profile.request")
+    assert status == 0
+    assert 'arduino.profile.values {"mix": "V-tail", "rudder": {"trim_us": -20}}' in said
+
+
+def test_a_set_of_gains_waits_for_no_values(proxy, tmp_path):
+    with Aircraft(proxy.airborne_port) as aircraft:
+        words = ["send", "arduino.pids.tunings", "pids=" + json.dumps(gains(2))]
+        status, said, _ = ground(tmp_path, proxy.ground_port, *words)
+    assert (status, said.count("\n")) == (0, 1)
+    assert len(aircraft.received) == 1
+
+
 def test_gains_can_be_typed_one_by_one(proxy, tmp_path):
     words = [
         f"pids.{loop}.{axis}.{gain}={value}"
