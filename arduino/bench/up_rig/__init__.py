@@ -5,13 +5,14 @@ time, read the servo pulses and the bytes. Everything is deterministic: the same
 same cycles. Nothing here looks into the firmware's variables.
 """
 
+from up_rig.bootloader import build_optiboot
 from up_rig.elf import FirmwareError
 from up_rig.imu import Imu, Motion
 from up_rig.library import RigUnavailableError
 from up_rig.meter import Measures
 from up_rig.pins import CHANNELS, DEFAULT, PROTOTYPE, SERVOS, PinMap
 from up_rig.receiver import Receiver
-from up_rig.rig import CYCLES_PER_US, OPTIBOOT, CrashError, Reset, Rig
+from up_rig.rig import CYCLES_PER_US, CrashError, Reset, Rig
 from up_rig.serial import Serial
 from up_rig.servo import Pulse, Servo
 
@@ -19,7 +20,6 @@ __all__ = [
     "CHANNELS",
     "CYCLES_PER_US",
     "DEFAULT",
-    "OPTIBOOT",
     "PROTOTYPE",
     "SERVOS",
     "CrashError",
@@ -35,4 +35,5 @@ __all__ = [
     "RigUnavailableError",
     "Serial",
     "Servo",
+    "build_optiboot",
 ]

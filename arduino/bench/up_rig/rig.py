@@ -19,10 +19,6 @@ from up_rig.servo import Servo
 
 CYCLES_PER_US = 16
 RAM_START, RAM_SIZE = 0x100, 2048
-OPTIBOOT = Path(
-    "/usr/share/arduino/hardware/arduino/avr/bootloaders/optiboot/optiboot_atmega328.hex"
-)
-"""The bootloader of the Uno and of newer Nanos, as Debian's arduino-core-avr ships it."""
 STACK_PATTERN = 0xC5
 
 
@@ -42,12 +38,13 @@ class Reset(enum.IntFlag):
 class Rig:
     """One chip with a program, its receiver, servos, IMU, serial line and EEPROM.
 
-    ``bootloader`` (a HEX file) lies above the program and runs first, as with the BOOTRST fuse.
-    ``eeprom`` is what the EEPROM holds before, all 0xFF without. ``seed`` decides every noise and
-    the RAM's contents at power-on. ``start_up_us`` is the length of each reset, 66 ms with the
-    fuses of the Nano. Without ``is_measuring`` it runs faster
-    and knows neither the stack's depth nor the longest time with interrupts off. Time counts from the power-on, in cycles of 62.5 ns, and never stops.
-    Raises ``FirmwareError`` and ``RigUnavailableError``.
+    ``bootloader`` (HEX or ELF, see ``build_optiboot``) lies above the program and runs first, as
+    with the BOOTRST fuse. ``eeprom`` is what the EEPROM holds before, all 0xFF without. ``seed``
+    decides every noise and the RAM's contents at power-on. ``start_up_us`` is the length of each
+    reset, 66 ms with the fuses of the Nano. Without ``is_measuring`` it runs faster and knows
+    neither the stack's depth nor the longest time with interrupts off. Time counts from the
+    power-on, in cycles of 62.5 ns, and never stops. Raises ``FirmwareError`` and
+    ``RigUnavailableError``.
     """
 
     def __init__(
