@@ -4,39 +4,40 @@ namespace raspilot {
 
 namespace {
 
-constexpr int16_t ONE_Q2 = 4;
-constexpr int16_t BYPASS_Q2 = us_to_ticks(20) * ONE_Q2;
-constexpr int16_t MOVING_Q2 = 3 * ONE_Q2;
-constexpr int16_t HYSTERESIS_Q2 = 6;
+constexpr Ticks CENTRE = us_to_ticks(1500);
+constexpr int16_t ONE_8 = 8;
+constexpr int16_t BYPASS_8 = us_to_ticks(20) * ONE_8;
+constexpr int16_t REVERSAL_8 = us_to_ticks(3) * ONE_8;
+constexpr int16_t MOVING_8 = 3 * ONE_8;
+constexpr int16_t PLAY_8 = 6;
 constexpr Ticks UNCERTAIN_TICKS = us_to_ticks(4);
 
 int16_t magnitude(int16_t value) { return value < 0 ? static_cast<int16_t>(-value) : value; }
+int16_t to_8(Ticks pulse) { return static_cast<int16_t>((pulse - CENTRE) * ONE_8); }
 
 }  // namespace
 
 void PulseFilter::take(Ticks measured, bool is_uncertain) {
-  if (is_uncertain && magnitude(static_cast<int16_t>(measured - pulse_)) <= UNCERTAIN_TICKS) {
-    return;
-  }
-  const int16_t measured_q2 = static_cast<int16_t>(measured * ONE_Q2);
-  const int16_t change_q2 = static_cast<int16_t>(measured_q2 - smoothed_q2_);
-  const int16_t size_q2 = magnitude(change_q2);
-  const int8_t direction = size_q2 < MOVING_Q2 ? 0 : change_q2 < 0 ? -1 : 1;
-  if (size_q2 >= BYPASS_Q2 || (direction != 0 && direction == direction_)) {
-    smoothed_q2_ = measured_q2;
+  if (is_uncertain && magnitude(static_cast<Ticks>(measured - pulse_)) <= UNCERTAIN_TICKS) return;
+  const int16_t change_8 = static_cast<int16_t>(to_8(measured) - smoothed_8_);
+  const int16_t size_8 = magnitude(change_8);
+  const int8_t direction = size_8 < MOVING_8 ? 0 : change_8 < 0 ? -1 : 1;
+  const bool was_moving = direction_ != 0;
+  const bool is_moving = was_moving && (direction == direction_ || size_8 >= REVERSAL_8);
+  if (size_8 >= BYPASS_8 || is_moving) {
+    reset(measured);
   } else {
-    // Division by 2 cuts towards zero on both sides: no bias (a shift would have one).
-    smoothed_q2_ = static_cast<int16_t>(smoothed_q2_ + change_q2 / 2);
+    // Division cuts towards zero on both sides: no bias, which a shift would have.
+    smoothed_8_ = static_cast<int16_t>(smoothed_8_ + change_8 / 2);
+    while (smoothed_8_ - to_8(pulse_) > PLAY_8) ++pulse_;
+    while (to_8(pulse_) - smoothed_8_ > PLAY_8) --pulse_;
   }
   direction_ = direction;
-  if (magnitude(static_cast<int16_t>(smoothed_q2_ - pulse_ * ONE_Q2)) > HYSTERESIS_Q2) {
-    pulse_ = static_cast<Ticks>((smoothed_q2_ + ONE_Q2 / 2) / ONE_Q2);
-  }
 }
 
 void PulseFilter::reset(Ticks pulse) {
   pulse_ = pulse;
-  smoothed_q2_ = static_cast<int16_t>(pulse * ONE_Q2);
+  smoothed_8_ = to_8(pulse);
   direction_ = 0;
 }
 
