@@ -93,6 +93,10 @@ class Receiver:
         """Drive a channel's wire to a level at a cycle; level 2 lets go of it."""
         self._library.rig_pin_edge(self._handle, cycle, self._pins[channel], level)
 
+    def level(self, channel: str) -> int:
+        """Return what the chip's pin of a channel sees now."""
+        return int(self._library.rig_pin_level(self._handle, self._pins[channel]))
+
     def glitch(self, channel: str, at_us: float, width_us: float, *, level: int = _HIGH) -> None:
         """Add noise: the wire goes to a level at a time for a while, and back."""
         start = round(at_us * CYCLES_PER_US)
