@@ -1,0 +1,84 @@
+#include "angles.h"
+
+#include "fixed_point.h"
+
+namespace raspilot {
+
+namespace {
+
+// arctan(x) = x (c0 + c1 x^2 + c2 x^4 + c3 x^6) for 0 to 1, error below 0.006 degrees (Hastings,
+// Approximations for Digital Computers, sheet 8 with one term less), in quarters of 0.01 degrees.
+constexpr int16_t C0 = 22900;
+constexpr int16_t C1 = -7361;
+constexpr int16_t C2 = 3352;
+constexpr int16_t C3 = -894;
+
+constexpr int16_t RIGHT_ANGLE = 9000;
+constexpr int16_t HALF_CIRCLE = 18000;
+constexpr int16_t ONE_Q14 = 16384;
+constexpr int16_t RAD_Q14_PER_CDEG = 23426;  // pi / 18000 in Q14, times 2^13
+
+uint16_t magnitude(int16_t value) {
+  return value < 0 ? static_cast<uint16_t>(-static_cast<int32_t>(value))
+                   : static_cast<uint16_t>(value);
+}
+
+int16_t times_q15(int16_t a, int16_t b) { return static_cast<int16_t>(rounded(product(a, b), 15)); }
+int16_t times_q14(int16_t a, int16_t b) { return static_cast<int16_t>(rounded(product(a, b), 14)); }
+
+/** Angle of a slope of 0 to 1 in Q15. */
+int16_t arc_tangent_of_slope(int16_t slope_q15) {
+  const int16_t square = times_q15(slope_q15, slope_q15);
+  int16_t sum = static_cast<int16_t>(C2 + times_q15(C3, square));
+  sum = static_cast<int16_t>(C1 + times_q15(sum, square));
+  sum = static_cast<int16_t>(C0 + times_q15(sum, square));
+  return static_cast<int16_t>(rounded(product(sum, slope_q15), 17));
+}
+
+int16_t radians_q14(int16_t angle_cdeg) {
+  return static_cast<int16_t>(rounded(product(angle_cdeg, RAD_Q14_PER_CDEG), 13));
+}
+
+}  // namespace
+
+int16_t arc_tangent_cdeg(int16_t y, int16_t x) {
+  const uint16_t across = magnitude(y);
+  const uint16_t along = magnitude(x);
+  const bool is_steep = across > along;
+  const uint16_t longer = is_steep ? across : along;
+  const uint16_t shorter = is_steep ? along : across;
+  if (longer == 0) return 0;
+  const uint32_t slope = (static_cast<uint32_t>(shorter) << 15) / longer;
+  int16_t angle = arc_tangent_of_slope(slope > 32767 ? 32767 : static_cast<int16_t>(slope));
+  if (is_steep) angle = static_cast<int16_t>(RIGHT_ANGLE - angle);
+  if (x < 0) angle = static_cast<int16_t>(HALF_CIRCLE - angle);
+  return y < 0 ? static_cast<int16_t>(-angle) : angle;
+}
+
+int16_t length(int16_t y, int16_t z) {
+  uint32_t rest = static_cast<uint32_t>(product(y, y)) + static_cast<uint32_t>(product(z, z));
+  uint32_t root = 0;
+  for (uint32_t bit = 1UL << 30; bit != 0; bit >>= 2) {
+    const uint32_t trial = root + bit;
+    root >>= 1;
+    if (rest >= trial) {
+      rest -= trial;
+      root += bit;
+    }
+  }
+  return root > 32767 ? 32767 : static_cast<int16_t>(root);
+}
+
+int16_t small_sine_q14(int16_t angle_cdeg) {
+  const int16_t x = radians_q14(angle_cdeg);
+  const int16_t cube = times_q14(times_q14(x, x), x);
+  return static_cast<int16_t>(x - cube / 6);
+}
+
+int16_t small_cosine_q14(int16_t angle_cdeg) {
+  const int16_t x = radians_q14(angle_cdeg);
+  const int16_t square = times_q14(x, x);
+  return static_cast<int16_t>(ONE_Q14 - square / 2 + times_q14(square, square) / 24);
+}
+
+}  // namespace raspilot

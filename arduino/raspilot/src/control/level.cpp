@@ -1,0 +1,43 @@
+#include "level.h"
+
+#include "angles.h"
+#include "fixed_point.h"
+
+namespace raspilot {
+
+namespace {
+
+/** Turns (a, b) in their plane by the angle of sine and cosine. */
+void turn(int16_t& a, int16_t& b, int16_t sine, int16_t cosine) {
+  const int32_t new_a = rounded(product(a, cosine), 14) + rounded(product(b, sine), 14);
+  const int32_t new_b = rounded(product(b, cosine), 14) - rounded(product(a, sine), 14);
+  a = to_int16(new_a);
+  b = to_int16(new_b);
+}
+
+int16_t within(int16_t angle_cdeg) {
+  return static_cast<int16_t>(clamped(angle_cdeg, Level::GREATEST_CDEG));
+}
+
+}  // namespace
+
+constexpr int16_t Level::GREATEST_CDEG;
+
+void Level::set(int16_t roll_cdeg, int16_t pitch_cdeg) {
+  roll_sine_ = small_sine_q14(within(roll_cdeg));
+  roll_cosine_ = small_cosine_q14(within(roll_cdeg));
+  pitch_sine_ = small_sine_q14(within(pitch_cdeg));
+  pitch_cosine_ = small_cosine_q14(within(pitch_cdeg));
+}
+
+void Level::straighten(int16_t* vector) const {
+  turn(vector[1], vector[2], static_cast<int16_t>(-roll_sine_), roll_cosine_);
+  turn(vector[0], vector[2], pitch_sine_, pitch_cosine_);
+}
+
+void Level::tilt(int16_t* vector) const {
+  turn(vector[0], vector[2], static_cast<int16_t>(-pitch_sine_), pitch_cosine_);
+  turn(vector[1], vector[2], roll_sine_, roll_cosine_);
+}
+
+}  // namespace raspilot

@@ -1,0 +1,26 @@
+/** How the sensor is tilted in the airframe, and its measurements turned straight. */
+#pragma once
+
+#include <stdint.h>
+
+namespace raspilot {
+
+/** The roll and pitch that the sensor shows while the airframe is level. */
+class Level {
+ public:
+  static constexpr int16_t GREATEST_CDEG = 3000;
+
+  void set(int16_t roll_cdeg, int16_t pitch_cdeg);
+  /** Turns a vector from the sensor's axes (x forward, y right, z down) into the airframe's. */
+  void straighten(int16_t* vector) const;
+  /** The way back. */
+  void tilt(int16_t* vector) const;
+
+ private:
+  int16_t roll_sine_ = 0;
+  int16_t roll_cosine_ = 16384;
+  int16_t pitch_sine_ = 0;
+  int16_t pitch_cosine_ = 16384;
+};
+
+}  // namespace raspilot

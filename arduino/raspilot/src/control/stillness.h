@@ -1,0 +1,31 @@
+/** Finds seconds in which the aircraft does not turn, and what the gyro reads in them. */
+#pragma once
+
+#include <stdint.h>
+
+namespace raspilot {
+
+/**
+ * Looks at windows of 512 samples (1.02 s at 500 Hz). A window begins anew with the first sample
+ * that differs from the window's first one by more than 1.2 deg/s.
+ */
+class Stillness {
+ public:
+  /** Takes a gyro sample, chip counts; true when a still window ends with it. */
+  bool on_sample(const int16_t* gyro);
+  /** Samples are missing: nothing is known. */
+  void forget();
+  /** Whether a window was still and nothing has moved since. */
+  bool is_still() const { return is_still_; }
+  /** Mean of the newest still window, sixteenths of a chip count. */
+  const int16_t* mean_q4() const { return mean_q4_; }
+
+ private:
+  int16_t first_[3];
+  int16_t sums_[3];
+  int16_t mean_q4_[3];
+  uint16_t samples_ = 0;
+  bool is_still_ = false;
+};
+
+}  // namespace raspilot
