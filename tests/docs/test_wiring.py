@@ -13,6 +13,7 @@ from tests.docs.flying import files_of
 from tests.support.virtual_environment import REPOSITORY
 
 PAGE = (REPOSITORY / "docs" / "wiring.md").read_text(encoding="utf-8")
+PINS = REPOSITORY / "arduino" / "raspilot" / "src" / "chip" / "pins.h"
 
 
 def rows_after(mark):
@@ -24,6 +25,25 @@ def rows_after(mark):
 
 def numbers_of(text):
     return [float(number) for number in re.findall(r"\d+(?:\.\d+)?", text)]
+
+
+def pins_of(source):
+    """What pins.h gives each function, by the name that the page has for it."""
+    found = {}
+    for what, pin in re.findall(r"constexpr uint8_t PIN_(\w+) = (\d+);", source):
+        kind, _, name = what.partition("_")
+        label = {"RX": "RX ", "SERVO": "servo "}.get(kind, f"{kind} ") + name.lower()
+        found[label.strip()] = f"D{pin}" if int(pin) < 14 else f"A{int(pin) - 14}"
+    return found
+
+
+def test_the_pins_are_those_of_the_firmware():
+    source = PINS.read_text(encoding="utf-8")
+    branches = re.search(r"#ifdef RASPILOT_PROTOTYPE_BOARD(.*?)#else(.*?)#endif(.*)", source, re.S)
+    prototype, default, both = (pins_of(branch) for branch in branches.groups())
+    rows = rows_after("<!-- table: pins -->")
+    assert {what: pin for what, pin, _ in rows} == default | both
+    assert {what: pin for what, _, pin in rows} == prototype | both
 
 
 @pytest.mark.parametrize("column", [1, 2])
