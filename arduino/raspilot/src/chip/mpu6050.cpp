@@ -1,0 +1,112 @@
+#include "mpu6050.h"
+
+#include "../core/flash.h"
+
+namespace raspilot {
+
+static constexpr uint8_t DEVICE = 0x68;
+static constexpr uint8_t IDENTITY = 0x68;
+
+static constexpr uint8_t SMPLRT_DIV = 25;
+static constexpr uint8_t CONFIG = 26;
+static constexpr uint8_t GYRO_CONFIG = 27;
+static constexpr uint8_t ACCEL_CONFIG = 28;
+static constexpr uint8_t INT_ENABLE = 56;
+static constexpr uint8_t ACCEL_XOUT_H = 59;
+static constexpr uint8_t PWR_MGMT_1 = 107;
+static constexpr uint8_t REGISTER_WHO_AM_I = 117;
+
+/** DEVICE_RESET; the register map asks for 100 ms after it. */
+static constexpr uint8_t RESET = 0x80;
+static constexpr uint8_t RESET_SLOTS = 50;
+/** After a failure, so that a bus without an IMU costs little. */
+static constexpr uint8_t RETRY_SLOTS = 5;
+/** Start-up of the gyro: 30 ms (data sheet 6.1). */
+static constexpr uint8_t START_SLOTS = 20;
+static constexpr uint8_t FROZEN_SAMPLES = 25;
+
+struct Setting {
+  uint8_t at;
+  uint8_t value;
+};
+
+/** Awake on the gyro's clock first; +-1000 deg/s, +-8 g, 98 Hz, 1 kHz. */
+static const Setting SETTINGS[] PROGMEM = {
+    {PWR_MGMT_1, 0x01}, {SMPLRT_DIV, 0},      {CONFIG, 2},
+    {GYRO_CONFIG, 0x10}, {ACCEL_CONFIG, 0x10}, {INT_ENABLE, 0},
+};
+static constexpr uint8_t SETTINGS_COUNT = sizeof SETTINGS / sizeof *SETTINGS;
+
+void Mpu6050::begin() {
+  is_resetting_ = false;
+  start_over(0);
+}
+
+void Mpu6050::start_over(uint8_t rest_slots) {
+  step_ = FREE_BUS;
+  rest_slots_ = rest_slots;
+  equals_ = 0;
+  has_sample_ = false;
+}
+
+void Mpu6050::begin_transfer() {
+  if (rest_slots_) return;
+  if (step_ == FREE_BUS) {
+    twi_.begin_recovery();
+  } else if (step_ == WHO_AM_I) {
+    twi_.begin_read(DEVICE, REGISTER_WHO_AM_I, bytes_, 1);
+  } else if (is_resetting_) {
+    twi_.begin_write(DEVICE, PWR_MGMT_1, RESET);
+  } else if (step_ < SETUP + SETTINGS_COUNT) {
+    const Setting* const setting = &SETTINGS[step_ - SETUP];
+    twi_.begin_write(DEVICE, pgm_read_byte(&setting->at), pgm_read_byte(&setting->value));
+  } else {
+    twi_.begin_read(DEVICE, ACCEL_XOUT_H, bytes_, sizeof bytes_);
+  }
+}
+
+void Mpu6050::end_transfer() {
+  has_sample_ = false;
+  if (rest_slots_) {
+    rest_slots_--;
+    return;
+  }
+  if (twi_.state() == Twi::State::DONE) {
+    on_success();
+  } else {
+    twi_.abandon();
+    start_over(RETRY_SLOTS);
+  }
+}
+
+void Mpu6050::on_success() {
+  if (step_ == WHO_AM_I && bytes_[0] != IDENTITY) {
+    start_over(RETRY_SLOTS);
+  } else if (step_ >= SETUP && is_resetting_) {
+    is_resetting_ = false;
+    start_over(RESET_SLOTS);
+  } else if (step_ < SETUP + SETTINGS_COUNT) {
+    step_++;
+    if (step_ == SETUP + SETTINGS_COUNT) rest_slots_ = START_SLOTS;
+  } else {
+    take_sample();
+  }
+}
+
+void Mpu6050::take_sample() {
+  int16_t* const values = sample_.accel;
+  static_assert(sizeof sample_ == sizeof bytes_, "seven numbers in the order of the registers");
+  bool is_equal = true;
+  for (uint8_t i = 0; i < 7; i++) {
+    const int16_t value = static_cast<int16_t>(bytes_[2 * i] << 8 | bytes_[2 * i + 1]);
+    is_equal = is_equal && values[i] == value;
+    values[i] = value;
+  }
+  has_sample_ = true;
+  equals_ = is_equal ? static_cast<uint8_t>(equals_ + 1) : 0;
+  if (equals_ < FROZEN_SAMPLES) return;
+  is_resetting_ = true;
+  start_over(0);
+}
+
+}  // namespace raspilot

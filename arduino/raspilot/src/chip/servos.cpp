@@ -1,0 +1,66 @@
+#include "servos.h"
+
+#include "clock.h"
+#include "servo_edges.h"
+
+namespace raspilot {
+
+/** Pulse, up to one slot until it is read, and its control fit in. */
+static constexpr uint16_t LATENCY_TICKS = 10000;
+static constexpr uint16_t FREE_PERIOD_TICKS = 40000;
+static constexpr uint16_t LEAST_PERIOD_TICKS = 12000;
+/** A rise is planned when it is nearer than this, which is more than a slot. */
+static constexpr int16_t LEAD_TICKS = 6000;
+static constexpr int16_t LEAST_LEAD_TICKS = 600;
+/** 26 ms without a rise: the receiver is silent, as its frames last 22 ms at most. */
+static constexpr uint8_t SILENT_SLOTS = 13;
+/** 20 ms of a free frame less a lead: no rise is planned before. */
+static constexpr uint8_t FREE_SLOTS = 6;
+
+void Servos::begin() {
+  for (Plan& plan : plans_) plan = Plan{0, 0, SILENT_SLOTS, false, true};
+  servo_edges::begin();
+}
+
+void Servos::update(const Outputs& outputs, PwmReader& receiver) {
+  const uint16_t now = clock::ticks();
+  for (uint8_t i = 0; i < OUTPUTS; i++) {
+    const Channel channel = static_cast<Channel>(i);
+    servo_edges::set_width(channel, outputs.ticks[i]);
+    uint16_t stamp;
+    if (receiver.take_rise(channel, stamp)) {
+      plans_[i].next = stamp + LATENCY_TICKS;
+      plans_[i].has_next = true;
+      plans_[i].is_free = false;
+    }
+    plan(channel, now);
+  }
+}
+
+void Servos::plan(Channel channel, uint16_t now) {
+  Plan& plan = plans_[channel];
+  if (plan.slots < 255) plan.slots++;
+  if (servo_edges::is_busy(channel)) return;
+  uint16_t rise = plan.next;
+  if (!plan.has_next) {
+    if (plan.slots >= SILENT_SLOTS) {
+      plan.is_free = true;
+      rise = now + LEAST_LEAD_TICKS;
+    } else if (plan.is_free && plan.slots >= FREE_SLOTS) {
+      rise = plan.rise + FREE_PERIOD_TICKS;
+    } else {
+      return;
+    }
+  }
+  const int16_t left = static_cast<int16_t>(rise - now);
+  if (left > LEAD_TICKS) return;
+  plan.has_next = false;
+  if (left < LEAST_LEAD_TICKS) return;
+  if (plan.slots < SILENT_SLOTS && static_cast<uint16_t>(rise - plan.rise) < LEAST_PERIOD_TICKS)
+    return;
+  servo_edges::plan(channel, rise);
+  plan.rise = rise;
+  plan.slots = 0;
+}
+
+}  // namespace raspilot

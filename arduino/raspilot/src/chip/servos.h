@@ -1,0 +1,34 @@
+/** When each servo gets its next pulse: slaved to its own channel of the receiver. */
+#pragma once
+
+#include "../core/types.h"
+#include "../pilot/pwm_reader.h"
+
+namespace raspilot {
+
+/**
+ * An output rises 5 ms after its channel of the receiver did, with the pulse that holds then: a
+ * constant latency at the receiver's own rate, which its servos bear. Without pulses it runs
+ * freely, every 20 ms. Two rises are never closer than 6 ms, whatever the inputs do.
+ */
+class Servos {
+ public:
+  void begin();
+  /** Takes the pulses over and plans the rises that come before the next slot has ended. */
+  void update(const Outputs& outputs, PwmReader& receiver);
+
+ private:
+  struct Plan {
+    uint16_t rise;
+    uint16_t next;
+    uint8_t slots;
+    bool has_next;
+    bool is_free;
+  };
+
+  void plan(Channel channel, uint16_t now);
+
+  Plan plans_[OUTPUTS];
+};
+
+}  // namespace raspilot

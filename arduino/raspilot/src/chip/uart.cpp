@@ -1,0 +1,74 @@
+#include "uart.h"
+
+#include "../core/board.h"
+#include "interrupts_off.h"
+
+namespace raspilot {
+namespace uart {
+
+static constexpr uint8_t RX_SIZE = 64;
+static constexpr uint8_t TX_SIZE = 128;
+static constexpr uint16_t DIVIDER = (F_CPU / 4 / RASPILOT_BAUD - 1) / 2;
+
+static uint8_t rx[RX_SIZE];
+static uint8_t tx[TX_SIZE];
+static volatile uint8_t rx_head, rx_tail, tx_head, tx_tail;
+
+void begin() {
+  UCSR0B = 0;
+  UBRR0 = DIVIDER;
+  UCSR0A = _BV(U2X0);
+  UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
+  UCSR0B = _BV(RXEN0) | _BV(TXEN0) | _BV(RXCIE0);
+}
+
+bool read(uint8_t& byte) {
+  const uint8_t tail = rx_tail;
+  if (tail == rx_head) return false;
+  byte = rx[tail];
+  rx_tail = (tail + 1) & (RX_SIZE - 1);
+  return true;
+}
+
+}  // namespace uart
+
+namespace board {
+
+uint8_t serial_room() {
+  return static_cast<uint8_t>(uart::tx_tail - uart::tx_head - 1) & (uart::TX_SIZE - 1);
+}
+
+void serial_write(uint8_t byte) {
+  const uint8_t head = uart::tx_head;
+  uart::tx[head] = byte;
+  uart::tx_head = (head + 1) & (uart::TX_SIZE - 1);
+  InterruptsOff off;
+  UCSR0B |= _BV(UDRIE0);
+}
+
+}  // namespace board
+
+/** A byte that finds the ring full is dropped: the frame's checksum will miss it. */
+ISR(USART_RX_vect) {
+  using namespace uart;
+  const uint8_t byte = UDR0;
+  const uint8_t head = rx_head;
+  const uint8_t next = (head + 1) & (RX_SIZE - 1);
+  if (next != rx_tail) {
+    rx[head] = byte;
+    rx_head = next;
+  }
+  note_waiting_edge();
+}
+
+ISR(USART_UDRE_vect) {
+  using namespace uart;
+  const uint8_t tail = tx_tail;
+  UDR0 = tx[tail];
+  const uint8_t next = (tail + 1) & (TX_SIZE - 1);
+  tx_tail = next;
+  if (next == tx_head) UCSR0B &= static_cast<uint8_t>(~_BV(UDRIE0));
+  note_waiting_edge();
+}
+
+}  // namespace raspilot

@@ -1,0 +1,19 @@
+/** The serial line to the Raspberry Pi: USART0, 8N1 (data sheet 20). */
+#pragma once
+
+#include <stdint.h>
+
+#ifndef RASPILOT_BAUD
+#define RASPILOT_BAUD 115200UL
+#endif
+
+namespace raspilot {
+namespace uart {
+
+void begin();
+
+/** Takes the oldest byte received; false when there is none. */
+bool read(uint8_t& byte);
+
+}  // namespace uart
+}  // namespace raspilot
