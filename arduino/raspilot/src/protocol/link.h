@@ -5,6 +5,13 @@
 #pragma once
 
 #include "../core/types.h"
+#include "answers.h"
+#include "checked_reader.h"
+#include "command_executor.h"
+#include "command_receiver.h"
+#include "forwarder.h"
+#include "frame.h"
+#include "thesis_door.h"
 
 namespace raspilot {
 
@@ -16,20 +23,66 @@ class Link {
 
   /** Takes one byte from the line; at most ~10 us unless a frame ends with it. */
   void on_byte(uint8_t byte, uint32_t now_us);
-  /** Drops what is unfinished for 100 ms; no further byte is needed. */
+  /** Drops what is unfinished for 100 ms; no further byte is needed. At least every ten seconds. */
   void check(uint32_t now_us);
-  /** Sends at most one stream message that is due and fits; false when none is due. */
+  /** Sends an answer that waited for room, or a stream message that is due; false for none. */
   bool background(uint32_t now_us);
   /** Sends the extra zero that opens checked framing. */
   void open();
 
   /** Sends one whole message in the framing that is spoken, or nothing when it does not fit. */
   bool send(char type, const uint8_t* payload, uint8_t size);
+  /** Whether a message with so many bytes of payload fits now. */
+  bool has_room(uint8_t size) const;
 
-  bool is_thesis() const;
-  bool is_started() const;
+  /** The Start Command: forwarding begins. */
+  void start(uint32_t now_us) { forwarder_.start(now_us); }
+  /** Panic: the period of what is forwarded, 10 to 1000 ms. */
+  void set_period_ms(uint16_t period_ms) { forwarder_.set_period_ms(period_ms); }
+  /** Age of the orientation frame with this sequence, us; very great when it is not known. */
+  uint32_t orientation_age_us(uint16_t sequence, uint32_t now_us) const {
+    return forwarder_.orientation_age_us(sequence, now_us);
+  }
+
+  bool is_thesis() const { return is_thesis_; }
+  bool is_started() const { return forwarder_.is_started(); }
   /** Whether the Raspberry Pi was heard within 1 s. */
   bool has_heard(uint32_t now_us) const;
+  /** Frames dropped, and frames missing by sequence, since reset; they stay at 65535. */
+  uint16_t dropped() const { return dropped_; }
+  uint16_t missing() const { return missing_; }
+
+ private:
+  void hear_checked(uint8_t byte, uint32_t now_us);
+  void hear_thesis(uint8_t byte, uint32_t now_us);
+  void look_for_thesis(uint8_t byte, uint32_t now_us);
+  void on_frame(uint32_t now_us);
+  void expire(uint32_t now_us);
+  void count_sequence(uint8_t sequence);
+  void carry_out(const CommandDefinition& command, const Request& request);
+  void refuse_seldom(char type, uint8_t sequence, Reason reason, uint32_t now_us);
+  bool send_answer(uint32_t now_us);
+  bool ask(PendingAnswer& pending, uint32_t now_us);
+  void on_dropped();
+
+  Autopilot& autopilot_;
+  ReceiveBuffer buffer_ = {};
+  CheckedReader reader_;
+  CommandReceiver receiver_;
+  ThesisDoor door_;
+  Answers answers_;
+  RefusalLimit limit_;
+  Forwarder forwarder_;
+  uint32_t heard_us_ = 0;
+  uint16_t dropped_ = 0;
+  uint16_t missing_ = 0;
+  uint8_t sequence_ = 0;
+  uint8_t expected_ = 0;
+  bool has_expected_ = false;
+  bool is_heard_ = false;
+  bool is_thesis_ = false;
+  /** A valid checked frame closes the door to thesis framing until reset. */
+  bool is_door_closed_ = false;
 };
 
 }  // namespace raspilot

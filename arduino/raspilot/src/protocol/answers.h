@@ -1,0 +1,61 @@
+/** Answers that wait for room on the line, and how often a type may be refused. */
+#pragma once
+
+#include <stdint.h>
+
+#include "../core/types.h"
+
+namespace raspilot {
+
+/** One answer to send: a confirmation, a refusal, or a Command that sends its own. */
+struct PendingAnswer {
+  /** `K`, ASK for a handler that answers itself, else a Reason. */
+  uint8_t what;
+  uint8_t type;
+  uint8_t sequence;
+
+  static constexpr uint8_t CONFIRM = 'K';
+  static constexpr uint8_t ASK = 255;
+};
+
+/** The oldest first. Who needs an answer and finds no place is not carried out. */
+class Answers {
+ public:
+  bool has_place() const { return count_ < CAPACITY; }
+  bool is_empty() const { return count_ == 0; }
+  void push(uint8_t what, char type, uint8_t sequence);
+  PendingAnswer& front() { return waiting_[0]; }
+  void pop();
+
+ private:
+  static constexpr uint8_t CAPACITY = 4;
+
+  PendingAnswer waiting_[CAPACITY];
+  uint8_t count_ = 0;
+};
+
+/**
+ * Lets each type be refused once a second (docs/protocols.md 2.5). It knows twelve types at a time,
+ * more than there are streams; when more are refused within a second it forgets the oldest.
+ */
+class RefusalLimit {
+ public:
+  /** True, and the second begins, when the type was not refused within the last one. */
+  bool allows(char type, uint32_t now_us);
+  /** Forgets what is a second old; at least every ten seconds. */
+  void check(uint32_t now_us);
+
+ private:
+  struct Refused {
+    char type;
+    uint8_t stamp;
+  };
+  static constexpr uint8_t CAPACITY = 12;
+
+  void forget_oldest();
+
+  Refused refused_[CAPACITY];
+  uint8_t count_ = 0;
+};
+
+}  // namespace raspilot

@@ -1,0 +1,43 @@
+#include "checked_reader.h"
+
+namespace raspilot {
+
+CheckedReader::Found CheckedReader::take(uint8_t byte, uint32_t now_us) {
+  if (byte == 0) {
+    if (!has_begun_) return Found::NOTHING;
+    const bool is_frame = !is_too_long_ && cobs_.is_complete() && length_ >= FRAME_OVERHEAD &&
+                          crc_.is_zero();
+    payload_size_ = static_cast<uint8_t>(length_ - FRAME_OVERHEAD);
+    restart();
+    return is_frame ? Found::FRAME : Found::BROKEN;
+  }
+  if (!has_begun_) {
+    has_begun_ = true;
+    first_us_ = now_us;
+  }
+  uint8_t decoded;
+  if (cobs_.take(byte, decoded) == CobsDecoder::Step::NOTHING) return Found::NOTHING;
+  if (length_ == LONGEST_FRAME) {
+    is_too_long_ = true;
+    return Found::NOTHING;
+  }
+  buffer_.bytes[length_++] = decoded;
+  crc_.put(decoded);
+  return Found::NOTHING;
+}
+
+bool CheckedReader::expire(uint32_t now_us) {
+  if (!has_begun_ || now_us - first_us_ < UNFINISHED_US) return false;
+  restart();
+  return true;
+}
+
+void CheckedReader::restart() {
+  cobs_.restart();
+  crc_ = Crc16();
+  length_ = 0;
+  has_begun_ = false;
+  is_too_long_ = false;
+}
+
+}  // namespace raspilot

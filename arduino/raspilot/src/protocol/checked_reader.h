@@ -1,0 +1,41 @@
+/** Finds checked frames in what the line brings (docs/protocols.md 2.1). */
+#pragma once
+
+#include <stdint.h>
+
+#include "cobs.h"
+#include "crc16.h"
+#include "frame.h"
+
+namespace raspilot {
+
+class CheckedReader {
+ public:
+  enum class Found : uint8_t { NOTHING, FRAME, BROKEN };
+
+  explicit CheckedReader(ReceiveBuffer& buffer) : buffer_(buffer) {}
+
+  /** Takes one byte; a FRAME stays readable until the next byte is taken. */
+  Found take(uint8_t byte, uint32_t now_us);
+  /** Drops a frame that is unfinished 100 ms after its first byte; true when there was one. */
+  bool expire(uint32_t now_us);
+
+  uint8_t sequence() const { return buffer_.bytes[0]; }
+  char type() const { return static_cast<char>(buffer_.bytes[1]); }
+  const uint8_t* payload() const { return buffer_.bytes + 2; }
+  uint8_t payload_size() const { return payload_size_; }
+
+ private:
+  void restart();
+
+  ReceiveBuffer& buffer_;
+  CobsDecoder cobs_;
+  Crc16 crc_;
+  uint32_t first_us_ = 0;
+  uint8_t length_ = 0;
+  uint8_t payload_size_ = 0;
+  bool has_begun_ = false;
+  bool is_too_long_ = false;
+};
+
+}  // namespace raspilot

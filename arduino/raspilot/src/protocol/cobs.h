@@ -1,0 +1,66 @@
+/** Consistent Overhead Byte Stuffing (Cheshire and Baker 1999), byte by byte. */
+#pragma once
+
+#include <stdint.h>
+
+namespace raspilot {
+
+/** Takes the bytes of one frame without its closing zero, as they come from the line. */
+class CobsDecoder {
+ public:
+  enum class Step : uint8_t { NOTHING, BYTE };
+
+  /** Takes one byte, never zero; after BYTE the decoded one is in `decoded`. */
+  Step take(uint8_t encoded, uint8_t& decoded) {
+    if (left_ != 0) {
+      --left_;
+      decoded = encoded;
+      return Step::BYTE;
+    }
+    const bool is_zero_due = is_zero_next_;
+    left_ = static_cast<uint8_t>(encoded - 1);
+    is_zero_next_ = encoded != 0xFF;
+    if (!is_zero_due) return Step::NOTHING;
+    decoded = 0;
+    return Step::BYTE;
+  }
+  /** Whether the frame may end here: no code pointed beyond the end. */
+  bool is_complete() const { return left_ == 0; }
+  void restart() {
+    left_ = 0;
+    is_zero_next_ = false;
+  }
+
+ private:
+  uint8_t left_ = 0;
+  bool is_zero_next_ = false;
+};
+
+/** Writes one encoded frame into a buffer that has room for one byte more than the plain bytes. */
+class CobsEncoder {
+ public:
+  explicit CobsEncoder(uint8_t* buffer) : code_(buffer), end_(buffer + 1) {}
+
+  /** At most 253 bytes: longer blocks would need a code of 255, which no frame of ours has. */
+  void put(uint8_t byte) {
+    if (byte != 0) {
+      *end_++ = byte;
+      return;
+    }
+    close();
+    code_ = end_++;
+  }
+  /** Ends the frame and returns where its zero belongs. */
+  uint8_t* finish() {
+    close();
+    return end_;
+  }
+
+ private:
+  void close() { *code_ = static_cast<uint8_t>(end_ - code_); }
+
+  uint8_t* code_;
+  uint8_t* end_;
+};
+
+}  // namespace raspilot

@@ -1,0 +1,28 @@
+#include "command_receiver.h"
+
+namespace raspilot {
+
+CommandReceiver::Found CommandReceiver::take(uint8_t byte, uint32_t now_us) {
+  if (!is_in_payload_) {
+    if (!CommandExecutor::find(static_cast<char>(byte), definition_) ||
+        definition_.framing != Framing::BOTH) {
+      return Found::UNKNOWN;
+    }
+    first_us_ = now_us;
+    length_ = 0;
+    is_in_payload_ = definition_.size != 0;
+    return is_in_payload_ ? Found::NOTHING : Found::COMMAND;
+  }
+  buffer_.bytes[length_++] = byte;
+  if (length_ < definition_.size) return Found::NOTHING;
+  is_in_payload_ = false;
+  return Found::COMMAND;
+}
+
+bool CommandReceiver::expire(uint32_t now_us) {
+  if (!is_in_payload_ || now_us - first_us_ < UNFINISHED_US) return false;
+  is_in_payload_ = false;
+  return true;
+}
+
+}  // namespace raspilot

@@ -1,0 +1,57 @@
+/** `C` `c` `e`: the airframe's profile, and calibrating; nothing of it while armed. */
+#include "../../core/autopilot.h"
+#include "../command_executor.h"
+
+namespace raspilot {
+namespace {
+
+enum What : uint8_t { LEVEL, ENDS_BEGIN, ENDS_END, GYRO };
+
+Reason on_profile(Autopilot& autopilot, const Request& request) {
+  Profile profile;
+  if (!read_profile(request.payload, profile)) return Reason::OUT_OF_RANGE;
+  if (autopilot.authority.is_armed()) return Reason::ONLY_DISARMED;
+  autopilot.settings.profile = profile;
+  autopilot.settings.save_profile();
+  return Reason::NONE;
+}
+
+Reason on_profile_asked(Autopilot& autopilot, const Request&) {
+  uint8_t payload[PROFILE_SIZE];
+  write_profile(autopilot.settings.profile, payload);
+  autopilot.link.send('C', payload, sizeof payload);
+  return Reason::NONE;
+}
+
+/** Whoever ends what was not begun is out of range; so are end points too close to each other. */
+Reason end_learning(Autopilot& autopilot) {
+  PwmReader& receiver = autopilot.receiver;
+  return receiver.is_learning() && receiver.end_range_learning(autopilot.settings.calibration)
+             ? Reason::NONE
+             : Reason::OUT_OF_RANGE;
+}
+
+Reason on_calibrate(Autopilot& autopilot, const Request& request) {
+  const uint8_t what = request.payload[0];
+  if (what > GYRO) return Reason::OUT_OF_RANGE;
+  if (autopilot.authority.is_armed()) return Reason::ONLY_DISARMED;
+  if (what == ENDS_BEGIN) {
+    autopilot.receiver.begin_range_learning();
+    return Reason::NONE;
+  }
+  const Reason reason = what == LEVEL      ? autopilot.attitude.calibrate_level()
+                        : what == ENDS_END ? end_learning(autopilot)
+                                           : autopilot.attitude.calibrate_gyro();
+  if (reason == Reason::NONE) autopilot.settings.save_calibration();
+  return reason;
+}
+
+const CommandDefinition COMMANDS[] PROGMEM = {
+    {'C', PROFILE_SIZE, Framing::CHECKED, Answer::CONFIRMED, on_profile},
+    {'c', 0, Framing::CHECKED, Answer::OWN, on_profile_asked},
+    {'e', 1, Framing::CHECKED, Answer::CONFIRMED, on_calibrate},
+};
+CommandGroup group(COMMANDS);
+
+}  // namespace
+}  // namespace raspilot

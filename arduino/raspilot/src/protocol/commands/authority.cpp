@@ -1,0 +1,46 @@
+/** `a` `d` `v` `M` `m`: arming, the Raspberry Pi's veto, the flight mode that it asks for. */
+#include "../../core/autopilot.h"
+#include "../command_executor.h"
+
+namespace raspilot {
+namespace {
+
+Reason on_arm(Autopilot& autopilot, const Request& request) {
+  return autopilot.authority.arm(request.now_us);
+}
+
+Reason on_disarm(Autopilot& autopilot, const Request& request) {
+  return autopilot.authority.disarm(request.now_us);
+}
+
+Reason on_veto(Autopilot& autopilot, const Request& request) {
+  if (request.payload[0] > 1) return Reason::OUT_OF_RANGE;
+  autopilot.authority.take_veto(request.payload[0] == 1, request.now_us);
+  return Reason::NONE;
+}
+
+Reason on_mode(Autopilot& autopilot, const Request& request) {
+  const char letter = static_cast<char>(request.payload[0]);
+  if (letter != 'r' && letter != 'f' && letter != 's' && letter != 'u') {
+    return Reason::OUT_OF_RANGE;
+  }
+  return autopilot.authority.ask_mode(letter, request.now_us);
+}
+
+Reason on_mode_asked(Autopilot& autopilot, const Request&) {
+  const uint8_t letter = static_cast<uint8_t>(autopilot.authority.mode());
+  autopilot.link.send('m', &letter, 1);
+  return Reason::NONE;
+}
+
+const CommandDefinition COMMANDS[] PROGMEM = {
+    {'a', 0, Framing::CHECKED, Answer::CONFIRMED, on_arm},
+    {'d', 0, Framing::CHECKED, Answer::CONFIRMED, on_disarm},
+    {'v', 1, Framing::CHECKED, Answer::UNANSWERED, on_veto},
+    {'M', 1, Framing::CHECKED, Answer::CONFIRMED, on_mode},
+    {'m', 0, Framing::CHECKED, Answer::OWN, on_mode_asked},
+};
+CommandGroup group(COMMANDS);
+
+}  // namespace
+}  // namespace raspilot

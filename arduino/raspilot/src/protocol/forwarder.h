@@ -1,0 +1,66 @@
+/**
+ * What goes to the Raspberry Pi unasked: receiver inputs, orientation, outputs, status
+ * (docs/protocols.md 2.4), each at its period; the newest wins.
+ */
+#pragma once
+
+#include <stdint.h>
+
+#include "../core/types.h"
+
+#ifndef RASPILOT_BAUD
+#define RASPILOT_BAUD 115200L
+#endif
+
+namespace raspilot {
+
+class Autopilot;
+
+class Forwarder {
+ public:
+  explicit Forwarder(Autopilot& autopilot) : autopilot_(autopilot) {}
+
+  /** Forwarding begins; a second call changes nothing. */
+  void start(uint32_t now_us);
+  bool is_started() const { return is_started_; }
+  /** Panic: the period of all but the status, 10 to 1000 ms. */
+  void set_period_ms(uint16_t period_ms) { period_ms_ = period_ms; }
+
+  /** Sends at most one message that is due and fits; false when none does. */
+  bool send_next(uint32_t now_us);
+  /** How long ago the orientation of this sequence was sent, us; NEVER beyond the last 100 ms. */
+  uint32_t orientation_age_us(uint16_t sequence, uint32_t now_us) const;
+  /** Forgets orientations that are too old to be computed from. */
+  void check(uint32_t now_us);
+
+  static constexpr uint32_t NEVER = 0xFFFFFFFF;
+
+ private:
+  enum Stream : uint8_t { INPUTS_STREAM, ORIENTATION_STREAM, OUTPUTS_STREAM, STATUS_STREAM };
+  static constexpr uint8_t STREAMS = 4;
+  /** A power of two; at 20 ms five orientations are younger than 100 ms. */
+  static constexpr uint8_t REMEMBERED = 16;
+
+  uint32_t period_us(uint8_t stream) const;
+  bool is_due(uint8_t stream, uint32_t now_us);
+  bool send(uint8_t stream, uint32_t now_us);
+  bool send_inputs();
+  bool send_outputs();
+  bool send_orientation(uint32_t now_us);
+  bool send_attitude();
+  bool send_status(uint32_t now_us);
+  void remember(uint32_t now_us);
+
+  Autopilot& autopilot_;
+  uint32_t due_us_[STREAMS] = {};
+  uint32_t remembered_us_ = 0;
+  /** When the newest orientations were sent, in steps of 64 us, by sequence modulo REMEMBERED. */
+  uint16_t sent_[REMEMBERED] = {};
+  uint16_t sequence_ = 0;
+  uint16_t period_ms_ = 0;
+  uint8_t remembered_ = 0;
+  uint8_t next_ = 0;
+  bool is_started_ = false;
+};
+
+}  // namespace raspilot

@@ -1,0 +1,193 @@
+#include "link.h"
+
+#include "../core/autopilot.h"
+#include "../core/board.h"
+#include "frame_writer.h"
+
+namespace raspilot {
+
+namespace {
+
+constexpr uint32_t HEARD_US = 1000000;
+constexpr uint16_t MOST = 65535;
+constexpr uint8_t REFUSED_SIZE = 3;
+
+}  // namespace
+
+Link::Link(Autopilot& autopilot)
+    : autopilot_(autopilot), reader_(buffer_), receiver_(buffer_), forwarder_(autopilot) {}
+
+void Link::open() {
+  if (!is_thesis_ && board::serial_room() != 0) board::serial_write(0);
+}
+
+void Link::on_byte(uint8_t byte, uint32_t now_us) {
+  expire(now_us);
+  if (is_thesis_) {
+    hear_thesis(byte, now_us);
+    return;
+  }
+  hear_checked(byte, now_us);
+  if (!is_door_closed_) look_for_thesis(byte, now_us);
+}
+
+void Link::check(uint32_t now_us) {
+  expire(now_us);
+  limit_.check(now_us);
+  forwarder_.check(now_us);
+  if (is_heard_ && now_us - heard_us_ > HEARD_US) is_heard_ = false;
+}
+
+bool Link::background(uint32_t now_us) {
+  if (!answers_.is_empty()) return send_answer(now_us);
+  return forwarder_.send_next(now_us);
+}
+
+bool Link::has_heard(uint32_t now_us) const {
+  return is_heard_ && now_us - heard_us_ <= HEARD_US;
+}
+
+bool Link::has_room(uint8_t size) const {
+  const uint8_t overhead = is_thesis_ ? 1 : FRAME_OVERHEAD + COBS_OVERHEAD;
+  return board::serial_room() >= size + overhead;
+}
+
+bool Link::send(char type, const uint8_t* payload, uint8_t size) {
+  if (size > LONGEST_PAYLOAD || !has_room(size)) return false;
+  if (is_thesis_) {
+    board::serial_write(static_cast<uint8_t>(type));
+    for (uint8_t index = 0; index < size; ++index) board::serial_write(payload[index]);
+    return true;
+  }
+  write_frame(sequence_++, type, payload, size, board::serial_write);
+  return true;
+}
+
+void Link::hear_checked(uint8_t byte, uint32_t now_us) {
+  switch (reader_.take(byte, now_us)) {
+    case CheckedReader::Found::FRAME: on_frame(now_us); break;
+    case CheckedReader::Found::BROKEN: on_dropped(); break;
+    case CheckedReader::Found::NOTHING: break;
+  }
+}
+
+void Link::on_frame(uint32_t now_us) {
+  const char type = reader_.type();
+  const uint8_t sequence = reader_.sequence();
+  count_sequence(sequence);
+  CommandDefinition command;
+  const bool is_known = CommandExecutor::find(type, command);
+  if (!is_known || command.size != reader_.payload_size()) {
+    on_dropped();
+    refuse_seldom(type, sequence, is_known ? Reason::WRONG_SIZE : Reason::UNKNOWN_TYPE, now_us);
+    return;
+  }
+  is_door_closed_ = true;
+  const Request request = {reader_.payload(), sequence, now_us};
+  carry_out(command, request);
+}
+
+/** A frame whose check is right did arrive, whatever else is wrong with it. */
+void Link::count_sequence(uint8_t sequence) {
+  if (has_expected_) {
+    const uint8_t missed = static_cast<uint8_t>(sequence - expected_);
+    missing_ = missing_ > MOST - missed ? MOST : static_cast<uint16_t>(missing_ + missed);
+  }
+  has_expected_ = true;
+  expected_ = static_cast<uint8_t>(sequence + 1);
+}
+
+void Link::look_for_thesis(uint8_t byte, uint32_t now_us) {
+  if (!door_.take(byte, now_us) || autopilot_.authority.is_armed()) return;
+  is_thesis_ = true;
+  forwarder_.start(now_us);
+}
+
+void Link::hear_thesis(uint8_t byte, uint32_t now_us) {
+  switch (receiver_.take(byte, now_us)) {
+    case CommandReceiver::Found::COMMAND: {
+      const Request request = {receiver_.payload(), 0, now_us};
+      carry_out(receiver_.definition(), request);
+      break;
+    }
+    case CommandReceiver::Found::UNKNOWN:
+      on_dropped();
+      refuse_seldom(static_cast<char>(byte), 0, Reason::UNKNOWN_TYPE, now_us);
+      break;
+    case CommandReceiver::Found::NOTHING: break;
+  }
+}
+
+void Link::carry_out(const CommandDefinition& command, const Request& request) {
+  is_heard_ = true;
+  heard_us_ = request.now_us;
+  const bool is_stream = command.answer == Answer::UNANSWERED;
+  if (!is_stream && !answers_.has_place()) {
+    // Carried out without a word would be worse: who asked asks again.
+    on_dropped();
+    return;
+  }
+  if (command.answer == Answer::OWN) {
+    answers_.push(PendingAnswer::ASK, command.type, request.sequence);
+  } else {
+    const Reason reason = command.handler(autopilot_, request);
+    if (reason == Reason::NONE) {
+      if (!is_stream && !is_thesis_) {
+        answers_.push(PendingAnswer::CONFIRM, command.type, request.sequence);
+      }
+    } else if (is_stream) {
+      refuse_seldom(command.type, request.sequence, reason, request.now_us);
+    } else {
+      answers_.push(static_cast<uint8_t>(reason), command.type, request.sequence);
+    }
+  }
+  if (!answers_.is_empty()) send_answer(request.now_us);
+}
+
+void Link::refuse_seldom(char type, uint8_t sequence, Reason reason, uint32_t now_us) {
+  if (!answers_.has_place() || !limit_.allows(type, now_us)) return;
+  answers_.push(static_cast<uint8_t>(reason), type, sequence);
+  send_answer(now_us);
+}
+
+/** Sends the answer that waited longest; false when it does not fit yet. */
+bool Link::send_answer(uint32_t now_us) {
+  PendingAnswer& pending = answers_.front();
+  if (pending.what == PendingAnswer::ASK && !ask(pending, now_us)) return false;
+  if (pending.what != PendingAnswer::ASK) {
+    const uint8_t payload[REFUSED_SIZE] = {pending.type, pending.sequence, pending.what};
+    const bool is_sent = pending.what == PendingAnswer::CONFIRM
+                             ? send('K', payload, REFUSED_SIZE - 1)
+                             : send('!', payload, is_thesis_ ? 1 : REFUSED_SIZE);
+    if (!is_sent) return false;
+  }
+  answers_.pop();
+  return true;
+}
+
+/** Lets a handler answer by itself; false when there is no room. A refusal replaces the request. */
+bool Link::ask(PendingAnswer& pending, uint32_t now_us) {
+  CommandDefinition command;
+  if (!has_room(LONGEST_PAYLOAD)) return false;
+  if (!CommandExecutor::find(static_cast<char>(pending.type), command)) return true;
+  const Request request = {buffer_.bytes, pending.sequence, now_us};
+  const Reason reason = command.handler(autopilot_, request);
+  if (reason != Reason::NONE) pending.what = static_cast<uint8_t>(reason);
+  return true;
+}
+
+void Link::expire(uint32_t now_us) {
+  if (!is_thesis_) {
+    if (reader_.expire(now_us)) on_dropped();
+    return;
+  }
+  if (!receiver_.expire(now_us)) return;
+  on_dropped();
+  send('!', nullptr, 0);
+}
+
+void Link::on_dropped() {
+  if (dropped_ != MOST) ++dropped_;
+}
+
+}  // namespace raspilot

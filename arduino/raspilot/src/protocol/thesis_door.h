@@ -1,0 +1,37 @@
+/**
+ * Decides from the bytes before the first checked frame whether the other side speaks thesis
+ * framing (docs/protocols.md 2.2). It keeps no payload: the Commands that open are not carried out.
+ */
+#pragma once
+
+#include <stdint.h>
+
+namespace raspilot {
+
+/**
+ * Counts an unbroken run of complete thesis Commands in range. Points say how little a Command can
+ * be chance, in units of about 5 bits: a bare `T` or any three bytes that begin with `h` say
+ * nothing, forty-eight bytes that are twelve gains say all. A run of random bytes reaches the eight
+ * points needed about once in 10^10 beginnings.
+ */
+class ThesisDoor {
+ public:
+  /** Takes one byte; true when the run is long and improbable enough. */
+  bool take(uint8_t byte, uint32_t now_us);
+  /** Breaks a run whose Command is unfinished after 100 ms. */
+  void expire(uint32_t now_us);
+
+ private:
+  void begin(char type, uint32_t now_us);
+  bool is_field_good() const;
+  void break_run();
+
+  uint32_t window_ = 0;
+  uint32_t first_us_ = 0;
+  char type_ = 0;
+  uint8_t left_ = 0;
+  uint8_t points_ = 0;
+  uint8_t commands_ = 0;
+};
+
+}  // namespace raspilot
