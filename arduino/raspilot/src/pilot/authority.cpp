@@ -5,6 +5,8 @@ namespace raspilot {
 namespace {
 
 constexpr uint16_t LOSS_MS = 500;
+// More than one frame of any receiver (22 ms).
+constexpr uint16_t RETURN_MS = 30;
 constexpr uint16_t LATCH_MS = 5000;
 constexpr uint16_t OUTPUT_LIVES_MS = 250;
 constexpr uint16_t ASKED_OUTPUT_MS = 500;
@@ -54,7 +56,12 @@ void Authority::follow_receiver(uint16_t passed_ms) {
   const bool is_valid = receiver_.validity() == ALL_INPUTS;
   const Ticks lost_throttle = us_to_ticks(static_cast<int16_t>(profile_.throttle_lost_us));
   const bool is_own_failsafe = is_valid && receiver_.pulse(THROTTLE) < lost_throttle;
-  has_receiver_ = is_valid && !is_own_failsafe;
+  if (is_valid && !is_own_failsafe) {
+    sound_.pass(passed_ms);
+  } else {
+    sound_.start();
+  }
+  has_receiver_ = sound_.ms() >= RETURN_MS;
   follow_failsafe(is_own_failsafe, passed_ms);
   if (!has_receiver_) {
     arming_.forget();
@@ -105,7 +112,7 @@ Mode Authority::mode() const {
 Mode Authority::flown_mode() const {
   if (!is_imu_valid_) return Mode::ACRO;
   const uint8_t position = switch_.position();
-  if (is_failsafe_ || position == ModeSwitch::UNKNOWN) return Mode::FBW;
+  if (is_failsafe_ || position == SWITCH_UNKNOWN) return Mode::FBW;
   const char letter = profile_.switch_modes[position];
   if (letter == letter_of(Mode::ACRO)) return Mode::ACRO;
   if (letter == letter_of(Mode::RATE)) return Mode::RATE;
@@ -117,7 +124,7 @@ Mode Authority::flown_mode() const {
 
 bool Authority::is_auto() const {
   const uint8_t position = switch_.position();
-  return position != ModeSwitch::UNKNOWN && profile_.switch_modes[position] == 'A';
+  return position != SWITCH_UNKNOWN && profile_.switch_modes[position] == 'A';
 }
 
 bool Authority::is_throttle_low() const { return receiver_.pulse(THROTTLE) < LOW_THROTTLE; }

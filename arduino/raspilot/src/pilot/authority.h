@@ -33,9 +33,10 @@ struct AuthorityState {
 };
 
 /**
- * A receiver is valid while all six channels are and the throttle is not below the profile's
- * threshold, which is the receiver's own failsafe. That failsafe acts at once, any other loss
- * after 500 ms, in which the sticks hold still. Neither the loss nor the return of a receiver is a
+ * A receiver is valid when all six channels have been for 30 ms (a whole frame, so that no channel
+ * still shows what it showed while lost) and the throttle is not below the profile's threshold,
+ * which is the receiver's own failsafe. That failsafe acts at once, any other loss after 500 ms, in
+ * which the sticks hold still. Neither the loss nor the return of a receiver is a
  * switch that moved: it neither arms nor disarms nor ends the mode that the ground asked for.
  *
  * Before the receiver was heard for the first time nothing flies: FBW holds level with centred
@@ -111,6 +112,7 @@ class Authority {
   Lifetime demand_;
   Lifetime veto_;
   Stopwatch throttle_low_;
+  Stopwatch sound_;
   Stopwatch lost_;
   Setpoint setpoint_;
   Outputs asked_outputs_;

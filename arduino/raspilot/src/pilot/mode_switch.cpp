@@ -15,7 +15,7 @@ void ModeSwitch::take(Ticks pulse) {
 }
 
 bool ModeSwitch::is_beyond(Ticks pulse, int16_t edge_us, uint8_t position_above) const {
-  if (position_ == UNKNOWN) return pulse >= us_to_ticks(edge_us);
+  if (position_ == SWITCH_UNKNOWN) return pulse >= us_to_ticks(edge_us);
   const bool was_beyond = position_ >= position_above;
   const int16_t width_us = was_beyond ? -HYSTERESIS_US : HYSTERESIS_US;
   return pulse >= us_to_ticks(static_cast<int16_t>(edge_us + width_us));

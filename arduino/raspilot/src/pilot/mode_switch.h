@@ -5,20 +5,21 @@
 
 namespace raspilot {
 
+/** No position is known before the first pulse. */
+constexpr uint8_t SWITCH_UNKNOWN = 255;
+
 class ModeSwitch {
  public:
-  static constexpr uint8_t UNKNOWN = 255;
-
-  /** 0 low, 1 middle, 2 high, UNKNOWN before the first pulse. */
+  /** 0 low, 1 middle, 2 high, SWITCH_UNKNOWN before the first pulse. */
   uint8_t position() const { return position_; }
   /** Follows the pulse at once; moves at 1300 and 1700 us, each way 20 us beyond them. */
   void take(Ticks pulse);
-  void restore(uint8_t position) { position_ = position <= 2 ? position : UNKNOWN; }
+  void restore(uint8_t position) { position_ = position <= 2 ? position : SWITCH_UNKNOWN; }
 
  private:
   bool is_beyond(Ticks pulse, int16_t edge_us, uint8_t position_above) const;
 
-  uint8_t position_ = UNKNOWN;
+  uint8_t position_ = SWITCH_UNKNOWN;
 };
 
 }  // namespace raspilot

@@ -10,6 +10,7 @@ constexpr int16_t BYPASS_8 = us_to_ticks(20) * ONE_8;
 constexpr int16_t REVERSAL_8 = us_to_ticks(3) * ONE_8;
 constexpr int16_t MOVING_8 = 3 * ONE_8;
 constexpr int16_t PLAY_8 = 6;
+constexpr int8_t JUST_MOVED = 2;
 constexpr Ticks UNCERTAIN_TICKS = us_to_ticks(4);
 
 int16_t magnitude(int16_t value) { return value < 0 ? static_cast<int16_t>(-value) : value; }
@@ -19,11 +20,12 @@ int16_t to_8(Ticks pulse) { return static_cast<int16_t>((pulse - CENTRE) * ONE_8
 
 void PulseFilter::take(Ticks measured, bool is_uncertain) {
   if (is_uncertain && magnitude(static_cast<Ticks>(measured - pulse_)) <= UNCERTAIN_TICKS) return;
+  const int8_t movement = movement_;
   const int16_t change_8 = static_cast<int16_t>(to_8(measured) - smoothed_8_);
   const int16_t size_8 = magnitude(change_8);
-  const int8_t direction = size_8 < MOVING_8 ? 0 : change_8 < 0 ? -1 : 1;
-  const bool was_moving = direction_ != 0;
-  const bool is_moving = was_moving && (direction == direction_ || size_8 >= REVERSAL_8);
+  const int8_t direction = size_8 < MOVING_8 ? 0 : change_8 < 0 ? -JUST_MOVED : JUST_MOVED;
+  const bool goes_on = (direction > 0 && movement > 0) || (direction < 0 && movement < 0);
+  const bool is_moving = goes_on || (movement != 0 && size_8 >= REVERSAL_8);
   if (size_8 >= BYPASS_8 || is_moving) {
     reset(measured);
   } else {
@@ -32,13 +34,13 @@ void PulseFilter::take(Ticks measured, bool is_uncertain) {
     while (smoothed_8_ - to_8(pulse_) > PLAY_8) ++pulse_;
     while (to_8(pulse_) - smoothed_8_ > PLAY_8) --pulse_;
   }
-  direction_ = direction;
+  movement_ = direction != 0 ? direction : static_cast<int8_t>(movement / 2);
 }
 
 void PulseFilter::reset(Ticks pulse) {
   pulse_ = pulse;
   smoothed_8_ = to_8(pulse);
-  direction_ = 0;
+  movement_ = 0;
 }
 
 }  // namespace raspilot

@@ -8,9 +8,9 @@ namespace raspilot {
 /**
  * Still sticks give a still output, moving ones pass unchanged.
  *
- * y += (x - y) / 2. A change of 20 us or more bypasses it (thesis 4.4.4). So does one that follows
- * another of at least 1.5 us, when it goes on in its direction or turns back by 3 us: noise does
- * neither, a stick does. The output follows y with a play of 3/8 us, like a gear.
+ * y += (x - y) / 2. A change of 20 us or more bypasses it (thesis 4.4.4). So does one that soon
+ * follows another of at least 1.5 us, when it goes on in its direction or turns back by 3 us: noise
+ * does neither, a stick does. The output follows y with a play of 3/8 us, like a gear.
  */
 class PulseFilter {
  public:
@@ -24,7 +24,8 @@ class PulseFilter {
   /** y, in eighths of a tick from 1500 us. */
   int16_t smoothed_8_ = 0;
   Ticks pulse_ = us_to_ticks(1500);
-  int8_t direction_ = 0;
+  /** Sign: where it moved last; 2 in this pulse, 1 in the one before, 0 earlier. */
+  int8_t movement_ = 0;
 };
 
 }  // namespace raspilot
