@@ -53,7 +53,7 @@ uint16_t ticks() {
 ISR(TIMER1_OVF_vect) {
   clock::overflows = clock::overflows + 1;
   reset::on_overflow();
-  note_waiting_edge();
+  note_end_of_interrupt();
 }
 
 }  // namespace raspilot

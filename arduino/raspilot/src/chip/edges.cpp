@@ -23,8 +23,9 @@ static constexpr uint8_t INTERRUPTS = (ON_D ? _BV(PCIE2) : 0) | (ON_B ? _BV(PCIE
 static_assert((ON_D & ON_B) == 0 && ((ON_D | ON_B) & LATE) == 0, "the inputs fit one byte");
 static_assert(bit_on_c(PIN_RX_AILERONS) == 0, "no input on port C");
 
-/** Stamp low, stamp high, levels; GPIOR1 is where the next goes, GPIOR2 where the oldest is. */
+/** Stamp low, stamp high, levels; GPIOR2 is where the next goes. */
 static volatile uint8_t ring[RING_SIZE];
+static volatile uint8_t oldest;
 
 static inline uint8_t after(uint8_t place) {
   place = static_cast<uint8_t>(place + STAMP_SIZE);
@@ -37,8 +38,8 @@ void begin() {
   PORTD |= ON_D;
   PORTB |= ON_B;
   GPIOR0 = 0;
-  GPIOR1 = 0;
   GPIOR2 = 0;
+  oldest = 0;
   PCMSK2 = ON_D;
   PCMSK0 = ON_B;
   PCIFR = INTERRUPTS;
@@ -58,12 +59,12 @@ static uint8_t channels(uint8_t stored) {
 }
 
 void drain(PwmReader& receiver, uint32_t now_us) {
-  uint8_t place = GPIOR2;
-  while (place != GPIOR1) {
+  uint8_t place = oldest;
+  while (place != GPIOR2) {
     const uint16_t stamp = static_cast<uint16_t>(ring[place] | ring[place + 1] << 8);
     const uint8_t stored = ring[place + 2];
     place = after(place);
-    GPIOR2 = place;
+    oldest = place;
     receiver.on_edge(stamp, channels(stored), stored & LATE, now_us);
   }
   if (GPIOR0 & _BV(NOTE_LOST)) {
@@ -85,21 +86,22 @@ ISR(PCINT2_vect) {
   PCIFR = INTERRUPTS;
   const uint16_t stamp = TCNT1;
   uint8_t levels = static_cast<uint8_t>((PIND & ON_D) | (PINB & ON_B));
+  if (is_after_interrupt(static_cast<uint8_t>(stamp))) levels |= LATE;
   if (GPIOR0 & _BV(NOTE_LATE)) levels |= LATE;
   GPIOR0 &= static_cast<uint8_t>(~_BV(NOTE_LATE));
-  const uint8_t place = GPIOR1;
+  const uint8_t place = GPIOR2;
   const uint8_t next = after(place);
   volatile uint8_t* const at = &ring[place];
   at[0] = static_cast<uint8_t>(stamp);
   at[1] = static_cast<uint8_t>(stamp >> 8);
   at[2] = levels;
-  if (next == GPIOR2) {
+  if (next == oldest) {
     GPIOR0 |= _BV(NOTE_LOST);
     PCICR = 0;
   } else {
-    GPIOR1 = next;
+    GPIOR2 = next;
   }
-  note_waiting_edge();
+  note_end_of_interrupt();
 }
 ISR(PCINT0_vect, ISR_ALIASOF(PCINT2_vect));
 

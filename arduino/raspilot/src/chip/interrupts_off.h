@@ -10,7 +10,7 @@ namespace raspilot {
 
 /** Bits of GPIOR0, which takes one instruction to set, clear or test and no register. */
 enum Note : uint8_t {
-  /** The next stamp of the receiver's edges may be a few microseconds late. */
+  /** The next stamp of the receiver's edges may be some microseconds late. */
   NOTE_LATE = 0,
   /** The ring of stamps was full; edges are lost. */
   NOTE_LOST = 1,
@@ -21,21 +21,29 @@ enum Note : uint8_t {
   NOTE_RISES_RUDDER = 5
 };
 
+/** What an interrupt takes to return, and the next to come to its stamp. */
+constexpr uint8_t AFTER_INTERRUPT_TICKS = 9;
+
 /**
- * Notes that an edge of the receiver came while its interrupt could not run. Every other interrupt
- * calls it last, so that a stamp is never wrong unnoticed.
+ * Every interrupt's last word: when it ended, on Timer2, which is Timer1's low byte. An edge of the
+ * receiver that is stamped just after it may have waited for it.
  */
-__attribute__((always_inline)) inline void note_waiting_edge() {
-  if (PCIFR & _BV(PCIF0)) GPIOR0 |= _BV(NOTE_LATE);
-  if (PCIFR & _BV(PCIF2)) GPIOR0 |= _BV(NOTE_LATE);
+__attribute__((always_inline)) inline void note_end_of_interrupt() { GPIOR1 = TCNT2; }
+
+/** Whether an interrupt ended so shortly before a stamp that the edge may have waited for it. */
+__attribute__((always_inline)) inline bool is_after_interrupt(uint8_t stamp_low) {
+  return static_cast<uint8_t>(stamp_low - GPIOR1) < AFTER_INTERRUPT_TICKS;
 }
 
-/** Interrupts are off while it lives: a few loads and stores, never a call. */
+/**
+ * Interrupts are off while it lives: a few loads and stores, never a call. It notes an edge that
+ * came meanwhile, so that no stamp is wrong unnoticed.
+ */
 class InterruptsOff {
  public:
   __attribute__((always_inline)) InterruptsOff() : sreg_(SREG) { cli(); }
   __attribute__((always_inline)) ~InterruptsOff() {
-    note_waiting_edge();
+    if (PCIFR & (_BV(PCIF0) | _BV(PCIF2))) GPIOR0 |= _BV(NOTE_LATE);
     SREG = sreg_;
     __asm__ __volatile__("" ::: "memory");
   }

@@ -93,7 +93,7 @@ ISR(TIMER1_COMPA_vect) {
   } else {
     TIMSK1 &= static_cast<uint8_t>(~_BV(OCIE1A));
   }
-  note_waiting_edge();
+  note_end_of_interrupt();
 }
 
 ISR(TIMER1_COMPB_vect) {
@@ -104,7 +104,7 @@ ISR(TIMER1_COMPB_vect) {
   } else {
     TIMSK1 &= static_cast<uint8_t>(~_BV(OCIE1B));
   }
-  note_waiting_edge();
+  note_end_of_interrupt();
 }
 
 /**
@@ -136,7 +136,7 @@ __attribute__((always_inline)) static inline void on_round(
       TIMSK2 &= static_cast<uint8_t>(~enable);
     }
   }
-  note_waiting_edge();
+  note_end_of_interrupt();
 }
 
 ISR(TIMER2_COMPA_vect) {

@@ -78,7 +78,7 @@ void set_width(Channel channel, Ticks width) {
       PORTC |= bit_on_c(PIN);                                            \
       COMPARE += servo_edges::widths[CHANNEL];                           \
     }                                                                    \
-    note_waiting_edge();                                                 \
+    note_end_of_interrupt();                                                 \
   }
 
 #define RASPILOT_EDGE_OF_TIMER2(VECTOR, PIN, COMPARE, EDGE, CHANNEL, ENABLE) \
@@ -92,7 +92,7 @@ void set_width(Channel channel, Ticks width) {
       EDGE += servo_edges::widths[CHANNEL];                                  \
       COMPARE = static_cast<uint8_t>(EDGE);                                  \
     }                                                                        \
-    note_waiting_edge();                                                     \
+    note_end_of_interrupt();                                                     \
   }
 
 RASPILOT_EDGE_OF_TIMER1(TIMER1_COMPA_vect, PIN_SERVO_AILERONS, OCR1A, AILERONS, OCIE1A)

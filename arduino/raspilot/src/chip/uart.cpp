@@ -58,7 +58,7 @@ ISR(USART_RX_vect) {
     rx[head] = byte;
     rx_head = next;
   }
-  note_waiting_edge();
+  note_end_of_interrupt();
 }
 
 ISR(USART_UDRE_vect) {
@@ -68,7 +68,7 @@ ISR(USART_UDRE_vect) {
   const uint8_t next = (tail + 1) & (TX_SIZE - 1);
   tx_tail = next;
   if (next == tx_head) UCSR0B &= static_cast<uint8_t>(~_BV(UDRIE0));
-  note_waiting_edge();
+  note_end_of_interrupt();
 }
 
 }  // namespace raspilot
