@@ -4,8 +4,17 @@
 #include "../core/types.h"
 #include "../store/gains.h"
 #include "../store/profile.h"
+#include "cascade.h"
+#include "yaw_damper.h"
 
 namespace raspilot {
+
+/** The fastest rotations that sticks ask for in RATE, deg/s. */
+constexpr int16_t ROLL_STICK_DEG_S = 180;
+constexpr int16_t PITCH_STICK_DEG_S = 90;
+/** The fastest rotations that an angle asks for, deg/s: the Raspberry Pi's controller has the same. */
+constexpr int16_t ROLL_RATE_LIMIT_DEG_S = 120;
+constexpr int16_t PITCH_RATE_LIMIT_DEG_S = 80;
 
 /** What the controller is to do in this slot. */
 struct Demand {
@@ -22,15 +31,45 @@ struct Demand {
   Outputs asked;
 };
 
+/**
+ * Stick 2000 us on ailerons rolls right, on elevator raises the nose, on rudder yaws right, before
+ * the servos' own directions. Every mode passes the servo stage (mix, direction, trim, end points),
+ * the Raspberry Pi's Outputs too: it sends what a pilot's sticks would say and knows no airframe.
+ *
+ * ACRO and OUTPUT pass through. RATE: the stick is a rate. FBW: the stick is a bank and a pitch.
+ * SETPOINT: both come from the Raspberry Pi, within the limits of FBW. In the last three the rudder
+ * is the stick plus the yaw damper. Without a valid IMU every mode passes the sticks through.
+ */
 class FlightController {
  public:
   FlightController(const Profile& profile, const Gains& gains);
 
-  /** Takes over gains after they changed. */
-  void on_gains();
+  /** Takes over gains after they changed: one loop a slot, because it takes a while. */
+  void on_gains() { loops_to_tune_ = LOOPS; }
   /** One slot of 2000 us; returns the pulses after mix, reversal, trim and travel limits. */
   const Outputs& update(const Demand& demand, const Attitude& attitude);
-  const Outputs& outputs() const;
+  const Outputs& outputs() const { return outputs_; }
+
+ private:
+  /** Which controllers are in the loop; what they remember ends when they leave it. */
+  enum class Hold : uint8_t { NOTHING, RATES, ANGLES };
+  static constexpr uint8_t LOOPS = 5;
+
+  void tune_one();
+  void engage(Hold hold);
+  static Hold hold_of(const Demand& demand);
+  void pass_through(const Demand& demand, Ticks* demands) const;
+  void hold_rates(const Demand& demand, const Attitude& attitude, Ticks* demands);
+  void hold_angles(const Demand& demand, const Attitude& attitude, Ticks* demands);
+
+  const Profile& profile_;
+  const Gains& gains_;
+  Cascade roll_;
+  Cascade pitch_;
+  YawDamper yaw_;
+  Outputs outputs_;
+  uint8_t loops_to_tune_ = LOOPS;
+  Hold hold_ = Hold::NOTHING;
 };
 
 }  // namespace raspilot

@@ -22,7 +22,7 @@ void Stillness::forget() {
 bool Stillness::on_sample(const int16_t* gyro) {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     const int32_t change = static_cast<int32_t>(gyro[axis]) - first_[axis];
-    if (samples_ != 0 && clamped(change, GREATEST_CHANGE) != change) forget();
+    if ((samples_ != 0 || is_still_) && clamped(change, GREATEST_CHANGE) != change) forget();
     if (!is_bias(gyro[axis])) {
       forget();
       return false;

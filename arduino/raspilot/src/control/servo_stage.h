@@ -1,0 +1,18 @@
+/** From what is asked of the aircraft to pulses of its servos: mix, direction, trim, end points. */
+#pragma once
+
+#include "../core/types.h"
+#include "../store/profile.h"
+
+namespace raspilot {
+
+/**
+ * Turns demands (ticks, 1500 us is neutral, 2000 us rolls right, raises the nose, yaws right) into
+ * servo pulses. Elevon: the left surface (ailerons' output) gets elevator + ailerons, the right one
+ * (elevator's output) elevator - ailerons. V-tail: elevator + rudder and elevator - rudder on the
+ * elevator's and the rudder's output. Directions of servos are the profile's. A motor's throttle is
+ * neither reversed nor trimmed, and its 1000 us pass whatever the end points say: they mean off.
+ */
+void to_servos(const Profile& profile, const Ticks* demands, Outputs& outputs);
+
+}  // namespace raspilot
