@@ -17,7 +17,9 @@ namespace raspilot {
 namespace machine {
 
 /** The last part of a slot is the IMU's: 17 bytes of 22.5 us, and what interrupts take. */
-static constexpr uint16_t IMU_TICKS = 2 * 550;
+static constexpr int16_t IMU_TICKS = 2 * 550;
+static constexpr int16_t TRANSFER_TICKS = 2 * 430;
+static constexpr int16_t GRACE_TICKS = 2 * 60;
 /** A background piece begins only if it ends before that. */
 static constexpr int16_t PIECE_TICKS = 2 * 110;
 static constexpr int16_t BYTE_TICKS = 2 * 20;
@@ -99,9 +101,13 @@ void run_slot() {
   do {
     left = ticks_until(static_cast<uint16_t>(due_ticks - IMU_TICKS));
   } while (left > 0 && (work(left), true));
-  imu.begin_transfer();
-  while (ticks_until(due_ticks) > 0) imu.pump();
+  // A slot that left too little time goes without a sample; a transfer that is near its end ends.
+  if (ticks_until(due_ticks) >= TRANSFER_TICKS) imu.begin_transfer();
+  while (imu.pump() && ticks_until(due_ticks) > -GRACE_TICKS) {
+  }
   imu.end_transfer();
+  while (ticks_until(due_ticks) > 0) {
+  }
 
   // A slot that took several is not made up for: time goes on from here.
   const uint32_t end = clock::now_us();

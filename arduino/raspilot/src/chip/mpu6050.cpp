@@ -19,7 +19,9 @@ static constexpr uint8_t REGISTER_WHO_AM_I = 117;
 /** DEVICE_RESET; the register map asks for 100 ms after it. */
 static constexpr uint8_t RESET = 0x80;
 static constexpr uint8_t RESET_SLOTS = 50;
-/** After a failure, so that a bus without an IMU costs little. */
+/** PWR_MGMT_1 on the gyro's clock; 0x40, asleep, after power-on. */
+static constexpr uint8_t AWAKE = 0x01;
+/** After a failure to set it up. */
 static constexpr uint8_t RETRY_SLOTS = 5;
 /** Start-up of the gyro: 30 ms (data sheet 6.1). */
 static constexpr uint8_t START_SLOTS = 20;
@@ -30,15 +32,15 @@ struct Setting {
   uint8_t value;
 };
 
-/** Awake on the gyro's clock first; +-1000 deg/s, +-8 g, 98 Hz, 1 kHz. */
+/** Awake first; then 1 kHz, 98 Hz, +-1000 deg/s, +-8 g, no interrupt. */
 static const Setting SETTINGS[] PROGMEM = {
-    {PWR_MGMT_1, 0x01}, {SMPLRT_DIV, 0},      {CONFIG, 2},
+    {PWR_MGMT_1, AWAKE}, {SMPLRT_DIV, 0},      {CONFIG, 2},
     {GYRO_CONFIG, 0x10}, {ACCEL_CONFIG, 0x10}, {INT_ENABLE, 0},
 };
-static constexpr uint8_t SETTINGS_COUNT = sizeof SETTINGS / sizeof *SETTINGS;
 
 void Mpu6050::begin() {
   is_resetting_ = false;
+  is_set_up_ = false;
   start_over(0);
 }
 
@@ -46,18 +48,21 @@ void Mpu6050::start_over(uint8_t rest_slots) {
   step_ = FREE_BUS;
   rest_slots_ = rest_slots;
   equals_ = 0;
-  has_sample_ = false;
 }
 
 void Mpu6050::begin_transfer() {
-  if (rest_slots_) return;
-  if (step_ == FREE_BUS) {
+  is_transferring_ = rest_slots_ == 0;
+  if (!is_transferring_) {
+    rest_slots_--;
+  } else if (step_ == FREE_BUS) {
     twi_.begin_recovery();
   } else if (step_ == WHO_AM_I) {
     twi_.begin_read(DEVICE, REGISTER_WHO_AM_I, bytes_, 1);
   } else if (is_resetting_) {
     twi_.begin_write(DEVICE, PWR_MGMT_1, RESET);
-  } else if (step_ < SETUP + SETTINGS_COUNT) {
+  } else if (step_ == POWER) {
+    twi_.begin_read(DEVICE, PWR_MGMT_1, bytes_, 1);
+  } else if (step_ < READY) {
     const Setting* const setting = &SETTINGS[step_ - SETUP];
     twi_.begin_write(DEVICE, pgm_read_byte(&setting->at), pgm_read_byte(&setting->value));
   } else {
@@ -67,30 +72,47 @@ void Mpu6050::begin_transfer() {
 
 void Mpu6050::end_transfer() {
   has_sample_ = false;
-  if (rest_slots_) {
-    rest_slots_--;
-    return;
-  }
+  if (!is_transferring_) return;
+  is_transferring_ = false;
   if (twi_.state() == Twi::State::DONE) {
     on_success();
   } else {
     twi_.abandon();
-    start_over(RETRY_SLOTS);
+    start_over(step_ == READY ? 0 : RETRY_SLOTS);
   }
 }
 
 void Mpu6050::on_success() {
-  if (step_ == WHO_AM_I && bytes_[0] != IDENTITY) {
+  static_assert(sizeof SETTINGS / sizeof *SETTINGS == SETTINGS_COUNT, "a step for each setting");
+  if (step_ == READY) {
+    take_sample();
+  } else if (step_ == WHO_AM_I) {
+    on_identity();
+  } else if (step_ == POWER) {
+    on_power();
+  } else {
+    step_++;
+    if (step_ != READY) return;
+    is_set_up_ = true;
+    if (!is_awake_) rest_slots_ = START_SLOTS;
+  }
+}
+
+void Mpu6050::on_identity() {
+  if (bytes_[0] == IDENTITY)
+    step_ = POWER;
+  else
     start_over(RETRY_SLOTS);
-  } else if (step_ >= SETUP && is_resetting_) {
+}
+
+void Mpu6050::on_power() {
+  if (is_resetting_) {
     is_resetting_ = false;
     start_over(RESET_SLOTS);
-  } else if (step_ < SETUP + SETTINGS_COUNT) {
-    step_++;
-    if (step_ == SETUP + SETTINGS_COUNT) rest_slots_ = START_SLOTS;
-  } else {
-    take_sample();
+    return;
   }
+  is_awake_ = bytes_[0] == AWAKE;
+  step_ = is_awake_ && is_set_up_ ? READY : SETUP;
 }
 
 void Mpu6050::take_sample() {

@@ -9,24 +9,28 @@ namespace raspilot {
 /**
  * +-1000 deg/s, +-8 g, low-pass of 98 Hz, 1000 samples a second (register map RM-MPU-6000A-00).
  *
- * Each slot holds one transfer: begin(), pump() until the slot ends, end(). Any failure begins
- * again with freeing the bus and asking who answers; so do 25 samples that are equal, which is an
- * IMU that lost its power for a moment and fell asleep.
+ * Each slot holds one transfer: begin_transfer(), pump() while it lasts, end_transfer(). Any failure
+ * begins again with freeing the bus and asking who answers; so do 25 samples that are equal. An IMU
+ * that kept its power goes on at once, one that fell asleep is set up anew.
  */
 class Mpu6050 {
  public:
   void begin();
   void begin_transfer();
-  void pump() { twi_.pump(); }
+  /** Whether this slot's transfer still goes on. */
+  bool pump() { return twi_.pump() == Twi::State::BUSY; }
   /** Ends this slot's transfer; one that has not ended by itself has failed. */
   void end_transfer();
   /** The sample of the newest transfer; null when that brought none. */
   const ImuSample* sample() const { return has_sample_ ? &sample_ : nullptr; }
 
  private:
-  enum Step : uint8_t { FREE_BUS, WHO_AM_I, SETUP };
+  static constexpr uint8_t SETTINGS_COUNT = 6;
+  enum Step : uint8_t { FREE_BUS, WHO_AM_I, POWER, SETUP, READY = SETUP + SETTINGS_COUNT };
 
   void on_success();
+  void on_identity();
+  void on_power();
   void take_sample();
   void start_over(uint8_t rest_slots);
 
@@ -36,7 +40,10 @@ class Mpu6050 {
   uint8_t step_;
   uint8_t rest_slots_;
   uint8_t equals_;
+  bool is_transferring_;
   bool is_resetting_;
+  bool is_awake_;
+  bool is_set_up_;
   bool has_sample_;
 };
 

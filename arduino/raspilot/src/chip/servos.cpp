@@ -7,6 +7,12 @@ namespace raspilot {
 
 /** Pulse, up to one slot until it is read, and its control fit in. */
 static constexpr uint16_t LATENCY_TICKS = 10000;
+#ifdef RASPILOT_PROTOTYPE_BOARD
+/** Edges made by interrupts must not come together: 64 us from channel to channel. */
+static constexpr uint16_t STAGGER_TICKS = 128;
+#else
+static constexpr uint16_t STAGGER_TICKS = 0;
+#endif
 static constexpr uint16_t FREE_PERIOD_TICKS = 40000;
 static constexpr uint16_t LEAST_PERIOD_TICKS = 12000;
 /** A rise is planned when it is nearer than this, which is more than a slot. */
@@ -29,7 +35,7 @@ void Servos::update(const Outputs& outputs, PwmReader& receiver) {
     servo_edges::set_width(channel, outputs.ticks[i]);
     uint16_t stamp;
     if (receiver.take_rise(channel, stamp)) {
-      plans_[i].next = stamp + LATENCY_TICKS;
+      plans_[i].next = stamp + LATENCY_TICKS + i * STAGGER_TICKS;
       plans_[i].has_next = true;
       plans_[i].is_free = false;
     }
@@ -45,7 +51,7 @@ void Servos::plan(Channel channel, uint16_t now) {
   if (!plan.has_next) {
     if (plan.slots >= SILENT_SLOTS) {
       plan.is_free = true;
-      rise = now + LEAST_LEAD_TICKS;
+      rise = now + LEAST_LEAD_TICKS + channel * STAGGER_TICKS;
     } else if (plan.is_free && plan.slots >= FREE_SLOTS) {
       rise = plan.rise + FREE_PERIOD_TICKS;
     } else {
