@@ -142,6 +142,17 @@ TEST_CASE("pilot reader: what was measured across a stalled loop is forgotten") 
   CHECK(bench.us(RUDDER) == 1600);
 }
 
+TEST_CASE("pilot reader: a stall without edges does not hide how long a pulse was") {
+  Lines bench;
+  wake(bench);
+  bench.lines.pulse(30000, RUDDER, 1600);
+  bench.lines.pulse(40500, RUDDER, 32768 + 1200.0);
+  bench.run_to(42000);
+  bench.lines.slot(bench.now_us = 40500 + 32768 + 600);
+  bench.run_to(80000);
+  CHECK(bench.us(RUDDER) == 1600);
+}
+
 TEST_CASE("pilot reader: lost edges make no pulse") {
   SUBCASE("told: the fall came while the ring was full") {
     Lines bench;
@@ -227,12 +238,37 @@ TEST_CASE("pilot reader: a storm on one pin fakes no pulse there and harms no ot
   }
 }
 
-TEST_CASE("pilot reader: an uncertain stamp keeps the value, and the channel is alive") {
+TEST_CASE("pilot reader: cut pulses do not keep a channel alive, nor bring one to life") {
+  for (bool was_alive : {false, true}) {
+    CAPTURE(was_alive);
+    Lines bench;
+    wake(bench);
+    for (uint64_t at_us = 20000; at_us < 200000 && was_alive; at_us += 20000) {
+      bench.lines.pulse(static_cast<double>(at_us), RUDDER, 1600);
+    }
+    for (uint64_t at_us = 200000; at_us < 1200000; at_us += 10000) {
+      bench.lines.pulse(static_cast<double>(at_us), RUDDER, 1000);
+      bench.lines.pulse(static_cast<double>(at_us) + 1040, RUDDER, 1000);
+    }
+    bench.run_to(310000);
+    int valid_slots = 0;
+    while (bench.now_us < 1200000) {
+      bench.run_to(bench.now_us + 2000);
+      valid_slots += bench.is_valid(RUDDER);
+    }
+    CHECK(valid_slots == 0);
+    CHECK(bench.us(RUDDER) == (was_alive ? 1600 : 1500));
+  }
+}
+
+TEST_CASE("pilot reader: one uncertain stamp of the two is enough to keep the value, and the channel is alive") {
   Lines bench;
   wake(bench);
   for (uint64_t at_us = 20000; at_us < 400000; at_us += 20000) {
     const bool is_late = at_us > 60000;
-    bench.lines.pulse(static_cast<double>(at_us), AILERONS, is_late ? 1503 : 1500, is_late);
+    const uint64_t width_us = is_late ? 1503 : 1500;
+    bench.lines.edge(2 * at_us, AILERONS, true, is_late && at_us % 40000 != 0);
+    bench.lines.edge(2 * (at_us + width_us), AILERONS, false, is_late && at_us % 40000 == 0);
   }
   bench.run_to(400000);
   CHECK(bench.us(AILERONS) == 1500);

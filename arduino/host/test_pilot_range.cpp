@@ -37,13 +37,19 @@ TEST_CASE("pilot range: ends and centre become 1000, 1500 and 2000 us, straight 
   CHECK(calibrated(NARROW, us_to_ticks(1920)) == us_to_ticks(2000));
   CHECK(calibrated(NARROW, us_to_ticks(1310)) == us_to_ticks(1250));
   CHECK(calibrated(NARROW, us_to_ticks(1720)) == us_to_ticks(1750));
-  Ticks newest = 0;
-  for (int pulse = us_to_ticks(885); pulse <= us_to_ticks(2115); ++pulse) {
-    const Ticks shown = calibrated(NARROW, static_cast<Ticks>(pulse));
-    CHECK(shown >= newest);
-    CHECK(shown >= us_to_ticks(885));
-    CHECK(shown <= us_to_ticks(2115));
-    newest = shown;
+}
+
+TEST_CASE("pilot range: whatever was learned, more stick is more, and within 885 to 2115 us") {
+  for (const ChannelRange& range : {NARROW, ChannelRange{900, 1400, 1500},
+                                    ChannelRange{1300, 1800, 2100}, ChannelRange{800, 1000, 1500}}) {
+    Ticks newest = 0;
+    for (int pulse = us_to_ticks(885); pulse <= us_to_ticks(2115); ++pulse) {
+      const Ticks shown = calibrated(range, static_cast<Ticks>(pulse));
+      REQUIRE(shown >= newest);
+      REQUIRE(shown >= us_to_ticks(885));
+      REQUIRE(shown <= us_to_ticks(2115));
+      newest = shown;
+    }
   }
 }
 
@@ -56,6 +62,7 @@ TEST_CASE("pilot range: the ends of this receiver are learned, and the sticks' r
   Calibration learned = DEFAULT_CALIBRATION;
   REQUIRE(bench.reader.end_range_learning(learned));
   CHECK_FALSE(bench.reader.is_learning());
+  CHECK_FALSE(bench.reader.end_range_learning(learned));
   for (uint8_t i = 0; i < INPUTS; ++i) {
     CAPTURE(i);
     CHECK(std::abs(learned.receiver[i].lowest_us - 1100) <= 1);

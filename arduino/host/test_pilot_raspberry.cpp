@@ -188,3 +188,20 @@ TEST_CASE("pilot Raspberry Pi: of Output and Setpoint the newer counts") {
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
   CHECK(bench.throttle_us() == 1700);
 }
+
+TEST_CASE("pilot Raspberry Pi: OUTPUT is not said when it could not fly") {
+  PilotBench bench;
+  bench.fly(2000);
+  REQUIRE(bench.ask('u') == Reason::NONE);
+  bench.run(20);
+  SUBCASE("without an IMU") {
+    bench.is_imu_valid = false;
+    bench.run(2);
+    CHECK(bench.authority.mode() == Mode::ACRO);
+  }
+  SUBCASE("without a receiver") {
+    bench.sticks[THROTTLE] = 890;
+    bench.run(60);
+    CHECK(bench.authority.mode() == Mode::FBW);
+  }
+}

@@ -166,3 +166,13 @@ TEST_CASE("pilot switch: outside AUTO a lost Raspberry Pi is nothing to Authorit
   CHECK(bench.throttle_us() == 1600);
   CHECK_FALSE(bench.authority.is_failsafe());
 }
+
+TEST_CASE("pilot switch: a profile that takes AUTO away ends an Output that lives at once") {
+  PilotBench bench;
+  bench.profile.has_motor = false;
+  bench.fly(2000, false);
+  REQUIRE(bench.output(1600, 0) == Reason::NONE);
+  REQUIRE(bench.authority.flown_mode() == Mode::OUTPUT);
+  bench.profile.switch_modes[2] = 'f';
+  CHECK(bench.authority.flown_mode() == Mode::FBW);
+}

@@ -206,15 +206,15 @@ Reason Authority::take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint3
   for (uint8_t i = 0; i < OUTPUTS; ++i) {
     asked_outputs_.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
   }
+  // It outlives any older Setpoint, whose lifetime is no longer.
   outputs_.start(OUTPUT_LIVES_MS);
-  demand_.end();
   return Reason::NONE;
 }
 
 Reason Authority::take_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t) {
   if (setpoint.roll_cdeg < -18000 || setpoint.roll_cdeg > 18000 || setpoint.pitch_cdeg < -9000 ||
       setpoint.pitch_cdeg > 9000 || !is_throttle_demand(setpoint.throttle_us) ||
-      lifetime_ms < 1 || lifetime_ms > 250) {
+      lifetime_ms < 1 || lifetime_ms > OUTPUT_LIVES_MS) {
     return Reason::OUT_OF_RANGE;
   }
   const Reason reason = authority_for(Mode::SETPOINT);
