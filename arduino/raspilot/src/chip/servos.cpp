@@ -8,8 +8,8 @@ namespace raspilot {
 /** Pulse, up to one slot until it is read, and its control fit in. */
 static constexpr uint16_t LATENCY_TICKS = 10000;
 #ifdef RASPILOT_PROTOTYPE_BOARD
-/** Edges made by interrupts must not come together: 64 us from channel to channel. */
-static constexpr uint16_t STAGGER_TICKS = 128;
+/** Edges made by interrupts must not come together, nor with a round of Timer2: 20 us apart. */
+static constexpr uint16_t STAGGER_TICKS = 40;
 #else
 static constexpr uint16_t STAGGER_TICKS = 0;
 #endif
