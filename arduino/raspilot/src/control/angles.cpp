@@ -16,15 +16,12 @@ constexpr int16_t C3 = -894;
 constexpr int16_t RIGHT_ANGLE = 9000;
 constexpr int16_t HALF_CIRCLE = 18000;
 constexpr int16_t ONE_Q14 = 16384;
-constexpr int16_t RAD_Q14_PER_CDEG = 23426;  // pi / 18000 in Q14, times 2^13
+constexpr int16_t TURN_Q13 = 23426;  // a hundredth of a degree in Q14
 
 uint16_t magnitude(int16_t value) {
   return value < 0 ? static_cast<uint16_t>(-static_cast<int32_t>(value))
                    : static_cast<uint16_t>(value);
 }
-
-int16_t times_q15(int16_t a, int16_t b) { return static_cast<int16_t>(rounded(product(a, b), 15)); }
-int16_t times_q14(int16_t a, int16_t b) { return static_cast<int16_t>(rounded(product(a, b), 14)); }
 
 /** Angle of a slope of 0 to 1 in Q15. */
 int16_t arc_tangent_of_slope(int16_t slope_q15) {
@@ -32,11 +29,11 @@ int16_t arc_tangent_of_slope(int16_t slope_q15) {
   int16_t sum = static_cast<int16_t>(C2 + times_q15(C3, square));
   sum = static_cast<int16_t>(C1 + times_q15(sum, square));
   sum = static_cast<int16_t>(C0 + times_q15(sum, square));
-  return static_cast<int16_t>(rounded(product(sum, slope_q15), 17));
+  return static_cast<int16_t>((times_q15(sum, slope_q15) + 2) >> 2);
 }
 
 int16_t radians_q14(int16_t angle_cdeg) {
-  return static_cast<int16_t>(rounded(product(angle_cdeg, RAD_Q14_PER_CDEG), 13));
+  return times_q14(static_cast<int16_t>(angle_cdeg * 2), TURN_Q13);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ constexpr int16_t HALF_CIRCLE_CDEG = 18000;
 
 // Four samples are collected for one look at the accelerometer, each at most 1.39 g an axis.
 constexpr uint8_t GROUP = 4;
-constexpr int32_t GREATEST_ACCEL = 5700;
+constexpr int16_t GREATEST_ACCEL = 5700;
 constexpr int32_t LEAST_SQUARE = static_cast<int32_t>(0.81 * ONE_Q28);
 constexpr int32_t GREATEST_SQUARE = static_cast<int32_t>(1.21 * ONE_Q28);
 constexpr int32_t LEAST_SQUARE_FINDING = static_cast<int32_t>(0.49 * ONE_Q28);
@@ -51,7 +51,7 @@ constexpr uint8_t SETTLED_GROUPS = 250;
 
 // Drift: an eighth of the square of the draw's rate a second, so that it never swings; at most
 // 1 deg/s from the calibrated bias.
-constexpr uint8_t DRIFT_SHIFT = 23;
+constexpr uint8_t DRIFT_SHIFT = 7;
 constexpr int32_t GREATEST_DRIFT = 16 * TURN_PER_16TH;
 
 // A turn of more than 2.5 deg/s about the vertical, low-passed with 0.5 s, tilts what the
@@ -59,9 +59,7 @@ constexpr int32_t GREATEST_DRIFT = 16 * TURN_PER_16TH;
 constexpr uint8_t TURN_SHIFT = 6;
 constexpr int32_t TURN_LIMIT = 46;
 
-int16_t negative(int16_t value) { return to_int16(-static_cast<int32_t>(value)); }
-
-int16_t to_q14(int32_t q30) { return to_int16(rounded(q30, 16)); }
+int16_t negative(int16_t value) { return difference_of(0, value); }
 
 int32_t bias_of_16ths(int16_t bias_16) { return bias_16 * TURN_PER_16TH; }
 
@@ -189,45 +187,42 @@ void AttitudeFilter::integrate(const int16_t* gyro) {
     remainder_[axis] = static_cast<int16_t>(turn & ANGLE_REST);
   }
   level_.straighten(angle);
-  attitude_.roll_rate_16 = static_cast<int16_t>(rounded(product(angle[0], RATE_Q15), 15));
-  attitude_.pitch_rate_16 = static_cast<int16_t>(rounded(product(angle[1], RATE_Q15), 15));
-  attitude_.yaw_rate_16 = static_cast<int16_t>(rounded(product(angle[2], RATE_Q15), 15));
+  attitude_.roll_rate_16 = times_q15(angle[0], RATE_Q15);
+  attitude_.pitch_rate_16 = times_q15(angle[1], RATE_Q15);
+  attitude_.yaw_rate_16 = times_q15(angle[2], RATE_Q15);
   turn_gravity(angle);
   integrate_yaw(angle);
 }
 
+void AttitudeFilter::find_down(int16_t* down) const {
+  for (uint8_t axis = 0; axis < 3; ++axis) down[axis] = upper_half(gravity_[axis]);
+}
+
 /** What is fixed to the earth turns against the aircraft: the vector product with the rotation. */
 void AttitudeFilter::turn_gravity(const int16_t* angle) {
-  const int16_t x = to_q14(gravity_[0]);
-  const int16_t y = to_q14(gravity_[1]);
-  const int16_t z = to_q14(gravity_[2]);
-  gravity_[0] += rounded(product(y, angle[2]) - product(z, angle[1]), 3);
-  gravity_[1] += rounded(product(z, angle[0]) - product(x, angle[2]), 3);
-  gravity_[2] += rounded(product(x, angle[1]) - product(y, angle[0]), 3);
+  int16_t down[3];
+  find_down(down);
+  gravity_[0] += cross(down[1], angle[2], down[2], angle[1]) >> 3;
+  gravity_[1] += cross(down[2], angle[0], down[0], angle[2]) >> 3;
+  gravity_[2] += cross(down[0], angle[1], down[1], angle[0]) >> 3;
   if (phase_ == 0) {
-    const int32_t about_vertical =
-        (product(x, angle[0]) >> 1) + (product(y, angle[1]) >> 1) + (product(z, angle[2]) >> 1);
-    turn_rate_ += rounded(about_vertical, 13) - rounded(turn_rate_, TURN_SHIFT);
+    turn_rate_ -= rounded(turn_rate_, TURN_SHIFT);
+    for (uint8_t axis = 0; axis < 3; ++axis) turn_rate_ += times_q14(down[axis], angle[axis]);
   }
 }
 
 /** One step of Newton's towards the length 1. */
 void AttitudeFilter::normalize() {
-  int32_t square = 0;
-  for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int16_t part = to_q14(gravity_[axis]);
-    square += product(part, part);
-  }
-  const int16_t half_excess_q16 = to_int16(rounded(ONE_Q28 - square, 13));
-  for (uint8_t axis = 0; axis < 3; ++axis) {
-    gravity_[axis] += product(to_q14(gravity_[axis]), half_excess_q16);
-  }
+  int16_t down[3];
+  find_down(down);
+  const int16_t half_lack_q16 = to_int16((ONE_Q28 - sum_of_squares(down)) >> 13);
+  for (uint8_t axis = 0; axis < 3; ++axis) gravity_[axis] += product(down[axis], half_lack_q16);
 }
 
 /** Heading turns by (q sin roll + r cos roll) / cos pitch; the division's rest is kept. */
 void AttitudeFilter::integrate_yaw(const int16_t* angle) {
-  const int16_t y = to_q14(gravity_[1]);
-  const int16_t z = to_q14(gravity_[2]);
+  const int16_t y = upper_half(gravity_[1]);
+  const int16_t z = upper_half(gravity_[2]);
   yaw_change_ += (product(y, angle[1]) >> 2) + (product(z, angle[2]) >> 2);
   if ((phase_ & 1) == 0) return;
   int16_t cosine_squared = to_int16((product(y, y) >> 14) + (product(z, z) >> 14));
@@ -240,7 +235,7 @@ void AttitudeFilter::integrate_yaw(const int16_t* angle) {
 void AttitudeFilter::collect(const int16_t* down) {
   if (phase_ == 0) measured_[0] = measured_[1] = measured_[2] = 0;
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    measured_[axis] = static_cast<int16_t>(measured_[axis] + clamped(down[axis], GREATEST_ACCEL));
+    measured_[axis] = static_cast<int16_t>(measured_[axis] + clamped16(down[axis], GREATEST_ACCEL));
   }
   phase_ = static_cast<uint8_t>((phase_ + 1) % GROUP);
 }
@@ -248,14 +243,13 @@ void AttitudeFilter::collect(const int16_t* down) {
 void AttitudeFilter::correct() {
   level_.straighten(measured_);
   const bool is_finding = found_groups_ < FINDING_GROUPS;
-  int32_t square = 0;
-  for (uint8_t axis = 0; axis < 3; ++axis) square += product(measured_[axis], measured_[axis]);
+  const int32_t square = sum_of_squares(measured_);
   const int32_t least = is_finding ? LEAST_SQUARE_FINDING : LEAST_SQUARE;
   const int32_t greatest = is_finding ? GREATEST_SQUARE_FINDING : GREATEST_SQUARE;
   const bool is_one_g = square >= least && square <= greatest;
   if (is_finding) {
     if (!is_one_g) return;
-    if (found_groups_ == 0) draw(0);
+    if (found_groups_ == 0) gravity_[0] = gravity_[1] = gravity_[2] = 0;
     draw(FINDING_SHIFT);
     has_gravity_ = ++found_groups_ == FINDING_GROUPS;
     return;
@@ -277,19 +271,15 @@ void AttitudeFilter::draw(uint8_t shift) {
 
 /** The rotation that leads to what was measured, summed up, is what the gyro reads too much. */
 void AttitudeFilter::learn_drift() {
-  const int16_t x = to_q14(gravity_[0]);
-  const int16_t y = to_q14(gravity_[1]);
-  const int16_t z = to_q14(gravity_[2]);
-  const int32_t errors[3] = {product(measured_[1], z) - product(measured_[2], y),
-                             product(measured_[2], x) - product(measured_[0], z),
-                             product(measured_[0], y) - product(measured_[1], x)};
-  int16_t drawn[3];
+  const int16_t* seen = measured_;
+  int16_t down[3];
+  find_down(down);
+  int16_t error[3] = {upper_half(cross(seen[1], down[2], seen[2], down[1])),
+                      upper_half(cross(seen[2], down[0], seen[0], down[2])),
+                      upper_half(cross(seen[0], down[1], seen[1], down[0]))};
+  level_.tilt(error);
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    drawn[axis] = static_cast<int16_t>(rounded(errors[axis], DRIFT_SHIFT - 4));
-  }
-  level_.tilt(drawn);
-  for (uint8_t axis = 0; axis < 3; ++axis) {
-    drift_[axis] = clamped(drift_[axis] - rounded(drawn[axis], 4), GREATEST_DRIFT);
+    drift_[axis] = clamped(drift_[axis] - rounded(error[axis], DRIFT_SHIFT), GREATEST_DRIFT);
   }
 }
 
@@ -299,12 +289,12 @@ bool AttitudeFilter::is_turning() const {
 }
 
 void AttitudeFilter::find_angles() {
-  const int16_t y = to_q14(gravity_[1]);
-  const int16_t z = to_q14(gravity_[2]);
+  const int16_t y = upper_half(gravity_[1]);
+  const int16_t z = upper_half(gravity_[2]);
   attitude_.roll_cdeg = arc_tangent_cdeg(y, z);
-  attitude_.pitch_cdeg = arc_tangent_cdeg(negative(to_q14(gravity_[0])), length(y, z));
+  attitude_.pitch_cdeg = arc_tangent_cdeg(negative(upper_half(gravity_[0])), length(y, z));
   const int16_t yaw = static_cast<int16_t>(static_cast<uint16_t>(yaw_ >> 16));
-  attitude_.yaw_cdeg = static_cast<int16_t>(rounded(product(yaw, HALF_CIRCLE_CDEG), 15));
+  attitude_.yaw_cdeg = times_q15(yaw, HALF_CIRCLE_CDEG);
 }
 
 uint16_t AttitudeFilter::age_ms(uint32_t now_us) const {
@@ -331,12 +321,13 @@ Reason AttitudeFilter::calibrate_gyro() {
 Reason AttitudeFilter::calibrate_level() {
   if (!is_valid()) return Reason::IMU_INVALID;
   if (!is_still()) return Reason::NOT_STILL;
-  int16_t down[3] = {to_q14(gravity_[0]), to_q14(gravity_[1]), to_q14(gravity_[2])};
+  int16_t down[3];
+  find_down(down);
   level_.tilt(down);
   const int16_t roll_cdeg = arc_tangent_cdeg(down[1], down[2]);
   const int16_t pitch_cdeg = arc_tangent_cdeg(negative(down[0]), length(down[1], down[2]));
-  if (clamped(roll_cdeg, Level::GREATEST_CDEG) != roll_cdeg ||
-      clamped(pitch_cdeg, Level::GREATEST_CDEG) != pitch_cdeg) {
+  if (clamped16(roll_cdeg, Level::GREATEST_CDEG) != roll_cdeg ||
+      clamped16(pitch_cdeg, Level::GREATEST_CDEG) != pitch_cdeg) {
     return Reason::OUT_OF_RANGE;
   }
   calibration_.level_roll_cdeg = roll_cdeg;

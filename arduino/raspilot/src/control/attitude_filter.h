@@ -62,6 +62,8 @@ class AttitudeFilter {
   void pass(uint32_t now_us);
   void lose();
   void integrate(const int16_t* gyro);
+  /** Gravity's direction in Q14. */
+  void find_down(int16_t* down) const;
   void turn_gravity(const int16_t* angle);
   void normalize();
   void integrate_yaw(const int16_t* angle);

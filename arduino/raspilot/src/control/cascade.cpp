@@ -17,16 +17,14 @@ constexpr uint8_t TO_16THS = 13;
 // 128 / 100 in Q14.
 constexpr int16_t CDEG_TO_128THS = 20972;
 
-int16_t to_128ths(int16_t cdeg) {
-  return static_cast<int16_t>(rounded(product(cdeg, CDEG_TO_128THS), 14));
-}
+int16_t to_128ths(int16_t cdeg) { return times_q14(cdeg, CDEG_TO_128THS); }
 
 }  // namespace
 
 RateLoop::RateLoop() : pid_(RATE_LIMIT) {}
 
 Ticks RateLoop::hold(int16_t wanted_16, int16_t rate_16) {
-  const int16_t error = to_int16(static_cast<int32_t>(wanted_16) - rate_16);
+  const int16_t error = difference_of(wanted_16, rate_16);
   return static_cast<Ticks>(rounded(pid_.update(error, rate_16) * 5, 15));
 }
 

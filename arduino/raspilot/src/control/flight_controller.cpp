@@ -8,21 +8,16 @@ namespace raspilot {
 namespace {
 
 constexpr Ticks NEUTRAL = us_to_ticks(1500);
-constexpr int32_t FULL_STICK = 1000;
-// A thousandth in Q15, times 2^9.
-constexpr int16_t STICK_TO_Q24 = 16777;
-constexpr int32_t GREATEST_PULSE = us_to_ticks(2200);
-// A hundredth of a degree per second in sixteenths, Q17.
-constexpr int16_t CDEG_TO_16THS = 20972;
+constexpr int16_t FULL_STICK = 1000;
+// Thirty-seconds of a full stick's 1000 ticks to Q15: 32.767 in Q14 less five bits.
+constexpr int16_t STICK_TO_Q15 = 16777;
+// A hundredth of a degree per second in sixteenths, Q15.
+constexpr int16_t CDEG_TO_16THS = 5243;
 
 /** A stick's deflection, -32767 to 32767. */
 int16_t deflection_q15(Ticks stick) {
-  const int32_t ticks = clamped(static_cast<int32_t>(stick) - NEUTRAL, FULL_STICK);
-  return to_int16(rounded(product(static_cast<int16_t>(ticks), STICK_TO_Q24), 9));
-}
-
-int16_t part_of(int16_t limit, int16_t deflection) {
-  return static_cast<int16_t>(rounded(product(limit, deflection), 15));
+  const int16_t ticks = clamped16(difference_of(stick, NEUTRAL), FULL_STICK);
+  return times_q14(static_cast<int16_t>(ticks * 32), STICK_TO_Q15);
 }
 
 /** A wanted pitch within the limits for up and down. */
@@ -30,11 +25,6 @@ int16_t limited_pitch(const Profile& profile, int16_t cdeg) {
   const int16_t lowest = static_cast<int16_t>(-profile.pitch_down_limit_cdeg);
   if (cdeg > profile.pitch_up_limit_cdeg) return profile.pitch_up_limit_cdeg;
   return cdeg < lowest ? lowest : cdeg;
-}
-
-Ticks moved(Ticks from, Ticks deflection) {
-  const int32_t sum = static_cast<int32_t>(from) + deflection;
-  return static_cast<Ticks>(sum > GREATEST_PULSE ? GREATEST_PULSE : sum);
 }
 
 Ticks preset(uint16_t us) { return us_to_ticks(static_cast<int16_t>(us)); }
@@ -135,11 +125,11 @@ void FlightController::pass_through(const Demand& demand, Ticks* demands) const 
 }
 
 void FlightController::hold_rates(const Demand& demand, const Attitude& attitude, Ticks* demands) {
-  const int16_t roll_16 = part_of(ROLL_STICK_DEG_S * 16, deflection_q15(demand.sticks[AILERONS]));
-  const int16_t pitch_16 = part_of(PITCH_STICK_DEG_S * 16, deflection_q15(demand.sticks[ELEVATOR]));
-  demands[AILERONS] = moved(NEUTRAL, roll_.hold_rate(roll_16, attitude.roll_rate_16));
-  demands[ELEVATOR] = moved(NEUTRAL, pitch_.hold_rate(pitch_16, attitude.pitch_rate_16));
-  demands[RUDDER] = moved(demand.sticks[RUDDER], yaw_.damp(0, attitude.yaw_rate_16));
+  const int16_t roll_16 = times_q15(ROLL_STICK_DEG_S * 16, deflection_q15(demand.sticks[AILERONS]));
+  const int16_t pitch_16 = times_q15(PITCH_STICK_DEG_S * 16, deflection_q15(demand.sticks[ELEVATOR]));
+  demands[AILERONS] = sum_of(NEUTRAL, roll_.hold_rate(roll_16, attitude.roll_rate_16));
+  demands[ELEVATOR] = sum_of(NEUTRAL, pitch_.hold_rate(pitch_16, attitude.pitch_rate_16));
+  demands[RUDDER] = sum_of(demand.sticks[RUDDER], yaw_.damp(0, attitude.yaw_rate_16));
 }
 
 void FlightController::hold_angles(const Demand& demand, const Attitude& attitude, Ticks* demands) {
@@ -154,24 +144,23 @@ void FlightController::hold_angles(const Demand& demand, const Attitude& attitud
   } else if (demand.mode == Mode::SETPOINT) {
     roll_cdeg = demand.setpoint.roll_cdeg;
     pitch_cdeg = demand.setpoint.pitch_cdeg;
-    yaw_16 = static_cast<int16_t>(
-        rounded(product(demand.setpoint.yaw_rate_cdeg_s, CDEG_TO_16THS), 17));
+    yaw_16 = times_q15(demand.setpoint.yaw_rate_cdeg_s, CDEG_TO_16THS);
   } else {
     const int16_t elevator = deflection_q15(demand.sticks[ELEVATOR]);
     const int16_t pitch_limit =
         elevator < 0 ? profile_.pitch_down_limit_cdeg : profile_.pitch_up_limit_cdeg;
-    roll_cdeg = part_of(profile_.roll_limit_cdeg, deflection_q15(demand.sticks[AILERONS]));
-    pitch_cdeg = part_of(pitch_limit, elevator);
+    roll_cdeg = times_q15(profile_.roll_limit_cdeg, deflection_q15(demand.sticks[AILERONS]));
+    pitch_cdeg = times_q15(pitch_limit, elevator);
   }
   if (!demand.is_failsafe) {
-    roll_cdeg = static_cast<int16_t>(clamped(roll_cdeg, profile_.roll_limit_cdeg));
+    roll_cdeg = clamped16(roll_cdeg, profile_.roll_limit_cdeg);
     pitch_cdeg = limited_pitch(profile_, pitch_cdeg);
   }
-  demands[AILERONS] = moved(
+  demands[AILERONS] = sum_of(
       NEUTRAL, roll_.hold_angle(roll_cdeg, attitude.roll_cdeg, attitude.roll_rate_16));
-  demands[ELEVATOR] = moved(
+  demands[ELEVATOR] = sum_of(
       NEUTRAL, pitch_.hold_angle(pitch_cdeg, attitude.pitch_cdeg, attitude.pitch_rate_16));
-  demands[RUDDER] = moved(rudder, yaw_.damp(yaw_16, attitude.yaw_rate_16));
+  demands[RUDDER] = sum_of(rudder, yaw_.damp(yaw_16, attitude.yaw_rate_16));
 }
 
 }  // namespace raspilot

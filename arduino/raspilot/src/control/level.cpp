@@ -9,15 +9,12 @@ namespace {
 
 /** Turns (a, b) in their plane by the angle of sine and cosine. */
 void turn(int16_t& a, int16_t& b, int16_t sine, int16_t cosine) {
-  const int32_t new_a = rounded(product(a, cosine), 14) + rounded(product(b, sine), 14);
-  const int32_t new_b = rounded(product(b, cosine), 14) - rounded(product(a, sine), 14);
-  a = to_int16(new_a);
-  b = to_int16(new_b);
+  const int16_t before = a;
+  a = sum_of(times_q14(a, cosine), times_q14(b, sine));
+  b = difference_of(times_q14(b, cosine), times_q14(before, sine));
 }
 
-int16_t within(int16_t angle_cdeg) {
-  return static_cast<int16_t>(clamped(angle_cdeg, Level::GREATEST_CDEG));
-}
+int16_t within(int16_t angle_cdeg) { return clamped16(angle_cdeg, Level::GREATEST_CDEG); }
 
 }  // namespace
 

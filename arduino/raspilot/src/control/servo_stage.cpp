@@ -8,35 +8,36 @@ namespace {
 
 constexpr Ticks NEUTRAL = us_to_ticks(1500);
 constexpr Ticks MOTOR_OFF = us_to_ticks(1000);
-// No sum of two demands and a trim leaves 16 bits.
-constexpr int32_t GREATEST_DEFLECTION = 8000;
+// No demand asks for more, and no sum of two and a trim leaves 16 bits.
+constexpr int16_t GREATEST_DEFLECTION = 4000;
 
-Ticks within(const ServoSetup& servo, int32_t ticks) {
-  const int32_t lowest = static_cast<int32_t>(servo.lowest_us) * 2;
-  const int32_t highest = static_cast<int32_t>(servo.highest_us) * 2;
-  return static_cast<Ticks>(ticks < lowest ? lowest : ticks > highest ? highest : ticks);
+Ticks within(const ServoSetup& servo, Ticks ticks) {
+  const Ticks lowest = us_to_ticks(static_cast<int16_t>(servo.lowest_us));
+  const Ticks highest = us_to_ticks(static_cast<int16_t>(servo.highest_us));
+  return ticks < lowest ? lowest : ticks > highest ? highest : ticks;
 }
 
-Ticks to_pulse(const ServoSetup& servo, int32_t deflection) {
-  const int32_t moved = clamped(deflection, GREATEST_DEFLECTION);
-  const int32_t turned = servo.is_reversed ? -moved : moved;
-  return within(servo, turned + NEUTRAL + static_cast<int32_t>(servo.trim_us) * 2);
+Ticks to_pulse(const ServoSetup& servo, int16_t deflection) {
+  const int16_t turned = static_cast<int16_t>(servo.is_reversed ? -deflection : deflection);
+  return within(servo, static_cast<Ticks>(turned + NEUTRAL + us_to_ticks(servo.trim_us)));
 }
 
 }  // namespace
 
 void to_servos(const Profile& profile, const Ticks* demands, Outputs& outputs) {
-  int32_t deflections[OUTPUTS];
+  int16_t deflections[OUTPUTS];
   for (uint8_t channel = 0; channel < OUTPUTS; ++channel) {
-    deflections[channel] = static_cast<int32_t>(demands[channel]) - NEUTRAL;
+    deflections[channel] = clamped16(difference_of(demands[channel], NEUTRAL), GREATEST_DEFLECTION);
   }
-  const int32_t elevator = deflections[ELEVATOR];
+  const int16_t ailerons = deflections[AILERONS];
+  const int16_t elevator = deflections[ELEVATOR];
+  const int16_t rudder = deflections[RUDDER];
   if (profile.mix == Mix::ELEVON) {
-    deflections[ELEVATOR] = elevator - deflections[AILERONS];
-    deflections[AILERONS] = elevator + deflections[AILERONS];
+    deflections[AILERONS] = static_cast<int16_t>(elevator + ailerons);
+    deflections[ELEVATOR] = static_cast<int16_t>(elevator - ailerons);
   } else if (profile.mix == Mix::V_TAIL) {
-    deflections[ELEVATOR] = elevator + deflections[RUDDER];
-    deflections[RUDDER] = elevator - deflections[RUDDER];
+    deflections[ELEVATOR] = static_cast<int16_t>(elevator + rudder);
+    deflections[RUDDER] = static_cast<int16_t>(elevator - rudder);
   }
   for (uint8_t channel = 0; channel < OUTPUTS; ++channel) {
     outputs.ticks[channel] = to_pulse(profile.servos[channel], deflections[channel]);

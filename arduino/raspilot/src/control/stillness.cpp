@@ -7,10 +7,8 @@ namespace raspilot {
 namespace {
 
 constexpr uint16_t WINDOW = 512;
-constexpr int32_t GREATEST_CHANGE = 40;  // 512 of them fit in 16 bits; 1.2 deg/s
+constexpr int16_t GREATEST_CHANGE = 40;  // 512 of them fit in 16 bits; 1.2 deg/s
 constexpr int16_t GREATEST_BIAS = 1000;  // 30 deg/s: the data sheet's 20 and warmth
-
-bool is_bias(int16_t value) { return value <= GREATEST_BIAS && value >= -GREATEST_BIAS; }
 
 }  // namespace
 
@@ -21,9 +19,9 @@ void Stillness::forget() {
 
 bool Stillness::on_sample(const int16_t* gyro) {
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int32_t change = static_cast<int32_t>(gyro[axis]) - first_[axis];
-    if ((samples_ != 0 || is_still_) && clamped(change, GREATEST_CHANGE) != change) forget();
-    if (!is_bias(gyro[axis])) {
+    const int16_t change = difference_of(gyro[axis], first_[axis]);
+    if ((samples_ != 0 || is_still_) && clamped16(change, GREATEST_CHANGE) != change) forget();
+    if (clamped16(gyro[axis], GREATEST_BIAS) != gyro[axis]) {
       forget();
       return false;
     }
@@ -37,7 +35,7 @@ bool Stillness::on_sample(const int16_t* gyro) {
   }
   if (++samples_ < WINDOW) return false;
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    mean_q4_[axis] = static_cast<int16_t>(first_[axis] * 16 + rounded(sums_[axis], 5));
+    mean_q4_[axis] = static_cast<int16_t>(first_[axis] * 16 + (sums_[axis] + 16) / 32);
   }
   samples_ = 0;
   is_still_ = true;

@@ -18,9 +18,9 @@ Ticks YawDamper::damp(int16_t wanted_16, int16_t rate_16) {
     has_steady_ = true;
     steady_ = rate_16 * static_cast<int32_t>(1 << WASHOUT_SHIFT);
   }
-  steady_ += rate_16 - rounded(steady_, WASHOUT_SHIFT);
-  const int32_t swinging = static_cast<int32_t>(rate_16) - rounded(steady_, WASHOUT_SHIFT);
-  return loop_.hold(wanted_16, to_int16(swinging));
+  const int16_t steady_16 = static_cast<int16_t>(rounded(steady_, WASHOUT_SHIFT));
+  steady_ += static_cast<int32_t>(rate_16) - steady_16;
+  return loop_.hold(wanted_16, difference_of(rate_16, steady_16));
 }
 
 }  // namespace raspilot
