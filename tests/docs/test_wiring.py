@@ -144,6 +144,17 @@ def test_every_picture_is_on_a_page():
         assert any(f"pictures/{path.name})" in page for page in pages), path.name
 
 
+def test_the_fuses_are_those_that_make_sets():
+    page = (REPOSITORY / "docs" / "airframe.md").read_text(encoding="utf-8")
+    makefile = (REPOSITORY / "arduino" / "Makefile").read_text(encoding="utf-8")
+    columns = list(
+        zip(*re.findall(r"^\| \w+ \| (0x..) \| (0x..) \|", page, re.MULTILINE), strict=True)
+    )
+    order = r"lfuse:w:(0x..):m -U hfuse:w:(0x..):m -U efuse:w:(0x..):m"
+    assert re.findall(order, makefile) == columns
+    assert re.findall(order, page) == columns[:1]
+
+
 def test_the_airframe_of_the_page_is_one_that_is_understood():
     text = files_of("airframe.md")["airframe.yml"]
     airframe = AIRFRAME.parse(text, REPOSITORY / "docs" / "airframe.md")
