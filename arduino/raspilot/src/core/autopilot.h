@@ -43,6 +43,12 @@ class Autopilot {
   Link link;
   LoopMeter meter;
   uint8_t reset_cause;
+
+ private:
+  Demand demand() const;
+
+  /** Settings and link take turns, so that neither starves the other. */
+  bool is_settings_turn_ = false;
 };
 
 }  // namespace raspilot

@@ -16,6 +16,7 @@ void serial_write(uint8_t byte);
 
 /** Whether EEPROM takes a write now (a byte takes 3.4 ms, data sheet 8.6.3). */
 bool eeprom_is_ready();
+/** Only when eeprom_is_ready(), as the write. */
 uint8_t eeprom_read(uint16_t address);
 /** Begins the write of one byte; only when eeprom_is_ready(). Equal bytes are not written. */
 void eeprom_write(uint16_t address, uint8_t value);

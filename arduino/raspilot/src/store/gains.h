@@ -20,6 +20,7 @@ struct Gains {
   PidGains stabilize[3];
 };
 
+/** What levels the default aircraft. In flash: copy with memcpy_P. */
 extern const Gains DEFAULT_GAINS;
 
 /** Whether every gain is finite and 0 to 50. */

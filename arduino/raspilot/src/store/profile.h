@@ -39,7 +39,7 @@ struct Profile {
   bool may_return_with_motor;
 };
 
-/** The profile that the firmware boots with while EEPROM holds none. */
+/** The profile that the firmware boots with while EEPROM holds none. In flash: copy with memcpy_P. */
 extern const Profile DEFAULT_PROFILE;
 
 /** Reads the 54 bytes of `C`; false and `profile` untouched when one value is out of range. */

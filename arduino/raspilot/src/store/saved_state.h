@@ -28,6 +28,11 @@ class SavedStates {
     uint8_t sequence;
     uint16_t crc;
   };
+
+  static uint16_t crc_of(const SavedState& state, uint8_t sequence);
+  static bool is_whole(const Copy& copy);
+  uint8_t newest() const;
+
   Copy copies_[2];
 };
 

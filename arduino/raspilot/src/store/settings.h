@@ -6,6 +6,8 @@
  */
 #pragma once
 
+#include "../protocol/crc16.h"
+#include "../protocol/crc16.h"
 #include "calibration.h"
 #include "gains.h"
 #include "profile.h"
@@ -20,19 +22,60 @@ class Settings {
 
   /** Reads EEPROM; what is missing or broken becomes the default. */
   void load();
-  /** Marks a kind for saving; saving begins at the next background() while disarmed. */
-  void save_profile();
-  void save_gains();
-  void save_calibration();
-  /** Writes at most one byte of EEPROM; never waits. */
-  void background(bool is_armed);
+  /**
+   * Marks a kind for saving; saving begins at the next background() while disarmed. A kind that
+   * changes while it is being saved is marked again and its save begins anew.
+   */
+  void save_profile() { save(PROFILE); }
+  void save_gains() { save(GAINS); }
+  void save_calibration() { save(CALIBRATION); }
+  /**
+   * Writes or checks at most one byte of EEPROM; never waits; false when there is nothing to do
+   * now. A save that arming interrupts, or whose slot does not read back, begins anew.
+   */
+  bool background(bool is_armed);
   bool is_saving() const;
 
   /** Whether a valid copy is in EEPROM (gains: status flag bit 6). */
-  bool has_gains() const;
-  bool has_calibration() const;
+  bool has_gains() const { return kinds_[GAINS].is_stored; }
+  bool has_calibration() const { return kinds_[CALIBRATION].is_stored; }
   /** EEPROM held a profile and no copy of it can be read: arming veto bit 6. */
-  bool is_profile_broken() const;
+  bool is_profile_broken() const { return is_profile_broken_; }
+
+ private:
+  enum Kind : uint8_t { PROFILE, GAINS, CALIBRATION, KINDS };
+  enum class Step : uint8_t { WRITE, CHECK, MARK, CHECK_MARK };
+
+  struct KindState {
+    bool is_pending = false;
+    bool is_stored = false;
+    /** Where the newest copy lies, and its sequence. */
+    uint8_t slot = 1;
+    uint8_t sequence = 0;
+  };
+
+  void load_kind(Kind kind);
+  void save(Kind kind);
+  void begin_save();
+  void step();
+  void write_next();
+  void check_next();
+  void fail();
+  void finish();
+  uint8_t next_byte();
+  uint16_t target() const;
+  bool is_at_end() const;
+  bool take(Kind kind, const uint8_t* data);
+  void give(uint8_t* data) const;
+
+  KindState kinds_[KINDS];
+  /** The kind that is being saved, if any is pending. */
+  Kind kind_ = PROFILE;
+  Step step_ = Step::WRITE;
+  uint8_t offset_ = 0;
+  uint8_t attempts_ = 0;
+  Crc16 crc_;
+  bool is_profile_broken_ = false;
 };
 
 }  // namespace raspilot

@@ -1,0 +1,185 @@
+#include "settings.h"
+
+#include "../core/board.h"
+#include "../core/flash.h"
+#include "eeprom_slot.h"
+
+namespace raspilot {
+
+namespace {
+
+/** What is stored changes its meaning with this number. */
+constexpr uint8_t VERSION = 1;
+/** A cell that will not take its value is given up after so many saves. */
+constexpr uint8_t MOST_ATTEMPTS = 3;
+constexpr uint8_t LARGEST_SIZE = GAINS_SIZE;
+
+const uint8_t SIZES[] PROGMEM = {PROFILE_SIZE, GAINS_SIZE, CALIBRATION_SIZE};
+
+uint8_t size_of(uint8_t kind) { return pgm_read_byte(&SIZES[kind]); }
+
+/** Sequences go round: the newer of two is ahead by less than half of it. */
+bool is_newer(uint8_t sequence, uint8_t than) {
+  return static_cast<int8_t>(static_cast<uint8_t>(sequence - than)) > 0;
+}
+
+}  // namespace
+
+void Settings::load() {
+  memcpy_P(&profile, &DEFAULT_PROFILE, sizeof profile);
+  memcpy_P(&gains, &DEFAULT_GAINS, sizeof gains);
+  memcpy_P(&calibration, &DEFAULT_CALIBRATION, sizeof calibration);
+  for (uint8_t kind = 0; kind < KINDS; ++kind) load_kind(static_cast<Kind>(kind));
+  is_profile_broken_ = !kinds_[PROFILE].is_stored &&
+                       !(is_slot_erased(slot_address(PROFILE, 0), PROFILE_SIZE) &&
+                         is_slot_erased(slot_address(PROFILE, 1), PROFILE_SIZE));
+  begin_save();
+}
+
+void Settings::load_kind(Kind kind) {
+  KindState& state = kinds_[kind];
+  state = KindState();
+  for (uint8_t slot = 0; slot < SLOTS_A_KIND; ++slot) {
+    uint8_t data[LARGEST_SIZE];
+    uint8_t sequence;
+    if (!read_slot(slot_address(kind, slot), VERSION, size_of(kind), data, sequence)) continue;
+    if (state.is_stored && !is_newer(sequence, state.sequence)) continue;
+    if (!take(kind, data)) continue;
+    state.is_stored = true;
+    state.slot = slot;
+    state.sequence = sequence;
+  }
+}
+
+void Settings::save(Kind kind) {
+  kinds_[kind].is_pending = true;
+  if (kind == kind_) begin_save();
+}
+
+bool Settings::is_saving() const {
+  return kinds_[PROFILE].is_pending || kinds_[GAINS].is_pending || kinds_[CALIBRATION].is_pending;
+}
+
+bool Settings::background(bool is_armed) {
+  if (is_armed) {
+    begin_save();
+    return false;
+  }
+  if (!is_saving() || !board::eeprom_is_ready()) return false;
+  while (!kinds_[kind_].is_pending) {
+    kind_ = static_cast<Kind>(kind_ + 1 == KINDS ? 0 : kind_ + 1);
+    begin_save();
+  }
+  step();
+  return true;
+}
+
+void Settings::begin_save() {
+  step_ = Step::WRITE;
+  offset_ = 0;
+  attempts_ = 0;
+}
+
+void Settings::step() {
+  switch (step_) {
+    case Step::WRITE:
+      write_next();
+      break;
+    case Step::CHECK:
+      check_next();
+      break;
+    case Step::MARK:
+      board::eeprom_write(target(), SLOT_MARK);
+      step_ = Step::CHECK_MARK;
+      break;
+    case Step::CHECK_MARK:
+      if (board::eeprom_read(target()) == SLOT_MARK) {
+        finish();
+      } else {
+        fail();
+      }
+      break;
+  }
+}
+
+void Settings::write_next() {
+  const uint16_t address = static_cast<uint16_t>(target() + offset_);
+  board::eeprom_write(address, next_byte());
+  if (!is_at_end()) return;
+  offset_ = 0;
+  step_ = Step::CHECK;
+}
+
+void Settings::check_next() {
+  const uint16_t address = static_cast<uint16_t>(target() + offset_);
+  if (board::eeprom_read(address) != next_byte()) {
+    fail();
+    return;
+  }
+  if (is_at_end()) step_ = Step::MARK;
+}
+
+void Settings::fail() {
+  const uint8_t attempts = static_cast<uint8_t>(attempts_ + 1);
+  begin_save();
+  attempts_ = attempts;
+  if (attempts < MOST_ATTEMPTS) return;
+  kinds_[kind_].is_pending = false;
+  if (kind_ == PROFILE && !kinds_[PROFILE].is_stored) is_profile_broken_ = true;
+}
+
+void Settings::finish() {
+  KindState& state = kinds_[kind_];
+  state.is_pending = false;
+  state.is_stored = true;
+  state.slot ^= 1;
+  ++state.sequence;
+  begin_save();
+  if (kind_ == PROFILE) is_profile_broken_ = false;
+}
+
+/** The byte that belongs at `offset_`; moves on, and keeps the CRC of what went before. */
+uint8_t Settings::next_byte() {
+  const uint8_t at = offset_++;
+  if (at == 0) {
+    crc_ = Crc16();
+    return SLOT_NO_MARK;
+  }
+  const uint8_t end = static_cast<uint8_t>(SLOT_HEADER_SIZE + size_of(kind_));
+  if (at >= end) return at == end ? crc_.high() : crc_.low();
+  uint8_t value;
+  if (at == 1) {
+    value = VERSION;
+  } else if (at == 2) {
+    value = static_cast<uint8_t>(kinds_[kind_].sequence + 1);
+  } else {
+    uint8_t data[LARGEST_SIZE];
+    give(data);
+    value = data[at - SLOT_HEADER_SIZE];
+  }
+  crc_.put(value);
+  return value;
+}
+
+/** The slot that is not the newest. */
+uint16_t Settings::target() const { return slot_address(kind_, kinds_[kind_].slot ^ 1); }
+
+bool Settings::is_at_end() const { return offset_ >= size_of(kind_) + SLOT_OVERHEAD; }
+
+bool Settings::take(Kind kind, const uint8_t* data) {
+  if (kind == PROFILE) return read_profile(data, profile);
+  if (kind == GAINS) return read_three_axes(data, gains);
+  return read_calibration(data, calibration);
+}
+
+void Settings::give(uint8_t* data) const {
+  if (kind_ == PROFILE) {
+    write_profile(profile, data);
+  } else if (kind_ == GAINS) {
+    write_three_axes(gains, data);
+  } else {
+    write_calibration(calibration, data);
+  }
+}
+
+}  // namespace raspilot
