@@ -75,6 +75,17 @@ TEST_CASE("pilot restore: a receiver that does not come back is failsafe within 
   CHECK(bench.authority.is_armed());
 }
 
+TEST_CASE("pilot restore: a receiver that was never heard is not lost") {
+  PilotBench before;
+  before.is_on = false;
+  before.run(1000);
+  PilotBench bench;
+  restart(bench, before);
+  bench.is_on = false;
+  bench.run(3000);
+  CHECK_FALSE(bench.authority.is_failsafe());
+}
+
 TEST_CASE("pilot restore: Outputs from before the reset do not live on") {
   PilotBench before;
   before.fly(2000);

@@ -85,12 +85,11 @@ void Authority::follow_receiver(uint16_t passed_ms) {
 
 void Authority::follow_failsafe(bool is_own_failsafe, uint16_t passed_ms) {
   if (has_receiver_) {
-    was_heard_ = true;
     is_failsafe_ = false;
     lost_.start();
     return;
   }
-  if (!was_heard_) return;
+  if (!was_heard()) return;
   lost_.pass(passed_ms);
   if (is_own_failsafe || lost_.ms() >= LOSS_MS) is_failsafe_ = true;
   if (!is_failsafe_) return;
@@ -143,7 +142,7 @@ uint8_t Authority::vetoes() const {
 
 Ticks Authority::throttle() const {
   if (profile_.has_motor && !is_armed_) return MOTOR_OFF;
-  if (is_failsafe_ || is_latched_ || !was_heard_) {
+  if (is_failsafe_ || is_latched_ || !was_heard()) {
     return us_to_ticks(static_cast<int16_t>(profile_.throttle_failsafe_us));
   }
   const Mode mode = flown_mode();
@@ -244,9 +243,6 @@ void Authority::restore(const AuthorityState& state, uint32_t now_us) {
   asked_mode_ = state.asked_mode;
   is_latched_ = state.is_throttle_latched;
   is_failsafe_ = state.is_failsafe;
-  // The receiver flew it before: its absence is a loss from now on.
-  was_heard_ = true;
-  lost_.start(state.is_failsafe ? LOSS_MS : 0);
   updated_us_ = now_us;
 }
 

@@ -99,6 +99,7 @@ class Authority {
   void follow_failsafe(bool is_own_failsafe, uint16_t passed_ms);
   void follow_arming(uint16_t passed_ms);
   bool is_throttle_low() const;
+  bool was_heard() const { return switch_.position() != SWITCH_UNKNOWN; }
   void end_demands();
   /** Why the Raspberry Pi may not fly in this mode now. */
   Reason authority_for(Mode mode) const;
@@ -124,7 +125,6 @@ class Authority {
   bool is_calibrating_ = false;
   bool is_profile_broken_ = false;
   bool has_receiver_ = false;
-  bool was_heard_ = false;
   bool is_failsafe_ = false;
   bool is_latched_ = false;
 };
