@@ -49,10 +49,11 @@ constexpr uint8_t FLYING_SHIFT = 11;   // 16.4 s
 constexpr uint8_t FINDING_GROUPS = 16;
 constexpr uint8_t SETTLED_GROUPS = 250;
 
-// Drift: an eighth of the square of the draw's rate a second, so that it never swings; at most
+// Drift: a quarter of the square of the draw's rate a second, so that it just does not swing; at most
 // 1 deg/s from the calibrated bias.
-constexpr uint8_t DRIFT_SHIFT = 7;
-constexpr int32_t GREATEST_DRIFT = 16 * TURN_PER_16TH;
+constexpr uint8_t DRIFT_SHIFT = 2;
+constexpr uint8_t DRIFT_FRACTION = 4;
+constexpr int32_t GREATEST_DRIFT = 16 * TURN_PER_16TH << DRIFT_FRACTION;
 
 // A turn of more than 2.5 deg/s about the vertical, low-passed with 0.5 s, tilts what the
 // accelerometer takes for down.
@@ -178,11 +179,14 @@ void AttitudeFilter::take_bias(const int16_t* bias_q4) {
   }
 }
 
+int32_t AttitudeFilter::bias_of(uint8_t axis) const {
+  return base_bias_[axis] + (drift_[axis] >> DRIFT_FRACTION);
+}
+
 void AttitudeFilter::integrate(const int16_t* gyro) {
   int16_t angle[3];
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int32_t turn = product(gyro[axis], TURN_PER_COUNT) - base_bias_[axis] - drift_[axis] +
-                         remainder_[axis];
+    const int32_t turn = product(gyro[axis], TURN_PER_COUNT) - bias_of(axis) + remainder_[axis];
     angle[axis] = static_cast<int16_t>(turn >> ANGLE_SHIFT);
     remainder_[axis] = static_cast<int16_t>(turn & ANGLE_REST);
   }
@@ -343,7 +347,7 @@ AttitudeState AttitudeFilter::state() const {
   AttitudeState state;
   for (uint8_t axis = 0; axis < 3; ++axis) {
     state.gravity_q30[axis] = gravity_[axis];
-    state.gyro_bias_16[axis] = to_int16((base_bias_[axis] + drift_[axis]) / TURN_PER_16TH);
+    state.gyro_bias_16[axis] = to_int16(bias_of(axis) / TURN_PER_16TH);
   }
   state.yaw_q = static_cast<int32_t>(yaw_);
   return state;

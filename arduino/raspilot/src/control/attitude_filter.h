@@ -61,6 +61,8 @@ class AttitudeFilter {
   void take_bias(const int16_t* bias_q4);
   void pass(uint32_t now_us);
   void lose();
+  /** Of one axis, rad per slot, Q32. */
+  int32_t bias_of(uint8_t axis) const;
   void integrate(const int16_t* gyro);
   /** Gravity's direction in Q14. */
   void find_down(int16_t* down) const;
@@ -80,7 +82,7 @@ class AttitudeFilter {
   Stillness stillness_;
   int32_t gravity_[3];        // direction of down in body axes, Q30
   int32_t base_bias_[3];      // rad per slot, Q32: by calibration
-  int32_t drift_[3];          // rad per slot, Q32: learned since
+  int32_t drift_[3];          // rad per slot, Q36: learned since
   int16_t remainder_[3];      // of the angle of a slot, rad Q32
   int16_t measured_[3];       // four samples of the accelerometer as down, Q14 of 1 g
   uint32_t yaw_;              // a full circle is 2^32

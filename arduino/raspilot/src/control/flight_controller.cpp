@@ -9,8 +9,8 @@ namespace {
 
 constexpr Ticks NEUTRAL = us_to_ticks(1500);
 constexpr int16_t FULL_STICK = 1000;
-// Thirty-seconds of a full stick's 1000 ticks to Q15: 32.767 in Q14 less five bits.
-constexpr int16_t STICK_TO_Q15 = 16777;
+// Thirty-seconds of a full stick's 1000 ticks to Q15: 32.766 in Q14 less five bits.
+constexpr int16_t STICK_TO_Q15 = 16776;
 // A hundredth of a degree per second in sixteenths, Q15.
 constexpr int16_t CDEG_TO_16THS = 5243;
 
