@@ -1,19 +1,20 @@
 #include "calibration.h"
 
 #include "../core/flash.h"
+#include "fields.h"
 #include "wire_bytes.h"
 
 namespace raspilot {
 
 namespace {
 
-bool is_within(int16_t value, int16_t limit) { return value >= -limit && value <= limit; }
-
-bool is_range(const ChannelRange& range) {
-  return range.lowest_us >= LOWEST_END_US && range.highest_us <= HIGHEST_END_US &&
-         range.centre_us >= range.lowest_us + LEAST_HALF_RANGE_US &&
-         range.highest_us >= range.centre_us + LEAST_HALF_RANGE_US;
-}
+/** In the order of Calibration. */
+const uint8_t FIELDS[] PROGMEM = {
+    BIAS,  BIAS,  BIAS,  LEVEL, LEVEL,                                          // gyro, mounting
+    PULSE, PULSE, PULSE, PULSE, PULSE, PULSE, PULSE, PULSE, PULSE,             // three channels
+    PULSE, PULSE, PULSE, PULSE, PULSE, PULSE, PULSE, PULSE, PULSE              // three channels
+};
+constexpr uint8_t RANGES_AT = 10;
 
 }  // namespace
 
@@ -29,45 +30,22 @@ const Calibration DEFAULT_CALIBRATION PROGMEM = {
      {1000, 1500, 2000}},
 };
 
-bool is_in_range(const Calibration& calibration) {
-  for (uint8_t axis = 0; axis < 3; ++axis) {
-    if (!is_within(calibration.gyro_bias_16[axis], GREATEST_BIAS_16)) return false;
-  }
-  for (uint8_t channel = 0; channel < INPUTS; ++channel) {
-    if (!is_range(calibration.receiver[channel])) return false;
-  }
-  return is_within(calibration.level_roll_cdeg, GREATEST_LEVEL_CDEG) &&
-         is_within(calibration.level_pitch_cdeg, GREATEST_LEVEL_CDEG);
-}
-
 bool read_calibration(const uint8_t* bytes, Calibration& calibration) {
-  Calibration staged;
-  WireReader reader(bytes);
-  for (uint8_t axis = 0; axis < 3; ++axis) staged.gyro_bias_16[axis] = reader.i16();
-  staged.level_roll_cdeg = reader.i16();
-  staged.level_pitch_cdeg = reader.i16();
+  if (!are_in_range(FIELDS, sizeof FIELDS, bytes)) return false;
+  WireReader reader(bytes + RANGES_AT);
   for (uint8_t channel = 0; channel < INPUTS; ++channel) {
-    ChannelRange& range = staged.receiver[channel];
-    range.lowest_us = reader.u16();
-    range.centre_us = reader.u16();
-    range.highest_us = reader.u16();
+    const uint16_t lowest_us = reader.u16();
+    const uint16_t centre_us = reader.u16();
+    const uint16_t highest_us = reader.u16();
+    if (centre_us < lowest_us + LEAST_HALF_RANGE_US) return false;
+    if (highest_us < centre_us + LEAST_HALF_RANGE_US) return false;
   }
-  if (!is_in_range(staged)) return false;
-  calibration = staged;
+  read_fields(FIELDS, sizeof FIELDS, bytes, &calibration);
   return true;
 }
 
 void write_calibration(const Calibration& calibration, uint8_t* bytes) {
-  WireWriter writer(bytes);
-  for (uint8_t axis = 0; axis < 3; ++axis) writer.i16(calibration.gyro_bias_16[axis]);
-  writer.i16(calibration.level_roll_cdeg);
-  writer.i16(calibration.level_pitch_cdeg);
-  for (uint8_t channel = 0; channel < INPUTS; ++channel) {
-    const ChannelRange& range = calibration.receiver[channel];
-    writer.u16(range.lowest_us);
-    writer.u16(range.centre_us);
-    writer.u16(range.highest_us);
-  }
+  write_fields(FIELDS, sizeof FIELDS, &calibration, bytes);
 }
 
 }  // namespace raspilot

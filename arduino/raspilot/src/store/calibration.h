@@ -24,18 +24,12 @@ struct Calibration {
 
 constexpr uint8_t CALIBRATION_SIZE = 46;
 
-/** 40 deg/s: twice the zero-rate output that the MPU6050's data sheet (6.1) allows. */
-constexpr int16_t GREATEST_BIAS_16 = 640;
-constexpr int16_t GREATEST_LEVEL_CDEG = 3000;
-constexpr uint16_t LOWEST_END_US = 800;
-constexpr uint16_t HIGHEST_END_US = 2200;
 /** From the centre to either end at least, so that scaling stays sane. */
 constexpr uint16_t LEAST_HALF_RANGE_US = 100;
 
 /** No bias, level as mounted, every channel 1000, 1500, 2000 us. In flash: copy with memcpy_P. */
 extern const Calibration DEFAULT_CALIBRATION;
 
-bool is_in_range(const Calibration& calibration);
 /** Reads the 46 bytes that EEPROM keeps. False and untouched when a value is out of range. */
 bool read_calibration(const uint8_t* bytes, Calibration& calibration);
 void write_calibration(const Calibration& calibration, uint8_t* bytes);

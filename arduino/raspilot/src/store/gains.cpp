@@ -9,55 +9,44 @@ namespace raspilot {
 
 namespace {
 
-constexpr uint8_t AXES = 3;
-constexpr uint8_t WIRED_AXES = 2;
-/** Positive floats are ordered as their bits are, and infinity and NaN lie above every number. */
+static_assert(sizeof(Gains) == GAINS_SIZE, "the copies below count on it");
+
+constexpr uint8_t GAINS_A_LOOP = 9;
+constexpr uint8_t WIRED_GAINS_A_LOOP = 6;
+/** 50.0f. Positive floats are ordered as their bits are, and infinity and NaN lie above every number. */
 constexpr uint32_t GREATEST_GAIN_BITS = 0x42480000;
 constexpr uint32_t MINUS_ZERO_BITS = 0x80000000;
 
-void read_axes(WireReader& reader, PidGains* axes, uint8_t count) {
-  for (uint8_t axis = 0; axis < count; ++axis) {
-    axes[axis].p = reader.f32();
-    axes[axis].i = reader.f32();
-    axes[axis].d = reader.f32();
-  }
-}
+bool is_gain(uint32_t bits) { return bits <= GREATEST_GAIN_BITS || bits == MINUS_ZERO_BITS; }
 
-void write_axes(WireWriter& writer, const PidGains* axes, uint8_t count) {
-  for (uint8_t axis = 0; axis < count; ++axis) {
-    writer.f32(axes[axis].p);
-    writer.f32(axes[axis].i);
-    writer.f32(axes[axis].d);
+bool read(const uint8_t* wire, Gains& gains, uint8_t gains_a_loop) {
+  WireReader judged(wire);
+  for (uint8_t count = 0; count < 2 * gains_a_loop; ++count) {
+    if (!is_gain(judged.u32())) return false;
   }
-}
-
-bool read_axes_of_both(const uint8_t* wire, Gains& gains, uint8_t count) {
-  Gains staged = gains;
   WireReader reader(wire);
-  read_axes(reader, staged.rate, count);
-  read_axes(reader, staged.stabilize, count);
-  if (!is_in_range(staged)) return false;
-  gains = staged;
-  return true;
-}
-
-void write_axes_of_both(const Gains& gains, uint8_t* wire, uint8_t count) {
-  WireWriter writer(wire);
-  write_axes(writer, gains.rate, count);
-  write_axes(writer, gains.stabilize, count);
-}
-
-bool is_gain(float gain) {
-  uint32_t bits;
-  memcpy(&bits, &gain, sizeof bits);
-  return bits <= GREATEST_GAIN_BITS || bits == MINUS_ZERO_BITS;
-}
-
-bool are_gains(const PidGains* axes) {
-  for (uint8_t axis = 0; axis < AXES; ++axis) {
-    if (!is_gain(axes[axis].p) || !is_gain(axes[axis].i) || !is_gain(axes[axis].d)) return false;
+  uint8_t* next = reinterpret_cast<uint8_t*>(&gains);
+  for (uint8_t loop = 0; loop < 2; ++loop) {
+    for (uint8_t count = 0; count < gains_a_loop; ++count) {
+      const uint32_t bits = reader.u32();
+      memcpy(next + count * sizeof bits, &bits, sizeof bits);
+    }
+    next += GAINS_A_LOOP * sizeof(float);
   }
   return true;
+}
+
+void write(const Gains& gains, uint8_t* wire, uint8_t gains_a_loop) {
+  WireWriter writer(wire);
+  const uint8_t* next = reinterpret_cast<const uint8_t*>(&gains);
+  for (uint8_t loop = 0; loop < 2; ++loop) {
+    for (uint8_t count = 0; count < gains_a_loop; ++count) {
+      uint32_t bits;
+      memcpy(&bits, next + count * sizeof bits, sizeof bits);
+      writer.u32(bits);
+    }
+    next += GAINS_A_LOOP * sizeof(float);
+  }
 }
 
 }  // namespace
@@ -67,20 +56,14 @@ const Gains DEFAULT_GAINS PROGMEM = {
     {{8.0f, 0.0f, 0.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}},
 };
 
-bool is_in_range(const Gains& gains) { return are_gains(gains.rate) && are_gains(gains.stabilize); }
-
-bool read_three_axes(const uint8_t* wire, Gains& gains) {
-  return read_axes_of_both(wire, gains, AXES);
-}
+bool read_three_axes(const uint8_t* wire, Gains& gains) { return read(wire, gains, GAINS_A_LOOP); }
 
 bool read_two_axes(const uint8_t* wire, Gains& gains) {
-  return read_axes_of_both(wire, gains, WIRED_AXES);
+  return read(wire, gains, WIRED_GAINS_A_LOOP);
 }
 
-void write_three_axes(const Gains& gains, uint8_t* wire) { write_axes_of_both(gains, wire, AXES); }
+void write_three_axes(const Gains& gains, uint8_t* wire) { write(gains, wire, GAINS_A_LOOP); }
 
-void write_two_axes(const Gains& gains, uint8_t* wire) {
-  write_axes_of_both(gains, wire, WIRED_AXES);
-}
+void write_two_axes(const Gains& gains, uint8_t* wire) { write(gains, wire, WIRED_GAINS_A_LOOP); }
 
 }  // namespace raspilot

@@ -23,9 +23,7 @@ struct Gains {
 /** What levels the default aircraft. In flash: copy with memcpy_P. */
 extern const Gains DEFAULT_GAINS;
 
-/** Whether every gain is finite and 0 to 50. */
-bool is_in_range(const Gains& gains);
-/** Reads the 72 bytes of `g`; false and `gains` untouched when one is out of range. */
+/** Reads the 72 bytes of `g`; false and `gains` untouched unless all are finite and 0 to 50. */
 bool read_three_axes(const uint8_t* wire, Gains& gains);
 /** Reads the 48 bytes of `t`, the rudder keeps its own; false and untouched likewise. */
 bool read_two_axes(const uint8_t* wire, Gains& gains);

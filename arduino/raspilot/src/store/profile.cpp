@@ -1,79 +1,42 @@
 #include "profile.h"
 
 #include "../core/flash.h"
+#include "fields.h"
 #include "wire_bytes.h"
 
 namespace raspilot {
 
 namespace {
 
-constexpr int16_t GREATEST_TRIM_US = 200;
-constexpr uint16_t LOWEST_PULSE_US = 800;
-constexpr uint16_t HIGHEST_PULSE_US = 2200;
-constexpr int16_t RIGHT_ANGLE_CDEG = 9000;
+/** In the order of docs/protocols.md 2.6 and of Profile. */
+const uint8_t FIELDS[] PROGMEM = {
+    FLAG,   TRIM,   PULSE,  PULSE,                       // ailerons
+    FLAG,   TRIM,   PULSE,  PULSE,                       // elevator
+    FLAG,   TRIM,   PULSE,  PULSE,                       // throttle
+    FLAG,   TRIM,   PULSE,  PULSE,                       // rudder
+    MIX,    FLAG,   LETTER, LETTER, LETTER,              // mix, motor, switch
+    LIMIT,  LIMIT,  LIMIT,  ANGLE,  ANGLE,               // limits, glide pitch, circle bank
+    PULSE,  FLOOR,  PULSE,  PULSE,  PULSE,  FLAG         // throttle, presets, return
+};
+constexpr uint8_t SERVO_SIZE = 7;
+constexpr uint8_t LOWEST_AT = 3;
+constexpr uint8_t HIGHEST_AT = 5;
+constexpr uint8_t SWITCH_AT = 30;
 
-bool is_pulse(uint16_t us) { return us >= LOWEST_PULSE_US && us <= HIGHEST_PULSE_US; }
-
-bool is_switch_mode(char letter) {
+bool is_switch_mode(uint8_t letter) {
   return letter == 'a' || letter == 'r' || letter == 'f' || letter == 'A';
 }
 
-bool is_limit(int16_t cdeg) { return cdeg >= 0 && cdeg <= RIGHT_ANGLE_CDEG; }
-
-bool is_angle(int16_t cdeg) { return cdeg >= -RIGHT_ANGLE_CDEG && cdeg <= RIGHT_ANGLE_CDEG; }
-
-/** False when a byte that is a flag, a mix or a motor says what is not known. */
-bool take_fields(WireReader reader, Profile& profile) {
+bool is_profile(const uint8_t* wire) {
+  if (!are_in_range(FIELDS, sizeof FIELDS, wire)) return false;
   for (uint8_t output = 0; output < OUTPUTS; ++output) {
-    ServoSetup& servo = profile.servos[output];
-    const uint8_t flags = reader.u8();
-    if (flags > 1) return false;
-    servo.is_reversed = flags != 0;
-    servo.trim_us = reader.i16();
-    servo.lowest_us = reader.u16();
-    servo.highest_us = reader.u16();
-  }
-  const uint8_t mix = reader.u8();
-  const uint8_t motor = reader.u8();
-  if (mix > static_cast<uint8_t>(Mix::V_TAIL) || motor > 1) return false;
-  profile.mix = static_cast<Mix>(mix);
-  profile.has_motor = motor != 0;
-  for (uint8_t position = 0; position < 3; ++position) {
-    profile.switch_modes[position] = static_cast<char>(reader.u8());
-  }
-  profile.roll_limit_cdeg = reader.i16();
-  profile.pitch_up_limit_cdeg = reader.i16();
-  profile.pitch_down_limit_cdeg = reader.i16();
-  profile.glide_pitch_cdeg = reader.i16();
-  profile.circle_bank_cdeg = reader.i16();
-  profile.throttle_failsafe_us = reader.u16();
-  profile.throttle_lost_us = reader.u16();
-  profile.preset_ailerons_us = reader.u16();
-  profile.preset_elevator_us = reader.u16();
-  profile.preset_rudder_us = reader.u16();
-  const uint8_t flags = reader.u8();
-  profile.may_return_with_motor = flags != 0;
-  return flags <= 1;
-}
-
-bool is_servo_in_range(const ServoSetup& servo) {
-  return servo.trim_us >= -GREATEST_TRIM_US && servo.trim_us <= GREATEST_TRIM_US &&
-         is_pulse(servo.lowest_us) && is_pulse(servo.highest_us) &&
-         servo.lowest_us < servo.highest_us;
-}
-
-bool is_profile_in_range(const Profile& profile) {
-  for (uint8_t output = 0; output < OUTPUTS; ++output) {
-    if (!is_servo_in_range(profile.servos[output])) return false;
+    const uint8_t* const servo = wire + output * SERVO_SIZE;
+    if (WireReader(servo + LOWEST_AT).u16() >= WireReader(servo + HIGHEST_AT).u16()) return false;
   }
   for (uint8_t position = 0; position < 3; ++position) {
-    if (!is_switch_mode(profile.switch_modes[position])) return false;
+    if (!is_switch_mode(wire[SWITCH_AT + position])) return false;
   }
-  return is_limit(profile.roll_limit_cdeg) && is_limit(profile.pitch_up_limit_cdeg) &&
-         is_limit(profile.pitch_down_limit_cdeg) && is_angle(profile.glide_pitch_cdeg) &&
-         is_angle(profile.circle_bank_cdeg) && is_pulse(profile.throttle_failsafe_us) &&
-         profile.throttle_lost_us <= HIGHEST_PULSE_US && is_pulse(profile.preset_ailerons_us) &&
-         is_pulse(profile.preset_elevator_us) && is_pulse(profile.preset_rudder_us);
+  return true;
 }
 
 }  // namespace
@@ -97,37 +60,13 @@ const Profile DEFAULT_PROFILE PROGMEM = {
 };
 
 bool read_profile(const uint8_t* wire, Profile& profile) {
-  Profile staged;
-  if (!take_fields(WireReader(wire), staged) || !is_profile_in_range(staged)) return false;
-  profile = staged;
+  if (!is_profile(wire)) return false;
+  read_fields(FIELDS, sizeof FIELDS, wire, &profile);
   return true;
 }
 
 void write_profile(const Profile& profile, uint8_t* wire) {
-  WireWriter writer(wire);
-  for (uint8_t output = 0; output < OUTPUTS; ++output) {
-    const ServoSetup& servo = profile.servos[output];
-    writer.u8(servo.is_reversed);
-    writer.i16(servo.trim_us);
-    writer.u16(servo.lowest_us);
-    writer.u16(servo.highest_us);
-  }
-  writer.u8(static_cast<uint8_t>(profile.mix));
-  writer.u8(profile.has_motor);
-  for (uint8_t position = 0; position < 3; ++position) {
-    writer.u8(static_cast<uint8_t>(profile.switch_modes[position]));
-  }
-  writer.i16(profile.roll_limit_cdeg);
-  writer.i16(profile.pitch_up_limit_cdeg);
-  writer.i16(profile.pitch_down_limit_cdeg);
-  writer.i16(profile.glide_pitch_cdeg);
-  writer.i16(profile.circle_bank_cdeg);
-  writer.u16(profile.throttle_failsafe_us);
-  writer.u16(profile.throttle_lost_us);
-  writer.u16(profile.preset_ailerons_us);
-  writer.u16(profile.preset_elevator_us);
-  writer.u16(profile.preset_rudder_us);
-  writer.u8(profile.may_return_with_motor);
+  write_fields(FIELDS, sizeof FIELDS, &profile, wire);
 }
 
 }  // namespace raspilot

@@ -9,9 +9,13 @@ uint16_t WireReader::u16() {
   return static_cast<uint16_t>(high << 8 | u8());
 }
 
-float WireReader::f32() {
+uint32_t WireReader::u32() {
   const uint32_t high = u16();
-  const uint32_t bits = high << 16 | u16();
+  return high << 16 | u16();
+}
+
+float WireReader::f32() {
+  const uint32_t bits = u32();
   float value;
   memcpy(&value, &bits, sizeof value);
   return value;
@@ -22,11 +26,15 @@ void WireWriter::u16(uint16_t value) {
   u8(static_cast<uint8_t>(value));
 }
 
+void WireWriter::u32(uint32_t value) {
+  u16(static_cast<uint16_t>(value >> 16));
+  u16(static_cast<uint16_t>(value));
+}
+
 void WireWriter::f32(float value) {
   uint32_t bits;
   memcpy(&bits, &value, sizeof bits);
-  u16(static_cast<uint16_t>(bits >> 16));
-  u16(static_cast<uint16_t>(bits));
+  u32(bits);
 }
 
 }  // namespace raspilot

@@ -13,6 +13,7 @@ class WireReader {
   uint8_t u8() { return *next_++; }
   uint16_t u16();
   int16_t i16() { return static_cast<int16_t>(u16()); }
+  uint32_t u32();
   float f32();
 
  private:
@@ -27,6 +28,7 @@ class WireWriter {
   void u8(uint8_t value) { *next_++ = value; }
   void u16(uint16_t value);
   void i16(int16_t value) { u16(static_cast<uint16_t>(value)); }
+  void u32(uint32_t value);
   void f32(float value);
 
  private:
