@@ -73,6 +73,13 @@ def test_entering_an_interrupt_takes_its_cycles(case):
     assert max(latencies) <= 12 + 3
 
 
+def test_one_instruction_runs_before_each_of_two_interrupts(case):
+    rig = case(8)
+    rig.run_us(2000)
+    # The bits that the program has set when each interrupt looks.
+    assert list(rig.serial.read()) == [0b001, 0b011, 0xEE]
+
+
 def test_sleeping_takes_simulated_time_alone(case):
     rig = case(4)
     rig.receiver.edge("ailerons", 16 * 3_000_000, 1)

@@ -57,9 +57,22 @@ def test_the_watchdog_resets_and_time_goes_on(case):
     assert boots(rig.serial.read()) == [(Reset.WATCHDOG, KEPT)]
     assert rig.now_us == pytest.approx(2 * START_UP_US + BOOT_US + 128_000, abs=1)
     assert rig.measures().resets == (1, 0, 0, 1)
-    # The receiver goes on as if nothing had happened.
-    aux = [pulse for pulse in rig.receiver.sent if pulse.channel == "aux1"]
-    assert len(aux) == int(rig.now_us / 20_000) + 1
+    frames = [pulse for pulse in rig.receiver.sent if pulse.channel == "aux1"]
+    assert len(frames) == int(rig.now_us / 20_000) + 1
+
+
+def test_the_wires_move_while_the_chip_is_in_reset(case):
+    rig = case(1)
+    rig.receiver.start(at_us=0)
+    rig.run_us(START_UP_US + BOOT_US)
+    rig.press_reset()
+    rig.run_us(START_UP_US / 2)
+    levels = set()
+    for _ in range(50):
+        rig.run_us(500)
+        levels.add(rig.receiver.level("rudder"))
+    assert rig.serial.read()[6:] == b""
+    assert levels == {0, 1}
 
 
 def test_a_fed_watchdog_does_not_reset(case):
