@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 import xml.etree.ElementTree as ElementTree
 from itertools import pairwise
 
 import pytest
 from arduino_cog.airframe import AIRFRAME
 
-from tests.docs.flying import files_of
+from tests.docs.flying import files_of, lines_of
+from tests.support.firmware import ARDUINO, CORE, need_toolchain
 from tests.support.virtual_environment import REPOSITORY
 
 PAGE = (REPOSITORY / "docs" / "wiring.md").read_text(encoding="utf-8")
@@ -153,6 +156,30 @@ def test_the_fuses_are_those_that_make_sets():
     order = r"lfuse:w:(0x..):m -U hfuse:w:(0x..):m -U efuse:w:(0x..):m"
     assert re.findall(order, makefile) == columns
     assert re.findall(order, page) == columns[:1]
+
+
+def test_the_bootloader_that_the_page_builds_fits_and_the_shipped_one_does_not(tmp_path):
+    need_toolchain()
+    for line in lines_of("airframe.md", "optiboot"):
+        here = line.replace(".venv/bin/python", sys.executable)
+        done = subprocess.run(["bash", "-c", here], cwd=REPOSITORY, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+    sizes = [boot_bytes(ARDUINO / "build" / "optiboot.hex", tmp_path)]
+    sizes.append(boot_bytes(CORE.parents[1] / SHIPPED_OPTIBOOT, tmp_path))
+    page = (REPOSITORY / "docs" / "airframe.md").read_text(encoding="utf-8")
+    assert sizes[0] <= 512 < sizes[1]
+    assert f", {sizes[0]} bytes:" in page and f"to {sizes[1]} bytes" in page
+
+
+SHIPPED_OPTIBOOT = "bootloaders/optiboot/optiboot_atmega328.hex"
+
+
+def boot_bytes(path, folder):
+    """The bytes of a bootloader's code, without the version at the end of the flash."""
+    binary = folder / "boot.bin"
+    section = [*("-j", ".sec1"), *("-I", "ihex"), *("-O", "binary")]
+    subprocess.run(["avr-objcopy", *section, path, binary], check=True)
+    return binary.stat().st_size
 
 
 def test_the_airframe_of_the_page_is_one_that_is_understood():
