@@ -81,7 +81,6 @@ def _make_rig(options: argparse.Namespace) -> Rig:
         is_measuring=False,
     )
     rig.serial.set_baud(options.baud)
-    rig.imu.noise_deg_s, rig.imu.noise_m_s2 = 0.05, 0.02
     if options.imu == "rocking":
         rig.imu.motion = rocking
     elif options.imu == "none":

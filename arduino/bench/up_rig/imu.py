@@ -15,6 +15,8 @@ GRAVITY_M_S2 = 9.80665
 _GYRO_CONFIG, _ACCEL_CONFIG = 27, 28
 _COUNTS_DEG_S, _COUNTS_G = 131.0, 16384.0
 _TEMPERATURE_C = 25.0
+NOISE_DEG_S, NOISE_M_S2 = 0.05, 0.03
+"""Of the part with its filter at 98 Hz (PS-MPU-6000A-00, 6.1 and 6.2), standard deviations."""
 
 
 class Fault(enum.IntEnum):
@@ -59,8 +61,9 @@ class Imu:
     """The sensor, mounted x forward, y left, z up.
 
     ``motion`` is a ``Motion`` or a function of the time in seconds that returns one. ``bias_deg_s``
-    and ``noise_deg_s`` (standard deviation), ``bias_m_s2`` and ``noise_m_s2`` spoil it.
-    ``is_frozen`` repeats the last sample; ``is_garbage`` sends noise over the whole range.
+    and ``noise_deg_s`` (standard deviation), ``bias_m_s2`` and ``noise_m_s2`` spoil it; a real
+    part is never without noise, and one that is looks frozen. ``is_frozen`` repeats the last
+    sample; ``is_garbage`` sends noise over the whole range.
     """
 
     def __init__(self, library: ctypes.CDLL, handle: int, seed: int = 1) -> None:
@@ -72,8 +75,8 @@ class Imu:
         self.motion: Motion | Callable[[float], Motion] = Motion()
         self.bias_deg_s = (0.0, 0.0, 0.0)
         self.bias_m_s2 = (0.0, 0.0, 0.0)
-        self.noise_deg_s = 0.0
-        self.noise_m_s2 = 0.0
+        self.noise_deg_s = NOISE_DEG_S
+        self.noise_m_s2 = NOISE_M_S2
         self.is_frozen = False
         self.is_garbage = False
         # C keeps the address alone: the object must live as long as the rig.

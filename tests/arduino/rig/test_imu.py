@@ -18,7 +18,9 @@ TRANSFER_BYTES = 16
 def case(tmp_path):
     def make(number, rate=12):
         elf = build("imu", tmp_path, f"-DCASE={number}", f"-DRATE={rate}")
-        return make_rig(elf, start_up_us=100)
+        rig = make_rig(elf, start_up_us=100)
+        rig.imu.noise_deg_s = rig.imu.noise_m_s2 = 0.0
+        return rig
 
     return make
 

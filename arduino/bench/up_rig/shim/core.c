@@ -117,8 +117,7 @@ static void reset(rig_t *rig) {
     avr->interrupt_state = 0;
     rig->reset_wanted = 0;
     rig->depth = 0;
-    rig->off_since = avr->cycle + rig->start_up;
-    rig->off_pc = (uint16_t)avr->pc;
+    rig->off_since = NEVER;
     for (int i = 0; i < 4; i++) rig->meter.resets[i] += cause >> i & 1;
     rig->reset_until = avr->cycle + rig->start_up;
     timers_reset(rig, rig->reset_until);
@@ -144,6 +143,8 @@ static void note_stack(rig_t *rig, uint16_t code) {
 }
 
 static void note_interrupts_on(rig_t *rig) {
+    /* Before a program first allows them nothing waits for them. */
+    if (rig->off_since == NEVER) return;
     uint64_t off = rig->avr->cycle - rig->off_since;
     if (off > rig->meter.longest_off) {
         rig->meter.longest_off = (uint32_t)off;
@@ -316,7 +317,7 @@ void rig_forget_measures(rig_t *rig) {
     memset(&rig->meter, 0, sizeof rig->meter);
     memcpy(rig->meter.resets, resets, sizeof resets);
     rig->meter.stack_lowest = (uint16_t)rig->avr->ramend;
-    if (!rig->avr->sreg[S_I]) rig->off_since = rig->avr->cycle;
+    if (!rig->avr->sreg[S_I] && rig->off_since != NEVER) rig->off_since = rig->avr->cycle;
     for (int i = 0; i < 16; i++) rig->nest[i].entry = rig->avr->cycle;
 }
 
