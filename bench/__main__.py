@@ -15,6 +15,7 @@ SUBJECTS = {
     "startup": "start to ports bound, and memory",
     "load": "CPU of the daemon in flight and idle",
     "relay": "the proxy beside HAProxy and socat",
+    "firmware": "the compiled firmware in the AVR simulator",
 }
 FAILED = "failed"
 
