@@ -12,3 +12,9 @@ $(RIG): $(RIG_SOURCES) $(wildcard bench/up_rig/shim/*.h)
 	@mkdir -p $(@D)
 	gcc -std=gnu11 -O2 -Wall -Wextra -fPIC -shared $(RIG_SOURCES) -lsimavr -o $@.new
 	@mv $@.new $@
+
+# Latency, jitter, loop, interrupts, memory and size of the binary, against docs/performance.md.
+.PHONY: figures
+figures: rig
+	@$(MAKE) -s -C .. .venv/.run-ready
+	@cd .. && .venv/bin/python -m bench firmware $(if $(QUICK),--quick)
