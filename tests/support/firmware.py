@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -45,8 +46,14 @@ def make(*arguments: str, timeout_s: float = 900.0) -> str:
 
 
 def build_firmware(*options: str) -> Path:
-    """Return the ELF that ``make -C arduino`` builds; options are for example ``BAUD=9600``."""
+    """Return the ELF that ``make -C arduino`` builds; options are for example ``BAUD=9600``.
+
+    ``RASPILOT_ELF`` names another build of the default options to be flown instead.
+    """
+    if not options and "RASPILOT_ELF" in os.environ:
+        return Path(os.environ["RASPILOT_ELF"])
     need_toolchain()
-    make(*options)
-    folder = "".join(f"-{option.split('=')[1]}" for option in sorted(options))
-    return ARDUINO / f"build{folder}" / "raspilot.elf"
+    chosen = dict(option.split("=") for option in options)
+    folder = "build" + "".join(f"-{chosen[name]}" for name in ("BAUD", "BOARD") if name in chosen)
+    make(*options, f"{folder}/raspilot.elf")
+    return ARDUINO / folder / "raspilot.elf"

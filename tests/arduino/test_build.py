@@ -1,0 +1,43 @@
+"""The firmware builds in every variant, fits, and its portable part passes its own tests."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.support.firmware import build_firmware, make, need_toolchain
+from tests.support.tools import need_tool, unavailable
+from up_rig.elf import read_firmware
+
+OPTIBOOT_ROOM = 32256
+CLASSIC_NANO_ROOM = 30720
+RAM = 2048
+LEAST_STACK = 400
+
+
+@pytest.mark.parametrize("options", [(), ("BAUD=9600",), ("BOARD=prototype",)])
+def test_every_variant_fits_the_board(options):
+    firmware = read_firmware(build_firmware(*options))
+    assert firmware.size <= CLASSIC_NANO_ROOM < OPTIBOOT_ROOM
+    assert RAM - (firmware.symbols["_end"].address - 0x100) >= LEAST_STACK
+
+
+def test_there_is_no_heap():
+    names = read_firmware(build_firmware()).symbols
+    assert not {"malloc", "free", "realloc", "_Znwj", "_ZdlPv"} & set(names)
+
+
+def test_a_wrong_option_is_a_sentence():
+    need_toolchain()
+    with pytest.raises(AssertionError, match="BOARD is default or prototype, not 'mega'"):
+        make("BOARD=mega")
+
+
+def test_the_portable_part_passes_its_tests_on_this_computer():
+    need_tool("g++")
+    try:
+        said = make("host-test")
+    except AssertionError as failure:
+        if "apt-get install" in str(failure):
+            unavailable(str(failure).strip().splitlines()[-1])
+        raise
+    assert "test cases:" in said
