@@ -21,19 +21,14 @@ enum Note : uint8_t {
   NOTE_RISES_RUDDER = 5
 };
 
-/** What an interrupt takes to return, and the next to come to its stamp. */
-constexpr uint8_t AFTER_INTERRUPT_TICKS = 9;
+/** What an interrupt takes from its note to its end, and the next from there to its stamp. */
+constexpr uint8_t AFTER_INTERRUPT_TICKS = 8;
 
 /**
  * Every interrupt's last word: when it ended, on Timer2, which is Timer1's low byte. An edge of the
- * receiver that is stamped just after it may have waited for it.
+ * receiver that is stamped less than AFTER_INTERRUPT_TICKS later may have waited for it.
  */
 __attribute__((always_inline)) inline void note_end_of_interrupt() { GPIOR1 = TCNT2; }
-
-/** Whether an interrupt ended so shortly before a stamp that the edge may have waited for it. */
-__attribute__((always_inline)) inline bool is_after_interrupt(uint8_t stamp_low) {
-  return static_cast<uint8_t>(stamp_low - GPIOR1) < AFTER_INTERRUPT_TICKS;
-}
 
 /**
  * Interrupts are off while it lives: a few loads and stores, never a call. It notes an edge that

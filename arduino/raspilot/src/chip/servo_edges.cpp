@@ -11,9 +11,6 @@ namespace servo_edges {
 static_assert(PIN_SERVO_AILERONS == 9 && PIN_SERVO_ELEVATOR == 10, "OC1A and OC1B");
 static_assert(PIN_SERVO_RUDDER == 11 && PIN_ESC_THROTTLE == 3, "OC2A and OC2B");
 
-/** Less than a round of Timer2, so that the match one round before an edge has passed. */
-static constexpr int16_t LAST_ROUND_TICKS = 254;
-
 static volatile uint16_t widths[OUTPUTS];
 /** When the next edge of Timer2's outputs is due. */
 static volatile uint16_t throttle_edge, rudder_edge;
@@ -112,27 +109,26 @@ ISR(TIMER1_COMPB_vect) {
  * only if this interrupt was held up for more than a round, so that no edge is ever missed.
  */
 __attribute__((always_inline)) static inline void on_round(
-    volatile uint16_t& edge, volatile uint8_t& compare, Channel channel, uint8_t note,
+    volatile uint16_t& edge, volatile uint8_t& compare, volatile uint16_t& width, uint8_t note,
     uint8_t com0, uint8_t force, uint8_t enable) {
-  using namespace servo_edges;
-  const uint16_t due = edge;
-  const int16_t left = static_cast<int16_t>(due - TCNT1);
-  if (left > LAST_ROUND_TICKS) {
+  // Whole rounds to the edge: with none left the match before it has passed, and the next makes it.
+  const int8_t rounds = static_cast<int8_t>((edge - TCNT1) >> 8);
+  if (rounds > 0) {
   } else if (GPIOR0 & _BV(note)) {
-    const bool is_told = TCCR2A & com0;
-    let_set(TCCR2A, com0);
-    if (left <= 0) {
-      if (!is_told) TCCR2B = _BV(CS21) | force;
-      const uint16_t fall = due + widths[channel];
+    const uint8_t told = TCCR2A;
+    TCCR2A = told | com0;
+    if (rounds < 0) {
+      if (!(told & com0)) TCCR2B = _BV(CS21) | force;
+      const uint16_t fall = edge + width;
       edge = fall;
       compare = static_cast<uint8_t>(fall);
       GPIOR0 &= static_cast<uint8_t>(~_BV(note));
     }
   } else {
-    const bool is_told = !(TCCR2A & com0);
-    let_clear(TCCR2A, com0);
-    if (left <= 0) {
-      if (!is_told) TCCR2B = _BV(CS21) | force;
+    const uint8_t told = TCCR2A;
+    TCCR2A = told & static_cast<uint8_t>(~com0);
+    if (rounds < 0) {
+      if (told & com0) TCCR2B = _BV(CS21) | force;
       TIMSK2 &= static_cast<uint8_t>(~enable);
     }
   }
@@ -140,12 +136,12 @@ __attribute__((always_inline)) static inline void on_round(
 }
 
 ISR(TIMER2_COMPA_vect) {
-  on_round(servo_edges::rudder_edge, OCR2A, RUDDER, NOTE_RISES_RUDDER, _BV(COM2A0), _BV(FOC2A),
+  on_round(servo_edges::rudder_edge, OCR2A, servo_edges::widths[RUDDER], NOTE_RISES_RUDDER, _BV(COM2A0), _BV(FOC2A),
            _BV(OCIE2A));
 }
 
 ISR(TIMER2_COMPB_vect) {
-  on_round(servo_edges::throttle_edge, OCR2B, THROTTLE, NOTE_RISES_THROTTLE, _BV(COM2B0),
+  on_round(servo_edges::throttle_edge, OCR2B, servo_edges::widths[THROTTLE], NOTE_RISES_THROTTLE, _BV(COM2B0),
            _BV(FOC2B), _BV(OCIE2B));
 }
 
