@@ -90,7 +90,7 @@ TEST_CASE("pilot range: a stick that rests at its end is no centre") {
   PilotBench bench;
   bench.run(100);
   move_all(bench, NARROW, 1920);
-  bench.sticks[ELEVATOR] = 1180;
+  bench.sticks[ELEVATOR] = 1280;
   bench.run(100);
   Calibration learned = DEFAULT_CALIBRATION;
   CHECK_FALSE(bench.reader.end_range_learning(learned));

@@ -4,21 +4,18 @@ namespace raspilot {
 
 namespace {
 
-constexpr uint16_t LOSS_MS = 500;
+constexpr uint16_t LOSS_UNITS = units_at_least(500);
 // More than one frame of any receiver (22 ms).
-constexpr uint16_t RETURN_MS = 30;
-constexpr uint16_t LATCH_MS = 5000;
-constexpr uint16_t OUTPUT_LIVES_MS = 250;
-constexpr uint16_t ASKED_OUTPUT_MS = 500;
-constexpr uint16_t VETO_LIVES_MS = 1000;
-constexpr uint16_t LOW_LONG_ENOUGH_MS = 2000;
+constexpr uint16_t RETURN_UNITS = units_at_least(30);
+constexpr uint16_t LATCH_UNITS = units_at_least(5000);
+constexpr uint16_t OUTPUT_LIVES_UNITS = units_at_most(250);
+constexpr uint16_t ASKED_OUTPUT_UNITS = units_at_least(500);
+constexpr uint16_t VETO_LIVES_UNITS = units_at_least(1000);
+constexpr uint16_t LOW_LONG_ENOUGH_UNITS = units_at_least(2000);
 constexpr uint32_t OLDEST_ORIENTATION_US = 100000;
-constexpr uint32_t LONGEST_PASS_US = 130000;
 constexpr Ticks LOW_THROTTLE = us_to_ticks(1050);
 constexpr Ticks MOTOR_OFF = us_to_ticks(1000);
 
-bool is_pulse(uint16_t us) { return us >= 1000 && us <= 2000; }
-bool is_throttle_demand(uint16_t us) { return us == 0 || is_pulse(us); }
 char letter_of(Mode mode) { return static_cast<char>(mode); }
 
 }  // namespace
@@ -31,38 +28,27 @@ void Authority::update(bool is_imu_valid, bool is_calibrating, bool is_profile_b
   is_imu_valid_ = is_imu_valid;
   is_calibrating_ = is_calibrating;
   is_profile_broken_ = is_profile_broken;
-  const uint16_t passed_ms = pass(now_us);
-  asked_.pass(passed_ms);
-  outputs_.pass(passed_ms);
-  demand_.pass(passed_ms);
-  veto_.pass(passed_ms);
-  follow_receiver(passed_ms);
+  const uint16_t now_units = to_units(now_us);
+  const uint16_t passed_units = static_cast<uint16_t>(now_units - updated_at_);
+  updated_at_ = now_units;
+  asked_.pass(passed_units);
+  outputs_.pass(passed_units);
+  demand_.pass(passed_units);
+  veto_.pass(passed_units);
+  follow_receiver(passed_units);
 }
 
-uint16_t Authority::pass(uint32_t now_us) {
-  uint32_t passed_us = now_us - updated_us_;
-  updated_us_ = now_us;
-  // The watchdog lets no slot be longer; the first one is.
-  if (passed_us > LONGEST_PASS_US) passed_us = LONGEST_PASS_US;
-  passed_us += rest_us_;
-  uint16_t passed_ms = 0;
-  // Mostly twice: a division takes longer.
-  for (; passed_us >= 1000; passed_us -= 1000) ++passed_ms;
-  rest_us_ = static_cast<uint16_t>(passed_us);
-  return passed_ms;
-}
-
-void Authority::follow_receiver(uint16_t passed_ms) {
+void Authority::follow_receiver(uint16_t passed_units) {
   const bool is_valid = receiver_.validity() == ALL_INPUTS;
   const Ticks lost_throttle = us_to_ticks(static_cast<int16_t>(profile_.throttle_lost_us));
   const bool is_own_failsafe = is_valid && receiver_.pulse(THROTTLE) < lost_throttle;
   if (is_valid && !is_own_failsafe) {
-    sound_.pass(passed_ms);
+    sound_.pass(passed_units);
   } else {
     sound_.start();
   }
-  has_receiver_ = sound_.ms() >= RETURN_MS;
-  follow_failsafe(is_own_failsafe, passed_ms);
+  has_receiver_ = sound_.units() >= RETURN_UNITS;
+  follow_failsafe(is_own_failsafe, passed_units);
   if (!has_receiver_) {
     arming_.forget();
     throttle_low_.start();
@@ -75,30 +61,30 @@ void Authority::follow_receiver(uint16_t passed_ms) {
     end_demands();
   }
   if (is_throttle_low()) {
-    throttle_low_.pass(passed_ms);
+    throttle_low_.pass(passed_units);
     is_latched_ = false;
   } else {
     throttle_low_.start();
   }
-  follow_arming(passed_ms);
+  follow_arming(passed_units);
 }
 
-void Authority::follow_failsafe(bool is_own_failsafe, uint16_t passed_ms) {
+void Authority::follow_failsafe(bool is_own_failsafe, uint16_t passed_units) {
   if (has_receiver_) {
     is_failsafe_ = false;
     lost_.start();
     return;
   }
   if (!was_heard()) return;
-  lost_.pass(passed_ms);
-  if (is_own_failsafe || lost_.ms() >= LOSS_MS) is_failsafe_ = true;
+  lost_.pass(passed_units);
+  if (is_own_failsafe || lost_.units() >= LOSS_UNITS) is_failsafe_ = true;
   if (!is_failsafe_) return;
   end_demands();
-  if (lost_.ms() > LATCH_MS) is_latched_ = true;
+  if (lost_.units() > LATCH_UNITS) is_latched_ = true;
 }
 
-void Authority::follow_arming(uint16_t passed_ms) {
-  const ArmingSwitch::Event event = arming_.take(receiver_.pulse(AUX2), passed_ms);
+void Authority::follow_arming(uint16_t passed_units) {
+  const ArmingSwitch::Event event = arming_.take(receiver_.pulse(AUX2), passed_units);
   if (event == ArmingSwitch::FELL) is_armed_ = false;
   if (event == ArmingSwitch::ROSE && vetoes() == 0) is_armed_ = true;
 }
@@ -163,7 +149,7 @@ Reason Authority::arm(uint32_t) {
 }
 
 Reason Authority::disarm(uint32_t) {
-  if (is_armed_ && profile_.has_motor && throttle_low_.ms() < LOW_LONG_ENOUGH_MS) {
+  if (is_armed_ && profile_.has_motor && throttle_low_.units() < LOW_LONG_ENOUGH_UNITS) {
     return has_receiver_ ? Reason::THROTTLE_NOT_LOW : Reason::RECEIVER_INVALID;
   }
   is_armed_ = false;
@@ -179,7 +165,7 @@ Reason Authority::ask_mode(char letter, uint32_t) {
   if (!has_receiver_) return Reason::RECEIVER_INVALID;
   if (mode == Mode::OUTPUT && !is_imu_valid_) return Reason::IMU_INVALID;
   asked_mode_ = letter;
-  asked_.start(ASKED_OUTPUT_MS);
+  asked_.start(ASKED_OUTPUT_UNITS);
   if (mode != Mode::OUTPUT) outputs_.end();
   if (mode != Mode::SETPOINT) demand_.end();
   return Reason::NONE;
@@ -195,10 +181,6 @@ Reason Authority::authority_for(Mode mode) const {
 }
 
 Reason Authority::take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t) {
-  for (uint8_t i = 0; i < OUTPUTS; ++i) {
-    const uint16_t us = pulses_us[i];
-    if (!(i == THROTTLE ? is_throttle_demand(us) : is_pulse(us))) return Reason::OUT_OF_RANGE;
-  }
   const Reason reason = authority_for(Mode::OUTPUT);
   if (reason != Reason::NONE) return reason;
   if (age_us > OLDEST_ORIENTATION_US) return Reason::TOO_OLD;
@@ -206,26 +188,22 @@ Reason Authority::take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint3
     asked_outputs_.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
   }
   // It outlives any older Setpoint, whose lifetime is no longer.
-  outputs_.start(OUTPUT_LIVES_MS);
+  outputs_.start(OUTPUT_LIVES_UNITS);
   return Reason::NONE;
 }
 
 Reason Authority::take_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t) {
-  if (setpoint.roll_cdeg < -18000 || setpoint.roll_cdeg > 18000 || setpoint.pitch_cdeg < -9000 ||
-      setpoint.pitch_cdeg > 9000 || !is_throttle_demand(setpoint.throttle_us) ||
-      lifetime_ms < 1 || lifetime_ms > OUTPUT_LIVES_MS) {
-    return Reason::OUT_OF_RANGE;
-  }
   const Reason reason = authority_for(Mode::SETPOINT);
   if (reason != Reason::NONE) return reason;
   setpoint_ = setpoint;
-  demand_.start(lifetime_ms);
+  // Rather a unit too short than one too long.
+  demand_.start(static_cast<uint16_t>(lifetime_ms - lifetime_ms / 32 - 1));
   outputs_.end();
   return Reason::NONE;
 }
 
 void Authority::take_veto(bool is_vetoed, uint32_t) {
-  veto_.start(is_vetoed ? VETO_LIVES_MS : 0);
+  veto_.start(is_vetoed ? VETO_LIVES_UNITS : 0);
 }
 
 void Authority::end_demands() {
@@ -243,7 +221,7 @@ void Authority::restore(const AuthorityState& state, uint32_t now_us) {
   asked_mode_ = state.asked_mode;
   is_latched_ = state.is_throttle_latched;
   is_failsafe_ = state.is_failsafe;
-  updated_us_ = now_us;
+  updated_at_ = to_units(now_us);
 }
 
 }  // namespace raspilot

@@ -83,7 +83,10 @@ class Authority {
   Reason disarm(uint32_t now_us);
   /** `M`: only with the switch at AUTO; never ACRO. */
   Reason ask_mode(char letter, uint32_t now_us);
-  /** `u`; `age_us` is that of the orientation that it was computed from. Holds for 250 ms. */
+  /**
+   * `u`; `age_us` is that of the orientation that it was computed from. Holds for 250 ms. Values
+   * are in range, here and in a Setpoint: whoever reads them from the wire refuses others.
+   */
   Reason take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t now_us);
   Reason take_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t now_us);
   /** `v`: holds for 1 s. */
@@ -94,10 +97,9 @@ class Authority {
   void restore(const AuthorityState& state, uint32_t now_us);
 
  private:
-  uint16_t pass(uint32_t now_us);
-  void follow_receiver(uint16_t passed_ms);
-  void follow_failsafe(bool is_own_failsafe, uint16_t passed_ms);
-  void follow_arming(uint16_t passed_ms);
+  void follow_receiver(uint16_t passed_units);
+  void follow_failsafe(bool is_own_failsafe, uint16_t passed_units);
+  void follow_arming(uint16_t passed_units);
   bool is_throttle_low() const;
   bool was_heard() const { return switch_.position() != SWITCH_UNKNOWN; }
   void end_demands();
@@ -117,8 +119,7 @@ class Authority {
   Stopwatch lost_;
   Setpoint setpoint_;
   Outputs asked_outputs_;
-  uint32_t updated_us_ = 0;
-  uint16_t rest_us_ = 0;
+  uint16_t updated_at_ = 0;
   char asked_mode_ = 0;
   bool is_armed_ = false;
   bool is_imu_valid_ = false;

@@ -12,51 +12,58 @@ namespace raspilot {
  * receiver. One that is followed by another edge within these 2.5 ms was a piece of a pulse, cut
  * by noise: it is taken back. Edges shorter than 300 us are noise.
  *
- * Stamps are Timer1 (0.5 us, wrapping at 32.768 ms); units are 1024 us, wrapping at 67 s.
+ * Stamps are Timer1 (0.5 us, wrapping at 32.768 ms), units those of lifetime.h.
  */
 class InputChannel {
  public:
   enum Fall : uint8_t { NOISE, OUT_OF_RANGE, GOOD };
 
-  explicit InputChannel(Ticks pulse);
+  /** What it shows before its first pulse. */
+  void begin(Ticks pulse);
 
   /** True when it proves the pulse before it: that one was followed by a rest. */
-  bool on_rise(uint16_t stamp, bool is_late, uint16_t now_units, const ChannelRange& range);
-  Fall on_fall(uint16_t stamp, bool is_late, uint16_t now_units, const ChannelRange& range);
+  bool on_rise(uint16_t stamp, bool is_late);
+  Fall on_fall(uint16_t stamp, bool is_late);
   /** Edges were lost before `stamp`: nothing is known but the level. */
   void begin_again(uint16_t stamp);
-  /** Ages it; each slot. */
-  void check(bool is_high, uint16_t now_stamp, uint16_t now_units);
+  /** Ages it, and shows its newest pulse; each slot. */
+  void check(bool is_high, uint16_t now_stamp, uint8_t passed_units, const ChannelRange& range);
 
+  /** Filtered and calibrated, ticks. */
   Ticks pulse() const { return pulse_; }
   /** Filtered, before calibration. */
   Ticks raw() const { return filter_.pulse(); }
+  /** Of the newest pulse as it was measured, ticks. */
   uint16_t width() const { return width_; }
   uint16_t rise() const { return rise_; }
-  bool is_valid() const { return is_valid_; }
-
-  /** A good pulse came that was not taken back. */
-  bool is_new : 1;
-  /** It rose, and no output was slaved to it yet. */
-  bool has_risen : 1;
+  bool is_valid() const { return flags_ & VALID; }
+  /** It rose and is valid; true once each rise. */
+  bool take_rise();
 
  private:
+  enum Flag : uint8_t {
+    VALID = 1,
+    CHANGED = 2,
+    RISEN = 4,
+    MEASURING = 8,
+    UNCERTAIN = 16,
+    RESTED = 32,
+    REVOCABLE = 64,
+    // Its validity began with the pulse that may still be taken back.
+    UNPROVEN = 128
+  };
+
   void note_fall(uint16_t stamp) { rise_ = static_cast<uint16_t>(stamp - width_); }
   uint16_t fell_at() const { return static_cast<uint16_t>(rise_ + width_); }
-  void show(Ticks raw, const ChannelRange& range);
 
-  bool is_valid_ : 1;
-  bool is_measuring_ : 1;
-  bool is_uncertain_ : 1;
-  bool has_rested_ : 1;
-  bool is_revocable_ : 1;
-  bool is_unproven_ : 1;
   PulseFilter filter_;
-  Ticks pulse_;
-  Ticks before_;
+  Ticks pulse_ = 0;
+  Ticks before_ = 0;
   uint16_t rise_ = 0;
   uint16_t width_ = 0;
-  uint16_t proven_at_ = 0;
+  /** Since a pulse was proven, units. */
+  uint8_t age_ = 0;
+  uint8_t flags_ = 0;
 };
 
 }  // namespace raspilot

@@ -1,34 +1,48 @@
-/** Times of at most 65 s in milliseconds, moved on by whoever owns them: nothing in them wraps. */
+/**
+ * Times of at most 67 s that nothing wraps, moved on by whoever owns them. They are counted in
+ * units of 1024 us, because a shift is what a microcontroller divides by.
+ */
 #pragma once
 
 #include <stdint.h>
 
 namespace raspilot {
 
+/** The clock in units. */
+constexpr uint16_t to_units(uint32_t now_us) { return static_cast<uint16_t>(now_us >> 10); }
+/** So many units have passed no sooner than `ms`, and at most 2 units later. */
+constexpr uint16_t units_at_least(uint16_t ms) {
+  return static_cast<uint16_t>(ms * 1000UL / 1024 + 2);
+}
+/** So many units have passed when `ms` have, and at most 3 units sooner. */
+constexpr uint16_t units_at_most(uint16_t ms) {
+  return static_cast<uint16_t>(ms * 1000UL / 1024 - 1);
+}
+
 /** How long something holds still. */
 class Lifetime {
  public:
-  void start(uint16_t ms) { left_ms_ = ms; }
-  void end() { left_ms_ = 0; }
-  void pass(uint16_t ms) { left_ms_ = left_ms_ > ms ? static_cast<uint16_t>(left_ms_ - ms) : 0; }
-  bool lives() const { return left_ms_ != 0; }
+  void start(uint16_t units) { left_ = units; }
+  void end() { left_ = 0; }
+  void pass(uint16_t units) { left_ = left_ > units ? static_cast<uint16_t>(left_ - units) : 0; }
+  bool lives() const { return left_ != 0; }
 
  private:
-  uint16_t left_ms_ = 0;
+  uint16_t left_ = 0;
 };
 
-/** How long something has lasted; stays at 65535. */
+/** How long something has lasted, units; stays at 65535. */
 class Stopwatch {
  public:
-  void start(uint16_t ms = 0) { ms_ = ms; }
-  void pass(uint16_t ms) {
-    const uint16_t sum = static_cast<uint16_t>(ms_ + ms);
-    ms_ = sum < ms ? 65535 : sum;
+  void start() { units_ = 0; }
+  void pass(uint16_t units) {
+    const uint16_t sum = static_cast<uint16_t>(units_ + units);
+    units_ = sum < units ? 65535 : sum;
   }
-  uint16_t ms() const { return ms_; }
+  uint16_t units() const { return units_; }
 
  private:
-  uint16_t ms_ = 0;
+  uint16_t units_ = 0;
 };
 
 }  // namespace raspilot

@@ -5,60 +5,53 @@ namespace raspilot {
 namespace {
 
 // Stamps have 16 bits of 0.5 us: only half of their 32.768 ms is told apart from the other.
-constexpr uint32_t STALL_US = 16000;
-constexpr uint32_t OLDEST_AGE_US = 65535000;
-constexpr Ticks CENTRE = us_to_ticks(1500);
-constexpr Ticks LOW = us_to_ticks(1000);
-
-uint16_t to_units(uint32_t now_us) { return static_cast<uint16_t>(now_us >> 10); }
+constexpr uint16_t STALL_UNITS = 15;
+constexpr uint8_t MOST_PASSED_UNITS = 127;
+constexpr uint16_t MOST_AGE_UNITS = 64000;
 
 }  // namespace
 
-PwmReader::PwmReader(const Calibration& calibration)
-    : calibration_(calibration),
-      channels_{InputChannel(CENTRE), InputChannel(CENTRE), InputChannel(LOW),
-                InputChannel(CENTRE), InputChannel(CENTRE), InputChannel(CENTRE)} {}
+PwmReader::PwmReader(const Calibration& calibration) : calibration_(calibration) {
+  for (InputChannel& channel : channels_) channel.begin(us_to_ticks(1500));
+  channels_[THROTTLE].begin(us_to_ticks(1000));
+  age_.pass(65535);
+}
+
+uint16_t PwmReader::passed_units(uint32_t now_us) const {
+  return static_cast<uint16_t>(to_units(now_us) - checked_at_);
+}
 
 void PwmReader::on_edge(uint16_t stamp_ticks, uint8_t levels, bool is_late, uint32_t now_us) {
+  const bool is_lost = is_lost_ || passed_units(now_us) > STALL_UNITS;
+  is_lost_ = false;
   uint8_t changed = static_cast<uint8_t>(levels ^ levels_);
   levels_ = levels;
-  if (is_lost_ || now_us - checked_us_ > STALL_US) {
-    is_lost_ = false;
-    for (InputChannel& channel : channels_) channel.begin_again(stamp_ticks);
-    return;
-  }
   for (uint8_t i = 0; i < INPUTS; ++i) {
-    if (changed & 1) on_change(i, stamp_ticks, levels & 1, is_late, now_us);
+    InputChannel& channel = channels_[i];
+    if (is_lost) {
+      channel.begin_again(stamp_ticks);
+    } else if (!(changed & 1)) {
+      // Another channel's edge.
+    } else if (levels & 1) {
+      if (channel.on_rise(stamp_ticks, is_late)) learner_.take(i, channel.width());
+    } else if (channel.on_fall(stamp_ticks, is_late) != InputChannel::NOISE) {
+      age_.start();
+    }
     changed = static_cast<uint8_t>(changed >> 1);
     levels = static_cast<uint8_t>(levels >> 1);
   }
 }
 
-void PwmReader::on_change(uint8_t index, uint16_t stamp, bool is_high, bool is_late,
-                          uint32_t now_us) {
-  InputChannel& channel = channels_[index];
-  const ChannelRange& range = calibration_.receiver[index];
-  const uint16_t now_units = to_units(now_us);
-  if (is_high) {
-    const bool is_proof = channel.on_rise(stamp, is_late, now_units, range);
-    if (is_proof && learner_.is_learning()) {
-      learner_.take(static_cast<Channel>(index), static_cast<Ticks>(channel.width()));
-    }
-  } else if (channel.on_fall(stamp, is_late, now_units, range) != InputChannel::NOISE) {
-    newest_us_ = now_us;
-    has_age_ = true;
-  }
-}
-
 void PwmReader::check(uint32_t now_us) {
-  if (now_us - checked_us_ > STALL_US) is_lost_ = true;
-  checked_us_ = now_us;
-  if (now_us - newest_us_ > OLDEST_AGE_US) has_age_ = false;
+  const uint16_t passed = passed_units(now_us);
+  checked_at_ = to_units(now_us);
+  if (passed > STALL_UNITS) is_lost_ = true;
+  age_.pass(passed);
+  const uint8_t aged = passed < MOST_PASSED_UNITS ? static_cast<uint8_t>(passed) : MOST_PASSED_UNITS;
   const uint16_t now_stamp = static_cast<uint16_t>(now_us * 2);
-  const uint16_t now_units = to_units(now_us);
   uint8_t levels = levels_;
-  for (InputChannel& channel : channels_) {
-    channel.check(levels & 1, now_stamp, now_units);
+  for (uint8_t i = 0; i < INPUTS; ++i) {
+    channels_[i].check(levels & 1, now_stamp, aged, calibration_.receiver[i]);
     levels = static_cast<uint8_t>(levels >> 1);
   }
 }
@@ -77,24 +70,17 @@ uint16_t PwmReader::measured_us(Channel channel) const {
 }
 
 uint16_t PwmReader::age_ms(uint32_t now_us) const {
-  const uint32_t age_us = now_us - newest_us_;
-  return !has_age_ || age_us > OLDEST_AGE_US ? 65535 : static_cast<uint16_t>(age_us / 1000);
-}
-
-bool PwmReader::take_frame() {
-  for (const InputChannel& channel : channels_) {
-    if (!channel.is_new) return false;
-  }
-  for (InputChannel& channel : channels_) channel.is_new = false;
-  return true;
+  Stopwatch age = age_;
+  age.pass(passed_units(now_us));
+  const uint16_t units = age.units();
+  // 1024 us are 1 + 1/42 ms.
+  return units > MOST_AGE_UNITS ? 65535 : static_cast<uint16_t>(units + units / 42);
 }
 
 bool PwmReader::take_rise(Channel channel, uint16_t& stamp_ticks) {
   InputChannel& input = channels_[channel];
-  if (!input.has_risen || !input.is_valid()) return false;
-  input.has_risen = false;
   stamp_ticks = input.rise();
-  return true;
+  return input.take_rise();
 }
 
 bool PwmReader::end_range_learning(Calibration& learned) {

@@ -7,6 +7,7 @@
 #include "../core/types.h"
 #include "../store/calibration.h"
 #include "input_channel.h"
+#include "lifetime.h"
 #include "range_learner.h"
 
 namespace raspilot {
@@ -22,7 +23,7 @@ class PwmReader {
   void on_edge(uint16_t stamp_ticks, uint8_t levels, bool is_late, uint32_t now_us);
   /** Edges were lost (the ring was full): what is being measured is forgotten. */
   void on_lost_edges() { is_lost_ = true; }
-  /** Forgets channels without a good pulse for 100 ms; each slot. */
+  /** Shows the newest pulses, forgets channels without a good one for 100 ms; each slot. */
   void check(uint32_t now_us);
 
   /**
@@ -34,10 +35,8 @@ class PwmReader {
   uint16_t measured_us(Channel channel) const;
   /** A bit a channel: fresh (100 ms) and within 885 to 2115 us. */
   uint8_t validity() const;
-  /** Age of the newest pulse of any channel, ms, at most 65535. */
+  /** Age of the newest pulse of any channel, ms, at most 65535, which it is before the first. */
   uint16_t age_ms(uint32_t now_us) const;
-  /** Whether all six came anew since the last call. */
-  bool take_frame();
   /**
    * The Timer1 stamp of the newest rising edge of a servo channel whose last pulse was good, once
    * each: the output is slaved to it.
@@ -50,16 +49,15 @@ class PwmReader {
   bool is_learning() const { return learner_.is_learning(); }
 
  private:
-  void on_change(uint8_t index, uint16_t stamp, bool is_high, bool is_late, uint32_t now_us);
+  uint16_t passed_units(uint32_t now_us) const;
 
   const Calibration& calibration_;
   InputChannel channels_[INPUTS];
   RangeLearner learner_;
-  uint32_t newest_us_ = 0;
-  uint32_t checked_us_ = 0;
+  Stopwatch age_;
+  uint16_t checked_at_ = 0;
   uint8_t levels_ = 0;
   bool is_lost_ = true;
-  bool has_age_ = false;
 };
 
 }  // namespace raspilot

@@ -16,17 +16,21 @@ namespace raspilot {
 class RangeLearner {
  public:
   void begin();
-  void take(Channel channel, Ticks pulse);
+  /** A good pulse; nothing while not learning. */
+  void take(uint8_t channel, uint16_t width_ticks);
   /**
    * Ends learning; `resting` are the newest pulses, ticks. False, and `ranges` untouched, when
-   * it had not begun, a range is below 400 us, or a centre is within 100 us of an end.
+   * it had not begun or a centre is within 200 us of an end.
    */
   bool end(const Ticks* resting, ChannelRange* ranges);
   bool is_learning() const { return is_learning_; }
 
  private:
-  Ticks lowest_[INPUTS];
-  Ticks highest_[INPUTS];
+  struct Ends {
+    uint16_t lowest, highest;
+  };
+
+  Ends ends_[INPUTS];
   bool is_learning_ = false;
 };
 
