@@ -22,6 +22,7 @@ static constexpr int16_t TRANSFER_TICKS = 2 * 430;
 static constexpr int16_t GRACE_TICKS = 2 * 60;
 /** A background piece begins only if it ends before that. */
 static constexpr int16_t PIECE_TICKS = 2 * 110;
+static constexpr int16_t KEEP_TICKS = 2 * 270;
 static constexpr int16_t BYTE_TICKS = 2 * 20;
 /** State is kept 50 times a second. */
 static constexpr uint8_t KEEP_SLOTS = 10;
@@ -77,12 +78,12 @@ static bool work(int16_t left) {
     autopilot.link.on_byte(byte, clock::now_us());
     return true;
   }
-  if (left < PIECE_TICKS) return false;
-  if (!slots_to_keep) {
+  if (!slots_to_keep && left >= KEEP_TICKS) {
     slots_to_keep = KEEP_SLOTS;
     reset::keep(autopilot.state());
     return true;
   }
+  if (left < PIECE_TICKS) return false;
   return autopilot.background(clock::now_us());
 }
 
@@ -90,8 +91,9 @@ void run_slot() {
   const uint32_t now = clock::now_us();
   autopilot.meter.on_slot(due_us, now);
   edges::drain(autopilot.receiver, now);
+  servos.plan(autopilot.receiver);
   autopilot.control(imu.sample(), now);
-  servos.update(autopilot.controller.outputs(), autopilot.receiver);
+  servos.set(autopilot.controller.outputs());
   blink();
   if (slots_to_keep) slots_to_keep--;
 

@@ -15,7 +15,7 @@ static constexpr uint16_t STAGGER_TICKS = 0;
 #endif
 static constexpr uint16_t FREE_PERIOD_TICKS = 40000;
 static constexpr uint16_t LEAST_PERIOD_TICKS = 12000;
-/** A rise is planned when it is nearer than this, which is more than a slot. */
+/** A rise is planned when it is nearer than this, a slot and how late the next may be. */
 static constexpr int16_t LEAD_TICKS = 6000;
 static constexpr int16_t LEAST_LEAD_TICKS = 600;
 /** 26 ms without a rise: the receiver is silent, as its frames last 22 ms at most. */
@@ -28,22 +28,26 @@ void Servos::begin() {
   servo_edges::begin();
 }
 
-void Servos::update(const Outputs& outputs, PwmReader& receiver) {
+void Servos::set(const Outputs& outputs) {
+  for (uint8_t i = 0; i < OUTPUTS; i++)
+    servo_edges::set_width(static_cast<Channel>(i), outputs.ticks[i]);
+}
+
+void Servos::plan(PwmReader& receiver) {
   const uint16_t now = clock::ticks();
   for (uint8_t i = 0; i < OUTPUTS; i++) {
     const Channel channel = static_cast<Channel>(i);
-    servo_edges::set_width(channel, outputs.ticks[i]);
     uint16_t stamp;
     if (receiver.take_rise(channel, stamp)) {
       plans_[i].next = stamp + LATENCY_TICKS + i * STAGGER_TICKS;
       plans_[i].has_next = true;
       plans_[i].is_free = false;
     }
-    plan(channel, now);
+    plan_channel(channel, now);
   }
 }
 
-void Servos::plan(Channel channel, uint16_t now) {
+void Servos::plan_channel(Channel channel, uint16_t now) {
   Plan& plan = plans_[channel];
   if (plan.slots < 255) plan.slots++;
   if (servo_edges::is_busy(channel)) return;
@@ -60,8 +64,9 @@ void Servos::plan(Channel channel, uint16_t now) {
   }
   const int16_t left = static_cast<int16_t>(rise - now);
   if (left > LEAD_TICKS) return;
+  // A slot that came too late has made this one late too; better late than not at all.
+  if (left < LEAST_LEAD_TICKS) rise = now + LEAST_LEAD_TICKS;
   plan.has_next = false;
-  if (left < LEAST_LEAD_TICKS) return;
   if (plan.slots < SILENT_SLOTS && static_cast<uint16_t>(rise - plan.rise) < LEAST_PERIOD_TICKS)
     return;
   servo_edges::plan(channel, rise);

@@ -14,8 +14,10 @@ namespace raspilot {
 class Servos {
  public:
   void begin();
-  /** Takes the pulses over and plans the rises that come before the next slot has ended. */
-  void update(const Outputs& outputs, PwmReader& receiver);
+  /** Plans the rises that come before the next slot has ended; when a slot begins. */
+  void plan(PwmReader& receiver);
+  /** Takes the pulses over: each holds from its output's next rise. */
+  void set(const Outputs& outputs);
 
  private:
   struct Plan {
@@ -26,7 +28,7 @@ class Servos {
     bool is_free;
   };
 
-  void plan(Channel channel, uint16_t now);
+  void plan_channel(Channel channel, uint16_t now);
 
   Plan plans_[OUTPUTS];
 };
