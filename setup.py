@@ -60,8 +60,7 @@ setup(
             "*.csv",
             "*.xml",
             "*.gz",
-            "*.c",
-            "*.h",
+            "shim/*.[ch]",
         ]
     },
     install_requires=[

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import ctypes
 
+from up_rig.library import Handle
+
 SIZE = 1024
 
 
 class Eeprom:
     """1024 bytes that outlive power."""
 
-    def __init__(self, library: ctypes.CDLL, handle: int) -> None:
+    def __init__(self, library: ctypes.CDLL, handle: Handle) -> None:
         self._library = library
         self._handle = handle
 

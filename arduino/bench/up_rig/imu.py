@@ -9,7 +9,7 @@ import random
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from up_rig.library import SampleFunction
+from up_rig.library import Handle, SampleFunction
 
 GRAVITY_M_S2 = 9.80665
 _GYRO_CONFIG, _ACCEL_CONFIG = 27, 28
@@ -66,7 +66,7 @@ class Imu:
     sample; ``is_garbage`` sends noise over the whole range.
     """
 
-    def __init__(self, library: ctypes.CDLL, handle: int, seed: int = 1) -> None:
+    def __init__(self, library: ctypes.CDLL, handle: Handle, seed: int = 1) -> None:
         self._library = library
         self._handle = handle
         self._random = random.Random(f"imu {seed}")

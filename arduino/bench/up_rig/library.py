@@ -50,6 +50,21 @@ class Meter(ctypes.Structure):
     ]
 
 
+class Handle:
+    """One chip of the library, freed with the last part of a rig that knows it."""
+
+    def __init__(self, library: ctypes.CDLL, seed: int) -> None:
+        self._library = library
+        self._as_parameter_: int | None = library.rig_new(seed & 0xFFFFFFFF)
+        if not self._as_parameter_:
+            raise RigUnavailableError("simavr does not know the ATmega328P")
+
+    def __del__(self) -> None:
+        if self._as_parameter_:
+            self._library.rig_free(self._as_parameter_)
+            self._as_parameter_ = None
+
+
 def library_path() -> Path:
     """Return where the built library lies: arduino/build, or for an installed rig a cache."""
     build = SOURCES.parents[2] / "build"

@@ -5,6 +5,8 @@ from __future__ import annotations
 import ctypes
 from dataclasses import dataclass
 
+from up_rig.library import Handle
+
 VECTOR_NAMES = {
     3: "PCINT0", 4: "PCINT1", 5: "PCINT2", 6: "WDT", 7: "TIMER2_COMPA", 8: "TIMER2_COMPB",
     9: "TIMER2_OVF", 11: "TIMER1_COMPA", 12: "TIMER1_COMPB", 13: "TIMER1_OVF",
@@ -37,7 +39,7 @@ class Measures:
         return 0x8FF - self.stack_lowest
 
 
-def read_measures(library: ctypes.CDLL, handle: int) -> Measures:
+def read_measures(library: ctypes.CDLL, handle: Handle) -> Measures:
     """Return the measures of a rig."""
     meter = library.rig_meter(handle).contents
     return Measures(

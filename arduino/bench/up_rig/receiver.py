@@ -6,6 +6,8 @@ import ctypes
 import random
 from dataclasses import dataclass
 
+from up_rig.library import Handle
+
 CYCLES_PER_US = 16
 NEUTRAL_US = {
     "ailerons": 1500.0,
@@ -37,7 +39,7 @@ class Receiver:
     """
 
     def __init__(
-        self, library: ctypes.CDLL, handle: int, pins: dict[str, int], seed: int = 1
+        self, library: ctypes.CDLL, handle: Handle, pins: dict[str, int], seed: int = 1
     ) -> None:
         self._library = library
         self._handle = handle

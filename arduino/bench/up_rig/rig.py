@@ -10,7 +10,7 @@ from pathlib import Path
 from up_rig.eeprom import Eeprom
 from up_rig.elf import Firmware, FirmwareError, Symbol, read_firmware
 from up_rig.imu import Imu
-from up_rig.library import load_library
+from up_rig.library import Handle, load_library
 from up_rig.meter import Measures, read_measures
 from up_rig.pins import DEFAULT, PinMap
 from up_rig.receiver import Receiver
@@ -59,10 +59,9 @@ class Rig:
         is_measuring: bool = True,
     ) -> None:
         self._library = load_library()
-        self._handle = 0
         self.firmware = read_firmware(Path(elf))
         boot = None if bootloader is None else read_firmware(Path(bootloader))
-        self._handle = self._library.rig_new(seed & 0xFFFFFFFF)
+        self._handle = Handle(self._library, seed)
         self._random = random.Random(seed)
         self._library.rig_measure(self._handle, is_measuring)
         self._load(self.firmware)
@@ -79,11 +78,6 @@ class Rig:
         self.eeprom.write(0, eeprom)
         self._library.rig_start_up(self._handle, round(start_up_us * CYCLES_PER_US))
         self.power_on()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", 0):
-            self._library.rig_free(self._handle)
-            self._handle = 0
 
     @property
     def cycle(self) -> int:

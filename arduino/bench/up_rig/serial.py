@@ -5,6 +5,8 @@ from __future__ import annotations
 import ctypes
 from dataclasses import dataclass
 
+from up_rig.library import Handle
+
 
 @dataclass(frozen=True, slots=True)
 class SentByte:
@@ -17,7 +19,7 @@ class SentByte:
 class Serial:
     """What the Raspberry Pi has of the chip: one wire each way, 8N1, 115200 Bd unless changed."""
 
-    def __init__(self, library: ctypes.CDLL, handle: int) -> None:
+    def __init__(self, library: ctypes.CDLL, handle: Handle) -> None:
         self._library = library
         self._handle = handle
 

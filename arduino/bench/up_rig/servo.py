@@ -6,6 +6,8 @@ import ctypes
 import itertools
 from dataclasses import dataclass
 
+from up_rig.library import Handle
+
 
 @dataclass(frozen=True, slots=True)
 class Pulse:
@@ -23,7 +25,7 @@ class Pulse:
 class Servo:
     """Records what the four servos get; a pin that the chip does not drive is low."""
 
-    def __init__(self, library: ctypes.CDLL, handle: int, pins: dict[str, int]) -> None:
+    def __init__(self, library: ctypes.CDLL, handle: Handle, pins: dict[str, int]) -> None:
         self._library = library
         self._handle = handle
         self._pins = pins
