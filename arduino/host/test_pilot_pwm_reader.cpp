@@ -260,7 +260,7 @@ TEST_CASE("pilot reader: cut pulses do not keep a channel alive, nor bring one t
   }
 }
 
-TEST_CASE("pilot reader: one uncertain stamp of the two is enough to keep the value, and the channel is alive") {
+TEST_CASE("pilot reader: one uncertain stamp of two keeps the value; the channel is alive") {
   Lines bench;
   wake(bench);
   for (uint64_t at_us = 20000; at_us < 400000; at_us += 20000) {

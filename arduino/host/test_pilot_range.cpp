@@ -40,8 +40,9 @@ TEST_CASE("pilot range: ends and centre become 1000, 1500 and 2000 us, straight 
 }
 
 TEST_CASE("pilot range: whatever was learned, more stick is more, and within 885 to 2115 us") {
-  for (const ChannelRange& range : {NARROW, ChannelRange{900, 1400, 1500},
-                                    ChannelRange{1300, 1800, 2100}, ChannelRange{800, 1000, 1500}}) {
+  const ChannelRange ranges[] = {
+      NARROW, {900, 1400, 1500}, {1300, 1800, 2100}, {800, 1000, 1500}, {800, 2100, 2200}};
+  for (const ChannelRange& range : ranges) {
     Ticks newest = 0;
     for (int pulse = us_to_ticks(885); pulse <= us_to_ticks(2115); ++pulse) {
       const Ticks shown = calibrated(range, static_cast<Ticks>(pulse));

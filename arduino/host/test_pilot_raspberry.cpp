@@ -107,7 +107,7 @@ TEST_CASE("pilot Raspberry Pi: the throttle is the stick's unless a living deman
   CHECK(bench.throttle_us() == 1300);
 }
 
-TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until they are asked for") {
+TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until it asks for them") {
   PilotBench bench;
   bench.fly(2000);
   REQUIRE(bench.output(1600, 1700) == Reason::NONE);

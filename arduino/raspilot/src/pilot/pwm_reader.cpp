@@ -6,7 +6,7 @@ namespace {
 
 // Stamps have 16 bits of 0.5 us: only half of their 32.768 ms is told apart from the other.
 constexpr uint16_t STALL_UNITS = 15;
-constexpr uint8_t MOST_PASSED_UNITS = 127;
+constexpr uint8_t MOST_AGED = 127;
 constexpr uint16_t MOST_AGE_UNITS = 64000;
 
 }  // namespace
@@ -47,7 +47,7 @@ void PwmReader::check(uint32_t now_us) {
   checked_at_ = to_units(now_us);
   if (passed > STALL_UNITS) is_lost_ = true;
   age_.pass(passed);
-  const uint8_t aged = passed < MOST_PASSED_UNITS ? static_cast<uint8_t>(passed) : MOST_PASSED_UNITS;
+  const uint8_t aged = static_cast<uint8_t>(passed < MOST_AGED ? passed : MOST_AGED);
   const uint16_t now_stamp = static_cast<uint16_t>(now_us * 2);
   uint8_t levels = levels_;
   for (uint8_t i = 0; i < INPUTS; ++i) {
