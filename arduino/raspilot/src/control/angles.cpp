@@ -19,8 +19,8 @@ constexpr int16_t ONE_Q14 = 16384;
 constexpr int16_t TURN_Q13 = 23426;  // a hundredth of a degree in Q14
 
 uint16_t magnitude(int16_t value) {
-  return value < 0 ? static_cast<uint16_t>(-static_cast<int32_t>(value))
-                   : static_cast<uint16_t>(value);
+  const uint16_t bits = static_cast<uint16_t>(value);
+  return value < 0 ? static_cast<uint16_t>(0U - bits) : bits;
 }
 
 /** Angle of a slope of 0 to 1 in Q15. */
@@ -32,13 +32,13 @@ int16_t arc_tangent_of_slope(int16_t slope_q15) {
   return static_cast<int16_t>((times_q15(sum, slope_q15) + 2) >> 2);
 }
 
-int16_t radians_q14(int16_t angle_cdeg) {
+OUT_OF_LINE int16_t radians_q14(int16_t angle_cdeg) {
   return times_q14(static_cast<int16_t>(angle_cdeg * 2), TURN_Q13);
 }
 
 }  // namespace
 
-int16_t arc_tangent_cdeg(int16_t y, int16_t x) {
+OUT_OF_LINE int16_t arc_tangent_cdeg(int16_t y, int16_t x) {
   const uint16_t across = magnitude(y);
   const uint16_t along = magnitude(x);
   const bool is_steep = across > along;
@@ -52,30 +52,24 @@ int16_t arc_tangent_cdeg(int16_t y, int16_t x) {
   return y < 0 ? static_cast<int16_t>(-angle) : angle;
 }
 
-int16_t length(int16_t y, int16_t z) {
-  uint32_t rest = static_cast<uint32_t>(product(y, y)) + static_cast<uint32_t>(product(z, z));
-  uint32_t root = 0;
-  for (uint32_t bit = 1UL << 30; bit != 0; bit >>= 2) {
-    const uint32_t trial = root + bit;
-    root >>= 1;
-    if (rest >= trial) {
-      rest -= trial;
-      root += bit;
-    }
+OUT_OF_LINE uint16_t square_root(uint32_t square) {
+  uint16_t root = 0;
+  for (uint16_t bit = 0x8000; bit != 0; bit >>= 1) {
+    const uint16_t trial = root | bit;
+    if (static_cast<uint32_t>(trial) * trial <= square) root = trial;
   }
-  return root > 32767 ? 32767 : static_cast<int16_t>(root);
+  return root;
 }
 
 int16_t small_sine_q14(int16_t angle_cdeg) {
   const int16_t x = radians_q14(angle_cdeg);
-  const int16_t cube = times_q14(times_q14(x, x), x);
-  return static_cast<int16_t>(x - cube / 6);
+  // A sixth of the cube, in Q14.
+  return static_cast<int16_t>(x - times_q14(times_q14(times_q14(x, x), x), 2731));
 }
 
 int16_t small_cosine_q14(int16_t angle_cdeg) {
   const int16_t x = radians_q14(angle_cdeg);
-  const int16_t square = times_q14(x, x);
-  return static_cast<int16_t>(ONE_Q14 - square / 2 + times_q14(square, square) / 24);
+  return static_cast<int16_t>(ONE_Q14 - times_q15(x, x));
 }
 
 }  // namespace raspilot

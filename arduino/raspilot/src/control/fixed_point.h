@@ -7,6 +7,13 @@
 
 #include <stdint.h>
 
+/** Called by the address of its object: the chip's compiler would copy it for each object else. */
+#ifdef __AVR__
+#define OUT_OF_LINE __attribute__((noinline, noclone))
+#else
+#define OUT_OF_LINE
+#endif
+
 namespace raspilot {
 
 inline int32_t product(int16_t a, int16_t b) { return static_cast<int32_t>(a) * b; }
@@ -14,17 +21,17 @@ inline int32_t scaled(uint16_t gain, int16_t value) {
   return static_cast<int32_t>(gain) * static_cast<int32_t>(value);
 }
 
-/** a b - c d. */
-int32_t cross(int16_t a, int16_t b, int16_t c, int16_t d);
-/** Sum of the squares of three numbers; none above 26000. */
-int32_t sum_of_squares(const int16_t* vector);
+/** The vector product of `a` and `b`. */
+void cross(const int16_t* a, const int16_t* b, int32_t* result);
+/** Sum of the products of three pairs; none of the sums may leave 32 bits. */
+int32_t dot(const int16_t* a, const int16_t* b);
 
 /** Products of which one factor is a fraction, to the nearest. */
 int16_t times_q14(int16_t a, int16_t b);
 int16_t times_q15(int16_t a, int16_t b);
 
-/** `value` / 2^bits, to the nearest. */
-int32_t rounded(int32_t value, uint8_t bits);
+/** `value` / 2^bits, rounded down. */
+int32_t shifted(int32_t value, uint8_t bits);
 /** `value` / 2^16, to the nearest, within 16 bits. */
 int16_t upper_half(int32_t value);
 
@@ -36,5 +43,6 @@ int16_t to_int16(int32_t value);
 /** a + b and a - b, within 16 bits. */
 int16_t sum_of(int16_t a, int16_t b);
 int16_t difference_of(int16_t a, int16_t b);
+inline int16_t negative(int16_t value) { return difference_of(0, value); }
 
 }  // namespace raspilot

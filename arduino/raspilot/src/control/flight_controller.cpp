@@ -7,6 +7,12 @@ namespace raspilot {
 
 namespace {
 
+constexpr uint8_t ROLL = 0;
+constexpr uint8_t PITCH = 1;
+constexpr uint8_t YAW = 2;
+constexpr uint8_t RATE_LOOPS = 3;
+constexpr uint8_t LOOPS = 5;
+
 constexpr Ticks NEUTRAL = us_to_ticks(1500);
 constexpr int16_t FULL_STICK = 1000;
 // Thirty-seconds of a full stick's 1000 ticks to Q15: 32.766 in Q14 less five bits.
@@ -14,104 +20,89 @@ constexpr int16_t STICK_TO_Q15 = 16776;
 // A hundredth of a degree per second in sixteenths, Q15.
 constexpr int16_t CDEG_TO_16THS = 5243;
 
-/** A stick's deflection, -32767 to 32767. */
-int16_t deflection_q15(Ticks stick) {
+// Rates come in 2^-4, so a Rate PID answers in 2^-14. Its 400 units of 1.25 us are half a servo's
+// way; a unit is 2.5 ticks.
+constexpr int32_t RATE_LIMIT = 400L << 14;
+// Angles come in 2^-7, so a Stabilize PID answers in 2^-17 of a deg/s: 2^13 make a sixteenth.
+constexpr uint8_t STABILIZE_BITS = 17;
+constexpr uint8_t TO_16THS = 13;
+// 128 / 100 in Q14.
+constexpr int16_t CDEG_TO_128THS = 20972;
+constexpr int16_t HALF_CIRCLE_CDEG = 18000;
+constexpr int32_t CIRCLE_CDEG = 36000;
+
+// The yaw damper's mean: 1024 slots are 2.05 s.
+constexpr uint8_t WASHOUT_SHIFT = 10;
+
+/** A stick's deflection, -32766 to 32766. */
+OUT_OF_LINE int16_t deflection_q15(Ticks stick) {
   const int16_t ticks = clamped16(difference_of(stick, NEUTRAL), FULL_STICK);
   return times_q14(static_cast<int16_t>(ticks * 32), STICK_TO_Q15);
 }
 
-/** A wanted pitch within the limits for up and down. */
-int16_t limited_pitch(const Profile& profile, int16_t cdeg) {
-  const int16_t lowest = static_cast<int16_t>(-profile.pitch_down_limit_cdeg);
-  if (cdeg > profile.pitch_up_limit_cdeg) return profile.pitch_up_limit_cdeg;
-  return cdeg < lowest ? lowest : cdeg;
+/** The shorter way from an angle to another. */
+OUT_OF_LINE int16_t shorter_way_cdeg(int16_t to, int16_t from) {
+  int32_t way = static_cast<int32_t>(to) - from;
+  if (way > HALF_CIRCLE_CDEG) way -= CIRCLE_CDEG;
+  if (way < -HALF_CIRCLE_CDEG) way += CIRCLE_CDEG;
+  return static_cast<int16_t>(way);
 }
+
+int16_t to_128ths(int16_t cdeg) { return times_q14(cdeg, CDEG_TO_128THS); }
 
 Ticks preset(uint16_t us) { return us_to_ticks(static_cast<int16_t>(us)); }
 
 }  // namespace
 
-constexpr uint8_t FlightController::LOOPS;
-
 FlightController::FlightController(const Profile& profile, const Gains& gains)
-    : profile_(profile),
-      gains_(gains),
-      roll_(ROLL_RATE_LIMIT_DEG_S),
-      pitch_(PITCH_RATE_LIMIT_DEG_S) {
+    : ControllerMemory(), profile_(profile), gains_(gains) {
   for (uint8_t channel = 0; channel < OUTPUTS; ++channel) outputs_.ticks[channel] = NEUTRAL;
   outputs_.ticks[THROTTLE] = us_to_ticks(1000);
 }
 
-void FlightController::tune_one() {
-  switch (loops_to_tune_) {
-    case 0:
-      return;
-    case 1:
-      yaw_.tune(gains_.rate[2]);
-      break;
-    case 2:
-      pitch_.tune_stabilize(gains_.stabilize[1]);
-      break;
-    case 3:
-      pitch_.tune_rate(gains_.rate[1]);
-      break;
-    case 4:
-      roll_.tune_stabilize(gains_.stabilize[0]);
-      break;
-    default:
-      roll_.tune_rate(gains_.rate[0]);
+OUT_OF_LINE void FlightController::tune_one() {
+  const uint8_t loop = tuned_loops_;
+  if (loop == LOOPS) return;
+  ++tuned_loops_;
+  if (loop < RATE_LOOPS) {
+    rate_[loop].tune(gains_.rate[loop]);
+  } else {
+    stabilize_[loop - RATE_LOOPS].tune(gains_.stabilize[loop - RATE_LOOPS]);
   }
-  --loops_to_tune_;
 }
 
-FlightController::Hold FlightController::hold_of(const Demand& demand) {
+Hold FlightController::hold_of(const Demand& demand) {
   if (!demand.is_imu_valid) return Hold::NOTHING;
   if (demand.is_failsafe) return Hold::ANGLES;
-  switch (demand.mode) {
-    case Mode::RATE:
-      return Hold::RATES;
-    case Mode::FBW:
-    case Mode::SETPOINT:
-      return Hold::ANGLES;
-    default:
-      return Hold::NOTHING;
-  }
+  if (demand.mode == Mode::RATE) return Hold::RATES;
+  const bool is_level = demand.mode == Mode::FBW || demand.mode == Mode::SETPOINT;
+  return is_level ? Hold::ANGLES : Hold::NOTHING;
 }
 
 /** From FBW to SETPOINT or into the circle nothing is forgotten: the surfaces do not jump. */
-void FlightController::engage(Hold hold) {
+OUT_OF_LINE void FlightController::engage(Hold hold) {
   if (hold == hold_) return;
   if (hold_ == Hold::NOTHING) {
-    roll_.reset_rate();
-    pitch_.reset_rate();
-    yaw_.reset();
+    for (Pid& pid : rate_) pid.reset();
+    has_steady_ = false;
   }
-  roll_.reset_stabilize();
-  pitch_.reset_stabilize();
+  for (Pid& pid : stabilize_) pid.reset();
   hold_ = hold;
 }
 
-const Outputs& FlightController::update(const Demand& demand, const Attitude& attitude) {
+OUT_OF_LINE const Outputs& FlightController::update(const Demand& demand,
+                                                    const Attitude& attitude) {
   tune_one();
   engage(hold_of(demand));
   Ticks demands[OUTPUTS];
-  switch (hold_) {
-    case Hold::NOTHING:
-      pass_through(demand, demands);
-      break;
-    case Hold::RATES:
-      hold_rates(demand, attitude, demands);
-      break;
-    case Hold::ANGLES:
-      hold_angles(demand, attitude, demands);
-      break;
-  }
+  pass_through(demand, demands);
+  if (hold_ != Hold::NOTHING) hold_rates(demand, attitude, demands);
   demands[THROTTLE] = demand.throttle;
   to_servos(profile_, demands, outputs_);
   return outputs_;
 }
 
-void FlightController::pass_through(const Demand& demand, Ticks* demands) const {
+OUT_OF_LINE void FlightController::pass_through(const Demand& demand, Ticks* demands) const {
   if (demand.is_failsafe) {
     demands[AILERONS] = preset(profile_.preset_ailerons_us);
     demands[ELEVATOR] = preset(profile_.preset_elevator_us);
@@ -124,43 +115,70 @@ void FlightController::pass_through(const Demand& demand, Ticks* demands) const 
   demands[RUDDER] = asked[RUDDER];
 }
 
-void FlightController::hold_rates(const Demand& demand, const Attitude& attitude, Ticks* demands) {
-  const int16_t roll_16 = times_q15(ROLL_STICK_DEG_S * 16, deflection_q15(demand.sticks[AILERONS]));
-  const int16_t pitch_16 = times_q15(PITCH_STICK_DEG_S * 16, deflection_q15(demand.sticks[ELEVATOR]));
-  demands[AILERONS] = sum_of(NEUTRAL, roll_.hold_rate(roll_16, attitude.roll_rate_16));
-  demands[ELEVATOR] = sum_of(NEUTRAL, pitch_.hold_rate(pitch_16, attitude.pitch_rate_16));
-  demands[RUDDER] = sum_of(demand.sticks[RUDDER], yaw_.damp(0, attitude.yaw_rate_16));
+OUT_OF_LINE void FlightController::hold_rates(const Demand& demand, const Attitude& attitude,
+                                              Ticks* demands) {
+  const int16_t roll_16 = wanted_rate_16(AILERONS, demand, attitude);
+  demands[AILERONS] = sum_of(NEUTRAL, deflection(ROLL, roll_16, attitude.roll_rate_16));
+  const int16_t pitch_16 = wanted_rate_16(ELEVATOR, demand, attitude);
+  demands[ELEVATOR] = sum_of(NEUTRAL, deflection(PITCH, pitch_16, attitude.pitch_rate_16));
+  int16_t yaw_16 = 0;
+  if (demand.is_failsafe) {
+    demands[RUDDER] = NEUTRAL;
+  } else if (demand.mode == Mode::SETPOINT) {
+    yaw_16 = times_q15(demand.setpoint.yaw_rate_cdeg_s, CDEG_TO_16THS);
+  }
+  const int16_t swinging = swinging_16(attitude.yaw_rate_16);
+  demands[RUDDER] = sum_of(demands[RUDDER], deflection(YAW, yaw_16, swinging));
 }
 
-void FlightController::hold_angles(const Demand& demand, const Attitude& attitude, Ticks* demands) {
-  int16_t roll_cdeg;
-  int16_t pitch_cdeg;
-  int16_t yaw_16 = 0;
-  Ticks rudder = demand.sticks[RUDDER];
-  if (demand.is_failsafe) {
-    roll_cdeg = profile_.circle_bank_cdeg;
-    pitch_cdeg = profile_.glide_pitch_cdeg;
-    rudder = NEUTRAL;
-  } else if (demand.mode == Mode::SETPOINT) {
-    roll_cdeg = demand.setpoint.roll_cdeg;
-    pitch_cdeg = demand.setpoint.pitch_cdeg;
-    yaw_16 = times_q15(demand.setpoint.yaw_rate_cdeg_s, CDEG_TO_16THS);
-  } else {
-    const int16_t elevator = deflection_q15(demand.sticks[ELEVATOR]);
-    const int16_t pitch_limit =
-        elevator < 0 ? profile_.pitch_down_limit_cdeg : profile_.pitch_up_limit_cdeg;
-    roll_cdeg = times_q15(profile_.roll_limit_cdeg, deflection_q15(demand.sticks[AILERONS]));
-    pitch_cdeg = times_q15(pitch_limit, elevator);
+/** By the stick in RATE, else by the Stabilize PID; `channel` is AILERONS or ELEVATOR. */
+OUT_OF_LINE int16_t FlightController::wanted_rate_16(Channel channel, const Demand& demand,
+                                                     const Attitude& attitude) {
+  const bool is_roll = channel == AILERONS;
+  if (hold_ == Hold::RATES) {
+    const int16_t greatest_16 = (is_roll ? ROLL_STICK_DEG_S : PITCH_STICK_DEG_S) * 16;
+    return times_q15(greatest_16, deflection_q15(demand.sticks[channel]));
   }
-  if (!demand.is_failsafe) {
-    roll_cdeg = clamped16(roll_cdeg, profile_.roll_limit_cdeg);
-    pitch_cdeg = limited_pitch(profile_, pitch_cdeg);
+  const int16_t wanted_cdeg = wanted_angle_cdeg(channel, demand);
+  const int16_t angle_cdeg = is_roll ? attitude.roll_cdeg : attitude.pitch_cdeg;
+  const int32_t limit_deg_s = is_roll ? ROLL_RATE_LIMIT_DEG_S : PITCH_RATE_LIMIT_DEG_S;
+  const int16_t error = to_128ths(shorter_way_cdeg(wanted_cdeg, angle_cdeg));
+  const int32_t rate =
+      stabilize_[channel].update(error, to_128ths(angle_cdeg), limit_deg_s << STABILIZE_BITS);
+  return static_cast<int16_t>(shifted(rate, TO_16THS));
+}
+
+/** The failsafe's, the Raspberry Pi's or the stick's bank or pitch. */
+OUT_OF_LINE int16_t FlightController::wanted_angle_cdeg(Channel channel,
+                                                        const Demand& demand) const {
+  const bool is_roll = channel == AILERONS;
+  if (demand.is_failsafe) return is_roll ? profile_.circle_bank_cdeg : profile_.glide_pitch_cdeg;
+  const bool is_asked = demand.mode == Mode::SETPOINT;
+  const int16_t asked = is_roll ? demand.setpoint.roll_cdeg : demand.setpoint.pitch_cdeg;
+  const int16_t stick = deflection_q15(demand.sticks[channel]);
+  const bool is_down = (is_asked ? asked : stick) < 0;
+  const int16_t limit = is_roll   ? profile_.roll_limit_cdeg
+                        : is_down ? profile_.pitch_down_limit_cdeg
+                                  : profile_.pitch_up_limit_cdeg;
+  return is_asked ? clamped16(asked, limit) : times_q15(limit, stick);
+}
+
+/** The yaw rate less its mean: a steady turn is none of the damper's business. */
+OUT_OF_LINE int16_t FlightController::swinging_16(int16_t yaw_rate_16) {
+  if (!has_steady_) {
+    has_steady_ = true;
+    steady_ = yaw_rate_16 * static_cast<int32_t>(1 << WASHOUT_SHIFT);
   }
-  demands[AILERONS] = sum_of(
-      NEUTRAL, roll_.hold_angle(roll_cdeg, attitude.roll_cdeg, attitude.roll_rate_16));
-  demands[ELEVATOR] = sum_of(
-      NEUTRAL, pitch_.hold_angle(pitch_cdeg, attitude.pitch_cdeg, attitude.pitch_rate_16));
-  demands[RUDDER] = sum_of(rudder, yaw_.damp(yaw_16, attitude.yaw_rate_16));
+  const int16_t swinging =
+      difference_of(yaw_rate_16, static_cast<int16_t>(shifted(steady_, WASHOUT_SHIFT)));
+  steady_ += swinging;
+  return swinging;
+}
+
+/** What a Rate PID answers, ticks. */
+OUT_OF_LINE Ticks FlightController::deflection(uint8_t axis, int16_t wanted_16, int16_t rate_16) {
+  const int32_t units = rate_[axis].update(difference_of(wanted_16, rate_16), rate_16, RATE_LIMIT);
+  return static_cast<Ticks>(shifted(units * 5 + (1L << 14), 15));
 }
 
 }  // namespace raspilot

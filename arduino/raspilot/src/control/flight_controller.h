@@ -4,8 +4,7 @@
 #include "../core/types.h"
 #include "../store/gains.h"
 #include "../store/profile.h"
-#include "cascade.h"
-#include "yaw_damper.h"
+#include "pid.h"
 
 namespace raspilot {
 
@@ -31,6 +30,20 @@ struct Demand {
   Outputs asked;
 };
 
+/** Which controllers are in the loop; what they remember ends when they leave it. */
+enum class Hold : uint8_t { NOTHING, RATES, ANGLES };
+
+/** What the controller remembers; all of it zero at first. */
+struct ControllerMemory {
+  Outputs outputs_;
+  Hold hold_;
+  bool has_steady_;
+  uint8_t tuned_loops_;
+  int32_t steady_;     // yaw rate of the turn, 2^-10 of a sixteenth of a deg/s
+  Pid rate_[3];        // ailerons, elevator, rudder: sixteenths of a deg/s to 1.25 us
+  Pid stabilize_[2];   // ailerons, elevator: degrees / 128 to deg/s
+};
+
 /**
  * Stick 2000 us on ailerons rolls right, on elevator raises the nose, on rudder yaws right, before
  * the servos' own directions. Every mode passes the servo stage (mix, direction, trim, end points),
@@ -40,36 +53,29 @@ struct Demand {
  * SETPOINT: both come from the Raspberry Pi, within the limits of FBW. In the last three the rudder
  * is the stick plus the yaw damper. Without a valid IMU every mode passes the sticks through.
  */
-class FlightController {
+class FlightController : private ControllerMemory {
  public:
   FlightController(const Profile& profile, const Gains& gains);
 
   /** Takes over gains after they changed: one loop a slot, because it takes a while. */
-  void on_gains() { loops_to_tune_ = LOOPS; }
+  void on_gains() { tuned_loops_ = 0; }
   /** One slot of 2000 us; returns the pulses after mix, reversal, trim and travel limits. */
   const Outputs& update(const Demand& demand, const Attitude& attitude);
   const Outputs& outputs() const { return outputs_; }
 
  private:
-  /** Which controllers are in the loop; what they remember ends when they leave it. */
-  enum class Hold : uint8_t { NOTHING, RATES, ANGLES };
-  static constexpr uint8_t LOOPS = 5;
-
   void tune_one();
   void engage(Hold hold);
   static Hold hold_of(const Demand& demand);
   void pass_through(const Demand& demand, Ticks* demands) const;
   void hold_rates(const Demand& demand, const Attitude& attitude, Ticks* demands);
-  void hold_angles(const Demand& demand, const Attitude& attitude, Ticks* demands);
+  int16_t wanted_rate_16(Channel channel, const Demand& demand, const Attitude& attitude);
+  int16_t wanted_angle_cdeg(Channel channel, const Demand& demand) const;
+  int16_t swinging_16(int16_t yaw_rate_16);
+  Ticks deflection(uint8_t axis, int16_t wanted_16, int16_t rate_16);
 
   const Profile& profile_;
   const Gains& gains_;
-  Cascade roll_;
-  Cascade pitch_;
-  YawDamper yaw_;
-  Outputs outputs_;
-  uint8_t loops_to_tune_ = LOOPS;
-  Hold hold_ = Hold::NOTHING;
 };
 
 }  // namespace raspilot

@@ -8,31 +8,31 @@ namespace raspilot {
 namespace {
 
 /** Turns (a, b) in their plane by the angle of sine and cosine. */
-void turn(int16_t& a, int16_t& b, int16_t sine, int16_t cosine) {
+OUT_OF_LINE void turn(int16_t& a, int16_t& b, int16_t sine, int16_t cosine) {
   const int16_t before = a;
   a = sum_of(times_q14(a, cosine), times_q14(b, sine));
   b = difference_of(times_q14(b, cosine), times_q14(before, sine));
 }
 
-int16_t within(int16_t angle_cdeg) { return clamped16(angle_cdeg, Level::GREATEST_CDEG); }
-
 }  // namespace
 
 constexpr int16_t Level::GREATEST_CDEG;
 
-void Level::set(int16_t roll_cdeg, int16_t pitch_cdeg) {
-  roll_sine_ = small_sine_q14(within(roll_cdeg));
-  roll_cosine_ = small_cosine_q14(within(roll_cdeg));
-  pitch_sine_ = small_sine_q14(within(pitch_cdeg));
-  pitch_cosine_ = small_cosine_q14(within(pitch_cdeg));
+OUT_OF_LINE void Level::set(int16_t roll_cdeg, int16_t pitch_cdeg) {
+  const int16_t roll = clamped16(roll_cdeg, GREATEST_CDEG);
+  const int16_t pitch = clamped16(pitch_cdeg, GREATEST_CDEG);
+  roll_sine_ = small_sine_q14(roll);
+  roll_cosine_ = small_cosine_q14(roll);
+  pitch_sine_ = small_sine_q14(pitch);
+  pitch_cosine_ = small_cosine_q14(pitch);
 }
 
-void Level::straighten(int16_t* vector) const {
+OUT_OF_LINE void Level::straighten(int16_t* vector) const {
   turn(vector[1], vector[2], static_cast<int16_t>(-roll_sine_), roll_cosine_);
   turn(vector[0], vector[2], pitch_sine_, pitch_cosine_);
 }
 
-void Level::tilt(int16_t* vector) const {
+OUT_OF_LINE void Level::tilt(int16_t* vector) const {
   turn(vector[0], vector[2], static_cast<int16_t>(-pitch_sine_), pitch_cosine_);
   turn(vector[1], vector[2], roll_sine_, roll_cosine_);
 }

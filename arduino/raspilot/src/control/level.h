@@ -5,10 +5,10 @@
 
 namespace raspilot {
 
-/** The roll and pitch that the sensor shows while the airframe is level. */
+/** The roll and pitch that the sensor shows while the airframe is level; `set` comes first. */
 class Level {
  public:
-  static constexpr int16_t GREATEST_CDEG = 3000;
+  static constexpr int16_t GREATEST_CDEG = 1500;
 
   void set(int16_t roll_cdeg, int16_t pitch_cdeg);
   /** Turns a vector from the sensor's axes (x forward, y right, z down) into the airframe's. */
@@ -17,10 +17,10 @@ class Level {
   void tilt(int16_t* vector) const;
 
  private:
-  int16_t roll_sine_ = 0;
-  int16_t roll_cosine_ = 16384;
-  int16_t pitch_sine_ = 0;
-  int16_t pitch_cosine_ = 16384;
+  int16_t roll_sine_;
+  int16_t roll_cosine_;
+  int16_t pitch_sine_;
+  int16_t pitch_cosine_;
 };
 
 }  // namespace raspilot

@@ -1,17 +1,23 @@
 #include "pid.h"
 
+#include <string.h>
+
 #include "fixed_point.h"
 
 namespace raspilot {
 
 namespace {
 
-constexpr float P_ONE = 1024.0f;
-// A slot of 2000 us is 1.024 / 512 s: the 512th is a shift.
-constexpr float I_ONE = 1024.0f * 1.024f;
-constexpr float D_ONE = 16384.0f;
-constexpr float GREATEST_D = 3.999f;
+constexpr uint8_t P_BITS = 10;
+// A slot of 2000 us is 1.024 / 512 s: the 512th is a shift, 1.024 is 1049 / 1024.
+constexpr uint8_t I_BITS = 15;
+constexpr uint16_t I_FACTOR = 1049;
+constexpr uint8_t D_BITS = 14;
+constexpr uint32_t GREATEST_D = 65535;
+constexpr uint32_t MANTISSA = 0x7FFFFF;
+constexpr uint32_t IMPLIED_ONE = 0x800000;
 
+constexpr uint8_t INTEGRAL_BITS = 6;
 // Far above every limit, and three of them still fit.
 constexpr int32_t GREATEST_PART = 500000000L;
 // Times 125 it fits.
@@ -19,48 +25,58 @@ constexpr int32_t GREATEST_SLOPE = 16000000L;
 // No aircraft turns by this much in a slot: the angle went round the circle.
 constexpr int32_t GREATEST_STEP = 16384L * 256;
 
-uint16_t to_fixed(float gain, float one) { return static_cast<uint16_t>(gain * one + 0.5f); }
+/** A gain of 0 to 50 times 2^bits, rounded down: its bits as IEEE 754 has them, moved. */
+OUT_OF_LINE uint32_t to_fixed(float gain, uint8_t bits) {
+  uint32_t code;
+  memcpy(&code, &gain, sizeof code);
+  const uint8_t exponent = static_cast<uint8_t>(code >> 23);
+  const uint8_t shift = static_cast<uint8_t>(127 + 23 - bits - exponent);
+  // Below the least step, zero among them; a gain of 50 is far from the other end.
+  if (exponent < 127 - bits || shift > 31) return 0;
+  return ((code & MANTISSA) | IMPLIED_ONE) >> shift;
+}
 
 }  // namespace
 
-void Pid::tune(const PidGains& gains) {
-  p_ = to_fixed(gains.p, P_ONE);
-  i_ = to_fixed(gains.i, I_ONE);
-  d_ = to_fixed(gains.d > GREATEST_D ? GREATEST_D : gains.d, D_ONE);
+OUT_OF_LINE void Pid::tune(const PidGains& gains) {
+  p_ = static_cast<uint16_t>(to_fixed(gains.p, P_BITS));
+  i_ = static_cast<uint16_t>(to_fixed(gains.i, I_BITS) * I_FACTOR >> I_BITS);
+  const uint32_t d = to_fixed(gains.d, D_BITS);
+  d_ = static_cast<uint16_t>(d > GREATEST_D ? GREATEST_D : d);
   if (i_ == 0) integral_ = 0;
 }
 
-void Pid::reset() {
+OUT_OF_LINE void Pid::reset() {
   integral_ = 0;
   has_smooth_ = false;
 }
 
-int32_t Pid::update(int16_t error, int16_t measured) {
+OUT_OF_LINE int32_t Pid::update(int16_t error, int16_t measured, int32_t limit) {
   int32_t output = clamped(scaled(p_, error), GREATEST_PART);
   if (d_ != 0) output += derivative(measured);
-  if (i_ != 0) {
-    const int32_t before = integral_;
-    integral_ = clamped(integral_ + (scaled(i_, error) >> 3), limit_ * 64);
-    const int32_t sum = output + (integral_ >> 6);
-    if ((sum > limit_ && error > 0) || (sum < -limit_ && error < 0)) integral_ = before;
-    output += integral_ >> 6;
-  }
-  return clamped(output, limit_);
+  const int32_t before = integral_;
+  const int32_t integral =
+      clamped(before + shifted(scaled(i_, error), 3), limit << INTEGRAL_BITS);
+  const int32_t sum = output + shifted(integral, INTEGRAL_BITS);
+  const int32_t limited = clamped(sum, limit);
+  // What the limit cuts off is not summed up any further.
+  if (limited == sum || (limited < sum) != (error > 0)) integral_ = integral;
+  return limited;
 }
 
-int32_t Pid::derivative(int16_t measured) {
-  const int32_t now = measured * static_cast<int32_t>(256);
+OUT_OF_LINE int32_t Pid::derivative(int16_t measured) {
+  const int32_t now = measured * 256L;
   const int32_t step = now - smooth_;
   if (!has_smooth_ || clamped(step, GREATEST_STEP) != step) {
     has_smooth_ = true;
     smooth_ = now;
     return 0;
   }
-  const int32_t passed = step >> 2;
+  const int32_t passed = shifted(step, 2);
   smooth_ += passed;
-  // Change a slot in 2^-4, times D in 2^-14, is 2^-8 of an output a slot; a second has 500 slots.
-  const int32_t slope = clamped(scaled(d_, to_int16(passed >> 4)) >> 4, GREATEST_SLOPE);
-  return -(slope * 125 >> 2);
+  // 2^-4 of a change a slot times 2^-14 of D is 2^-18, with F; a second has 500 slots.
+  const int32_t slope = shifted(scaled(d_, to_int16(shifted(passed, 4))), 4);
+  return -shifted(clamped(slope, GREATEST_SLOPE) * 125, 2);
 }
 
 }  // namespace raspilot

@@ -13,28 +13,27 @@ namespace raspilot {
  * here through a low-pass of 7 ms, and an integral that the limits stop. Here it does not grow
  * either while the output stands at the limit it pushes at.
  *
- * Inputs are 2^-F of a unit, outputs 2^-(F + 10) of one: F is the caller's.
+ * Inputs are 2^-F of a unit, outputs and limits 2^-(F + 10) of one: F is the caller's.
  */
 class Pid {
  public:
-  explicit Pid(int32_t limit) : limit_(limit) {}
-
   /** Takes gains in units per unit; the integral keeps what it gives, unless I is 0. */
   void tune(const PidGains& gains);
   /** Forgets the past: after a pause it means nothing. */
   void reset();
-  int32_t update(int16_t error, int16_t measured);
+  /** `limit` is at most 2^24. */
+  int32_t update(int16_t error, int16_t measured, int32_t limit);
 
  private:
   int32_t derivative(int16_t measured);
 
-  int32_t limit_;
-  int32_t integral_ = 0;  // 2^-6 of an output
-  int32_t smooth_ = 0;    // measurement after the low-pass, 2^-8
-  uint16_t p_ = 0;
-  uint16_t i_ = 0;
-  uint16_t d_ = 0;
-  bool has_smooth_ = false;
+  // All zero at first, by whoever owns it.
+  int32_t integral_;  // 2^-6 of an output
+  int32_t smooth_;    // measurement after the low-pass, 2^-8
+  uint16_t p_;
+  uint16_t i_;
+  uint16_t d_;
+  bool has_smooth_;
 };
 
 }  // namespace raspilot

@@ -11,20 +11,20 @@ constexpr Ticks MOTOR_OFF = us_to_ticks(1000);
 // No demand asks for more, and no sum of two and a trim leaves 16 bits.
 constexpr int16_t GREATEST_DEFLECTION = 4000;
 
-Ticks within(const ServoSetup& servo, Ticks ticks) {
+OUT_OF_LINE Ticks within(const ServoSetup& servo, Ticks ticks) {
   const Ticks lowest = us_to_ticks(static_cast<int16_t>(servo.lowest_us));
   const Ticks highest = us_to_ticks(static_cast<int16_t>(servo.highest_us));
   return ticks < lowest ? lowest : ticks > highest ? highest : ticks;
 }
 
-Ticks to_pulse(const ServoSetup& servo, int16_t deflection) {
+OUT_OF_LINE Ticks to_pulse(const ServoSetup& servo, int16_t deflection) {
   const int16_t turned = static_cast<int16_t>(servo.is_reversed ? -deflection : deflection);
   return within(servo, static_cast<Ticks>(turned + NEUTRAL + us_to_ticks(servo.trim_us)));
 }
 
 }  // namespace
 
-void to_servos(const Profile& profile, const Ticks* demands, Outputs& outputs) {
+OUT_OF_LINE void to_servos(const Profile& profile, const Ticks* demands, Outputs& outputs) {
   int16_t deflections[OUTPUTS];
   for (uint8_t channel = 0; channel < OUTPUTS; ++channel) {
     deflections[channel] = clamped16(difference_of(demands[channel], NEUTRAL), GREATEST_DEFLECTION);

@@ -12,30 +12,29 @@ constexpr int16_t GREATEST_BIAS = 1000;  // 30 deg/s: the data sheet's 20 and wa
 
 }  // namespace
 
-void Stillness::forget() {
+OUT_OF_LINE void Stillness::forget() {
   samples_ = 0;
   is_still_ = false;
 }
 
-bool Stillness::on_sample(const int16_t* gyro) {
+OUT_OF_LINE bool Stillness::on_sample(const int16_t* gyro) {
+  int16_t changes[3];
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int16_t change = difference_of(gyro[axis], first_[axis]);
-    if ((samples_ != 0 || is_still_) && clamped16(change, GREATEST_CHANGE) != change) forget();
-    if (clamped16(gyro[axis], GREATEST_BIAS) != gyro[axis]) {
-      forget();
-      return false;
-    }
+    const int16_t rate = clamped16(gyro[axis], GREATEST_BIAS);
+    changes[axis] = static_cast<int16_t>(rate - first_[axis]);
+    if (rate != gyro[axis] || clamped16(changes[axis], GREATEST_CHANGE) != changes[axis]) forget();
   }
   for (uint8_t axis = 0; axis < 3; ++axis) {
     if (samples_ == 0) {
       first_[axis] = gyro[axis];
-      sums_[axis] = 0;
+      sums_[axis] = changes[axis] = 0;
     }
-    sums_[axis] = static_cast<int16_t>(sums_[axis] + (gyro[axis] - first_[axis]));
+    sums_[axis] = static_cast<int16_t>(sums_[axis] + changes[axis]);
   }
   if (++samples_ < WINDOW) return false;
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    mean_q4_[axis] = static_cast<int16_t>(first_[axis] * 16 + (sums_[axis] + 16) / 32);
+    const int16_t mean_q4 = static_cast<int16_t>(first_[axis] * 16 + (sums_[axis] + 16) / 32);
+    mean_q4_[axis] = mean_q4;
   }
   samples_ = 0;
   is_still_ = true;

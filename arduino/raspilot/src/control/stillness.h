@@ -21,11 +21,12 @@ class Stillness {
   const int16_t* mean_q4() const { return mean_q4_; }
 
  private:
+  // All zero at first, by whoever owns it.
   int16_t first_[3];
   int16_t sums_[3];
   int16_t mean_q4_[3];
-  uint16_t samples_ = 0;
-  bool is_still_ = false;
+  uint16_t samples_;
+  bool is_still_;
 };
 
 }  // namespace raspilot
