@@ -162,6 +162,7 @@ static void preload(rig_t *rig) {
 static void step(rig_t *rig, cycle_t until) {
     avr_t *avr = rig->avr;
     if (avr->pc == rig->break_pc) preload(rig);
+    if (!rig->is_planned) replan(rig);
     bool is_stepping = rig->is_measuring || rig->break_pc != UINT32_MAX ||
                        (rig->pending && avr->sreg[S_I]);
     uint16_t code = opcode(avr);
