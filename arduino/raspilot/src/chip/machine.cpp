@@ -16,14 +16,16 @@
 namespace raspilot {
 namespace machine {
 
-/** The last part of a slot is the IMU's: 17 bytes of 22.5 us, and what interrupts take. */
-static constexpr int16_t IMU_TICKS = 2 * 550;
+/** The last part of a slot is the IMU's: 17 bytes of 22.5 us, starts and polling, 465 us in all. */
+static constexpr int16_t IMU_TICKS = 2 * 490;
 static constexpr int16_t TRANSFER_TICKS = 2 * 430;
-static constexpr int16_t GRACE_TICKS = 2 * 60;
-/** A background piece begins only if it ends before that. */
-static constexpr int16_t PIECE_TICKS = 2 * 110;
+static constexpr int16_t GRACE_TICKS = 2 * 470;
+/** Background work begins only when the longest of its kind ends before that. */
+static constexpr int16_t PIECE_TICKS = 2 * 430;
 static constexpr int16_t KEEP_TICKS = 2 * 270;
-static constexpr int16_t BYTE_TICKS = 2 * 20;
+static constexpr int16_t BYTE_TICKS = 2 * 150;
+/** After so many slots without time for background work a slot's sample gives way to it. */
+static constexpr uint8_t PATIENT_SLOTS = 5;
 /** State is kept 50 times a second. */
 static constexpr uint8_t KEEP_SLOTS = 10;
 /** The LED changes each half second while all is well, ten times faster while the IMU is not. */
@@ -35,6 +37,8 @@ static Mpu6050 imu;
 static Servos servos;
 static uint32_t due_us;
 static uint8_t slots_to_keep;
+static uint8_t slots_without_work;
+static bool is_next_sample_due;
 static uint8_t slots_to_blink;
 
 void setup() {
@@ -70,21 +74,37 @@ static void blink() {
   }
 }
 
-/** One piece of background work that ends in `left` ticks; false when there is none. */
-static bool work(int16_t left) {
+/** The next piece of background work, if it ends in `left` ticks. */
+static void work(int16_t left) {
   uint8_t byte;
-  if (left < BYTE_TICKS) return false;
-  if (uart::read(byte)) {
+  if (left >= BYTE_TICKS && uart::read(byte)) {
     autopilot.link.on_byte(byte, clock::now_us());
-    return true;
-  }
-  if (!slots_to_keep && left >= KEEP_TICKS) {
+  } else if (left >= KEEP_TICKS && !slots_to_keep) {
     slots_to_keep = KEEP_SLOTS;
     reset::keep(autopilot.state());
-    return true;
+  } else if (left >= PIECE_TICKS) {
+    slots_without_work = 0;
+    autopilot.background(clock::now_us());
   }
-  if (left < PIECE_TICKS) return false;
-  return autopilot.background(clock::now_us());
+}
+
+/** Background work until the IMU's time begins. */
+static void work_until(uint16_t end_ticks) {
+  if (++slots_without_work > PATIENT_SLOTS) end_ticks += IMU_TICKS;
+  int16_t left;
+  while ((left = ticks_until(end_ticks)) > 0) work(left);
+}
+
+/** The IMU's transfer, and the rest of the slot. */
+static void read_imu_until(uint16_t due_ticks) {
+  // A slot that left too little time goes without a sample, but never two in turn: rather late.
+  is_next_sample_due = !is_next_sample_due && ticks_until(due_ticks) < TRANSFER_TICKS;
+  if (!is_next_sample_due) imu.begin_transfer();
+  while (imu.pump() && ticks_until(due_ticks) > -GRACE_TICKS) {
+  }
+  imu.end_transfer();
+  while (ticks_until(due_ticks) > 0) {
+  }
 }
 
 void run_slot() {
@@ -99,17 +119,8 @@ void run_slot() {
 
   due_us += SLOT_US;
   const uint16_t due_ticks = static_cast<uint16_t>(due_us * 2);
-  int16_t left;
-  do {
-    left = ticks_until(static_cast<uint16_t>(due_ticks - IMU_TICKS));
-  } while (left > 0 && (work(left), true));
-  // A slot that left too little time goes without a sample; a transfer that is near its end ends.
-  if (ticks_until(due_ticks) >= TRANSFER_TICKS) imu.begin_transfer();
-  while (imu.pump() && ticks_until(due_ticks) > -GRACE_TICKS) {
-  }
-  imu.end_transfer();
-  while (ticks_until(due_ticks) > 0) {
-  }
+  work_until(static_cast<uint16_t>(due_ticks - IMU_TICKS));
+  read_imu_until(due_ticks);
 
   // A slot that took several is not made up for: time goes on from here.
   const uint32_t end = clock::now_us();
