@@ -21,13 +21,15 @@ char letter_of(Mode mode) { return static_cast<char>(mode); }
 }  // namespace
 
 Authority::Authority(const Profile& profile, const PwmReader& receiver)
-    : profile_(profile), receiver_(receiver), setpoint_(), asked_outputs_() {}
+    : profile_(profile), receiver_(receiver), setpoint_() {}
 
 void Authority::update(bool is_imu_valid, bool is_calibrating, bool is_profile_broken,
                        uint32_t now_us) {
-  is_imu_valid_ = is_imu_valid;
-  is_calibrating_ = is_calibrating;
-  is_profile_broken_ = is_profile_broken;
+  uint8_t vetoes = 0;
+  if (!is_imu_valid) vetoes |= VETO_IMU;
+  if (is_calibrating) vetoes |= VETO_CALIBRATING;
+  if (is_profile_broken) vetoes |= VETO_PROFILE;
+  slot_vetoes_ = vetoes;
   const uint16_t now_units = to_units(now_us);
   const uint16_t passed_units = static_cast<uint16_t>(now_units - updated_at_);
   updated_at_ = now_units;
@@ -47,9 +49,9 @@ void Authority::follow_receiver(uint16_t passed_units) {
   } else {
     sound_.start();
   }
-  has_receiver_ = sound_.units() >= RETURN_UNITS;
+  if (sound_.units() < RETURN_UNITS) slot_vetoes_ |= VETO_RECEIVER;
   follow_failsafe(is_own_failsafe, passed_units);
-  if (!has_receiver_) {
+  if (!has_receiver()) {
     arming_.forget();
     throttle_low_.start();
     return;
@@ -70,7 +72,7 @@ void Authority::follow_receiver(uint16_t passed_units) {
 }
 
 void Authority::follow_failsafe(bool is_own_failsafe, uint16_t passed_units) {
-  if (has_receiver_) {
+  if (has_receiver()) {
     is_failsafe_ = false;
     lost_.start();
     return;
@@ -91,19 +93,19 @@ void Authority::follow_arming(uint16_t passed_units) {
 
 Mode Authority::mode() const {
   const bool is_asked = asked_mode_ == letter_of(Mode::OUTPUT) && asked_.lives();
-  return is_asked && is_imu_valid_ && has_receiver_ ? Mode::OUTPUT : flown_mode();
+  return is_asked && has_imu() && has_receiver() ? Mode::OUTPUT : flown_mode();
 }
 
 Mode Authority::flown_mode() const {
-  if (!is_imu_valid_) return Mode::ACRO;
+  if (!has_imu()) return Mode::ACRO;
   const uint8_t position = switch_.position();
   if (is_failsafe_ || position == SWITCH_UNKNOWN) return Mode::FBW;
   const char letter = profile_.switch_modes[position];
   if (letter == letter_of(Mode::ACRO)) return Mode::ACRO;
   if (letter == letter_of(Mode::RATE)) return Mode::RATE;
   if (letter != 'A') return Mode::FBW;
-  if (has_receiver_ && outputs_.lives()) return Mode::OUTPUT;
-  if (has_receiver_ && demand_.lives()) return Mode::SETPOINT;
+  if (has_receiver() && outputs_.lives()) return Mode::OUTPUT;
+  if (has_receiver() && demand_.lives()) return Mode::SETPOINT;
   return asked_mode_ == letter_of(Mode::RATE) ? Mode::RATE : Mode::FBW;
 }
 
@@ -115,14 +117,10 @@ bool Authority::is_auto() const {
 bool Authority::is_throttle_low() const { return receiver_.pulse(THROTTLE) < LOW_THROTTLE; }
 
 uint8_t Authority::vetoes() const {
-  uint8_t vetoes = 0;
+  uint8_t vetoes = slot_vetoes_;
   if (profile_.has_motor && !is_throttle_low()) vetoes |= VETO_THROTTLE;
-  if (!has_receiver_) vetoes |= VETO_RECEIVER;
-  if (!is_imu_valid_) vetoes |= VETO_IMU;
   if (!arming_.is_high()) vetoes |= VETO_AUX2;
   if (veto_.lives()) vetoes |= VETO_RASPBERRY;
-  if (is_calibrating_) vetoes |= VETO_CALIBRATING;
-  if (is_profile_broken_) vetoes |= VETO_PROFILE;
   return vetoes;
 }
 
@@ -150,7 +148,7 @@ Reason Authority::arm(uint32_t) {
 
 Reason Authority::disarm(uint32_t) {
   if (is_armed_ && profile_.has_motor && throttle_low_.units() < LOW_LONG_ENOUGH_UNITS) {
-    return has_receiver_ ? Reason::THROTTLE_NOT_LOW : Reason::RECEIVER_INVALID;
+    return has_receiver() ? Reason::THROTTLE_NOT_LOW : Reason::RECEIVER_INVALID;
   }
   is_armed_ = false;
   return Reason::NONE;
@@ -162,8 +160,8 @@ Reason Authority::ask_mode(char letter, uint32_t) {
     return Reason::OUT_OF_RANGE;
   }
   if (!is_auto()) return Reason::NOT_AUTO;
-  if (!has_receiver_) return Reason::RECEIVER_INVALID;
-  if (mode == Mode::OUTPUT && !is_imu_valid_) return Reason::IMU_INVALID;
+  if (!has_receiver()) return Reason::RECEIVER_INVALID;
+  if (mode == Mode::OUTPUT && !has_imu()) return Reason::IMU_INVALID;
   asked_mode_ = letter;
   asked_.start(ASKED_OUTPUT_UNITS);
   if (mode != Mode::OUTPUT) outputs_.end();
@@ -174,8 +172,8 @@ Reason Authority::ask_mode(char letter, uint32_t) {
 Reason Authority::authority_for(Mode mode) const {
   if (!is_auto()) return Reason::NOT_AUTO;
   if (asked_mode_ != 0 && asked_mode_ != letter_of(mode)) return Reason::NOT_AUTO;
-  if (!has_receiver_) return Reason::RECEIVER_INVALID;
-  if (!is_imu_valid_) return Reason::IMU_INVALID;
+  if (!has_receiver()) return Reason::RECEIVER_INVALID;
+  if (!has_imu()) return Reason::IMU_INVALID;
   if (profile_.has_motor && !is_armed_) return Reason::VETO;
   return Reason::NONE;
 }

@@ -63,7 +63,7 @@ class Authority {
   bool is_auto() const;
   /** 0 low, 1 middle, 2 high, 255 not known yet; holds while the receiver is lost. */
   uint8_t switch_position() const { return switch_.position(); }
-  bool has_receiver() const { return has_receiver_; }
+  bool has_receiver() const { return !(slot_vetoes_ & VETO_RECEIVER); }
   /** Receiver failsafe acts: circle (IMU valid) or preset surfaces. */
   bool is_failsafe() const { return is_failsafe_; }
   /** Stays after more than 5 s of failsafe until the stick has been low. */
@@ -100,6 +100,7 @@ class Authority {
   void follow_receiver(uint16_t passed_units);
   void follow_failsafe(bool is_own_failsafe, uint16_t passed_units);
   void follow_arming(uint16_t passed_units);
+  bool has_imu() const { return !(slot_vetoes_ & VETO_IMU); }
   bool is_throttle_low() const;
   bool was_heard() const { return switch_.position() != SWITCH_UNKNOWN; }
   void end_demands();
@@ -117,15 +118,16 @@ class Authority {
   Stopwatch throttle_low_;
   Stopwatch sound_;
   Stopwatch lost_;
-  Setpoint setpoint_;
-  Outputs asked_outputs_;
+  // The newer of the two: which it is, flown_mode() says.
+  union {
+    Setpoint setpoint_;
+    Outputs asked_outputs_;
+  };
   uint16_t updated_at_ = 0;
   char asked_mode_ = 0;
   bool is_armed_ = false;
-  bool is_imu_valid_ = false;
-  bool is_calibrating_ = false;
-  bool is_profile_broken_ = false;
-  bool has_receiver_ = false;
+  /** Those that hold for a slot: receiver, IMU, calibrating, profile. */
+  uint8_t slot_vetoes_ = VETO_RECEIVER | VETO_IMU;
   bool is_failsafe_ = false;
   bool is_latched_ = false;
 };

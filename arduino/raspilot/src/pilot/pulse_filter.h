@@ -21,9 +21,9 @@ class PulseFilter {
   Ticks pulse() const { return pulse_; }
 
  private:
-  /** y, in eighths of a tick from 1500 us. */
-  int16_t smoothed_8_ = 0;
   Ticks pulse_ = us_to_ticks(1500);
+  /** y less the output, in eighths of a tick. */
+  int8_t ahead_8_ = 0;
   /** Sign: where it moved last; 2 in this pulse, 1 in the one before, 0 earlier. */
   int8_t movement_ = 0;
 };
