@@ -136,7 +136,8 @@ class Rig:
         Raises ``FirmwareError`` for a name that the ELF file does not have.
         """
         place, start = self._symbol(symbol), self._symbol(at)
-        if not place.is_data or not 0 < len(value) <= max(place.size, 1):
+        is_inside = place.address + len(value) <= RAM_START + RAM_SIZE
+        if not (place.is_data and is_inside and 0 < len(value) <= max(place.size, 1)):
             raise FirmwareError(f"{symbol} is no variable of {len(value)} bytes")
         self._library.rig_preload(self._handle, start.address, place.address, value, len(value))
 

@@ -132,7 +132,17 @@ def test_what_is_not_modelled_is_said(case):
         rig.run_us(1000)
 
 
-def test_a_program_that_goes_wild_ends_in_one_sentence(case):
-    rig = case(7)
+@pytest.mark.parametrize("number", [7, 9, 10])
+def test_a_program_that_goes_wild_ends_in_one_sentence(case, number):
+    rig = case(number)
     with pytest.raises(CrashError, match="went wild at address 0x"):
+        rig.run_us(1000)
+    with pytest.raises(CrashError):
+        rig.run_us(1)
+
+
+def test_an_interrupt_on_a_wild_stack_is_said(case):
+    rig = case(11)
+    rig.receiver.edge("ailerons", 16 * 500, 1)
+    with pytest.raises(CrashError, match="the stack pointer is at 0x0010"):
         rig.run_us(1000)
