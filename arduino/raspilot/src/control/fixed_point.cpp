@@ -19,21 +19,12 @@ OUT_OF_LINE int32_t dot(const int16_t* a, const int16_t* b) {
 }
 
 OUT_OF_LINE int16_t times_q15(int16_t a, int16_t b) {
-  return static_cast<int16_t>((product(a, b) * 2 + 0x8000) >> 16);
+  return static_cast<int16_t>((static_cast<uint32_t>(product(a, b)) * 2 + 0x8000U) >> 16);
 }
 
-OUT_OF_LINE int16_t times_q14(int16_t a, int16_t b) {
-  return static_cast<int16_t>((product(a, b) + (1L << 13)) >> 14);
-}
+OUT_OF_LINE int16_t times_q14(int16_t a, int16_t b) { return from_q14(product(a, b)); }
 
-OUT_OF_LINE int32_t shifted(int32_t value, uint8_t bits) {
-  return value >> bits;
-}
-
-OUT_OF_LINE int16_t upper_half(int32_t value) {
-  // Half of a unit more would leave 32 bits at the very end only.
-  return static_cast<int16_t>((clamped(value, 0x7FFF0000L) + 0x8000L) >> 16);
-}
+OUT_OF_LINE int32_t shifted(int32_t value, uint8_t bits) { return value >> bits; }
 
 OUT_OF_LINE int32_t clamped(int32_t value, int32_t limit) {
   if (value > limit) return limit;
@@ -46,13 +37,31 @@ OUT_OF_LINE int16_t clamped16(int16_t value, int16_t limit) {
 }
 
 OUT_OF_LINE int16_t to_int16(int32_t value) {
-  return static_cast<int16_t>(clamped(value, 32767));
+  const int16_t low = static_cast<int16_t>(value);
+  if (low == value && low != -32768) return low;
+  return value < 0 ? -32767 : 32767;
 }
 
-OUT_OF_LINE int16_t sum_of(int16_t a, int16_t b) { return to_int16(static_cast<int32_t>(a) + b); }
+namespace {
+
+/** `sum` is that of two numbers of the sign of `a`, perhaps beyond 16 bits: then the sign is not. */
+int16_t within(uint16_t sum, int16_t a, bool is_beyond) {
+  if (is_beyond) return a < 0 ? -32767 : 32767;
+  return sum == 0x8000 ? -32767 : static_cast<int16_t>(sum);
+}
+
+}  // namespace
+
+OUT_OF_LINE int16_t sum_of(int16_t a, int16_t b) {
+  const uint16_t sum = static_cast<uint16_t>(static_cast<uint16_t>(a) + static_cast<uint16_t>(b));
+  return within(sum, a, ((static_cast<uint16_t>(a) ^ sum) & (static_cast<uint16_t>(b) ^ sum)) >> 15);
+}
 
 OUT_OF_LINE int16_t difference_of(int16_t a, int16_t b) {
-  return to_int16(static_cast<int32_t>(a) - b);
+  const uint16_t sum = static_cast<uint16_t>(static_cast<uint16_t>(a) - static_cast<uint16_t>(b));
+  return within(sum, a,
+                ((static_cast<uint16_t>(a) ^ static_cast<uint16_t>(b)) &
+                 (static_cast<uint16_t>(a) ^ sum)) >> 15);
 }
 
 }  // namespace raspilot
