@@ -1,6 +1,7 @@
 """The program on a pty, as the daemon meets it."""
 
 import contextlib
+import itertools
 import os
 import select
 import signal
@@ -10,6 +11,8 @@ import sys
 import time
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.arduino.rig.firmware import build, make_rig
 from up_rig.pty_line import PtyLine
@@ -211,3 +214,24 @@ def test_scripts_mean_what_they_mean_to_the_stand_in(script):
 
     ours, theirs = read(read_sticks, SticksError), read(stand_in.read_sticks, stand_in.SticksError)
     assert ours == theirs
+
+
+@given(
+    st.lists(
+        st.one_of(
+            st.text(max_size=12),
+            st.tuples(
+                st.sampled_from(["t", "aileron", "aux2", "receiver", "throttle", ""]),
+                st.sampled_from(["1500", "on", "off", "-1", "1e9", "nan", "9" * 5000, "²", ""]),
+            ).map("=".join),
+        ),
+        max_size=6,
+    )
+)
+def test_any_script_is_read_or_refused_in_one_sentence(words):
+    try:
+        moves = read_sticks(" ".join(words))
+    except SticksError as error:
+        assert str(error).startswith("sticks: ")
+    else:
+        assert all(earlier.time_s <= later.time_s for earlier, later in itertools.pairwise(moves))
