@@ -110,7 +110,7 @@ class Flight:
                 return "K"
             if each.type == "!" and each.payload[:2] == bytes((ord(letter), sequence)):
                 return each.payload[2]
-            if each.type == letter:
+            if each.type == {"c": "C"}.get(letter, letter):
                 return each.payload
         return None
 
