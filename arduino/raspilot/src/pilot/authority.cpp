@@ -33,10 +33,7 @@ void Authority::update(bool is_imu_valid, bool is_calibrating, bool is_profile_b
   const uint16_t now_units = to_units(now_us);
   const uint16_t passed_units = static_cast<uint16_t>(now_units - updated_at_);
   updated_at_ = now_units;
-  asked_.pass(passed_units);
-  outputs_.pass(passed_units);
-  demand_.pass(passed_units);
-  veto_.pass(passed_units);
+  for (Lifetime& life : lives_) life.pass(passed_units);
   follow_receiver(passed_units);
 }
 
@@ -59,7 +56,7 @@ void Authority::follow_receiver(uint16_t passed_units) {
   switch_.take(receiver_.pulse(AUX1));
   if (!is_auto()) {
     asked_mode_ = 0;
-    asked_.end();
+    lives_[ASKED].end();
     end_demands();
   }
   if (is_throttle_low()) {
@@ -92,7 +89,7 @@ void Authority::follow_arming(uint16_t passed_units) {
 }
 
 Mode Authority::mode() const {
-  const bool is_asked = asked_mode_ == letter_of(Mode::OUTPUT) && asked_.lives();
+  const bool is_asked = asked_mode_ == letter_of(Mode::OUTPUT) && lives_[ASKED].lives();
   return is_asked && has_imu() && has_receiver() ? Mode::OUTPUT : flown_mode();
 }
 
@@ -104,8 +101,8 @@ Mode Authority::flown_mode() const {
   if (letter == letter_of(Mode::ACRO)) return Mode::ACRO;
   if (letter == letter_of(Mode::RATE)) return Mode::RATE;
   if (letter != 'A') return Mode::FBW;
-  if (has_receiver() && outputs_.lives()) return Mode::OUTPUT;
-  if (has_receiver() && demand_.lives()) return Mode::SETPOINT;
+  if (has_receiver() && lives_[OUTPUT].lives()) return Mode::OUTPUT;
+  if (has_receiver() && lives_[DEMAND].lives()) return Mode::SETPOINT;
   return asked_mode_ == letter_of(Mode::RATE) ? Mode::RATE : Mode::FBW;
 }
 
@@ -120,7 +117,7 @@ uint8_t Authority::vetoes() const {
   uint8_t vetoes = slot_vetoes_;
   if (profile_.has_motor && !is_throttle_low()) vetoes |= VETO_THROTTLE;
   if (!arming_.is_high()) vetoes |= VETO_AUX2;
-  if (veto_.lives()) vetoes |= VETO_RASPBERRY;
+  if (lives_[PI_VETO].lives()) vetoes |= VETO_RASPBERRY;
   return vetoes;
 }
 
@@ -163,9 +160,9 @@ Reason Authority::ask_mode(char letter, uint32_t) {
   if (!has_receiver()) return Reason::RECEIVER_INVALID;
   if (mode == Mode::OUTPUT && !has_imu()) return Reason::IMU_INVALID;
   asked_mode_ = letter;
-  asked_.start(ASKED_OUTPUT_UNITS);
-  if (mode != Mode::OUTPUT) outputs_.end();
-  if (mode != Mode::SETPOINT) demand_.end();
+  lives_[ASKED].start(ASKED_OUTPUT_UNITS);
+  if (mode != Mode::OUTPUT) lives_[OUTPUT].end();
+  if (mode != Mode::SETPOINT) lives_[DEMAND].end();
   return Reason::NONE;
 }
 
@@ -186,7 +183,7 @@ Reason Authority::take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint3
     asked_outputs_.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
   }
   // It outlives any older Setpoint, whose lifetime is no longer.
-  outputs_.start(OUTPUT_LIVES_UNITS);
+  lives_[OUTPUT].start(OUTPUT_LIVES_UNITS);
   return Reason::NONE;
 }
 
@@ -195,18 +192,18 @@ Reason Authority::take_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, 
   if (reason != Reason::NONE) return reason;
   setpoint_ = setpoint;
   // Rather a unit too short than one too long.
-  demand_.start(static_cast<uint16_t>(lifetime_ms - lifetime_ms / 32 - 1));
-  outputs_.end();
+  lives_[DEMAND].start(static_cast<uint16_t>(lifetime_ms - lifetime_ms / 32 - 1));
+  lives_[OUTPUT].end();
   return Reason::NONE;
 }
 
 void Authority::take_veto(bool is_vetoed, uint32_t) {
-  veto_.start(is_vetoed ? VETO_LIVES_UNITS : 0);
+  lives_[PI_VETO].start(is_vetoed ? VETO_LIVES_UNITS : 0);
 }
 
 void Authority::end_demands() {
-  outputs_.end();
-  demand_.end();
+  lives_[OUTPUT].end();
+  lives_[DEMAND].end();
 }
 
 AuthorityState Authority::state() const {

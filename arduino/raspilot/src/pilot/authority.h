@@ -97,6 +97,9 @@ class Authority {
   void restore(const AuthorityState& state, uint32_t now_us);
 
  private:
+  /** What holds for a while. */
+  enum Life : uint8_t { ASKED, OUTPUT, DEMAND, PI_VETO, LIVES };
+
   void follow_receiver(uint16_t passed_units);
   void follow_failsafe(bool is_own_failsafe, uint16_t passed_units);
   void follow_arming(uint16_t passed_units);
@@ -111,10 +114,7 @@ class Authority {
   const PwmReader& receiver_;
   ModeSwitch switch_;
   ArmingSwitch arming_;
-  Lifetime asked_;
-  Lifetime outputs_;
-  Lifetime demand_;
-  Lifetime veto_;
+  Lifetime lives_[LIVES];
   Stopwatch throttle_low_;
   Stopwatch sound_;
   Stopwatch lost_;

@@ -24,7 +24,7 @@ class Lifetime {
  public:
   void start(uint16_t units) { left_ = units; }
   void end() { left_ = 0; }
-  void pass(uint16_t units) { left_ = left_ > units ? static_cast<uint16_t>(left_ - units) : 0; }
+  void pass(uint16_t units);
   bool lives() const { return left_ != 0; }
 
  private:
@@ -35,10 +35,7 @@ class Lifetime {
 class Stopwatch {
  public:
   void start() { units_ = 0; }
-  void pass(uint16_t units) {
-    const uint16_t sum = static_cast<uint16_t>(units_ + units);
-    units_ = sum < units ? 65535 : sum;
-  }
+  void pass(uint16_t units);
   uint16_t units() const { return units_; }
 
  private:

@@ -26,19 +26,20 @@ void PwmReader::on_edge(uint16_t stamp_ticks, uint8_t levels, bool is_late, uint
   is_lost_ = false;
   uint8_t changed = static_cast<uint8_t>(levels ^ levels_);
   levels_ = levels;
-  for (uint8_t i = 0; i < INPUTS; ++i) {
-    InputChannel& channel = channels_[i];
+  uint8_t index = 0;
+  for (InputChannel& channel : channels_) {
     if (is_lost) {
       channel.begin_again(stamp_ticks);
     } else if (!(changed & 1)) {
       // Another channel's edge.
     } else if (levels & 1) {
-      if (channel.on_rise(stamp_ticks, is_late)) learner_.take(i, channel.width());
+      if (channel.on_rise(stamp_ticks, is_late)) learner_.take(index, channel.width());
     } else if (channel.on_fall(stamp_ticks, is_late) != InputChannel::NOISE) {
       age_.start();
     }
     changed = static_cast<uint8_t>(changed >> 1);
     levels = static_cast<uint8_t>(levels >> 1);
+    ++index;
   }
 }
 
@@ -50,8 +51,9 @@ void PwmReader::check(uint32_t now_us) {
   const uint8_t aged = static_cast<uint8_t>(passed < MOST_AGED ? passed : MOST_AGED);
   const uint16_t now_stamp = static_cast<uint16_t>(now_us * 2);
   uint8_t levels = levels_;
-  for (uint8_t i = 0; i < INPUTS; ++i) {
-    channels_[i].check(levels & 1, now_stamp, aged, calibration_.receiver[i]);
+  const ChannelRange* range = calibration_.receiver;
+  for (InputChannel& channel : channels_) {
+    channel.check(levels & 1, now_stamp, aged, *range++);
     levels = static_cast<uint8_t>(levels >> 1);
   }
 }

@@ -52,12 +52,13 @@ class PwmReader {
   uint16_t passed_units(uint32_t now_us) const;
 
   const Calibration& calibration_;
-  InputChannel channels_[INPUTS];
-  RangeLearner learner_;
+  // What is small lies where one instruction reaches it.
   Stopwatch age_;
   uint16_t checked_at_ = 0;
   uint8_t levels_ = 0;
   bool is_lost_ = true;
+  RangeLearner learner_;
+  InputChannel channels_[INPUTS];
 };
 
 }  // namespace raspilot
