@@ -26,8 +26,8 @@ constexpr uint8_t BIAS_FRACTION = 4;
 // A sixteenth of a count in sixteenths of a deg/s, Q15.
 constexpr int16_t COUNT_TO_DEG_S = 999;
 // Angles of a slot leave as Q19; one of them a slot is 0.87427 sixteenths of a degree per second.
-constexpr uint8_t ANGLE_SHIFT = 13;
-constexpr int16_t ANGLE_REST = (1 << ANGLE_SHIFT) - 1;
+constexpr int32_t TURN_TO_UPPER_HALF = 1 << 3;
+constexpr int16_t ANGLE_REST = (1 << 13) - 1;
 constexpr int16_t RATE_Q15 = 28648;
 
 constexpr int32_t ONE_Q30 = 1L << 30;
@@ -37,9 +37,10 @@ constexpr int16_t LEAST_COSINE_SQUARED_Q14 = 820;  // pitch of 77 degrees: yaw m
 constexpr uint16_t YAW_PER_Q17 = 5215;             // 2^32 / (2 pi) / 2^17
 constexpr int16_t HALF_CIRCLE_CDEG = 18000;
 
-// Four samples are collected for one look at the accelerometer, each at most 1.39 g an axis.
+// Four samples are collected for one look at the accelerometer, each at most 1.15 g an axis:
+// turned in any way they stay within 16 bits.
 constexpr uint8_t GROUP = 4;
-constexpr int16_t GREATEST_ACCEL = 5700;
+constexpr int16_t GREATEST_ACCEL = 4700;
 constexpr int32_t SQUARE_TOLERANCE = static_cast<int32_t>(0.2 * ONE_Q28);          // 0.9 to 1.1 g
 constexpr int32_t SQUARE_TOLERANCE_FINDING = static_cast<int32_t>(0.6 * ONE_Q28);  // 0.63 to 1.26 g
 
@@ -51,7 +52,7 @@ constexpr uint8_t FINDING_GROUPS = 16;
 constexpr uint8_t SETTLED_GROUPS = 250;
 
 // The bias is learned with a quarter of the square of the draw's rate: just too slow to swing.
-constexpr uint8_t LEARNING_SHIFT = 2;
+constexpr int16_t LEARNING_DIVISOR = 4;
 
 // A turn of more than 2.5 deg/s about the vertical, low-passed with 0.5 s, tilts what the
 // accelerometer takes for down.
@@ -81,14 +82,21 @@ OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
   count_slots();
   const int16_t gyro[3] = {sample.gyro[0], negative(sample.gyro[1]), negative(sample.gyro[2])};
   if (searched_slots_ < SEARCH_SLOTS) ++searched_slots_;
-  if (stillness_.on_sample(gyro) && !has_ended_search_) take_own_bias();
   collect(sample);
+  if ((phase_ & 1) != 0 && stillness_.on_sample(gyro) && !has_ended_search_) take_own_bias();
   for (uint8_t step = 0; step < STEPS_A_SLOT && pending_slots_ != 0; ++step) {
     --pending_slots_;
     integrate(gyro);
   }
-  if (phase_ == 0) correct();
-  find_angles();
+  if (phase_ == 0) {
+    correct();
+    normalize();
+  }
+  if ((phase_ & 1) != 0) {
+    find_roll_and_yaw();
+  } else {
+    find_pitch();
+  }
   if (good_samples_ < GOOD_ENOUGH) {
     ++good_samples_;
   } else {
@@ -161,8 +169,8 @@ OUT_OF_LINE void AttitudeFilter::integrate(const int16_t* gyro) {
   int16_t angle[3];
   for (uint8_t axis = 0; axis < 3; ++axis) {
     const int32_t turn = product(gyro[axis], TURN_PER_COUNT) -
-                         shifted(state_.bias_q36[axis], BIAS_FRACTION) + remainder_[axis];
-    angle[axis] = static_cast<int16_t>(shifted(turn, ANGLE_SHIFT));
+                         (state_.bias_q36[axis] >> BIAS_FRACTION) + remainder_[axis];
+    angle[axis] = static_cast<int16_t>((turn * TURN_TO_UPPER_HALF) >> 16);
     remainder_[axis] = static_cast<int16_t>(static_cast<int16_t>(turn) & ANGLE_REST);
   }
   level_.straighten(angle);
@@ -174,18 +182,17 @@ OUT_OF_LINE void AttitudeFilter::integrate(const int16_t* gyro) {
   int32_t change[3];
   cross(down_, angle, change);
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    state_.gravity_q30[axis] += shifted(change[axis], 3);
+    state_.gravity_q30[axis] += change[axis] >> 3;
+    down_[axis] = upper_half(state_.gravity_q30[axis]);
   }
   if (phase_ == 0) {
-    const int32_t about_vertical = shifted(dot(down_, angle), 14);
-    turn_rate_ += about_vertical - shifted(turn_rate_, TURN_SHIFT);
+    turn_rate_ += from_q14(dot(down_, angle)) - shifted(turn_rate_, TURN_SHIFT);
   }
-  follow_gravity();
 }
 
 /** Heading turns by (q sin roll + r cos roll) / cos pitch; the division's rest is kept. */
 OUT_OF_LINE void AttitudeFilter::integrate_yaw(const int16_t* angle) {
-  yaw_change_ += shifted(product(down_[1], angle[1]) + product(down_[2], angle[2]), 2);
+  yaw_change_ += (product(down_[1], angle[1]) + product(down_[2], angle[2])) >> 2;
   if ((phase_ & 1) == 0) return;
   int16_t cosine_squared = static_cast<int16_t>(ONE_Q14 - times_q14(down_[0], down_[0]));
   if (cosine_squared < LEAST_COSINE_SQUARED_Q14) cosine_squared = LEAST_COSINE_SQUARED_Q14;
@@ -195,12 +202,16 @@ OUT_OF_LINE void AttitudeFilter::integrate_yaw(const int16_t* angle) {
 }
 
 /** One step of Newton's towards the length 1. */
-OUT_OF_LINE void AttitudeFilter::follow_gravity() {
-  for (uint8_t axis = 0; axis < 3; ++axis) down_[axis] = upper_half(state_.gravity_q30[axis]);
+OUT_OF_LINE void AttitudeFilter::normalize() {
+  find_down();
   const int16_t half_lack_q16 = to_int16(shifted(ONE_Q28 - dot(down_, down_), 13));
   for (uint8_t axis = 0; axis < 3; ++axis) {
     state_.gravity_q30[axis] += product(down_[axis], half_lack_q16);
   }
+}
+
+OUT_OF_LINE void AttitudeFilter::find_down() {
+  for (uint8_t axis = 0; axis < 3; ++axis) down_[axis] = upper_half(state_.gravity_q30[axis]);
 }
 
 OUT_OF_LINE void AttitudeFilter::correct() {
@@ -241,17 +252,25 @@ OUT_OF_LINE void AttitudeFilter::learn_drift() {
   level_.tilt(error);
   for (uint8_t axis = 0; axis < 3; ++axis) {
     int32_t& bias = state_.bias_q36[axis];
-    bias = clamped(bias - shifted(error[axis], LEARNING_SHIFT), GREATEST_BIAS);
+    bias = clamped(bias - error[axis] / LEARNING_DIVISOR, GREATEST_BIAS);
   }
 }
 
-OUT_OF_LINE void AttitudeFilter::find_angles() {
+OUT_OF_LINE void AttitudeFilter::find_roll_and_yaw() {
+  attitude_.roll_cdeg = arc_tangent_cdeg(down_[1], down_[2]);
+  attitude_.yaw_cdeg = times_q15(static_cast<int16_t>(state_.yaw >> 16), HALF_CIRCLE_CDEG);
+}
+
+OUT_OF_LINE void AttitudeFilter::find_pitch() {
   const uint32_t level_square = static_cast<uint32_t>(product(down_[1], down_[1])) +
                                 static_cast<uint32_t>(product(down_[2], down_[2]));
   const int16_t level = static_cast<int16_t>(square_root(level_square));
-  attitude_.roll_cdeg = arc_tangent_cdeg(down_[1], down_[2]);
   attitude_.pitch_cdeg = arc_tangent_cdeg(negative(down_[0]), level);
-  attitude_.yaw_cdeg = times_q15(static_cast<int16_t>(state_.yaw >> 16), HALF_CIRCLE_CDEG);
+}
+
+OUT_OF_LINE void AttitudeFilter::find_angles() {
+  find_roll_and_yaw();
+  find_pitch();
 }
 
 uint16_t AttitudeFilter::age_ms(uint32_t) const {
@@ -292,7 +311,7 @@ Reason AttitudeFilter::calibrate_level() {
     state_.gravity_q30[0] = state_.gravity_q30[1] = 0;
     state_.gravity_q30[2] = ONE_Q30;
   }
-  follow_gravity();
+  find_down();
   find_angles();
   return is_in_range ? Reason::NONE : Reason::OUT_OF_RANGE;
 }
@@ -305,7 +324,7 @@ void AttitudeFilter::restore(const AttitudeState& state, uint32_t) {
   found_groups_ = SETTLED_GROUPS;
   has_ended_search_ = true;
   has_own_bias_ = true;
-  follow_gravity();
+  find_down();
   find_angles();
 }
 

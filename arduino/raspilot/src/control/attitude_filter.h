@@ -47,6 +47,7 @@ struct AttitudeMemory {
  * A Mahony filter on the direction of gravity: the gyro turns it at 500 Hz, the accelerometer draws
  * it with a time constant of 16 s while it measures about 1 g and the aircraft does not turn, and
  * what it draws away steadily is learned as the gyro's drift. Yaw is integrated, nothing holds it.
+ * Roll and yaw are computed in one slot, pitch in the next: 250 Hz.
  */
 class AttitudeFilter : private AttitudeMemory {
  public:
@@ -92,10 +93,13 @@ class AttitudeFilter : private AttitudeMemory {
   void collect(const ImuSample& sample);
   void integrate(const int16_t* gyro);
   void integrate_yaw(const int16_t* angle);
-  void follow_gravity();
+  void normalize();
+  void find_down();
   void correct();
   void draw(uint8_t shift);
   void learn_drift();
+  void find_roll_and_yaw();
+  void find_pitch();
   void find_angles();
   Reason refusal() const;
 

@@ -26,14 +26,22 @@ void cross(const int16_t* a, const int16_t* b, int32_t* result);
 /** Sum of the products of three pairs; none of the sums may leave 32 bits. */
 int32_t dot(const int16_t* a, const int16_t* b);
 
-/** Products of which one factor is a fraction, to the nearest. */
+/** Products of which one factor is a fraction, to the nearest, where that fits in 16 bits. */
 int16_t times_q14(int16_t a, int16_t b);
 int16_t times_q15(int16_t a, int16_t b);
 
-/** `value` / 2^bits, rounded down. */
+/** `value` / 2^bits, rounded down; a bit takes the chip seven cycles. */
 int32_t shifted(int32_t value, uint8_t bits);
-/** `value` / 2^16, to the nearest, within 16 bits. */
-int16_t upper_half(int32_t value);
+/**
+ * `value` / 2^16 and / 2^14, to the nearest, where that fits in 16 bits. On the chip the upper half
+ * of a number costs nothing, a shift to the right a cycle a byte and bit.
+ */
+inline int16_t upper_half(int32_t value) {
+  return static_cast<int16_t>((static_cast<uint32_t>(value) + 0x8000U) >> 16);
+}
+inline int16_t from_q14(int32_t value) {
+  return static_cast<int16_t>((static_cast<uint32_t>(value) * 4 + 0x8000U) >> 16);
+}
 
 int32_t clamped(int32_t value, int32_t limit);
 int16_t clamped16(int16_t value, int16_t limit);

@@ -23,16 +23,19 @@ constexpr int16_t CDEG_TO_16THS = 5243;
 // Rates come in 2^-4, so a Rate PID answers in 2^-14. Its 400 units of 1.25 us are half a servo's
 // way; a unit is 2.5 ticks.
 constexpr int32_t RATE_LIMIT = 400L << 14;
+constexpr int32_t UNIT_TO_UPPER_HALF = 10;
 // Angles come in 2^-7, so a Stabilize PID answers in 2^-17 of a deg/s: 2^13 make a sixteenth.
-constexpr uint8_t STABILIZE_BITS = 17;
-constexpr uint8_t TO_16THS = 13;
+constexpr int32_t ROLL_RATE_LIMIT = static_cast<int32_t>(ROLL_RATE_LIMIT_DEG_S) << 17;
+constexpr int32_t PITCH_RATE_LIMIT = static_cast<int32_t>(PITCH_RATE_LIMIT_DEG_S) << 17;
+constexpr int32_t RATE_TO_UPPER_HALF = 8;
 // 128 / 100 in Q14.
 constexpr int16_t CDEG_TO_128THS = 20972;
 constexpr int16_t HALF_CIRCLE_CDEG = 18000;
 constexpr int32_t CIRCLE_CDEG = 36000;
 
-// The yaw damper's mean: 1024 slots are 2.05 s.
-constexpr uint8_t WASHOUT_SHIFT = 10;
+// The yaw damper's mean follows by a 1024th a slot: 2.05 s.
+constexpr int32_t ONE_Q16 = 1L << 16;
+constexpr int32_t WASHOUT_Q16 = ONE_Q16 / 1024;
 
 /** A stick's deflection, -32766 to 32766. */
 OUT_OF_LINE int16_t deflection_q15(Ticks stick) {
@@ -42,9 +45,9 @@ OUT_OF_LINE int16_t deflection_q15(Ticks stick) {
 
 /** The shorter way from an angle to another. */
 OUT_OF_LINE int16_t shorter_way_cdeg(int16_t to, int16_t from) {
-  int32_t way = static_cast<int32_t>(to) - from;
-  if (way > HALF_CIRCLE_CDEG) way -= CIRCLE_CDEG;
-  if (way < -HALF_CIRCLE_CDEG) way += CIRCLE_CDEG;
+  const int32_t way = static_cast<int32_t>(to) - from;
+  if (way > HALF_CIRCLE_CDEG) return static_cast<int16_t>(way - CIRCLE_CDEG);
+  if (way < -HALF_CIRCLE_CDEG) return static_cast<int16_t>(way + CIRCLE_CDEG);
   return static_cast<int16_t>(way);
 }
 
@@ -141,11 +144,10 @@ OUT_OF_LINE int16_t FlightController::wanted_rate_16(Channel channel, const Dema
   }
   const int16_t wanted_cdeg = wanted_angle_cdeg(channel, demand);
   const int16_t angle_cdeg = is_roll ? attitude.roll_cdeg : attitude.pitch_cdeg;
-  const int32_t limit_deg_s = is_roll ? ROLL_RATE_LIMIT_DEG_S : PITCH_RATE_LIMIT_DEG_S;
   const int16_t error = to_128ths(shorter_way_cdeg(wanted_cdeg, angle_cdeg));
-  const int32_t rate =
-      stabilize_[channel].update(error, to_128ths(angle_cdeg), limit_deg_s << STABILIZE_BITS);
-  return static_cast<int16_t>(shifted(rate, TO_16THS));
+  const int32_t rate = stabilize_[channel].update(error, to_128ths(angle_cdeg),
+                                                  is_roll ? ROLL_RATE_LIMIT : PITCH_RATE_LIMIT);
+  return upper_half(rate * RATE_TO_UPPER_HALF);
 }
 
 /** The failsafe's, the Raspberry Pi's or the stick's bank or pitch. */
@@ -167,18 +169,17 @@ OUT_OF_LINE int16_t FlightController::wanted_angle_cdeg(Channel channel,
 OUT_OF_LINE int16_t FlightController::swinging_16(int16_t yaw_rate_16) {
   if (!has_steady_) {
     has_steady_ = true;
-    steady_ = yaw_rate_16 * static_cast<int32_t>(1 << WASHOUT_SHIFT);
+    steady_ = yaw_rate_16 * ONE_Q16;
   }
-  const int16_t swinging =
-      difference_of(yaw_rate_16, static_cast<int16_t>(shifted(steady_, WASHOUT_SHIFT)));
-  steady_ += swinging;
+  const int16_t swinging = difference_of(yaw_rate_16, upper_half(steady_));
+  steady_ += swinging * WASHOUT_Q16;
   return swinging;
 }
 
 /** What a Rate PID answers, ticks. */
 OUT_OF_LINE Ticks FlightController::deflection(uint8_t axis, int16_t wanted_16, int16_t rate_16) {
   const int32_t units = rate_[axis].update(difference_of(wanted_16, rate_16), rate_16, RATE_LIMIT);
-  return static_cast<Ticks>(shifted(units * 5 + (1L << 14), 15));
+  return upper_half(units * UNIT_TO_UPPER_HALF);
 }
 
 }  // namespace raspilot

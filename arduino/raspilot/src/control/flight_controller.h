@@ -39,7 +39,7 @@ struct ControllerMemory {
   Hold hold_;
   bool has_steady_;
   uint8_t tuned_loops_;
-  int32_t steady_;     // yaw rate of the turn, 2^-10 of a sixteenth of a deg/s
+  int32_t steady_;     // yaw rate of the turn, 2^-16 of a sixteenth of a deg/s
   Pid rate_[3];        // ailerons, elevator, rudder: sixteenths of a deg/s to 1.25 us
   Pid stabilize_[2];   // ailerons, elevator: degrees / 128 to deg/s
 };

@@ -10,8 +10,8 @@ namespace {
 /** Turns (a, b) in their plane by the angle of sine and cosine. */
 OUT_OF_LINE void turn(int16_t& a, int16_t& b, int16_t sine, int16_t cosine) {
   const int16_t before = a;
-  a = sum_of(times_q14(a, cosine), times_q14(b, sine));
-  b = difference_of(times_q14(b, cosine), times_q14(before, sine));
+  a = from_q14(product(a, cosine) + product(b, sine));
+  b = from_q14(product(b, cosine) - product(before, sine));
 }
 
 }  // namespace

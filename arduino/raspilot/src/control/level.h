@@ -11,7 +11,7 @@ class Level {
   static constexpr int16_t GREATEST_CDEG = 1500;
 
   void set(int16_t roll_cdeg, int16_t pitch_cdeg);
-  /** Turns a vector from the sensor's axes (x forward, y right, z down) into the airframe's. */
+  /** Turns a vector of at most 32000 from the sensor's axes (forward, right, down) straight. */
   void straighten(int16_t* vector) const;
   /** The way back. */
   void tilt(int16_t* vector) const;

@@ -12,18 +12,19 @@ constexpr uint8_t P_BITS = 10;
 // A slot of 2000 us is 1.024 / 512 s: the 512th is a shift, 1.024 is 1049 / 1024.
 constexpr uint8_t I_BITS = 15;
 constexpr uint16_t I_FACTOR = 1049;
+// 2^-4 of a change a slot times 2^-14 of D is 2^-18; 500 slots a second and the 2 at the end make
+// that 2^-10: 500 / 256 / 2 is 125 / 128.
 constexpr uint8_t D_BITS = 14;
+constexpr uint8_t D_FACTOR = 125;
 constexpr uint32_t GREATEST_D = 65535;
 constexpr uint32_t MANTISSA = 0x7FFFFF;
 constexpr uint32_t IMPLIED_ONE = 0x800000;
 
 constexpr uint8_t INTEGRAL_BITS = 6;
-// Far above every limit, and three of them still fit.
-constexpr int32_t GREATEST_PART = 500000000L;
-// Times 125 it fits.
-constexpr int32_t GREATEST_SLOPE = 16000000L;
+// Six times every limit when it is a derivative, and the greatest P still fits beside it.
+constexpr int32_t GREATEST_SLOPE = 50000000L;
 // No aircraft turns by this much in a slot: the angle went round the circle.
-constexpr int32_t GREATEST_STEP = 16384L * 256;
+constexpr int16_t GREATEST_CHANGE = 1000;
 
 /** A gain of 0 to 50 times 2^bits, rounded down: its bits as IEEE 754 has them, moved. */
 OUT_OF_LINE uint32_t to_fixed(float gain, uint8_t bits) {
@@ -41,23 +42,24 @@ OUT_OF_LINE uint32_t to_fixed(float gain, uint8_t bits) {
 OUT_OF_LINE void Pid::tune(const PidGains& gains) {
   p_ = static_cast<uint16_t>(to_fixed(gains.p, P_BITS));
   i_ = static_cast<uint16_t>(to_fixed(gains.i, I_BITS) * I_FACTOR >> I_BITS);
-  const uint32_t d = to_fixed(gains.d, D_BITS);
+  const uint32_t d = to_fixed(gains.d, D_BITS) * D_FACTOR >> 7;
   d_ = static_cast<uint16_t>(d > GREATEST_D ? GREATEST_D : d);
   if (i_ == 0) integral_ = 0;
 }
 
 OUT_OF_LINE void Pid::reset() {
   integral_ = 0;
-  has_smooth_ = false;
+  has_measured_ = false;
+  change_q4_ = 0;
 }
 
 OUT_OF_LINE int32_t Pid::update(int16_t error, int16_t measured, int32_t limit) {
-  int32_t output = clamped(scaled(p_, error), GREATEST_PART);
+  int32_t output = scaled(p_, error);
   if (d_ != 0) output += derivative(measured);
-  const int32_t before = integral_;
+  if (i_ == 0) return clamped(output, limit);
   const int32_t integral =
-      clamped(before + shifted(scaled(i_, error), 3), limit << INTEGRAL_BITS);
-  const int32_t sum = output + shifted(integral, INTEGRAL_BITS);
+      clamped(integral_ + (scaled(i_, error) >> 3), limit << INTEGRAL_BITS);
+  const int32_t sum = output + (integral >> INTEGRAL_BITS);
   const int32_t limited = clamped(sum, limit);
   // What the limit cuts off is not summed up any further.
   if (limited == sum || (limited < sum) != (error > 0)) integral_ = integral;
@@ -65,18 +67,14 @@ OUT_OF_LINE int32_t Pid::update(int16_t error, int16_t measured, int32_t limit) 
 }
 
 OUT_OF_LINE int32_t Pid::derivative(int16_t measured) {
-  const int32_t now = measured * 256L;
-  const int32_t step = now - smooth_;
-  if (!has_smooth_ || clamped(step, GREATEST_STEP) != step) {
-    has_smooth_ = true;
-    smooth_ = now;
-    return 0;
-  }
-  const int32_t passed = shifted(step, 2);
-  smooth_ += passed;
-  // 2^-4 of a change a slot times 2^-14 of D is 2^-18, with F; a second has 500 slots.
-  const int32_t slope = shifted(scaled(d_, to_int16(shifted(passed, 4))), 4);
-  return -shifted(clamped(slope, GREATEST_SLOPE) * 125, 2);
+  const uint16_t difference = static_cast<uint16_t>(measured) - static_cast<uint16_t>(measured_);
+  const int16_t change = static_cast<int16_t>(difference);
+  const bool is_change = has_measured_ && clamped16(change, GREATEST_CHANGE) == change;
+  has_measured_ = true;
+  measured_ = measured;
+  const int16_t step_q4 = static_cast<int16_t>((is_change ? change : 0) * 16 - change_q4_);
+  change_q4_ = static_cast<int16_t>(change_q4_ + step_q4 / 4);
+  return clamped(scaled(d_, change_q4_), GREATEST_SLOPE) * -2;
 }
 
 }  // namespace raspilot

@@ -29,11 +29,12 @@ class Pid {
 
   // All zero at first, by whoever owns it.
   int32_t integral_;  // 2^-6 of an output
-  int32_t smooth_;    // measurement after the low-pass, 2^-8
+  int16_t measured_;
+  int16_t change_q4_;  // of the measurement a slot, after the low-pass
   uint16_t p_;
   uint16_t i_;
   uint16_t d_;
-  bool has_smooth_;
+  bool has_measured_;
 };
 
 }  // namespace raspilot

@@ -6,8 +6,8 @@ namespace raspilot {
 
 namespace {
 
-constexpr uint16_t WINDOW = 512;
-constexpr int16_t GREATEST_CHANGE = 40;  // 512 of them fit in 16 bits; 1.2 deg/s
+constexpr uint16_t WINDOW = 256;
+constexpr int16_t GREATEST_CHANGE = 40;  // 256 of them fit in 16 bits; 1.2 deg/s
 constexpr int16_t GREATEST_BIAS = 1000;  // 30 deg/s: the data sheet's 20 and warmth
 
 }  // namespace
@@ -33,7 +33,7 @@ OUT_OF_LINE bool Stillness::on_sample(const int16_t* gyro) {
   }
   if (++samples_ < WINDOW) return false;
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int16_t mean_q4 = static_cast<int16_t>(first_[axis] * 16 + (sums_[axis] + 16) / 32);
+    const int16_t mean_q4 = static_cast<int16_t>(first_[axis] * 16 + (sums_[axis] + 8) / 16);
     mean_q4_[axis] = mean_q4;
   }
   samples_ = 0;

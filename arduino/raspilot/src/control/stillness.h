@@ -6,7 +6,7 @@
 namespace raspilot {
 
 /**
- * Looks at windows of 512 samples (1.02 s at 500 Hz). A window begins anew with the first sample
+ * Looks at windows of 256 samples, every other one of a slot: 1.02 s. A window begins anew with the first sample
  * that differs from the window's first one by more than 1.2 deg/s.
  */
 class Stillness {
