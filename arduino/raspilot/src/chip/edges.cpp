@@ -6,7 +6,8 @@
 namespace raspilot {
 namespace edges {
 
-static constexpr uint8_t STAMPS = 32;
+/** In a slot six inputs make twelve edges at most, some of which come twice. */
+static constexpr uint8_t STAMPS = 24;
 static constexpr uint8_t STAMP_SIZE = 3;
 static constexpr uint8_t RING_SIZE = STAMPS * STAMP_SIZE;
 

@@ -116,16 +116,16 @@ void Mpu6050::on_power() {
 }
 
 void Mpu6050::take_sample() {
-  int16_t* const values = sample_.accel;
   static_assert(sizeof sample_ == sizeof bytes_, "seven numbers in the order of the registers");
-  bool is_equal = true;
+  uint16_t* const values = reinterpret_cast<uint16_t*>(&sample_);
+  uint16_t sum = 0;
   for (uint8_t i = 0; i < 7; i++) {
-    const int16_t value = static_cast<int16_t>(bytes_[2 * i] << 8 | bytes_[2 * i + 1]);
-    is_equal = is_equal && values[i] == value;
-    values[i] = value;
+    values[i] = __builtin_bswap16(values[i]);
+    sum = sum * 3 + values[i];
   }
   has_sample_ = true;
-  equals_ = is_equal ? static_cast<uint8_t>(equals_ + 1) : 0;
+  equals_ = sum == sum_ ? static_cast<uint8_t>(equals_ + 1) : 0;
+  sum_ = sum;
   if (equals_ < FROZEN_SAMPLES) return;
   is_resetting_ = true;
   start_over(0);

@@ -35,8 +35,12 @@ class Mpu6050 {
   void start_over(uint8_t rest_slots);
 
   Twi twi_;
-  ImuSample sample_;
-  uint8_t bytes_[14];
+  /** What is read comes here as the bus brings it, and is put in order in place. */
+  union {
+    ImuSample sample_;
+    uint8_t bytes_[14];
+  };
+  uint16_t sum_;
   uint8_t step_;
   uint8_t rest_slots_;
   uint8_t equals_;

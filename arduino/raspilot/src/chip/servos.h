@@ -24,8 +24,8 @@ class Servos {
     uint16_t rise;
     uint16_t next;
     uint8_t slots;
-    bool has_next;
-    bool is_free;
+    bool has_next : 1;
+    bool is_free : 1;
   };
 
   void plan_channel(Channel channel, uint16_t now);

@@ -6,13 +6,20 @@
 namespace raspilot {
 namespace uart {
 
+/** 5.5 ms of bytes, almost three slots. */
 static constexpr uint8_t RX_SIZE = 64;
-static constexpr uint8_t TX_SIZE = 128;
+/** The longest message that the protocol knows takes 102 bytes, and one place stays empty. */
+static constexpr uint8_t TX_SIZE = 104;
 static constexpr uint16_t DIVIDER = (F_CPU / 4 / RASPILOT_BAUD - 1) / 2;
 
 static uint8_t rx[RX_SIZE];
 static uint8_t tx[TX_SIZE];
 static volatile uint8_t rx_head, rx_tail, tx_head, tx_tail;
+
+static inline uint8_t after_tx(uint8_t place) {
+  place = static_cast<uint8_t>(place + 1);
+  return place == TX_SIZE ? 0 : place;
+}
 
 void begin() {
   UCSR0B = 0;
@@ -35,13 +42,15 @@ bool read(uint8_t& byte) {
 namespace board {
 
 uint8_t serial_room() {
-  return static_cast<uint8_t>(uart::tx_tail - uart::tx_head - 1) & (uart::TX_SIZE - 1);
+  const uint8_t head = uart::tx_head;
+  const uint8_t tail = uart::tx_tail;
+  return static_cast<uint8_t>(tail - head - 1 + (tail > head ? 0 : uart::TX_SIZE));
 }
 
 void serial_write(uint8_t byte) {
   const uint8_t head = uart::tx_head;
   uart::tx[head] = byte;
-  uart::tx_head = (head + 1) & (uart::TX_SIZE - 1);
+  uart::tx_head = uart::after_tx(head);
   InterruptsOff off;
   UCSR0B |= _BV(UDRIE0);
 }
@@ -65,7 +74,7 @@ ISR(USART_UDRE_vect) {
   using namespace uart;
   const uint8_t tail = tx_tail;
   UDR0 = tx[tail];
-  const uint8_t next = (tail + 1) & (TX_SIZE - 1);
+  const uint8_t next = after_tx(tail);
   tx_tail = next;
   if (next == tx_head) UCSR0B &= static_cast<uint8_t>(~_BV(UDRIE0));
   note_end_of_interrupt();
