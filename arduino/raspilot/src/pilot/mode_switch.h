@@ -17,8 +17,6 @@ class ModeSwitch {
   void restore(uint8_t position) { position_ = position <= 2 ? position : SWITCH_UNKNOWN; }
 
  private:
-  bool is_beyond(Ticks pulse, int16_t edge_us, uint8_t position_above) const;
-
   uint8_t position_ = SWITCH_UNKNOWN;
 };
 

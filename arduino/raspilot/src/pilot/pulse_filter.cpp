@@ -6,7 +6,7 @@ namespace {
 
 constexpr int16_t ONE_8 = 8;
 constexpr Ticks BYPASS = us_to_ticks(20);
-constexpr Ticks UNCERTAIN = us_to_ticks(4);
+constexpr Ticks UNCERTAIN = us_to_ticks(6);
 constexpr int16_t REVERSAL_8 = us_to_ticks(3) * ONE_8;
 constexpr int16_t MOVING_8 = 3 * ONE_8;
 constexpr int8_t PLAY_8 = 6;

@@ -12,6 +12,7 @@ constexpr Ticks HIGHEST_TICKS = us_to_ticks(2115);
 constexpr int16_t HALF_TRAVEL_TICKS = us_to_ticks(500);
 constexpr uint16_t SMALLEST_HALF_US = 200;
 
+uint16_t to_us(uint16_t ticks) { return static_cast<uint16_t>((ticks + 1) >> 1); }
 bool rests_anywhere(uint8_t channel) { return channel == THROTTLE || channel >= AUX1; }
 
 }  // namespace
@@ -34,11 +35,11 @@ bool RangeLearner::end(const Ticks* resting, ChannelRange* ranges) {
   ChannelRange learned[INPUTS];
   for (uint8_t i = 0; i < INPUTS; ++i) {
     ChannelRange& range = learned[i];
-    range.lowest_us = ticks_to_us(static_cast<Ticks>(ends_[i].lowest));
-    range.highest_us = ticks_to_us(static_cast<Ticks>(ends_[i].highest));
+    range.lowest_us = to_us(ends_[i].lowest);
+    range.highest_us = to_us(ends_[i].highest);
     range.centre_us = rests_anywhere(i)
                           ? static_cast<uint16_t>((range.lowest_us + range.highest_us) / 2)
-                          : ticks_to_us(resting[i]);
+                          : to_us(static_cast<uint16_t>(resting[i]));
     if (range.centre_us < range.lowest_us + SMALLEST_HALF_US ||
         range.highest_us < range.centre_us + SMALLEST_HALF_US) {
       return false;
