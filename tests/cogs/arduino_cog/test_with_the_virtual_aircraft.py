@@ -1,4 +1,4 @@
-"""The cog and the stand-in board of the virtual aircraft, two processes on a real pty."""
+"""The cog and a board in a process of its own, on a real pty: stand-in and compiled firmware."""
 
 import os
 import signal
@@ -8,7 +8,8 @@ import sys
 import pytest
 
 from tests.cogs.arduino_cog.board import MODULES
-from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.firmware import build_firmware
+from tests.support.reactor import reactor, run_in_reactor, sleep, until
 from tests.support.system import build_up, started
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.flight_mode_command import FlightModeCommand
@@ -19,26 +20,28 @@ from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import CommandRefusedError
 from up.flight_controller.pids_file import PIDS
 
+from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand  # isort: skip
+from arduino_cog.modules.arduino_profile import ArduinoProfile  # isort: skip
 from arduino_cog.modules.arduino_provider import ArduinoProvider  # isort: skip
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider  # isort: skip
 
 LOOP = {axis: {"p": 3.25, "i": 0.5, "d": 0.1} for axis in ("ailerons", "elevator", "rudder")}
 
 
-class Aircraft:
-    """The program, in a process of its own."""
+STAND_IN = ("up_simulator", "--no-phone", "--wind", "0", "--turbulence", "0")
 
-    def __init__(self, link, *options):
+
+class Aircraft:
+    """The board, in a process of its own; ``command`` is what follows ``python -m``."""
+
+    def __init__(self, link, *command):
         self.link = link
-        self.options = options
+        self.command = command
         self.process = None
 
     def fly(self):
         self.process = subprocess.Popen(
-            [
-                *(sys.executable, "-m", "up_simulator", "--no-phone", "--wind", "0"),
-                *("--turbulence", "0", "--pty-link", str(self.link), *self.options),
-            ],
+            [sys.executable, "-m", *self.command, "--pty-link", str(self.link)],
             stdout=subprocess.DEVNULL,
         )
 
@@ -53,11 +56,11 @@ class Aircraft:
 
 
 @pytest.fixture
-def aircraft(tmp_path):
+def fly_aircraft(tmp_path):
     made = []
 
-    def make(*options):
-        made.append(Aircraft(tmp_path / "board", *options))
+    def make(*command):
+        made.append(Aircraft(tmp_path / "board", *command))
         made[-1].fly()
         return made[-1]
 
@@ -66,13 +69,33 @@ def aircraft(tmp_path):
         each.end()
 
 
+@pytest.fixture(scope="module", params=["stand-in", "firmware"])
+def board(request):
+    """What both promise is shown on both."""
+    if request.param == "stand-in":
+        return STAND_IN
+    elf = os.environ.get("RASPILOT_ELF") or build_firmware()
+    return ("up_rig", str(elf), "--pty")
+
+
+@pytest.fixture
+def aircraft(board, fly_aircraft):
+    return lambda: fly_aircraft(*board)
+
+
 def system(tmp_path, framing="checked", controller="arduino"):
     config = {
         "arduino.yml": f"port: {tmp_path / 'board'}\nframing: {framing}\n",
         "pids.yml": PIDS.template(),
+        "airframe.yml": "fly_by_wire: {roll_deg: 45}\n",
         "config.yml": f"flight controller: {controller}\n",
     }
     return build_up(MODULES, reactor, tmp_path / "config", config=config)
+
+
+def profile_of(up):
+    """Return the profile once nothing is against it any more."""
+    return None if "airframe.yml" in up.vetoes.own else up.get_module(ArduinoProfile).held
 
 
 async def ask(up, command):
@@ -97,16 +120,22 @@ def test_readings_arming_modes_and_gains(aircraft, tmp_path):
         assert content["arduino"]["connected"]
         assert content["rx"]["aux1"] > 1900
         await until(lambda: gains.held is not None and gains.held.rate.ailerons.p == 2.1)
+        profile = await until(lambda: profile_of(up))
+        assert profile.roll_limit_deg == 45.0
         up.vetoes.set("a module", "did not start")
         assert await ask(up, ArmCommand()) == "arming is vetoed: a module: did not start"
         up.vetoes.clear("a module")
-        # The virtual pilot's AUX2 goes high after a second, and arms.
+        # The virtual pilot's AUX2 goes high some time, and arms.
         await until(lambda: arduino.is_armed)
         assert await ask(up, ArmCommand()) is None
         assert await ask(up, FlightModeCommand("FBW")) is None
         assert await ask(up, PIDTuningsCommand(pids={"ratePIDs": LOOP, "stabPIDs": LOOP})) is None
         assert gains.held.rate.rudder.d == 0.1
-        assert await ask(up, DisarmCommand()) is None
+        refusal = await ask(up, ArduinoCalibrateCommand("level"))
+        assert refusal == "the Arduino refused: only while disarmed"
+        # The throttle must have been low for 2 s.
+        while await ask(up, DisarmCommand()) is not None:
+            await sleep(0.1)
         await until(lambda: arduino.is_armed is False)
         await life.stop()
 
@@ -158,10 +187,11 @@ def test_an_aircraft_that_dies_and_comes_back_is_used_again(aircraft, tmp_path):
     run_in_reactor(fly)
 
 
-def test_an_old_firmware_with_its_boot_text(aircraft, tmp_path):
+def test_an_old_firmware_with_its_boot_text(fly_aircraft, tmp_path):
     async def fly():
-        plane = aircraft(
-            *("--framing", "thesis", "--old-confirms"), *("--boot-text", "DMP init failed (code 1)")
+        plane = fly_aircraft(
+            *(*STAND_IN, "--framing", "thesis", "--old-confirms"),
+            *("--boot-text", "DMP init failed (code 1)"),
         )
         await plane.is_there()
         up = system(tmp_path, "thesis")

@@ -51,6 +51,11 @@ class ArduinoProfile(BaseModule):
         self._wait_s = FIRST_WAIT_S
         self._next_s = float("-inf")
 
+    @property
+    def held(self) -> Profile | None:
+        """Return the profile that the Arduino said last; None while it is not known."""
+        return self._board.held
+
     def _execute_initialization(self) -> None:
         self._wishes = dict(flat(plain_value(AIRFRAME.shape, self.config)))
         self._board = BoardValue(self.arduino, "c", "C", read_profile, "profile")
