@@ -126,6 +126,23 @@ TEST_CASE("two minutes at 30 degrees of bank leave at most 5 degrees of error") 
   }
 }
 
+TEST_CASE("a turn that feels like 1 g is told from level flight by its rate") {
+  Flight flight;
+  flight.fly(3);
+  roll_to(flight, 20);
+  turn(flight, 20, 15, 120);
+  CHECK(flight.tilt_error_deg() <= 2.0);
+}
+
+TEST_CASE("a push that feels like more than 1 g tilts nothing") {
+  Flight flight;
+  flight.fly(4);
+  // 0.6 g for 10 s: a launch by a bungee, or a dive.
+  const double force[3] = {0.6, 0, -1};
+  for (int slot = 0; slot < 5000; ++slot) flight.slot_with_force(0, 0, 0, force);
+  CHECK(flight.tilt_error_deg() <= 1.0);
+}
+
 TEST_CASE("a long push along the nose tilts it little") {
   Flight flight;
   flight.fly(4);

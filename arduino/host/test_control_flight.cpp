@@ -225,6 +225,7 @@ TEST_CASE("a lost receiver: the circle at the glide's pitch, sticks and modes fo
     flight.demand.is_failsafe = true;
     flight.stick(AILERONS, 1000);
     flight.stick(RUDDER, 2000);
+    flight.profile.preset_rudder_us = 1600;
     flight.ask(AILERONS, 2000);
     flight.attitude = {2000, -300, 0, 0, 0, 0};
     CHECK(flight.us(AILERONS) == 1500);
