@@ -35,7 +35,7 @@ def test_the_classic_bootloader_never_gives_the_servos_back():
     rig = rig_with(CLASSIC)
     assert not pulses_after_a_watchdog_reset(rig, 3_000_000)
     assert rig.measures().resets[3] > 20
-    rig.press_reset()
+    rig.power_on()
     rig.run_us(BOOTED_US)
     assert rig.servo.pulses("ailerons")
 
