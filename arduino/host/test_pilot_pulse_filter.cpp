@@ -125,9 +125,9 @@ TEST_CASE("pilot filter: a change that goes on, or turns back by 3 us, is passed
   CHECK(filter.pulse() < us_to_ticks(1512));
 }
 
-TEST_CASE("pilot filter: an uncertain stamp holds the value when it differs by 4 us at most") {
+TEST_CASE("pilot filter: an uncertain stamp holds the value when it differs by 6 us at most") {
   PulseFilter filter;
-  for (int off_us : {-4, 3, 4, -1, 4, 4, 4}) {
+  for (int off_us : {-6, 3, 6, -1, 6, 6, 6}) {
     filter.take(static_cast<Ticks>(3000 + 2 * off_us), true);
     CHECK(filter.pulse() == us_to_ticks(1500));
   }
