@@ -90,6 +90,16 @@ TEST_CASE("pilot Raspberry Pi: a Setpoint lives as long as it says, 1 to 250 ms"
   }
 }
 
+TEST_CASE("pilot Raspberry Pi: no Setpoint lives longer than 250 ms, nor one of no lifetime") {
+  PilotBench bench;
+  bench.fly(2000);
+  REQUIRE(bench.demand(-1234, 0, 65535) == Reason::NONE);
+  bench.run(250);
+  CHECK(bench.authority.flown_mode() == Mode::FBW);
+  REQUIRE(bench.demand(-1234, 0, 0) == Reason::NONE);
+  CHECK(bench.authority.flown_mode() == Mode::FBW);
+}
+
 TEST_CASE("pilot Raspberry Pi: the throttle is the stick's unless a living demand names one") {
   PilotBench bench;
   bench.fly(2000);

@@ -9,6 +9,7 @@ constexpr uint16_t LOSS_UNITS = units_at_least(500);
 constexpr uint16_t RETURN_UNITS = units_at_least(30);
 constexpr uint16_t LATCH_UNITS = units_at_least(5000);
 constexpr uint16_t OUTPUT_LIVES_UNITS = units_at_most(250);
+constexpr uint16_t LONGEST_SETPOINT_MS = 250;
 constexpr uint16_t ASKED_OUTPUT_UNITS = units_at_least(500);
 constexpr uint16_t VETO_LIVES_UNITS = units_at_least(1000);
 constexpr uint16_t LOW_LONG_ENOUGH_UNITS = units_at_least(2000);
@@ -191,8 +192,9 @@ Reason Authority::take_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, 
   const Reason reason = authority_for(Mode::SETPOINT);
   if (reason != Reason::NONE) return reason;
   setpoint_ = setpoint;
+  const uint16_t bounded_ms = lifetime_ms < LONGEST_SETPOINT_MS ? lifetime_ms : LONGEST_SETPOINT_MS;
   // Rather a unit too short than one too long.
-  lives_[DEMAND].start(static_cast<uint16_t>(lifetime_ms - lifetime_ms / 32 - 1));
+  lives_[DEMAND].start(static_cast<uint16_t>(bounded_ms * 31 / 32));
   lives_[OUTPUT].end();
   return Reason::NONE;
 }
