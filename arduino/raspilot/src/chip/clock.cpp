@@ -23,7 +23,6 @@ void begin() {
   TCNT2 = 0;
   TIFR1 = _BV(TOV1) | _BV(OCF1A) | _BV(OCF1B);
   TIFR2 = _BV(OCF2A) | _BV(OCF2B);
-  overflows = 0;
   GTCCR = 0;
   TIMSK1 = _BV(TOIE1);
 }

@@ -1,0 +1,270 @@
+"""Both framings on the compiled firmware, the door between them, noise, and a full line."""
+
+import json
+import random
+import struct
+from pathlib import Path
+
+import pytest
+
+from tests.arduino.flight import HIGH, LOW, Flight
+from up_simulator.wire import checked_frame
+
+VECTORS = Path(__file__).parents[1] / "vectors"
+PANIC = struct.pack(">cBh", b"p", 0, 50)
+GAINS = b"t" + struct.pack(">12f", *(0.5 * each for each in range(12)))
+HEADING = struct.pack(">ch", b"b", 90)
+
+
+def vectors(name):
+    return json.loads((VECTORS / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def thesis(flight, data, wait_ms=60):
+    """Send bare bytes and return what comes, without looking for frames."""
+    flight.rig.serial.read()
+    flight.rig.serial.write(data)
+    flight.rig.run_us(wait_ms * 1000)
+    return flight.rig.serial.read()
+
+
+def speaks_checked(flight):
+    """Return whether a frame is answered, once a zero has ended what came before."""
+    flight.rig.serial.write(b"\0")
+    flight.rig.run_us(120_000)
+    flight.rig.serial.read()
+    return flight.ask("m") is not None
+
+
+def is_thesis(flight):
+    """Return whether bare gains are answered: 48 bytes after the letter, and no frame."""
+    answer = thesis(flight, b"T", 100)
+    at = answer.find(b"T")
+    return at >= 0 and len(answer) >= at + 49 and b"T\0" not in answer[at : at + 2]
+
+
+def open_door(flight):
+    """Send what an old Raspberry Pi sends when it starts: gains, then panic's end."""
+    flight.rig.serial.write(GAINS + PANIC)
+    flight.rig.run_us(60_000)
+
+
+@pytest.mark.parametrize(
+    "vector",
+    [each for each in vectors("serial_checked")["vectors"] if each["direction"] == "to_arduino"],
+    ids=lambda vector: f"{vector['type']}-{vector['sequence']}",
+)
+def test_every_golden_frame_is_understood(flight, vector):
+    flight.rig.serial.write(bytes.fromhex(vector["wire"]))
+    flight.run_ms(60)
+    refused = [each.payload[2] for each in flight.messages if each.type == "!"]
+    assert not {1, 2, 3} & set(refused), "understood, whatever its authority"
+    assert flight.status().dropped == 0
+
+
+def test_every_bad_frame_is_dropped_counted_and_the_next_one_heard(flight):
+    bad = vectors("serial_checked_bad")
+    flight.send("s")
+    flight.run_ms(50)
+    before = 0
+    for each in bad["vectors"]:
+        wire = bytes.fromhex(each["wire"])
+        flight.rig.serial.write(wire)
+        assert flight.ask("m") == b"a", each["why"]
+        dropped = flight.status().dropped
+        # A flipped bit may have made an end of frame.
+        assert dropped - before == wire.count(0), each["why"]
+        before = dropped
+
+
+def test_an_unfinished_frame_is_dropped_after_100_ms_without_a_further_byte(flight):
+    flight.status()
+    flight.rig.serial.write(checked_frame(7, "m")[:-2])
+    flight.run_ms(90)
+    before = flight.status().dropped
+    assert before == 1
+    assert flight.ask("m") == b"a"
+
+
+def test_two_halves_with_a_pause_are_no_frame(flight):
+    frame = checked_frame(9, "m")
+    flight.rig.serial.write(frame[:3])
+    flight.run_ms(130)
+    flight.rig.serial.write(frame[3:])
+    flight.run_ms(50)
+    assert [each.type for each in flight.messages] == []
+
+
+def test_two_halves_within_100_ms_are_one(flight):
+    frame = checked_frame(9, "m")
+    flight.rig.serial.write(frame[:3])
+    flight.run_ms(60)
+    flight.rig.serial.write(frame[3:])
+    flight.run_ms(50)
+    assert [each.type for each in flight.messages] == ["m"]
+
+
+def test_frames_missing_by_sequence_are_counted(flight):
+    assert flight.status().missing == 0
+    flight.sequence += 5
+    assert flight.status().missing == 5
+
+
+def test_old_commands_open_thesis_framing(flight):
+    open_door(flight)
+    assert is_thesis(flight)
+    streams = thesis(flight, b"", 1000)
+    assert streams.count(b"r\x05") >= 15
+    assert streams.count(b"o") >= 15
+    assert thesis(flight, b"Z", 40).find(b"!Z") >= 0
+
+
+def test_a_bare_refusal_ends_what_is_unfinished_in_thesis_framing(flight):
+    open_door(flight)
+    assert b"!" in thesis(flight, b"l\x42\x48", 160)
+    assert is_thesis(flight)
+
+
+def test_thesis_framing_takes_no_authority(flight):
+    flight.run_ms(1500)
+    open_door(flight)
+    flight.rig.receiver.sticks(aux1=HIGH)
+    for letter, size in (("a", 0), ("M", 1), ("u", 10), ("S", 10), ("C", 54), ("e", 1), ("g", 72)):
+        assert b"!" + letter.encode() in thesis(flight, letter.encode(), 40), size
+    flight.rig.receiver.sticks(throttle=1500, aux1=LOW)
+    flight.rig.run_us(100_000)
+    assert flight.rig.servo.newest_us("throttle") == pytest.approx(1000, abs=1)
+
+
+def test_thesis_framing_lasts_until_reset(flight):
+    open_door(flight)
+    flight.rig.serial.write(checked_frame(1, "s") * 3)
+    flight.rig.run_us(200_000)
+    assert is_thesis(flight)
+    flight.rig.press_reset()
+    flight.rig.run_us(300_000)
+    flight.rig.serial.read()
+    assert flight.ask("m") == b"a"
+
+
+def test_a_valid_checked_frame_closes_the_door(flight):
+    assert flight.ask("m") == b"a"
+    open_door(flight)
+    open_door(flight)
+    assert speaks_checked(flight)
+
+
+def test_an_armed_aircraft_keeps_its_framing(flight):
+    flight.run_ms(1500)
+    flight.sticks(400, aux2=HIGH)
+    open_door(flight)
+    open_door(flight)
+    assert speaks_checked(flight)
+    assert flight.status().is_armed
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        GAINS[:-4] + struct.pack(">f", float("nan")),
+        GAINS[:-4] + struct.pack(">f", 51.0),
+        struct.pack(">cBh", b"p", 0, 9),
+        struct.pack(">cBh", b"p", 2, 50),
+    ],
+)
+def test_commands_out_of_range_do_not_open_the_door(flight, bad):
+    for _ in range(4):
+        flight.rig.serial.write(bad)
+        flight.rig.run_us(30_000)
+    assert speaks_checked(flight)
+
+
+def test_bare_types_do_not_open_the_door(flight):
+    flight.rig.serial.write(b"T" * 200 + (b"h\0\0" * 60))
+    flight.run_ms(200)
+    assert speaks_checked(flight)
+
+
+def test_boot_noise_never_opens_the_door():
+    flight = Flight()
+    noise = random.Random(3)
+    for _ in range(20):
+        flight.rig.serial.write(noise.randbytes(1000))
+        flight.rig.run_us(100_000)
+    flight._heard = b""
+    assert speaks_checked(flight)
+
+
+@pytest.mark.slow
+def test_a_hundred_thousand_fuzzed_bytes_change_nothing():
+    """Noise, and good frames with flipped, lost and doubled bytes: it flies on and answers."""
+    flight = Flight(aux1=1500)
+    flight.run_ms(1500)
+    assert flight.ask("m") == b"f"
+    gains, profile = flight.ask("G"), flight.ask("c")
+    noise = random.Random(4)
+    flight.rig.servo.forget()
+    sent = 0
+    while sent < 100_000:
+        letter = noise.choice("sdMmptTgGhbBluSvCce")
+        frame = bytearray(checked_frame(noise.randrange(256), letter, noise.randbytes(8)))
+        for _ in range(noise.randint(1, 3)):
+            at = noise.randrange(len(frame))
+            if noise.random() < 0.4:
+                frame[at] ^= 1 << noise.randrange(8)
+            elif noise.random() < 0.5:
+                del frame[at]
+            else:
+                frame.insert(at, noise.randrange(256))
+            frame = frame or bytearray(b"\1")
+        piece = bytes(frame) + noise.randbytes(noise.randrange(40))
+        flight.rig.serial.write(piece)
+        sent += len(piece)
+        flight.rig.run_us(len(piece) * 87)
+    flight.rig.run_us(150_000)
+    flight.rig.serial.read()
+    flight._heard = b""
+    flight.sequence = noise.randrange(256)
+    assert flight.ask("m") == b"f"
+    assert flight.ask("G") == gains
+    assert flight.ask("c") == profile
+    assert not flight.status().is_armed
+    for channel, expected_us, most_us in (
+        ("throttle", 1000, 0.6),
+        ("ailerons", 1500, 20),
+        ("elevator", 1500, 20),
+        ("rudder", 1500, 20),
+    ):
+        widths = [each.width_us for each in flight.rig.servo.pulses(channel)]
+        assert len(widths) > 300
+        assert max(abs(each - expected_us) for each in widths) <= most_us
+
+
+def test_a_line_that_is_full_both_ways_loses_no_answer():
+    flight = Flight()
+    flight.send("s")
+    flight.run_ms(100)
+    del flight.messages[:]
+    for _ in range(100):
+        flight.send("m")
+        flight.run_ms(3)
+    flight.run_ms(200)
+    assert sum(each.type == "m" for each in flight.messages) == 100
+    assert flight.rig.serial.overruns == 0
+    status = flight.status()
+    assert (status.dropped, status.missing) == (0, 0)
+
+
+def test_at_9600_baud_the_line_is_loaded_to_70_percent_at_most():
+    flight = Flight("BAUD=9600", boots=False)
+    flight.rig.serial.set_baud(9600)
+    flight.run_ms(1400)
+    flight.send("s")
+    flight.run_ms(500)
+    flight.rig.serial.read()
+    count = 0
+    for _ in range(40):
+        flight.rig.run_us(100_000)
+        count += len(flight.rig.serial.read())
+    longest_frame = 32
+    assert 0.3 * 960 * 4 < count <= 0.7 * 960 * 4 + longest_frame

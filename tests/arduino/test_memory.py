@@ -1,0 +1,116 @@
+"""What the EEPROM keeps on the compiled firmware, and what a cut of the power leaves of it."""
+
+import struct
+
+import pytest
+
+from tests.arduino.flight import GAINS_KEPT, Flight
+
+OLD = struct.pack(">18f", *(0.5 * each for each in range(1, 19)))
+NEW = struct.pack(">18f", *(0.25 * each for each in range(1, 19)))
+NEWEST = struct.pack(">18f", *(0.1 * each for each in range(1, 19)))
+PROFILE_VETO = 64
+
+
+def keep(flight, letter, payload):
+    """Send what is to be kept and wait until the EEPROM has it."""
+    assert flight.ask(letter, payload) == "K"
+    flight.run_ms(600)
+    assert not flight.rig.eeprom.is_writing
+
+
+@pytest.fixture(scope="module")
+def kept():
+    """Return EEPROM with two generations of gains, so that both slots are in use."""
+    flight = Flight()
+    keep(flight, "g", NEW)
+    keep(flight, "g", OLD)
+    return flight.rig.eeprom.read()
+
+
+def boot(eeprom):
+    return Flight(eeprom=eeprom, receiver=False)
+
+
+def test_a_blank_chip_has_the_defaults_and_may_arm():
+    flight = Flight()
+    assert not flight.status().flags & GAINS_KEPT
+    assert not flight.status().vetoes & PROFILE_VETO
+    assert flight.rig.eeprom.read() == b"\xff" * 1024
+
+
+def test_the_newer_of_two_copies_is_flown(kept):
+    assert boot(kept).ask("G") == OLD
+
+
+def test_a_broken_newer_copy_leaves_the_older(kept):
+    changed = 0
+    for at in range(0, 1024, 7):
+        if kept[at] == 0xFF:
+            continue
+        spoilt = bytearray(kept)
+        spoilt[at] ^= 0x10
+        gains = boot(bytes(spoilt)).ask("G")
+        assert gains in (OLD, NEW)
+        changed += gains == NEW
+    assert changed > 5
+
+
+def test_power_cut_at_any_byte_of_a_write_leaves_one_whole_set(kept):
+    """The supply sags in the midst of the write of each byte in turn."""
+    cuts = 0
+    for byte in range(0, 80, 3):
+        flight = boot(kept)
+        before = flight.rig.eeprom.writes
+        flight.send("g", NEWEST)
+        for _ in range(3000):
+            if flight.rig.eeprom.writes - before > byte and flight.rig.eeprom.is_writing:
+                break
+            flight.rig.run_us(200)
+        else:
+            break
+        cuts += 1
+        flight.rig.brown_out()
+        again = boot(flight.rig.eeprom.read())
+        assert again.ask("G") in (OLD, NEWEST)
+        assert again.status().flags & GAINS_KEPT
+    assert cuts > 15
+
+
+def test_a_profile_that_cannot_be_read_forbids_arming():
+    flight = Flight()
+    profile = flight.ask("c")
+    keep(flight, "C", profile)
+    spoilt = bytearray(flight.rig.eeprom.read())
+    for at, value in enumerate(spoilt):
+        if value != 0xFF:
+            spoilt[at] = value ^ 0x55
+    again = Flight(eeprom=bytes(spoilt))
+    again.run_ms(1500)
+    assert again.status().vetoes & PROFILE_VETO
+    again.sticks(400, aux2=2000)
+    assert not again.status().is_armed
+    keep(again, "C", profile)
+    assert not again.status().vetoes & PROFILE_VETO
+
+
+def test_the_same_set_again_writes_no_byte_twice(kept):
+    flight = boot(kept)
+    keep(flight, "g", OLD)
+    first = flight.rig.eeprom.writes
+    keep(flight, "g", OLD)
+    assert flight.rig.eeprom.writes - first < 90
+
+
+def test_nothing_is_written_while_armed():
+    flight = Flight()
+    flight.run_ms(1500)
+    flight.arm()
+    assert flight.ask("g", NEW) == "K"
+    before = flight.rig.eeprom.writes
+    flight.run_ms(600)
+    assert flight.rig.eeprom.writes == before
+    flight.sticks(400, aux2=1000)
+    assert not flight.status().is_armed
+    flight.run_ms(600)
+    assert boot(flight.rig.eeprom.read()).ask("G") == NEW
