@@ -12,7 +12,8 @@ class ArmingSwitch {
 
   /**
    * Takes the pulse of a valid receiver; `passed_units` (lifetime.h) since the last one. A position
-   * counts after 300 ms. ROSE needs a low that counted before it; what it stands at first is no edge.
+   * counts after 300 ms. ROSE needs a low that counted before it; what it stands at first is no
+   * edge.
    */
   Event take(Ticks pulse, uint16_t passed_units);
   /** The receiver is lost: whatever it says afterwards begins anew. */
