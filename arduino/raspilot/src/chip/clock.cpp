@@ -9,8 +9,6 @@ namespace clock {
 static volatile uint32_t overflows;
 
 void begin() {
-  TIMSK0 = 0;
-  TCCR0B = 0;
   TIMSK1 = 0;
   TIMSK2 = 0;
   // Both prescalers are held until GTCCR is cleared (data sheet 17.3).
@@ -36,6 +34,7 @@ uint32_t now_us() {
     low = TCNT1;
     high = overflows;
     is_pending = TIFR1 & _BV(TOV1);
+    note_waiting_edge();
   }
   // An overflow that was not served yet belongs to a count that has just begun anew.
   if (is_pending && low < 0x8000) high++;

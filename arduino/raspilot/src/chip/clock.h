@@ -8,7 +8,7 @@ namespace clock {
 
 /**
  * Starts Timer1 and Timer2 in normal mode with prescaler 8, at the same cycle: Timer2 is the low
- * byte of Timer1 from then on. Stops Timer0, which the Arduino core had started.
+ * byte of Timer1 from then on.
  */
 void begin();
 

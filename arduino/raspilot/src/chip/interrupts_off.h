@@ -30,15 +30,19 @@ constexpr uint8_t AFTER_INTERRUPT_TICKS = 8;
  */
 __attribute__((always_inline)) inline void note_end_of_interrupt() { GPIOR1 = TCNT2; }
 
+/** Notes an edge that waits for its interrupt, at the end of a long time with interrupts off. */
+__attribute__((always_inline)) inline void note_waiting_edge() {
+  if (PCIFR & (_BV(PCIF0) | _BV(PCIF2))) GPIOR0 |= _BV(NOTE_LATE);
+}
+
 /**
- * Interrupts are off while it lives: a few loads and stores, never a call. It notes an edge that
- * came meanwhile, so that no stamp is wrong unnoticed.
+ * Interrupts are off while it lives: a few loads and stores, never a call. Where that takes more
+ * than a microsecond, note_waiting_edge() comes last.
  */
 class InterruptsOff {
  public:
   __attribute__((always_inline)) InterruptsOff() : sreg_(SREG) { cli(); }
   __attribute__((always_inline)) ~InterruptsOff() {
-    if (PCIFR & (_BV(PCIF0) | _BV(PCIF2))) GPIOR0 |= _BV(NOTE_LATE);
     SREG = sreg_;
     __asm__ __volatile__("" ::: "memory");
   }

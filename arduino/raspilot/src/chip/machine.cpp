@@ -13,6 +13,12 @@
 #include "servos.h"
 #include "uart.h"
 
+/**
+ * Taken by the linker instead of the Arduino core's, which would start Timer0's interrupt and PWM on
+ * all timers.
+ */
+extern "C" void init() {}
+
 namespace raspilot {
 namespace machine {
 

@@ -12,15 +12,21 @@ static_assert(PIN_SERVO_AILERONS == 9 && PIN_SERVO_ELEVATOR == 10, "OC1A and OC1
 static_assert(PIN_SERVO_RUDDER == 11 && PIN_ESC_THROTTLE == 3, "OC2A and OC2B");
 
 static volatile uint16_t widths[OUTPUTS];
-/** When the next edge of Timer2's outputs is due. */
-static volatile uint16_t throttle_edge, rudder_edge;
+/** When the next edges of OC2A and OC2B are due. */
+static volatile uint16_t edges_of_timer2[2];
 
-/** What a match does to a pin: COMnx1 alone clears it, COMnx0 too sets it. */
-static inline void let_set(volatile uint8_t& control, uint8_t com0) { control |= com0; }
-static inline void let_clear(volatile uint8_t& control, uint8_t com0) {
-  control &= static_cast<uint8_t>(~com0);
+/** Ailerons are OC1A, elevator OC1B, rudder OC2A, throttle OC2B: 0 for A, 1 for B. */
+static inline uint8_t side_of(Channel channel) {
+  return channel == ELEVATOR || channel == THROTTLE ? 1 : 0;
 }
+static inline bool is_on_timer1(Channel channel) { return channel < THROTTLE; }
 
+/** The side's bit in TIMSKn and TIFRn, the same for both timers. */
+static inline uint8_t interrupt_of(uint8_t side) { return side ? _BV(OCIE1B) : _BV(OCIE1A); }
+static_assert(OCIE1A == OCIE2A && OCIE1B == OCIE2B && OCF1A == OCIE1A && OCF1B == OCIE1B &&
+              OCF2A == OCIE2A && OCF2B == OCIE2B, "one bit for all");
+
+/** COMnx1 alone lets a match clear the pin, COMnx0 beside it lets it set it. */
 void begin() {
   PORTB &= static_cast<uint8_t>(
       ~(pin_bit(PIN_SERVO_AILERONS) | pin_bit(PIN_SERVO_ELEVATOR) | pin_bit(PIN_SERVO_RUDDER)));
@@ -35,44 +41,26 @@ void begin() {
 }
 
 bool is_busy(Channel channel) {
-  switch (channel) {
-    case AILERONS: return TIMSK1 & _BV(OCIE1A);
-    case ELEVATOR: return TIMSK1 & _BV(OCIE1B);
-    case THROTTLE: return TIMSK2 & _BV(OCIE2B);
-    default: return TIMSK2 & _BV(OCIE2A);
-  }
+  return (is_on_timer1(channel) ? TIMSK1 : TIMSK2) & interrupt_of(side_of(channel));
 }
 
 void plan(Channel channel, uint16_t rise_ticks) {
+  const uint8_t side = side_of(channel);
+  const uint8_t interrupt = interrupt_of(side);
   InterruptsOff off;
-  switch (channel) {
-    case AILERONS:
-      OCR1A = rise_ticks;
-      let_set(TCCR1A, _BV(COM1A0));
-      TIFR1 = _BV(OCF1A);
-      TIMSK1 |= _BV(OCIE1A);
-      break;
-    case ELEVATOR:
-      OCR1B = rise_ticks;
-      let_set(TCCR1A, _BV(COM1B0));
-      TIFR1 = _BV(OCF1B);
-      TIMSK1 |= _BV(OCIE1B);
-      break;
-    case THROTTLE:
-      throttle_edge = rise_ticks;
-      GPIOR0 |= _BV(NOTE_RISES_THROTTLE);
-      OCR2B = static_cast<uint8_t>(rise_ticks);
-      TIFR2 = _BV(OCF2B);
-      TIMSK2 |= _BV(OCIE2B);
-      break;
-    default:
-      rudder_edge = rise_ticks;
-      GPIOR0 |= _BV(NOTE_RISES_RUDDER);
-      OCR2A = static_cast<uint8_t>(rise_ticks);
-      TIFR2 = _BV(OCF2A);
-      TIMSK2 |= _BV(OCIE2A);
-      break;
+  if (is_on_timer1(channel)) {
+    (&OCR1A)[side] = rise_ticks;
+    TCCR1A |= side ? _BV(COM1B0) : _BV(COM1A0);
+    TIFR1 = interrupt;
+    TIMSK1 |= interrupt;
+  } else {
+    edges_of_timer2[side] = rise_ticks;
+    (&OCR2A)[side] = static_cast<uint8_t>(rise_ticks);
+    GPIOR0 |= side ? _BV(NOTE_RISES_THROTTLE) : _BV(NOTE_RISES_RUDDER);
+    TIFR2 = interrupt;
+    TIMSK2 |= interrupt;
   }
+  note_waiting_edge();
 }
 
 void set_width(Channel channel, Ticks width) {
@@ -86,7 +74,7 @@ ISR(TIMER1_COMPA_vect) {
   using namespace servo_edges;
   if (TCCR1A & _BV(COM1A0)) {
     OCR1A += widths[AILERONS];
-    let_clear(TCCR1A, _BV(COM1A0));
+    TCCR1A &= static_cast<uint8_t>(~_BV(COM1A0));
   } else {
     TIMSK1 &= static_cast<uint8_t>(~_BV(OCIE1A));
   }
@@ -97,7 +85,7 @@ ISR(TIMER1_COMPB_vect) {
   using namespace servo_edges;
   if (TCCR1A & _BV(COM1B0)) {
     OCR1B += widths[ELEVATOR];
-    let_clear(TCCR1A, _BV(COM1B0));
+    TCCR1A &= static_cast<uint8_t>(~_BV(COM1B0));
   } else {
     TIMSK1 &= static_cast<uint8_t>(~_BV(OCIE1B));
   }
@@ -136,12 +124,12 @@ __attribute__((always_inline)) static inline void on_round(
 }
 
 ISR(TIMER2_COMPA_vect) {
-  on_round(servo_edges::rudder_edge, OCR2A, servo_edges::widths[RUDDER], NOTE_RISES_RUDDER, _BV(COM2A0), _BV(FOC2A),
+  on_round(servo_edges::edges_of_timer2[0], OCR2A, servo_edges::widths[RUDDER], NOTE_RISES_RUDDER, _BV(COM2A0), _BV(FOC2A),
            _BV(OCIE2A));
 }
 
 ISR(TIMER2_COMPB_vect) {
-  on_round(servo_edges::throttle_edge, OCR2B, servo_edges::widths[THROTTLE], NOTE_RISES_THROTTLE, _BV(COM2B0),
+  on_round(servo_edges::edges_of_timer2[1], OCR2B, servo_edges::widths[THROTTLE], NOTE_RISES_THROTTLE, _BV(COM2B0),
            _BV(FOC2B), _BV(OCIE2B));
 }
 

@@ -59,6 +59,7 @@ void plan(Channel channel, uint16_t rise_ticks) {
       TIMSK2 |= _BV(OCIE2A);
       break;
   }
+  note_waiting_edge();
 }
 
 void set_width(Channel channel, Ticks width) {
