@@ -111,6 +111,11 @@ class Rig:
         self._fill_ram(contents[:RAM_SIZE])
         self._library.rig_reset(self._handle, int(Reset.POWER_ON))
 
+    def ram(self) -> bytes:
+        """Return what the RAM holds now, for a power failure that is too short to lose it."""
+        data = self._library.rig_data(self._handle)
+        return bytes(data[RAM_START : RAM_START + RAM_SIZE])
+
     def brown_out(self, *, keeps_ram: bool = True) -> None:
         """Let the supply sag: BORF, a write of the EEPROM is cut, the IMU starts anew."""
         if not keeps_ram:
@@ -140,6 +145,10 @@ class Rig:
         if not (place.is_data and is_inside and 0 < len(value) <= max(place.size, 1)):
             raise FirmwareError(f"{symbol} is no variable of {len(value)} bytes")
         self._library.rig_preload(self._handle, start.address, place.address, value, len(value))
+
+    def write_flash(self, address: int, code: bytes) -> None:
+        """Change the program while it runs, as a cell of the flash that fails does."""
+        self._library.rig_load(self._handle, code, len(code), address)
 
     def measures(self) -> Measures:
         """Return what was measured since the last ``forget_measures``."""
