@@ -56,8 +56,9 @@ TEST_CASE("a tilted vector is straightened, and tilted back again") {
     for (int pitch = -1500; pitch <= 1500; pitch += 250) {
       Level level;
       level.set(static_cast<int16_t>(roll), static_cast<int16_t>(pitch));
-      const double down[3] = {-std::sin(pitch * CDEG), std::sin(roll * CDEG) * std::cos(pitch * CDEG),
-                              std::cos(roll * CDEG) * std::cos(pitch * CDEG)};
+      const double across = std::cos(pitch * CDEG);
+      const double down[3] = {-std::sin(pitch * CDEG), std::sin(roll * CDEG) * across,
+                              std::cos(roll * CDEG) * across};
       int16_t vector[3];
       for (int axis = 0; axis < 3; ++axis) {
         vector[axis] = static_cast<int16_t>(std::lround(10000 * down[axis]));

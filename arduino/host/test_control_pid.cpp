@@ -79,8 +79,8 @@ TEST_CASE("no input leaves the limits or 32 bits") {
     Pid pid = Pid();
     for (int slot = 0; slot < 200; ++slot) {
       if (slot % 50 == 0) pid.tune({gain(random), gain(random), gain(random)});
-      const int32_t answer =
-          pid.update(static_cast<int16_t>(input(random)), static_cast<int16_t>(input(random)), limit);
+      const int16_t error = static_cast<int16_t>(input(random));
+      const int32_t answer = pid.update(error, static_cast<int16_t>(input(random)), limit);
       CHECK(std::abs(answer) <= limit);
     }
   }
@@ -137,7 +137,7 @@ TEST_CASE("after a reset nothing of the past is left") {
   Pid used = Pid();
   fresh.tune({2.0f, 3.0f, 0.1f});
   used.tune({2.0f, 3.0f, 0.1f});
-  for (int slot = 0; slot < 100; ++slot) used.update(1234, static_cast<int16_t>(slot * 5), RATE_LIMIT);
+  for (int16_t slot = 0; slot < 100; ++slot) used.update(1234, slot, RATE_LIMIT);
   used.reset();
   for (int slot = 0; slot < 100; ++slot) {
     const int16_t measured = static_cast<int16_t>(slot * 3);

@@ -9,8 +9,11 @@ using namespace raspilot;
 namespace {
 
 Outputs servos(const Profile& profile, int ailerons, int elevator, int throttle, int rudder) {
-  const Ticks demands[OUTPUTS] = {static_cast<Ticks>(ailerons * 2), static_cast<Ticks>(elevator * 2),
-                                  static_cast<Ticks>(throttle * 2), static_cast<Ticks>(rudder * 2)};
+  const int us[OUTPUTS] = {ailerons, elevator, throttle, rudder};
+  Ticks demands[OUTPUTS];
+  for (int channel = 0; channel < OUTPUTS; ++channel) {
+    demands[channel] = us_to_ticks(static_cast<int16_t>(us[channel]));
+  }
   Outputs outputs;
   to_servos(profile, demands, outputs);
   return outputs;

@@ -44,24 +44,28 @@ OUT_OF_LINE int16_t to_int16(int32_t value) {
 
 namespace {
 
-/** `sum` is that of two numbers of the sign of `a`, perhaps beyond 16 bits: then the sign is not. */
-int16_t within(uint16_t sum, int16_t a, bool is_beyond) {
+/** The sum or difference of `a` and something, cut to 16 bits, or the end that it is beyond. */
+int16_t within(uint16_t bits, int16_t a, bool is_beyond) {
   if (is_beyond) return a < 0 ? -32767 : 32767;
-  return sum == 0x8000 ? -32767 : static_cast<int16_t>(sum);
+  return bits == 0x8000 ? -32767 : static_cast<int16_t>(bits);
+}
+
+bool have_other_signs(int16_t a, uint16_t b) {
+  return ((static_cast<uint16_t>(a) ^ b) & 0x8000) != 0;
 }
 
 }  // namespace
 
 OUT_OF_LINE int16_t sum_of(int16_t a, int16_t b) {
-  const uint16_t sum = static_cast<uint16_t>(static_cast<uint16_t>(a) + static_cast<uint16_t>(b));
-  return within(sum, a, ((static_cast<uint16_t>(a) ^ sum) & (static_cast<uint16_t>(b) ^ sum)) >> 15);
+  const uint16_t other = static_cast<uint16_t>(b);
+  const uint16_t sum = static_cast<uint16_t>(static_cast<uint16_t>(a) + other);
+  return within(sum, a, !have_other_signs(a, other) && have_other_signs(a, sum));
 }
 
 OUT_OF_LINE int16_t difference_of(int16_t a, int16_t b) {
-  const uint16_t sum = static_cast<uint16_t>(static_cast<uint16_t>(a) - static_cast<uint16_t>(b));
-  return within(sum, a,
-                ((static_cast<uint16_t>(a) ^ static_cast<uint16_t>(b)) &
-                 (static_cast<uint16_t>(a) ^ sum)) >> 15);
+  const uint16_t other = static_cast<uint16_t>(b);
+  const uint16_t difference = static_cast<uint16_t>(static_cast<uint16_t>(a) - other);
+  return within(difference, a, have_other_signs(a, other) && have_other_signs(a, difference));
 }
 
 }  // namespace raspilot

@@ -11,7 +11,7 @@ namespace raspilot {
 /** The fastest rotations that sticks ask for in RATE, deg/s. */
 constexpr int16_t ROLL_STICK_DEG_S = 180;
 constexpr int16_t PITCH_STICK_DEG_S = 90;
-/** The fastest rotations that an angle asks for, deg/s: the Raspberry Pi's controller has the same. */
+/** The fastest rotations that an angle asks for, deg/s, as in the Raspberry Pi's controller. */
 constexpr int16_t ROLL_RATE_LIMIT_DEG_S = 120;
 constexpr int16_t PITCH_RATE_LIMIT_DEG_S = 80;
 

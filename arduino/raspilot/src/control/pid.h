@@ -8,8 +8,8 @@
 namespace raspilot {
 
 /**
- * Equal to simple-pid's with its own dt, within the rounding of its gains (P and I to 1 / 1024, D to
- * 1 / 16384 and at most 4) while the output is within its limits: derivative on the measurement,
+ * Equal to simple-pid's with its own dt, within the rounding of its gains (P and I to 1 / 1024, D
+ * to 1 / 16384 and at most 4) while the output is within its limits: derivative on the measurement,
  * here through a low-pass of 7 ms, and an integral that the limits stop. Here it does not grow
  * either while the output stands at the limit it pushes at.
  *

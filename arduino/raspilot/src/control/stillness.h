@@ -6,8 +6,8 @@
 namespace raspilot {
 
 /**
- * Looks at windows of 256 samples, every other one of a slot: 1.02 s. A window begins anew with the first sample
- * that differs from the window's first one by more than 1.2 deg/s.
+ * Looks at windows of 256 samples, every other slot's one: 1.02 s. A window begins anew with the
+ * first sample that differs from the window's first one by more than 1.2 deg/s.
  */
 class Stillness {
  public:

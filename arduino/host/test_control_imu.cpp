@@ -1,0 +1,216 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "attitude_flight.h"
+
+using namespace raspilot;
+
+TEST_CASE("a still second gives the bias at start, and says so") {
+  Flight flight;
+  flight.imu.bias_deg_s[0] = 3.1;
+  flight.imu.bias_deg_s[1] = -7.7;
+  flight.imu.bias_deg_s[2] = 18.0;
+  CHECK(flight.filter.is_calibrating());
+  CHECK(flight.filter.is_bias_from_eeprom());
+  flight.fly(1.1);
+  CHECK_FALSE(flight.filter.is_calibrating());
+  CHECK_FALSE(flight.filter.is_bias_from_eeprom());
+  CHECK(flight.filter.is_still());
+  CHECK(std::abs(flight.filter.attitude().roll_rate_16) <= 4);
+  CHECK(std::abs(flight.filter.attitude().pitch_rate_16) <= 4);
+  CHECK(std::abs(flight.filter.attitude().yaw_rate_16) <= 4);
+  CHECK(flight.bias_deg_s(0) == doctest::Approx(3.1).epsilon(0.01));
+  CHECK(flight.bias_deg_s(1) == doctest::Approx(-7.7).epsilon(0.01));
+  CHECK(flight.bias_deg_s(2) == doctest::Approx(18.0).epsilon(0.01));
+}
+
+TEST_CASE("without stillness the bias of the calibration flies, and the search ends after 10 s") {
+  Flight flight;
+  flight.calibration.gyro_bias_16[0] = 32;
+  flight.imu.bias_deg_s[0] = 2;
+  for (int slot = 0; slot < 4990; ++slot) flight.slot(5 * std::sin(slot * 0.05), 0, 0);
+  CHECK(flight.filter.is_calibrating());
+  for (int slot = 0; slot < 20; ++slot) flight.slot(5 * std::sin(slot * 0.05), 0, 0);
+  CHECK_FALSE(flight.filter.is_calibrating());
+  CHECK(flight.filter.is_bias_from_eeprom());
+  CHECK_FALSE(flight.filter.is_still());
+  CHECK(flight.bias_deg_s(0) == doctest::Approx(2).epsilon(0.2));
+  // Put down at last, still disarmed.
+  flight.fly(1.2);
+  CHECK_FALSE(flight.filter.is_bias_from_eeprom());
+}
+
+TEST_CASE("an armed aircraft never takes stillness for bias") {
+  Flight flight;
+  flight.filter.stop_calibrating();
+  CHECK_FALSE(flight.filter.is_calibrating());
+  flight.fly(3, 0, 0, 10);
+  CHECK(flight.filter.is_bias_from_eeprom());
+  CHECK(flight.bias_deg_s(2) == 0);
+}
+
+TEST_CASE("a turn that begins between two still seconds is no stillness") {
+  Flight flight;
+  flight.imu.gyro_noise_deg_s = 0.02;
+  for (int slot = 0; slot < 512; ++slot) flight.slot();
+  CHECK(flight.filter.is_still());
+  flight.slot(0, 0, 15);
+  CHECK_FALSE(flight.filter.is_still());
+}
+
+TEST_CASE("a copied, a silent or a broken IMU is invalid within 100 ms") {
+  Flight flight;
+  flight.fly(2);
+  CHECK(flight.filter.is_valid());
+  SUBCASE("the same sample again and again") {
+    const ImuSample sample = flight.imu.sample();
+    int slots = 0;
+    for (; flight.filter.is_valid() && slots < 500; ++slots) {
+      flight.now_us += 2000;
+      flight.filter.on_sample(sample, flight.now_us);
+    }
+    CHECK(slots == 25);
+    flight.miss(0.2);
+    CHECK(flight.filter.age_ms(flight.now_us) >= 200);
+  }
+  SUBCASE("no sample") {
+    int slots = 0;
+    for (; flight.filter.is_valid() && slots < 500; ++slots) flight.miss();
+    CHECK(slots == 25);
+    CHECK(flight.filter.age_ms(flight.now_us) == 50);
+  }
+  SUBCASE("all zero, all ones, or a gyro at its end stop") {
+    ImuSample broken = flight.imu.sample();
+    for (int kind = 0; kind < 4; ++kind) {
+      CAPTURE(kind);
+      if (kind == 0) broken = {{0, 0, 0}, 0, {0, 0, 0}};
+      if (kind == 1) broken = {{-1, -1, -1}, -1, {-1, -1, -1}};
+      if (kind == 2) broken = {{10, 20, 4096}, 0, {1, 32767, 2}};
+      if (kind == 3) broken = {{10, 20, 4096}, 0, {1, -32768, 2}};
+      flight.fly(0.3);
+      CHECK(flight.filter.is_valid());
+      for (int slot = 0; slot < 26; ++slot) {
+        flight.now_us += 2000;
+        broken.accel[1] = static_cast<int16_t>(broken.accel[1] + (kind > 1 ? 1 : 0));
+        flight.filter.on_sample(broken, flight.now_us);
+      }
+      CHECK_FALSE(flight.filter.is_valid());
+    }
+  }
+  flight.fly(0.3);
+  CHECK(flight.filter.is_valid());
+  CHECK(flight.tilt_error_deg() <= 1.0);
+}
+
+TEST_CASE("one good sample among missing ones does not make the IMU valid") {
+  Flight flight;
+  flight.fly(2);
+  flight.miss(0.1);
+  for (int round = 0; round < 20; ++round) {
+    flight.slot();
+    CHECK_FALSE(flight.filter.is_valid());
+    flight.miss(0.06);
+  }
+}
+
+TEST_CASE("samples that were missed are made up for") {
+  Flight flight;
+  flight.fly(3);
+  std::mt19937 random(3);
+  for (int slot = 0; slot < 500; ++slot) {
+    if (random() % 3 == 0) {
+      flight.imu.turn(60, 0, 0);
+      flight.miss();
+    } else {
+      flight.slot(60, 0, 0);
+    }
+  }
+  flight.fly(0.1);
+  CHECK(flight.tilt_error_deg() <= 1.0);
+}
+
+TEST_CASE("an IMU that was away for long finds gravity anew") {
+  Flight flight;
+  flight.fly(2);
+  flight.miss(1.0);
+  flight.imu.set(50, -10);
+  flight.fly(0.1);
+  CHECK_FALSE(flight.filter.is_valid());
+  flight.fly(0.1);
+  CHECK(flight.filter.is_valid());
+  CHECK(flight.tilt_error_deg() <= 1.0);
+}
+
+TEST_CASE("the age of the newest sample stays at its greatest") {
+  Flight flight;
+  CHECK(flight.filter.age_ms(flight.now_us) == 65535);
+  flight.slot();
+  CHECK(flight.filter.age_ms(flight.now_us) == 0);
+  flight.miss(1);
+  CHECK(flight.filter.age_ms(flight.now_us) == 1000);
+  flight.miss(200);
+  CHECK(flight.filter.age_ms(flight.now_us) == 65535);
+}
+
+TEST_CASE("`e` 3 keeps the bias of a still second, and refuses without one") {
+  Flight flight;
+  CHECK(flight.filter.calibrate_gyro() == Reason::IMU_INVALID);
+  flight.imu.bias_deg_s[1] = 4;
+  flight.fly(0.5);
+  CHECK(flight.filter.calibrate_gyro() == Reason::NOT_STILL);
+  CHECK(flight.calibration.gyro_bias_16[1] == 0);
+  flight.fly(1);
+  CHECK(flight.filter.calibrate_gyro() == Reason::NONE);
+  CHECK(std::abs(flight.calibration.gyro_bias_16[1] - 64) <= 1);
+  // After the next start the calibration's bias is what flies until a still second.
+  AttitudeFilter next(flight.calibration);
+  next.stop_calibrating();
+  uint32_t now_us = 0;
+  for (int slot = 0; slot < 100; ++slot) next.on_sample(flight.imu.sample(), now_us += 2000);
+  CHECK(std::abs(next.attitude().pitch_rate_16) <= 5);
+}
+
+TEST_CASE("`e` 0 makes this attitude level, in every attitude afterwards") {
+  Flight flight;
+  CHECK(flight.filter.calibrate_level() == Reason::IMU_INVALID);
+  flight.imu.set(8, -5);
+  flight.fly(0.5);
+  CHECK(flight.filter.calibrate_level() == Reason::NOT_STILL);
+  flight.fly(3);
+  CHECK(flight.filter.calibrate_level() == Reason::NONE);
+  CHECK(std::abs(flight.calibration.level_roll_cdeg - 800) <= 25);
+  CHECK(std::abs(flight.calibration.level_pitch_cdeg + 500) <= 25);
+  CHECK(std::fabs(flight.roll_deg()) <= 0.1);
+  flight.fly(1);
+  CHECK(std::fabs(flight.roll_deg()) <= 0.3);
+  CHECK(std::fabs(flight.pitch_deg()) <= 0.3);
+  // The airframe rolls about its own axis, the sensor about another.
+  Level level;
+  level.set(flight.calibration.level_roll_cdeg, flight.calibration.level_pitch_cdeg);
+  int16_t axis[3] = {10000, 0, 0};
+  level.tilt(axis);
+  flight.fly(1, axis[0] * 0.006, axis[1] * 0.006, axis[2] * 0.006);
+  CHECK(flight.roll_deg() == doctest::Approx(60).epsilon(0.01));
+  CHECK(std::fabs(flight.pitch_deg()) <= 1.0);
+  CHECK(flight.filter.attitude().roll_rate_16 == doctest::Approx(960).epsilon(0.02));
+  CHECK(std::abs(flight.filter.attitude().pitch_rate_16) <= 10);
+}
+
+TEST_CASE("`e` 0 twice says the same again, and not beyond 15 degrees") {
+  Flight flight;
+  flight.imu.set(8, -5);
+  flight.fly(4);
+  CHECK(flight.filter.calibrate_level() == Reason::NONE);
+  const Calibration first = flight.calibration;
+  flight.fly(4);
+  CHECK(flight.filter.calibrate_level() == Reason::NONE);
+  CHECK(std::abs(flight.calibration.level_roll_cdeg - first.level_roll_cdeg) <= 25);
+  CHECK(std::abs(flight.calibration.level_pitch_cdeg - first.level_pitch_cdeg) <= 25);
+  Flight steep;
+  steep.imu.set(0, 20);
+  steep.fly(4);
+  CHECK(steep.filter.calibrate_level() == Reason::OUT_OF_RANGE);
+  CHECK(steep.calibration.level_pitch_cdeg == 0);
+}
