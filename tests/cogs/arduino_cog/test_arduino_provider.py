@@ -220,6 +220,16 @@ def test_a_reset_in_flight_is_noticed_and_started_again(rig):
     assert rig.arduino.telemetry_content["arduino"]["reset_cause"] == "watchdog, state restored"
 
 
+def test_a_board_that_flies_after_a_reset_is_named_by_a_program_that_starts(rig, monkeypatch):
+    said = []
+    monkeypatch.setattr(ArduinoProvider, "_log_warning", lambda _, text: said.append(text))
+    rig.start()
+    rig.status(armed=True, cause=0x88)
+    rig.status(armed=True, cause=0x88)
+    assert said == ["the Arduino flies after a reset (watchdog, state restored), and is armed"]
+    assert rig.arduino.counters["resets"] == 0
+
+
 def test_time_that_stands_at_its_most_is_no_reset(rig):
     rig.connect()
     rig.status(uptime_s=65535)

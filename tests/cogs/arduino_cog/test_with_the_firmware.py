@@ -170,6 +170,26 @@ def test_modes_are_taken_at_auto_only(flight):
     assert ground.at("flight_mode") == "ACRO"
 
 
+def test_a_reset_in_flight_is_told_and_gets_nothing_but_start(flight):
+    board, daemon = flight
+    ground = daemon.ground
+    arm(board, ground)
+    board.move(throttle=1400)
+    ground.comes("rx.throttle", 1400, 3)
+    pushed = daemon.said().count("the Arduino gets")
+    with board.rig() as rig:
+        rig.force_watchdog_reset()
+    ground.sees("the state of before", arduino__restored=True, armed=True)
+    assert "watchdog" in ground.at("arduino.reset_cause")
+    # A machine that is busy may have taken the pause for silence.
+    said = "a reset (watchdog, state restored), and is armed"
+    board.wait(lambda: said in daemon.said().replace("was reset", "a reset"), "the log")
+    board.gives("throttle", 1400, 3)
+    board.pass_us(1_000_000)
+    assert daemon.said().count("the Arduino gets") == pushed
+    disarm(board, ground)
+
+
 def test_calibrating_is_refused_by_the_board_while_armed(flight):
     board, daemon = flight
     ground = daemon.ground
@@ -229,6 +249,17 @@ def test_what_was_set_outlives_power(flight):
     ground.comes("orientation.roll", 0.0, 0.5)
     assert daemon.said().count("the Arduino gets") == pushed
     assert not [veto for veto in ground.at("vetoes") if "airframe.yml" in veto]
+
+
+def test_a_start_on_a_rocking_boat_is_told(flight):
+    board, daemon = flight
+    board.end()
+    daemon.ground.sees("the board is gone", arduino__connected=False)
+    board.motion = lambda time_s: motion_at(
+        6.0, -4.0, (0.0, 0.0, 30.0 if time_s % 1 < 0.5 else -30)
+    )
+    board.fly()
+    daemon.ground.sees("an old bias", arduino__bias_stored=True, arduino__imu_valid=True)
 
 
 def periods_ms(board, letter, since):

@@ -304,13 +304,15 @@ class ArduinoProvider(BaseStartedModule):
         self.up.vetoes.report(LINK, status.veto_names)
         if previous is not None and status.uptime_s < previous.uptime_s:
             self._on_reset(status)
+        elif previous is None and status.is_restored:
+            # It was silent meanwhile, or it is this program that starts: said all the same.
+            self._log_warning(f"the Arduino flies after a reset{_causes_of(status)}")
         self._execute(status, ORIGIN)
         self._execute(flight_state_of(status), ORIGIN)
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
-        armed = ", and is armed" if status.is_armed else ""
-        self._log_warning(f"the Arduino was reset ({status.reset_causes}){armed}")
+        self._log_warning(f"the Arduino was reset{_causes_of(status)}")
         self._send_start()
         self._tell_begun()
 
@@ -363,6 +365,10 @@ class ArduinoProvider(BaseStartedModule):
     def _tell_begun(self) -> None:
         for listener in self._begun:
             listener()
+
+
+def _causes_of(status: ArduinoStatusCommand) -> str:
+    return f" ({status.reset_causes}){', and is armed' if status.is_armed else ''}"
 
 
 def flight_state_of(status: ArduinoStatusCommand) -> FlightStateCommand:
