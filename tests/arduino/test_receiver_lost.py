@@ -1,4 +1,4 @@
-"""The receiver on the compiled firmware: lost on any wire, in any way; noise, storms, its return."""
+"""The receiver on the compiled firmware: lost on any wire in any way, noise, storms, its return."""
 
 import itertools
 import random
