@@ -16,31 +16,34 @@ struct AttitudeState {
   uint32_t yaw;            // a full circle is 2^32
 };
 
-/** Everything else that the filter remembers; all of it zero at first. */
+/**
+ * Everything else that the filter remembers; all of it zero at first. What is used most comes first:
+ * the chip reaches 64 bytes of an object by short instructions.
+ */
 struct AttitudeMemory {
-  AttitudeState state_;
-  Attitude attitude_;
-  int16_t down_[3];       // gravity_q30 in Q14
-  int16_t remainder_[3];  // of the angle of a slot, rad Q32
-  int16_t measured_[3];   // four samples of the accelerometer as down, Q14 of 1 g
-  int32_t yaw_change_;    // not yet in yaw, rad Q31 times cosine of pitch squared
-  int32_t turn_rate_;     // of the turn about the vertical, rad per slot Q19, times 64
-  Level level_;
-  Stillness stillness_;
-  uint16_t print_;
-  uint16_t searched_slots_;
-  uint16_t missing_slots_;  // since the newest sample
-  uint8_t copies_;
-  uint8_t good_samples_;
-  uint8_t pending_slots_;
-  uint8_t phase_;
-  uint8_t found_groups_;  // groups of four samples since gravity was looked for
   bool has_begun_;
   bool has_sample_;
   bool is_fresh_;
   bool has_gravity_;
   bool has_ended_search_;
   bool has_own_bias_;
+  uint8_t copies_;
+  uint8_t good_samples_;
+  uint8_t pending_slots_;
+  uint8_t phase_;
+  uint8_t found_groups_;  // groups of four samples since gravity was looked for
+  uint16_t print_;
+  uint16_t searched_slots_;
+  uint16_t missing_slots_;  // since the newest sample
+  int32_t yaw_change_;      // not yet in yaw, rad Q31 times cosine of pitch squared
+  int32_t turn_rate_;       // of the turn about the vertical, rad per slot Q19, times 64
+  int16_t down_[3];         // gravity_q30 in Q14
+  Attitude attitude_;
+  int16_t measured_[3];   // four samples of the accelerometer as down, Q14 of 1 g
+  int16_t remainder_[3];  // of the angle of a slot, rad Q32
+  AttitudeState state_;
+  Level level_;
+  Stillness stillness_;
 };
 
 /**

@@ -19,10 +19,8 @@ bool is_garbage(const ImuSample& sample) {
 uint16_t fingerprint(const ImuSample& sample) {
   uint16_t print = 0;
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    print = static_cast<uint16_t>((print << 5 | print >> 11) ^
-                                  static_cast<uint16_t>(sample.accel[axis]));
-    print = static_cast<uint16_t>((print << 5 | print >> 11) ^
-                                  static_cast<uint16_t>(sample.gyro[axis]));
+    print = static_cast<uint16_t>(print * 2 + static_cast<uint16_t>(sample.accel[axis]));
+    print = static_cast<uint16_t>(print * 2 + static_cast<uint16_t>(sample.gyro[axis]));
   }
   return print;
 }

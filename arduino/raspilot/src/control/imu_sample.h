@@ -22,7 +22,7 @@ constexpr int16_t GYRO_PER_10_DEG_S = 328;
 /** Whether no working sensor sends this: all bits alike, or a gyro at its end stop. */
 bool is_garbage(const ImuSample& sample);
 
-/** Sixteen bits that differ, but for luck, when the samples differ. */
+/** Sixteen bits that differ when samples differ, but for one noisy pair in a hundred or so. */
 uint16_t fingerprint(const ImuSample& sample);
 
 }  // namespace raspilot
