@@ -20,7 +20,8 @@ ARDUINO = Path(__file__).resolve().parents[1] / "arduino"
 ELF = ARDUINO / "build" / "raspilot.elf"
 SERVOS = ("ailerons", "elevator", "throttle", "rudder")
 FRAME_US = 20_000.0
-SETTLE_US = 1_500_000.0
+SETTLE_US = 3_000_000.0
+ARMING_US = 500_000.0
 CHUNK_US = 5_000.0
 OUTPUT_MATCH_US = 30_000.0
 STATUS_SIZE = 20
@@ -64,6 +65,9 @@ class Flight:
         self.rig.imu.noise_deg_s, self.rig.imu.noise_m_s2 = 0.1, 0.05
         self.rig.imu.motion = motion_at(0, 0)
         self.run(SETTLE_US)
+        # Armed, so that the throttle follows its stick too.
+        receiver.sticks(aux2=2000)
+        self.run(ARMING_US)
         self.rig.imu.motion = lambda time_s: motion_at(
             30 * math.sin(time_s), 10 * math.sin(1.7 * time_s), (30 * math.cos(time_s), 15, 5)
         )
