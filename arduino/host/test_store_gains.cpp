@@ -1,0 +1,93 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "store/gains.h"
+#include "store/wire_bytes.h"
+#include "wire_vectors.h"
+
+using namespace raspilot;
+
+namespace {
+
+typedef std::vector<uint8_t> Bytes;
+
+Bytes three_axes(const Gains& gains) {
+  Bytes wire(GAINS_SIZE);
+  write_three_axes(gains, wire.data());
+  return wire;
+}
+
+Bytes put(Bytes wire, size_t gain, float value) {
+  WireWriter(wire.data() + 4 * gain).f32(value);
+  return wire;
+}
+
+}  // namespace
+
+TEST_CASE("the golden gains of three axes are read and written back as they are") {
+  const auto payloads = payloads_of("g");
+  REQUIRE_FALSE(payloads.empty());
+  for (const Bytes& wire : payloads) {
+    Gains gains = DEFAULT_GAINS;
+    REQUIRE(read_three_axes(wire.data(), gains));
+    CHECK(three_axes(gains) == wire);
+  }
+  Gains gains = DEFAULT_GAINS;
+  REQUIRE(read_three_axes(payloads[0].data(), gains));
+  CHECK(gains.rate[0].p == 2.1f);
+  CHECK(gains.rate[1].d == 0.02f);
+  CHECK(gains.rate[2].i == 0.3f);
+  CHECK(gains.stabilize[0].p == 2.0f);
+  CHECK(gains.stabilize[1].p == 4.1f);
+  CHECK(gains.stabilize[2].p == 1.5f);
+}
+
+TEST_CASE("the golden gains of two axes leave the rudder's alone") {
+  const auto payloads = payloads_of("t");
+  REQUIRE_FALSE(payloads.empty());
+  Gains gains = DEFAULT_GAINS;
+  REQUIRE(read_two_axes(payloads[0].data(), gains));
+  CHECK(gains.rate[0].p == 0.7f);
+  CHECK(gains.rate[1].p == 1.0f);
+  CHECK(gains.stabilize[0].p == 2.0f);
+  CHECK(gains.stabilize[1].d == 0.25f);
+  CHECK(gains.rate[2].p == DEFAULT_GAINS.rate[2].p);
+  CHECK(gains.stabilize[2].p == DEFAULT_GAINS.stabilize[2].p);
+  Bytes wire(TWO_AXIS_GAINS_SIZE);
+  write_two_axes(gains, wire.data());
+  CHECK(wire == payloads[0]);
+}
+
+TEST_CASE("the gains at the first start level the default aircraft") {
+  const float expected[18] = {6, 0, 0, 3, 0, 0, 1, 0, 0, 8, 0, 0, 6, 0, 0, 0, 0, 0};
+  Bytes wire(GAINS_SIZE);
+  WireWriter writer(wire.data());
+  for (float gain : expected) writer.f32(gain);
+  CHECK(three_axes(DEFAULT_GAINS) == wire);
+}
+
+TEST_CASE("a set with one gain that is no number of 0 to 50 is refused whole") {
+  const float infinity = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float wrong[] = {std::nextafter(GREATEST_GAIN, 51.0f), infinity, -infinity, nan, -nan,
+                         -std::numeric_limits<float>::denorm_min(), -1.0f, 3e38f};
+  const float right[] = {GREATEST_GAIN, 0.0f, -0.0f, std::numeric_limits<float>::denorm_min()};
+  for (size_t gain = 0; gain < 18; ++gain) {
+    for (float value : wrong) {
+      CAPTURE(value);
+      Gains gains = DEFAULT_GAINS;
+      const Bytes wire = put(Bytes(GAINS_SIZE), gain, value);
+      CHECK_FALSE(read_three_axes(wire.data(), gains));
+      CHECK(three_axes(gains) == three_axes(DEFAULT_GAINS));
+      if (gain >= 12) continue;
+      CHECK_FALSE(read_two_axes(wire.data(), gains));
+      CHECK(three_axes(gains) == three_axes(DEFAULT_GAINS));
+    }
+    for (float value : right) {
+      Gains gains = DEFAULT_GAINS;
+      CHECK(read_three_axes(put(Bytes(GAINS_SIZE), gain, value).data(), gains));
+    }
+  }
+}
