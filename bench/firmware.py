@@ -144,7 +144,10 @@ def rows(quick: bool = False) -> Iterable[Row]:
 def _build() -> None:
     try:
         done = subprocess.run(
-            ["make", "-C", str(ARDUINO), "build/raspilot.elf"], capture_output=True, text=True, check=False
+            ["make", "-C", str(ARDUINO), "build/raspilot.elf"],
+            capture_output=True,
+            text=True,
+            check=False,
         )
     except FileNotFoundError:
         raise RuntimeError("make is not installed") from None

@@ -7,11 +7,12 @@ import sys
 import pytest
 
 from bench import __main__ as program
-from bench import bus, cascade, codecs, latency, load, startup
+from bench import bus, cascade, codecs, firmware, latency, load, startup
 from bench.board import Board, terminal
 from bench.processes import running
 from bench.table import Row
 from bench.timing import percentile
+from tests.support.firmware import build_firmware
 
 SUBJECTS = {
     "bus": (bus, 9),
@@ -23,6 +24,9 @@ SUBJECTS = {
 }
 
 
+SIZES = {"firmware, flash", "firmware, static RAM, no heap"}
+
+
 def check(rows, least):
     assert len(rows) >= least
     assert all(isinstance(row, Row) and row.what and row.ours for row in rows)
@@ -30,7 +34,7 @@ def check(rows, least):
 
 
 def test_every_subject_is_tested():
-    assert set(program.SUBJECTS) == {*SUBJECTS, "relay"}
+    assert set(program.SUBJECTS) == {*SUBJECTS, "relay", "firmware"}
 
 
 @pytest.mark.parametrize("name", SUBJECTS)
@@ -47,6 +51,15 @@ def test_rows_of_the_relay():
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True)
     rows = [line for line in done.stdout.splitlines() if line.startswith("relay, ")]
     assert len(rows) >= 5, done.stdout
+
+
+def test_rows_of_the_firmware():
+    """Simulated time: its figures are the same on every machine, and met or not."""
+    build_firmware()
+    rows = list(firmware.rows(quick=True))
+    check(rows, 10)
+    missed = {each.what for each in rows if each.met is False}
+    assert missed <= SIZES
 
 
 def test_no_output_is_lost_and_the_figures_are_ordered():
