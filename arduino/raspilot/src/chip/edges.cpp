@@ -7,7 +7,7 @@ namespace raspilot {
 namespace edges {
 
 /** In a slot six inputs make twelve edges at most, some of which come twice. */
-static constexpr uint8_t STAMPS = 24;
+static constexpr uint8_t STAMPS = 18;
 static constexpr uint8_t STAMP_SIZE = 3;
 static constexpr uint8_t RING_SIZE = STAMPS * STAMP_SIZE;
 

@@ -11,7 +11,7 @@ void begin();
 
 /**
  * Gives what was stamped to the reader. A ring that was full stops the interrupts until here, so
- * that no noise takes more than 24 of them each slot.
+ * that no noise takes more than 18 of them each slot.
  */
 void drain(PwmReader& receiver, uint32_t now_us);
 

@@ -80,16 +80,21 @@ static void blink() {
   }
 }
 
-/** The next piece of background work, if it ends in `left` ticks. */
+/**
+ * The next piece of background work, if it ends in `left` ticks. One piece comes before the line's
+ * bytes, the others after them, so that neither starves.
+ */
 static void work(int16_t left) {
   uint8_t byte;
-  if (left >= BYTE_TICKS && uart::read(byte)) {
+  if (left >= PIECE_TICKS && slots_without_work) {
+    slots_without_work = 0;
+    autopilot.background(clock::now_us());
+  } else if (left >= BYTE_TICKS && uart::read(byte)) {
     autopilot.link.on_byte(byte, clock::now_us());
   } else if (left >= KEEP_TICKS && !slots_to_keep) {
     slots_to_keep = KEEP_SLOTS;
     reset::keep(autopilot.state());
   } else if (left >= PIECE_TICKS) {
-    slots_without_work = 0;
     autopilot.background(clock::now_us());
   }
 }

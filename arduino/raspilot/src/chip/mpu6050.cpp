@@ -112,7 +112,9 @@ void Mpu6050::on_power() {
     return;
   }
   is_awake_ = bytes_[0] == AWAKE;
-  step_ = is_awake_ && is_set_up_ ? READY : SETUP;
+  // One that has slept has forgotten its settings, also when it is woken before all are written.
+  if (!is_awake_) is_set_up_ = false;
+  step_ = is_set_up_ ? READY : SETUP;
 }
 
 void Mpu6050::take_sample() {

@@ -6,8 +6,8 @@
 namespace raspilot {
 namespace uart {
 
-/** 5.5 ms of bytes, almost three slots. */
-static constexpr uint8_t RX_SIZE = 64;
+/** 4 ms of bytes, two slots. */
+static constexpr uint8_t RX_SIZE = 48;
 /** The longest message that the protocol knows takes 102 bytes, and one place stays empty. */
 static constexpr uint8_t TX_SIZE = 104;
 static constexpr uint16_t DIVIDER = (F_CPU / 4 / RASPILOT_BAUD - 1) / 2;
@@ -16,9 +16,9 @@ static uint8_t rx[RX_SIZE];
 static uint8_t tx[TX_SIZE];
 static volatile uint8_t rx_head, rx_tail, tx_head, tx_tail;
 
-static inline uint8_t after_tx(uint8_t place) {
+static inline uint8_t after(uint8_t place, uint8_t size) {
   place = static_cast<uint8_t>(place + 1);
-  return place == TX_SIZE ? 0 : place;
+  return place == size ? 0 : place;
 }
 
 void begin() {
@@ -33,7 +33,7 @@ bool read(uint8_t& byte) {
   const uint8_t tail = rx_tail;
   if (tail == rx_head) return false;
   byte = rx[tail];
-  rx_tail = (tail + 1) & (RX_SIZE - 1);
+  rx_tail = after(tail, RX_SIZE);
   return true;
 }
 
@@ -50,7 +50,7 @@ uint8_t serial_room() {
 void serial_write(uint8_t byte) {
   const uint8_t head = uart::tx_head;
   uart::tx[head] = byte;
-  uart::tx_head = uart::after_tx(head);
+  uart::tx_head = uart::after(head, uart::TX_SIZE);
   InterruptsOff off;
   UCSR0B |= _BV(UDRIE0);
 }
@@ -62,7 +62,7 @@ ISR(USART_RX_vect) {
   using namespace uart;
   const uint8_t byte = UDR0;
   const uint8_t head = rx_head;
-  const uint8_t next = (head + 1) & (RX_SIZE - 1);
+  const uint8_t next = after(head, RX_SIZE);
   if (next != rx_tail) {
     rx[head] = byte;
     rx_head = next;
@@ -74,7 +74,7 @@ ISR(USART_UDRE_vect) {
   using namespace uart;
   const uint8_t tail = tx_tail;
   UDR0 = tx[tail];
-  const uint8_t next = after_tx(tail);
+  const uint8_t next = after(tail, TX_SIZE);
   tx_tail = next;
   if (next == tx_head) UCSR0B &= static_cast<uint8_t>(~_BV(UDRIE0));
   note_end_of_interrupt();
