@@ -4,6 +4,7 @@ import importlib
 from pathlib import Path
 
 import pytest
+from arduino_cog.airframe import AIRFRAME
 
 from up.base_module import BaseModule
 from up.cogs.manifest import load_manifest
@@ -12,8 +13,9 @@ from up.flight_controller.pids_file import PIDS
 ROOT = Path(__file__).parents[3]
 
 
-def test_the_shipped_gains_are_the_template():
-    assert (ROOT / "config" / PIDS.filename).read_text(encoding="utf-8") == PIDS.template()
+@pytest.mark.parametrize("file", [PIDS, AIRFRAME], ids=lambda file: file.filename)
+def test_the_shipped_file_is_the_template(file):
+    assert (ROOT / "config" / file.filename).read_text(encoding="utf-8") == file.template()
 
 
 @pytest.mark.parametrize("cog", ["serial_cog", "arduino_cog"])

@@ -41,7 +41,9 @@ def flying(elf, folder, sticks=None, motion=None, **files):
         ground = daemon.start()
         ground.ask("up.telemetry.frequency", frequency=50)
         ground.sees("the link", arduino__connected=True, armed=False)
-        board.wait(lambda: not any("airframe.yml" in veto for veto in ground.at("vetoes")), "it")
+        board.wait(
+            lambda: not any("airframe.yml" in veto for veto in ground.at("vetoes")), "profile"
+        )
         yield board, daemon
     finally:
         daemon.end()
@@ -248,7 +250,8 @@ def test_what_was_set_outlives_power(flight):
     board.wait(lambda: daemon.said().count("flies the gains of pids.yml") > compared, "gains")
     ground.comes("orientation.roll", 0.0, 0.5)
     assert daemon.said().count("the Arduino gets") == pushed
-    assert not [veto for veto in ground.at("vetoes") if "airframe.yml" in veto]
+    board.wait(lambda: not any("airframe.yml" in veto for veto in ground.at("vetoes")), "profile")
+    assert daemon.said().count("the Arduino gets") == pushed
 
 
 def test_a_start_on_a_rocking_boat_is_told(flight):
