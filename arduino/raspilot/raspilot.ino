@@ -1,4 +1,4 @@
-// The firmware of Raspilot's Arduino; see docs/firmware.md. Everything lies in src/, the chip's part in src/chip.
+// The firmware of Raspilot's Arduino (docs/firmware.md). All of it lies in src/.
 #include "src/chip/machine.h"
 
 void setup() { raspilot::machine::setup(); }

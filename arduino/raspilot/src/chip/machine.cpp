@@ -14,8 +14,8 @@
 #include "uart.h"
 
 /**
- * Taken by the linker instead of the Arduino core's, which would start Timer0's interrupt and PWM on
- * all timers.
+ * Taken by the linker instead of the Arduino core's, which would start Timer0's interrupt and PWM
+ * on all timers.
  */
 extern "C" void init() {}
 

@@ -124,12 +124,14 @@ __attribute__((always_inline)) static inline void on_round(
 }
 
 ISR(TIMER2_COMPA_vect) {
-  on_round(servo_edges::edges_of_timer2[0], OCR2A, servo_edges::widths[RUDDER], NOTE_RISES_RUDDER, _BV(COM2A0), _BV(FOC2A),
+  using namespace servo_edges;
+  on_round(edges_of_timer2[0], OCR2A, widths[RUDDER], NOTE_RISES_RUDDER, _BV(COM2A0), _BV(FOC2A),
            _BV(OCIE2A));
 }
 
 ISR(TIMER2_COMPB_vect) {
-  on_round(servo_edges::edges_of_timer2[1], OCR2B, servo_edges::widths[THROTTLE], NOTE_RISES_THROTTLE, _BV(COM2B0),
+  using namespace servo_edges;
+  on_round(edges_of_timer2[1], OCR2B, widths[THROTTLE], NOTE_RISES_THROTTLE, _BV(COM2B0),
            _BV(FOC2B), _BV(OCIE2B));
 }
 
