@@ -10,8 +10,8 @@ namespace raspilot {
  * +-1000 deg/s, +-8 g, low-pass of 98 Hz, 1000 samples a second (register map RM-MPU-6000A-00).
  *
  * Each slot holds one transfer: begin_transfer(), pump() while it lasts, end_transfer(). Any
- * failure begins again with freeing the bus and asking who answers; so do 25 samples that are equal. An IMU
- * that kept its power goes on at once, one that fell asleep is set up anew.
+ * failure begins again with freeing the bus and asking who answers; so do 25 samples that are
+ * equal. An IMU that kept its power goes on at once, one that fell asleep is set up anew.
  */
 class Mpu6050 {
  public:
