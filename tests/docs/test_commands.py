@@ -50,12 +50,23 @@ def test_up_understands_what_the_page_says(page, capsys):
             assert end.code == 0, f"{program} {shlex.join(arguments)}: {shown.err}"
 
 
+def targets_of(folder):
+    """Return what the Makefile of a folder, and the parts it includes, can make."""
+    paths = [folder / "Makefile", *folder.glob("*/*.mk")]
+    text = "\n".join(path.read_text(encoding="utf-8") for path in paths)
+    return set(" ".join(re.findall(r"^([a-z][a-z -]*):", text, re.MULTILINE)).split())
+
+
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
 def test_make_knows_what_the_page_says(page):
-    makefile = (REPOSITORY / "Makefile").read_text(encoding="utf-8")
-    targets = set(re.findall(r"^([a-z]+):", makefile, re.MULTILINE))
-    for program, target, *_ in command_lines(text_of(page)):
-        assert program != "make" or target in targets, target
+    for program, *words in command_lines(text_of(page)):
+        if program != "make":
+            continue
+        folder = REPOSITORY
+        if words[0] == "-C":
+            folder, words = REPOSITORY / words[1], words[2:]
+        asked = {word for word in words if "=" not in word}
+        assert asked <= targets_of(folder), f"{asked} in {folder.name}"
 
 
 def test_command_lines_are_found():

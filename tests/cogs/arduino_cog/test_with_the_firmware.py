@@ -30,6 +30,11 @@ def elf():
     return os.environ.get("RASPILOT_ELF") or build_firmware()
 
 
+def await_profile(board, ground):
+    """Wait until the board holds what airframe.yml says."""
+    board.wait(lambda: not any("airframe.yml" in veto for veto in ground.at("vetoes")), "profile")
+
+
 @contextmanager
 def flying(elf, folder, sticks=None, motion=None, **files):
     """A board that flies and a daemon that speaks to it; the ground sees 20 frames a second."""
@@ -249,8 +254,7 @@ def test_what_was_set_outlives_power(flight):
     ground.sees("the board is back", arduino__connected=True)
     board.wait(lambda: daemon.said().count("flies the gains of pids.yml") > compared, "gains")
     ground.comes("orientation.roll", 0.0, 0.5)
-    assert daemon.said().count("the Arduino gets") == pushed
-    board.wait(lambda: not any("airframe.yml" in veto for veto in ground.at("vetoes")), "profile")
+    await_profile(board, ground)
     assert daemon.said().count("the Arduino gets") == pushed
 
 
