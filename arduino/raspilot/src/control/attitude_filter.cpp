@@ -13,6 +13,12 @@ constexpr uint16_t OLDEST_SLOTS = 32767;
 constexpr uint16_t SEARCH_SLOTS = 5000;
 constexpr uint8_t FROZEN_COPIES = 24;  // with the one they copy 25 samples, 50 ms
 constexpr uint8_t GOOD_ENOUGH = 10;
+// No aircraft and no sensor with a filter of 98 Hz turns 500 deg/s faster after 2 ms.
+constexpr int8_t GREATEST_JUMP = 64;
+// A senseless sample is forgotten after eight that make sense; after two none is believed until all
+// but one are forgotten.
+constexpr uint8_t DOUBT = 8;
+constexpr uint8_t MOST_DISTRUST = 5 * DOUBT;
 constexpr uint8_t MOST_PENDING_SLOTS = 25;
 constexpr uint8_t STEPS_A_SLOT = 2;
 
@@ -74,7 +80,7 @@ OUT_OF_LINE void AttitudeFilter::begin() {
 }
 
 OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
-  if (is_garbage(sample) || is_copy(sample)) {
+  if (is_senseless(sample) || is_copy(sample)) {
     miss();
     return;
   }
@@ -120,6 +126,23 @@ OUT_OF_LINE void AttitudeFilter::lose() {
   has_gravity_ = false;
   found_groups_ = 0;
   pending_slots_ = 0;
+}
+
+/** Noise jumps about; a twelfth of it makes sense by chance. */
+OUT_OF_LINE bool AttitudeFilter::is_senseless(const ImuSample& sample) {
+  bool is_bad = is_garbage(sample);
+  for (uint8_t axis = 0; axis < 3; ++axis) {
+    const int8_t rate = static_cast<int8_t>(sample.gyro[axis] >> 8);
+    const int16_t jump = static_cast<int16_t>(rate - gyro_[axis]);
+    if (clamped16(jump, GREATEST_JUMP) != jump) is_bad = true;
+    gyro_[axis] = rate;
+  }
+  if (is_bad) {
+    distrust_ = distrust_ < MOST_DISTRUST ? static_cast<uint8_t>(distrust_ + DOUBT) : MOST_DISTRUST;
+  } else if (distrust_ != 0) {
+    --distrust_;
+  }
+  return is_bad || distrust_ > DOUBT;
 }
 
 OUT_OF_LINE bool AttitudeFilter::is_copy(const ImuSample& sample) {

@@ -29,10 +29,12 @@ struct AttitudeMemory {
   bool has_own_bias_;
   uint8_t copies_;
   uint8_t good_samples_;
+  uint8_t distrust_;
   uint8_t pending_slots_;
   uint8_t phase_;
   uint8_t found_groups_;  // groups of four samples since gravity was looked for
   uint16_t print_;
+  int8_t gyro_[3];        // upper halves of the newest sample's
   uint16_t searched_slots_;
   uint16_t missing_slots_;  // since the newest sample
   int32_t yaw_change_;      // not yet in yaw, rad Q31 times cosine of pitch squared
@@ -63,7 +65,9 @@ class AttitudeFilter : private AttitudeMemory {
   void on_missing(uint32_t now_us);
 
   const Attitude& attitude() const { return attitude_; }
-  /** Samples come, are no copies of each other for 50 ms, and gravity has been found. */
+  /**
+   * Samples come, are no copies of each other for 50 ms, make sense, and gravity has been found.
+   */
   bool is_valid() const { return is_fresh_ && has_gravity_; }
   /** Age of the newest sample, ms, counted in slots, at most 65535. */
   uint16_t age_ms(uint32_t now_us) const;
@@ -90,6 +94,7 @@ class AttitudeFilter : private AttitudeMemory {
   void begin();
   void miss();
   bool is_copy(const ImuSample& sample);
+  bool is_senseless(const ImuSample& sample);
   void take_own_bias();
   void count_slots();
   void lose();
