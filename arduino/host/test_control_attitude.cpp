@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -157,14 +158,17 @@ TEST_CASE("no input makes numbers overflow or the direction of gravity lose its 
     AttitudeFilter filter(calibration);
     uint32_t now_us = static_cast<uint32_t>(random());
     const bool is_extreme = round % 2 != 0;
+    int rates[3] = {0, 0, 0};
     for (int slot = 0; slot < 2000; ++slot) {
       now_us += 2000;
       ImuSample sample;
       for (int axis = 0; axis < 3; ++axis) {
         sample.accel[axis] = static_cast<int16_t>(is_extreme ? (random() % 2 ? 32767 : -32768)
                                                              : any(random));
-        sample.gyro[axis] = static_cast<int16_t>(is_extreme ? (random() % 2 ? 32766 : -32766)
-                                                            : any(random));
+        // As fast as a sensor's rates change, and mostly at their ends when extreme.
+        const int step = is_extreme ? (random() % 32 < 16 ? 15000 : -15000) : any(random) / 3;
+        rates[axis] = std::max(-32766, std::min(32766, rates[axis] + step));
+        sample.gyro[axis] = static_cast<int16_t>(rates[axis]);
       }
       if (slot % 7 == 0) {
         for (int axis = 0; axis < 3; ++axis) sample.accel[axis] /= 8;
