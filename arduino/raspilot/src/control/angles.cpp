@@ -64,7 +64,7 @@ OUT_OF_LINE int16_t arc_tangent_cdeg(int16_t y, int16_t x) {
   return y < 0 ? static_cast<int16_t>(-angle) : angle;
 }
 
-OUT_OF_LINE uint16_t square_root(uint32_t square) {
+uint16_t square_root(uint32_t square) {
   uint16_t root = 0;
   for (uint16_t bit = 0x8000; bit != 0; bit >>= 1) {
     const uint16_t trial = root | bit;

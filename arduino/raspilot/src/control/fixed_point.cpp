@@ -36,7 +36,7 @@ OUT_OF_LINE int16_t clamped16(int16_t value, int16_t limit) {
   return value < -limit ? static_cast<int16_t>(-limit) : value;
 }
 
-OUT_OF_LINE int16_t to_int16(int32_t value) {
+int16_t to_int16(int32_t value) {
   const int16_t low = static_cast<int16_t>(value);
   if (low == value && low != -32768) return low;
   return value < 0 ? -32767 : 32767;

@@ -44,7 +44,7 @@ OUT_OF_LINE int16_t deflection_q15(Ticks stick) {
 }
 
 /** The shorter way from an angle to another. */
-OUT_OF_LINE int16_t shorter_way_cdeg(int16_t to, int16_t from) {
+int16_t shorter_way_cdeg(int16_t to, int16_t from) {
   const int32_t way = static_cast<int32_t>(to) - from;
   if (way > HALF_CIRCLE_CDEG) return static_cast<int16_t>(way - CIRCLE_CDEG);
   if (way < -HALF_CIRCLE_CDEG) return static_cast<int16_t>(way + CIRCLE_CDEG);
@@ -63,7 +63,7 @@ FlightController::FlightController(const Profile& profile, const Gains& gains)
   outputs_.ticks[THROTTLE] = us_to_ticks(1000);
 }
 
-OUT_OF_LINE void FlightController::tune_one() {
+void FlightController::tune_one() {
   const uint8_t loop = tuned_loops_;
   if (loop == LOOPS) return;
   ++tuned_loops_;
@@ -83,7 +83,7 @@ Hold FlightController::hold_of(const Demand& demand) {
 }
 
 /** From FBW to SETPOINT or into the circle nothing is forgotten: the surfaces do not jump. */
-OUT_OF_LINE void FlightController::engage(Hold hold) {
+void FlightController::engage(Hold hold) {
   if (hold == hold_) return;
   if (hold_ == Hold::NOTHING) {
     for (Pid& pid : rate_) pid.reset();
@@ -93,7 +93,7 @@ OUT_OF_LINE void FlightController::engage(Hold hold) {
   hold_ = hold;
 }
 
-OUT_OF_LINE const Outputs& FlightController::update(const Demand& demand,
+const Outputs& FlightController::update(const Demand& demand,
                                                     const Attitude& attitude) {
   tune_one();
   engage(hold_of(demand));
@@ -105,7 +105,7 @@ OUT_OF_LINE const Outputs& FlightController::update(const Demand& demand,
   return outputs_;
 }
 
-OUT_OF_LINE void FlightController::pass_through(const Demand& demand, Ticks* demands) const {
+void FlightController::pass_through(const Demand& demand, Ticks* demands) const {
   if (demand.is_failsafe) {
     demands[AILERONS] = preset(profile_.preset_ailerons_us);
     demands[ELEVATOR] = preset(profile_.preset_elevator_us);
@@ -135,7 +135,7 @@ OUT_OF_LINE void FlightController::hold_rates(const Demand& demand, const Attitu
 }
 
 /** By the stick in RATE, else by the Stabilize PID; `channel` is AILERONS or ELEVATOR. */
-OUT_OF_LINE int16_t FlightController::wanted_rate_16(Channel channel, const Demand& demand,
+int16_t FlightController::wanted_rate_16(Channel channel, const Demand& demand,
                                                      const Attitude& attitude) {
   const bool is_roll = channel == AILERONS;
   if (hold_ == Hold::RATES) {
@@ -151,7 +151,7 @@ OUT_OF_LINE int16_t FlightController::wanted_rate_16(Channel channel, const Dema
 }
 
 /** The failsafe's, the Raspberry Pi's or the stick's bank or pitch. */
-OUT_OF_LINE int16_t FlightController::wanted_angle_cdeg(Channel channel,
+int16_t FlightController::wanted_angle_cdeg(Channel channel,
                                                         const Demand& demand) const {
   const bool is_roll = channel == AILERONS;
   if (demand.is_failsafe) return is_roll ? profile_.circle_bank_cdeg : profile_.glide_pitch_cdeg;
@@ -166,7 +166,7 @@ OUT_OF_LINE int16_t FlightController::wanted_angle_cdeg(Channel channel,
 }
 
 /** The yaw rate less its mean: a steady turn is none of the damper's business. */
-OUT_OF_LINE int16_t FlightController::swinging_16(int16_t yaw_rate_16) {
+int16_t FlightController::swinging_16(int16_t yaw_rate_16) {
   if (!has_steady_) {
     has_steady_ = true;
     steady_ = yaw_rate_16 * ONE_Q16;

@@ -66,7 +66,7 @@ OUT_OF_LINE int32_t Pid::update(int16_t error, int16_t measured, int32_t limit) 
   return limited;
 }
 
-OUT_OF_LINE int32_t Pid::derivative(int16_t measured) {
+int32_t Pid::derivative(int16_t measured) {
   const uint16_t difference = static_cast<uint16_t>(measured) - static_cast<uint16_t>(measured_);
   const int16_t change = static_cast<int16_t>(difference);
   const bool is_change = has_measured_ && clamped16(change, GREATEST_CHANGE) == change;

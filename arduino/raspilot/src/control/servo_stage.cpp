@@ -17,7 +17,7 @@ OUT_OF_LINE Ticks within(const ServoSetup& servo, Ticks ticks) {
   return ticks < lowest ? lowest : ticks > highest ? highest : ticks;
 }
 
-OUT_OF_LINE Ticks to_pulse(const ServoSetup& servo, int16_t deflection) {
+Ticks to_pulse(const ServoSetup& servo, int16_t deflection) {
   const int16_t turned = static_cast<int16_t>(servo.is_reversed ? -deflection : deflection);
   return within(servo, static_cast<Ticks>(turned + NEUTRAL + us_to_ticks(servo.trim_us)));
 }

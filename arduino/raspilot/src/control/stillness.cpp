@@ -17,7 +17,7 @@ OUT_OF_LINE void Stillness::forget() {
   is_still_ = false;
 }
 
-OUT_OF_LINE bool Stillness::on_sample(const int16_t* gyro) {
+bool Stillness::on_sample(const int16_t* gyro) {
   int16_t changes[3];
   for (uint8_t axis = 0; axis < 3; ++axis) {
     const int16_t rate = clamped16(gyro[axis], GREATEST_BIAS);
