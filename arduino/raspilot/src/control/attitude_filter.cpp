@@ -70,7 +70,7 @@ constexpr int32_t TURN_LIMIT = 46L << TURN_SHIFT;
 AttitudeFilter::AttitudeFilter(Calibration& calibration)
     : AttitudeMemory(), calibration_(calibration) {}
 
-OUT_OF_LINE void AttitudeFilter::begin() {
+void AttitudeFilter::begin() {
   has_begun_ = true;
   level_.set(calibration_.level_roll_cdeg, calibration_.level_pitch_cdeg);
   for (uint8_t axis = 0; axis < 3; ++axis) {
@@ -122,7 +122,7 @@ OUT_OF_LINE void AttitudeFilter::miss() {
 }
 
 /** What turned meanwhile is not known any more: gravity is to be found anew. */
-OUT_OF_LINE void AttitudeFilter::lose() {
+void AttitudeFilter::lose() {
   has_gravity_ = false;
   found_groups_ = 0;
   pending_slots_ = 0;
@@ -177,7 +177,7 @@ OUT_OF_LINE void AttitudeFilter::take_own_bias() {
 }
 
 /** What is felt as up, turned over: the chip's x forward, y left, z up. */
-OUT_OF_LINE void AttitudeFilter::collect(const ImuSample& sample) {
+void AttitudeFilter::collect(const ImuSample& sample) {
   int16_t sign = -1;
   for (uint8_t axis = 0; axis < 3; ++axis) {
     if (phase_ == 0) measured_[axis] = 0;
@@ -188,7 +188,7 @@ OUT_OF_LINE void AttitudeFilter::collect(const ImuSample& sample) {
   phase_ = static_cast<uint8_t>((phase_ + 1) % GROUP);
 }
 
-OUT_OF_LINE void AttitudeFilter::integrate(const int16_t* gyro) {
+void AttitudeFilter::integrate(const int16_t* gyro) {
   int16_t angle[3];
   for (uint8_t axis = 0; axis < 3; ++axis) {
     const int32_t turn = product(gyro[axis], TURN_PER_COUNT) -
@@ -214,7 +214,7 @@ OUT_OF_LINE void AttitudeFilter::integrate(const int16_t* gyro) {
 }
 
 /** Heading turns by (q sin roll + r cos roll) / cos pitch; the division's rest is kept. */
-OUT_OF_LINE void AttitudeFilter::integrate_yaw(const int16_t* angle) {
+void AttitudeFilter::integrate_yaw(const int16_t* angle) {
   yaw_change_ += (product(down_[1], angle[1]) + product(down_[2], angle[2])) >> 2;
   if ((phase_ & 1) == 0) return;
   int16_t cosine_squared = static_cast<int16_t>(ONE_Q14 - times_q14(down_[0], down_[0]));
@@ -225,7 +225,7 @@ OUT_OF_LINE void AttitudeFilter::integrate_yaw(const int16_t* angle) {
 }
 
 /** One step of Newton's towards the length 1. */
-OUT_OF_LINE void AttitudeFilter::normalize() {
+void AttitudeFilter::normalize() {
   find_down();
   const int16_t half_lack_q16 = to_int16(shifted(ONE_Q28 - dot(down_, down_), 13));
   for (uint8_t axis = 0; axis < 3; ++axis) {
@@ -237,7 +237,7 @@ OUT_OF_LINE void AttitudeFilter::find_down() {
   for (uint8_t axis = 0; axis < 3; ++axis) down_[axis] = upper_half(state_.gravity_q30[axis]);
 }
 
-OUT_OF_LINE void AttitudeFilter::correct() {
+void AttitudeFilter::correct() {
   level_.straighten(measured_);
   const int32_t excess = dot(measured_, measured_) - ONE_Q28;
   if (found_groups_ < FINDING_GROUPS) {
@@ -259,7 +259,7 @@ OUT_OF_LINE void AttitudeFilter::correct() {
 }
 
 /** Moves gravity by 2^-shift of the way to what was measured. */
-OUT_OF_LINE void AttitudeFilter::draw(uint8_t shift) {
+void AttitudeFilter::draw(uint8_t shift) {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     int32_t& gravity = state_.gravity_q30[axis];
     gravity += shifted(measured_[axis] * 65536L, shift) - shifted(gravity, shift);
@@ -267,7 +267,7 @@ OUT_OF_LINE void AttitudeFilter::draw(uint8_t shift) {
 }
 
 /** The rotation that leads to what was measured, summed up, is what the gyro reads too much. */
-OUT_OF_LINE void AttitudeFilter::learn_drift() {
+void AttitudeFilter::learn_drift() {
   int32_t rotation[3];
   int16_t error[3];
   cross(measured_, down_, rotation);
@@ -305,7 +305,7 @@ bool AttitudeFilter::is_calibrating() const {
   return !has_ended_search_ && searched_slots_ < SEARCH_SLOTS;
 }
 
-OUT_OF_LINE Reason AttitudeFilter::refusal() const {
+Reason AttitudeFilter::refusal() const {
   if (!is_valid()) return Reason::IMU_INVALID;
   return is_still() ? Reason::NONE : Reason::NOT_STILL;
 }
