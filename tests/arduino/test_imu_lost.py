@@ -1,4 +1,4 @@
-"""The IMU on the compiled firmware: gone, frozen, senseless, at any byte of a transfer, and back."""
+"""The IMU on the compiled firmware: gone at any byte of a transfer, frozen, senseless, and back."""
 
 import itertools
 

@@ -1,0 +1,173 @@
+"""The profile on the compiled firmware: mixes, directions, trims, ends, motor, limits."""
+
+import pytest
+
+from tests.arduino.commands import SERVOS, profile, setpoint
+from tests.arduino.flight import HIGH, LOW, MIDDLE, Flight
+
+A_DEGREE_US = 60
+"""What the default gains make of a degree."""
+
+
+@pytest.fixture(scope="module")
+def shared():
+    flight = Flight()
+    flight.run_ms(1500)
+    return flight
+
+
+@pytest.fixture
+def flight(shared):
+    """Return a disarmed aircraft in ACRO, level, sticks centred."""
+    shared.sticks(ailerons=1500, elevator=1500, throttle=LOW, rudder=1500, aux1=LOW, aux2=LOW)
+    return shared
+
+
+def fit(flight, servos=None, **changes):
+    assert flight.ask("C", profile(servos, **changes)) == "K"
+
+
+def servos_us(flight):
+    flight.servo_us("ailerons")
+    return [flight.rig.servo.newest_us(each) for each in SERVOS]
+
+
+def test_sticks_pass_straight_through(flight):
+    fit(flight)
+    flight.sticks(ailerons=1234, elevator=1678, rudder=1890)
+    assert servos_us(flight) == pytest.approx([1234, 1678, 1000, 1890], abs=1)
+
+
+@pytest.mark.parametrize("channel", ["ailerons", "elevator", "rudder"])
+def test_a_servo_is_reversed_about_the_centre(flight, channel):
+    fit(flight, {channel: {"reversed": 1}})
+    flight.sticks(**{channel: 1700})
+    expected = [1300 if each == channel else 1500 for each in SERVOS]
+    expected[2] = 1000
+    assert servos_us(flight) == pytest.approx(expected, abs=1)
+
+
+@pytest.mark.parametrize("channel", ["ailerons", "elevator", "rudder"])
+def test_a_trim_moves_a_servo_after_its_direction(flight, channel):
+    fit(flight, {channel: {"reversed": 1, "trim_us": 80}})
+    assert flight.servo_us(channel) == pytest.approx(1580, abs=1)
+    flight.sticks(**{channel: 1600})
+    assert flight.servo_us(channel) == pytest.approx(1480, abs=1)
+
+
+def test_no_servo_goes_beyond_its_ends(flight):
+    ends = {"lowest_us": 1200, "highest_us": 1750, "trim_us": 100}
+    fit(flight, dict.fromkeys(("ailerons", "elevator", "rudder"), ends))
+    for stick, servo in ((1000, 1200), (2000, 1750), (2100, 1750), (900, 1200)):
+        flight.sticks(ailerons=stick, elevator=stick, rudder=stick)
+        expected = [servo, servo, 1000, servo]
+        assert servos_us(flight) == pytest.approx(expected, abs=1)
+
+
+def test_elevons_mix_ailerons_and_elevator(flight):
+    fit(flight, mix=1)
+    flight.sticks(ailerons=1600)
+    assert servos_us(flight) == pytest.approx([1600, 1400, 1000, 1500], abs=1)
+    flight.sticks(ailerons=1500, elevator=1600)
+    assert servos_us(flight) == pytest.approx([1600, 1600, 1000, 1500], abs=1)
+    flight.sticks(ailerons=1700, elevator=1400)
+    assert servos_us(flight) == pytest.approx([1600, 1200, 1000, 1500], abs=1)
+    flight.sticks(ailerons=2000, elevator=2000, rudder=1800)
+    assert servos_us(flight) == pytest.approx([2000, 1500, 1000, 1800], abs=1)
+
+
+def test_a_v_tail_mixes_elevator_and_rudder(flight):
+    fit(flight, mix=2)
+    flight.sticks(rudder=1600, ailerons=1700)
+    assert servos_us(flight) == pytest.approx([1700, 1600, 1000, 1400], abs=1)
+    flight.sticks(rudder=1500, elevator=1600)
+    assert servos_us(flight) == pytest.approx([1700, 1600, 1000, 1600], abs=1)
+
+
+def test_a_mix_is_turned_and_trimmed_for_each_servo(flight):
+    fit(flight, {"elevator": {"reversed": 1, "trim_us": -30}}, mix=1)
+    flight.sticks(ailerons=1600, elevator=1550)
+    assert servos_us(flight) == pytest.approx([1650, 1520, 1000, 1500], abs=1)
+
+
+def test_stabilisation_passes_the_mix_and_the_directions(flight):
+    fit(flight, {"ailerons": {"reversed": 1}}, mix=1)
+    flight.sticks(aux1=MIDDLE)
+    flight.tilt(20)
+    # To level, the right elevon goes one way and the left the other; the first one is reversed.
+    left, right, *_ = servos_us(flight)
+    assert left > 1600 and right > 1600
+    flight.tilt(0)
+
+
+def test_the_motors_servo_has_no_direction_nor_trim_that_could_start_it(flight):
+    fit(flight, {"throttle": {"reversed": 1, "trim_us": 200, "lowest_us": 1100}})
+    for throttle in (1000, 1500, 2000):
+        flight.sticks(throttle=throttle)
+        assert flight.servo_us("throttle") == pytest.approx(1000, abs=1)
+    flight.arm()
+    flight.sticks(throttle=1400)
+    assert flight.servo_us("throttle") == pytest.approx(1400, abs=1)
+    flight.sticks(throttle=2000)
+    assert flight.servo_us("throttle") == pytest.approx(2000, abs=1)
+    flight.sticks(400, throttle=LOW, aux2=LOW)
+    assert not flight.status().is_armed
+
+
+def test_without_a_motor_the_channel_is_a_servo_like_any(flight):
+    fit(flight, {"throttle": {"reversed": 1, "trim_us": 50, "highest_us": 1900}}, motor=0)
+    for stick, servo in ((1700, 1350), (1500, 1550), (1000, 1900)):
+        flight.sticks(throttle=stick)
+        assert flight.servo_us("throttle") == pytest.approx(servo, abs=1)
+
+
+def test_a_profile_is_kept_over_a_power_cycle(flight):
+    fit(flight, {"rudder": {"reversed": 1, "trim_us": 40}}, mix=1)
+    flight.run_ms(700)
+    again = Flight(eeprom=flight.rig.eeprom.read())
+    again.sticks(ailerons=1600, rudder=1700)
+    assert servos_us(again) == pytest.approx([1600, 1400, 1000, 1340], abs=1)
+
+
+@pytest.mark.parametrize(
+    ("channel", "stick", "attitude"),
+    [
+        ("ailerons", 2000, (50, 0)),
+        ("ailerons", 1000, (-50, 0)),
+        ("elevator", 2000, (0, 20)),
+        ("elevator", 1000, (0, -25)),
+        ("ailerons", 1750, (25, 0)),
+    ],
+)
+def test_fbw_asks_for_its_limits_at_full_stick(flight, channel, stick, attitude):
+    """Where bank and pitch are what the stick asks for, the surfaces are at rest."""
+    fit(flight)
+    flight.tilt(*attitude)
+    flight.sticks(**{channel: stick}, aux1=MIDDLE)
+    assert flight.servo_us(channel) == pytest.approx(1500, abs=A_DEGREE_US)
+    flight.tilt(0)
+    assert abs(flight.servo_us(channel) - 1500) > 150
+
+
+def test_other_limits_are_taken_from_the_profile(flight):
+    fit(flight, roll_limit_cdeg=3000, pitch_up_limit_cdeg=1000, pitch_down_limit_cdeg=1500)
+    flight.tilt(0, -15)
+    flight.tilt(30, -15)
+    flight.sticks(ailerons=2000, elevator=1000, aux1=MIDDLE)
+    assert flight.servo_us("ailerons") == pytest.approx(1500, abs=A_DEGREE_US)
+    assert flight.rig.servo.newest_us("elevator") == pytest.approx(1500, abs=A_DEGREE_US)
+    flight.tilt(0)
+
+
+def test_a_setpoint_stays_within_fbws_limits(flight):
+    fit(flight, roll_limit_cdeg=3000)
+    flight.arm()
+    flight.tilt(30)
+    flight.sticks(aux1=HIGH)
+    for _ in range(5):
+        flight.send("S", setpoint(roll=9000))
+        flight.run_ms(50)
+    assert flight.mode() == "s"
+    assert flight.servo_us("ailerons", 40) == pytest.approx(1500, abs=A_DEGREE_US)
+    flight.sticks(400, aux2=LOW)
+    flight.tilt(0)
