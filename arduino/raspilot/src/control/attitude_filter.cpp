@@ -90,7 +90,8 @@ OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
   if (searched_slots_ < SEARCH_SLOTS) ++searched_slots_;
   collect(sample);
   if ((phase_ & 1) != 0 && stillness_.on_sample(gyro) && !has_ended_search_) take_own_bias();
-  for (uint8_t step = 0; step < STEPS_A_SLOT && pending_slots_ != 0; ++step) {
+  // The slot that looks at the accelerometer has no time for a second step.
+  for (uint8_t step = phase_ == 0 ? 1 : 0; step < STEPS_A_SLOT && pending_slots_ != 0; ++step) {
     --pending_slots_;
     integrate(gyro);
   }
