@@ -23,6 +23,8 @@ HEARD_S = 1.0
 REFUSALS_APART_S = 1.0
 STREAMED = frozenset("hbBluSv")
 THESIS_COMMANDS_TO_SWITCH = 2
+THESIS_POINTS_TO_SWITCH = 8
+THESIS_POINTS = {"t": 8, "p": 4, "b": 3, "B": 3, "l": 2}
 SLACK_S = 1e-6
 
 
@@ -68,6 +70,7 @@ class Board:
         self._checked = CheckedReader()
         self._thesis = ThesisReader()
         self._thesis_commands = 0
+        self._thesis_points = 0
         self._sequence = 0
         self._orientation_sequence = 0
         self._orientation_sent_s: dict[int, float] = {}
@@ -110,8 +113,10 @@ class Board:
         self._listen(now_s)
         self.flight.set_servos(self.authority.servos(now_s))
         self._checked.expire(now_s)
-        if self._thesis.expire(now_s) and self.is_thesis:
-            self._write(b"!")
+        if self._thesis.expire(now_s):
+            self._thesis_commands = self._thesis_points = 0
+            if self.is_thesis:
+                self._write(b"!")
         self._tell(now_s)
         if self.is_thesis:
             self._stream_thesis(now_s)
@@ -154,11 +159,19 @@ class Board:
             self.send("K", bytes((ord(command.type), command.sequence)))
 
     def _look_for_thesis(self, data: bytes, now_s: float) -> None:
+        if self._thesis.expire(now_s):
+            self._thesis_commands = self._thesis_points = 0
         for found in self._thesis.feed(data, now_s):
-            is_good = isinstance(found, Command) and self._table.is_in_range(found)
-            self._thesis_commands = self._thesis_commands + 1 if is_good else 0
-            if self._thesis_commands == THESIS_COMMANDS_TO_SWITCH:
-                self._say("two thesis Commands: thesis framing until reset")
+            if not isinstance(found, Command) or not self._table.is_in_range(found):
+                self._thesis_commands = self._thesis_points = 0
+                continue
+            self._thesis_commands += 1
+            self._thesis_points += THESIS_POINTS.get(found.type, 0)
+            if (
+                self._thesis_commands >= THESIS_COMMANDS_TO_SWITCH
+                and self._thesis_points >= THESIS_POINTS_TO_SWITCH
+            ):
+                self._say("a run of thesis Commands: thesis framing until reset")
                 self.is_thesis = True
                 return
 

@@ -12,6 +12,9 @@ from up_simulator.board import OldFirmware
 
 ALTITUDE = b"h\x01\x2c"
 LOCATION = b"l" + struct.pack(">2f", 50.0, 14.5)
+HEADING = b"b\x01\x3b"
+GAINS = b"t" + struct.pack(">12f", *range(12))
+RUN = HEADING + LOCATION + HEADING
 
 
 def old(**options):
@@ -108,11 +111,22 @@ def test_an_old_firmware_has_no_arming_gate():
     assert abs(bench.flight.servos[2] - 1400) <= 1
 
 
-def test_ours_falls_to_thesis_framing_after_two_thesis_commands():
+@pytest.mark.parametrize(
+    "run",
+    [
+        (GAINS, b"T"),
+        (GAINS, ALTITUDE),
+        (b"p\x01\x00\x96", b"p\x00\x00\x32"),
+        (HEADING, LOCATION, ALTITUDE, b"T", HEADING),
+        (LOCATION, LOCATION, LOCATION, LOCATION),
+    ],
+)
+def test_ours_falls_to_thesis_framing_after_a_run_of_thesis_commands(run):
     bench = Bench(start=False)
-    bench.board.data_received(ALTITUDE)
-    assert not bench.board.is_thesis
-    bench.board.data_received(LOCATION)
+    for command in run[:-1]:
+        bench.board.data_received(command)
+        assert not bench.board.is_thesis
+    bench.board.data_received(run[-1])
     assert bench.board.is_thesis
     bench.run(0.2)
     assert split(taken(bench))[0][:1] == b"r"
@@ -120,7 +134,7 @@ def test_ours_falls_to_thesis_framing_after_two_thesis_commands():
 
 def test_ours_stays_there_and_takes_no_frames_any_more():
     bench = Bench(start=False)
-    bench.board.data_received(ALTITUDE + LOCATION)
+    bench.board.data_received(RUN)
     taken(bench)
     bench.board.data_received(frame(0, "s"))
     assert bench.board.is_thesis
@@ -130,10 +144,14 @@ def test_ours_stays_there_and_takes_no_frames_any_more():
 @pytest.mark.parametrize(
     "stream",
     [
-        ALTITUDE,
-        ALTITUDE + b"\xff" + LOCATION,
-        ALTITUDE + b"b\x7f\xff" + LOCATION,
-        ALTITUDE + b"p\x05\x00\x96",
+        b"T" * 100,
+        ALTITUDE * 100,
+        GAINS,
+        ALTITUDE + LOCATION,
+        LOCATION * 3,
+        HEADING * 2 + b"\xff" + LOCATION,
+        HEADING * 2 + b"b\x7f\xff" + LOCATION,
+        HEADING * 2 + b"p\x05\x00\x96",
     ],
 )
 def test_ours_does_not_fall_for_less(stream):
@@ -142,9 +160,17 @@ def test_ours_does_not_fall_for_less(stream):
     assert not bench.board.is_thesis
 
 
+def test_an_unfinished_command_breaks_the_run():
+    bench = Bench(start=False)
+    bench.board.data_received(HEADING * 2 + b"l\x01")
+    bench.run(0.2)
+    bench.board.data_received(LOCATION)
+    assert not bench.board.is_thesis
+
+
 def test_ours_does_not_fall_after_a_checked_frame():
     bench = Bench()
-    bench.board.data_received(ALTITUDE + LOCATION)
+    bench.board.data_received(RUN)
     assert not bench.board.is_thesis
 
 
@@ -152,7 +178,7 @@ def test_ours_does_not_fall_while_armed():
     bench = Bench(start=False, has_motor=True)
     bench.run(2.0)
     assert bench.board.authority.is_armed
-    bench.board.data_received(ALTITUDE + LOCATION)
+    bench.board.data_received(RUN)
     assert not bench.board.is_thesis
 
 
