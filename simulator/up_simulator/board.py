@@ -159,8 +159,7 @@ class Board:
             self.send("K", bytes((ord(command.type), command.sequence)))
 
     def _look_for_thesis(self, data: bytes, now_s: float) -> None:
-        if self._thesis.expire(now_s):
-            self._thesis_commands = self._thesis_points = 0
+        self._expire_thesis(now_s)
         for found in self._thesis.feed(data, now_s):
             if not isinstance(found, Command) or not self._table.is_in_range(found):
                 self._thesis_commands = self._thesis_points = 0
@@ -174,6 +173,13 @@ class Board:
                 self._say("a run of thesis Commands: thesis framing until reset")
                 self.is_thesis = True
                 return
+
+    def _expire_thesis(self, now_s: float) -> bool:
+        """Drop an unfinished thesis Command, which ends a run of them; true when there was one."""
+        if not self._thesis.expire(now_s):
+            return False
+        self._thesis_commands = self._thesis_points = 0
+        return True
 
     def _hear_thesis(self, data: bytes, now_s: float) -> None:
         for found in self._thesis.feed(data, now_s):
