@@ -4,6 +4,7 @@
 #include <avr/io.h>
 
 #include "../core/autopilot.h"
+#include "../core/compiler.h"
 #include "clock.h"
 #include "edges.h"
 #include "eeprom.h"
@@ -47,7 +48,7 @@ static uint8_t slots_without_work;
 static bool is_next_sample_due;
 static uint8_t slots_to_blink;
 
-void setup() {
+OUT_OF_LINE void setup() {
   cli();
   ADCSRA = 0;
   clock::begin();

@@ -7,12 +7,7 @@
 
 #include <stdint.h>
 
-/** Called by the address of its object: the chip's compiler would copy it for each object else. */
-#ifdef __AVR__
-#define OUT_OF_LINE __attribute__((noinline, noclone))
-#else
-#define OUT_OF_LINE
-#endif
+#include "../core/compiler.h"
 
 namespace raspilot {
 

@@ -1,6 +1,7 @@
 /** Everything that flies, apart from the chip: its parts, and the order in which a slot runs. */
 #pragma once
 
+#include "compiler.h"
 #include "../control/attitude_filter.h"
 #include "../control/flight_controller.h"
 #include "../pilot/authority.h"
@@ -48,7 +49,7 @@ class Autopilot {
   Demand demand() const;
 
   /** Settings and link take turns, so that neither starves the other. */
-  bool is_settings_turn_ = false;
+  bool is_settings_turn_ ZEROED;
 };
 
 }  // namespace raspilot

@@ -1,6 +1,7 @@
 /** The pilot's AUX2 switch: debounced, and its edge from low to high, which arms. */
 #pragma once
 
+#include "../core/compiler.h"
 #include "../core/types.h"
 #include "lifetime.h"
 
@@ -25,8 +26,8 @@ class ArmingSwitch {
   enum Level : uint8_t { UNKNOWN, LOW, HIGH };
 
   Stopwatch since_;
-  Level now_ = UNKNOWN;
-  Level settled_ = UNKNOWN;
+  Level now_ ZEROED;
+  Level settled_ ZEROED;
 };
 
 }  // namespace raspilot

@@ -22,7 +22,7 @@ char letter_of(Mode mode) { return static_cast<char>(mode); }
 }  // namespace
 
 Authority::Authority(const Profile& profile, const PwmReader& receiver)
-    : profile_(profile), receiver_(receiver), setpoint_() {}
+    : profile_(profile), receiver_(receiver) {}
 
 void Authority::update(bool is_imu_valid, bool is_calibrating, bool is_profile_broken,
                        uint32_t now_us) {

@@ -3,6 +3,7 @@
  */
 #pragma once
 
+#include "../core/compiler.h"
 #include "../core/types.h"
 #include "../store/profile.h"
 #include "arming_switch.h"
@@ -120,16 +121,16 @@ class Authority {
   Stopwatch lost_;
   // The newer of the two: which it is, flown_mode() says.
   union {
-    Setpoint setpoint_;
+    Setpoint setpoint_ ZEROED;
     Outputs asked_outputs_;
   };
-  uint16_t updated_at_ = 0;
-  char asked_mode_ = 0;
-  bool is_armed_ = false;
+  uint16_t updated_at_ ZEROED;
+  char asked_mode_ ZEROED;
+  bool is_armed_ ZEROED;
   /** Those that hold for a slot: receiver, IMU, calibrating, profile. */
   uint8_t slot_vetoes_ = VETO_RECEIVER | VETO_IMU;
-  bool is_failsafe_ = false;
-  bool is_latched_ = false;
+  bool is_failsafe_ ZEROED;
+  bool is_latched_ ZEROED;
 };
 
 }  // namespace raspilot

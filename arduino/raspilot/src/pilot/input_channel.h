@@ -1,6 +1,7 @@
 /** One channel of the receiver: which of its edges make a pulse, and whether it is alive. */
 #pragma once
 
+#include "../core/compiler.h"
 #include "../core/types.h"
 #include "../store/calibration.h"
 #include "pulse_filter.h"
@@ -57,13 +58,13 @@ class InputChannel {
   uint16_t fell_at() const { return static_cast<uint16_t>(rise_ + width_); }
 
   PulseFilter filter_;
-  Ticks pulse_ = 0;
-  Ticks before_ = 0;
-  uint16_t rise_ = 0;
-  uint16_t width_ = 0;
+  Ticks pulse_ ZEROED;
+  Ticks before_ ZEROED;
+  uint16_t rise_ ZEROED;
+  uint16_t width_ ZEROED;
   /** Since a pulse was proven, units. */
-  uint8_t age_ = 0;
-  uint8_t flags_ = 0;
+  uint8_t age_ ZEROED;
+  uint8_t flags_ ZEROED;
 };
 
 }  // namespace raspilot

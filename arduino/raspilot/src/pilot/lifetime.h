@@ -6,6 +6,8 @@
 
 #include <stdint.h>
 
+#include "../core/compiler.h"
+
 namespace raspilot {
 
 /** The clock in units. */
@@ -28,7 +30,7 @@ class Lifetime {
   bool lives() const { return left_ != 0; }
 
  private:
-  uint16_t left_ = 0;
+  uint16_t left_ ZEROED;
 };
 
 /** How long something has lasted, units; stays at 65535. */
@@ -40,7 +42,7 @@ class Stopwatch {
   uint16_t units() const { return units_; }
 
  private:
-  uint16_t units_ = 0;
+  uint16_t units_ ZEROED;
 };
 
 }  // namespace raspilot

@@ -1,6 +1,7 @@
 /** The thesis's low-pass with its bypass (thesis 4.4.4), for one channel, in ticks. */
 #pragma once
 
+#include "../core/compiler.h"
 #include "../core/types.h"
 
 namespace raspilot {
@@ -23,9 +24,9 @@ class PulseFilter {
  private:
   Ticks pulse_ = us_to_ticks(1500);
   /** y less the output, in eighths of a tick. */
-  int8_t ahead_8_ = 0;
+  int8_t ahead_8_ ZEROED;
   /** Sign: where it moved last; 2 in this pulse, 1 in the one before, 0 earlier. */
-  int8_t movement_ = 0;
+  int8_t movement_ ZEROED;
 };
 
 }  // namespace raspilot

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "../core/compiler.h"
 #include "../core/types.h"
 #include "../store/calibration.h"
 #include "input_channel.h"
@@ -54,8 +55,8 @@ class PwmReader {
   const Calibration& calibration_;
   // What is small lies where one instruction reaches it.
   Stopwatch age_;
-  uint16_t checked_at_ = 0;
-  uint8_t levels_ = 0;
+  uint16_t checked_at_ ZEROED;
+  uint8_t levels_ ZEROED;
   bool is_lost_ = true;
   RangeLearner learner_;
   InputChannel channels_[INPUTS];

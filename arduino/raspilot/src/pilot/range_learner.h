@@ -1,6 +1,7 @@
 /** Learns where a receiver's channels end and rest, because makers differ (thesis 2.4.1). */
 #pragma once
 
+#include "../core/compiler.h"
 #include "../core/types.h"
 #include "../store/calibration.h"
 
@@ -31,7 +32,7 @@ class RangeLearner {
   };
 
   Ends ends_[INPUTS];
-  bool is_learning_ = false;
+  bool is_learning_ ZEROED;
 };
 
 /** The pulse on the scale 1000, 1500, 2000 us, ticks; beyond the ends the lines go on. */

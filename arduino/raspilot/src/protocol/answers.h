@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "../core/compiler.h"
 #include "../core/types.h"
 
 namespace raspilot {
@@ -31,7 +32,7 @@ class Answers {
   static constexpr uint8_t CAPACITY = 4;
 
   PendingAnswer waiting_[CAPACITY];
-  uint8_t count_ = 0;
+  uint8_t count_ ZEROED;
 };
 
 /**
@@ -55,7 +56,7 @@ class RefusalLimit {
   void forget_oldest();
 
   Refused refused_[CAPACITY];
-  uint8_t count_ = 0;
+  uint8_t count_ ZEROED;
 };
 
 }  // namespace raspilot

@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "../core/compiler.h"
 #include "cobs.h"
 #include "crc16.h"
 #include "frame.h"
@@ -31,11 +32,11 @@ class CheckedReader {
   ReceiveBuffer& buffer_;
   CobsDecoder cobs_;
   Crc16 crc_;
-  uint32_t first_us_ = 0;
-  uint8_t length_ = 0;
-  uint8_t payload_size_ = 0;
-  bool has_begun_ = false;
-  bool is_too_long_ = false;
+  uint32_t first_us_ ZEROED;
+  uint8_t length_ ZEROED;
+  uint8_t payload_size_ ZEROED;
+  bool has_begun_ ZEROED;
+  bool is_too_long_ ZEROED;
 };
 
 }  // namespace raspilot

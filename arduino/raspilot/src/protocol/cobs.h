@@ -3,6 +3,8 @@
 
 #include <stdint.h>
 
+#include "../core/compiler.h"
+
 namespace raspilot {
 
 /** Takes the bytes of one frame without its closing zero, as they come from the line. */
@@ -32,8 +34,8 @@ class CobsDecoder {
   }
 
  private:
-  uint8_t left_ = 0;
-  bool is_zero_next_ = false;
+  uint8_t left_ ZEROED;
+  bool is_zero_next_ ZEROED;
 };
 
 /** Writes one encoded frame into a buffer that has room for one byte more than the plain bytes. */

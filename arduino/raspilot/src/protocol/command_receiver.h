@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "../core/compiler.h"
 #include "command_executor.h"
 #include "frame.h"
 
@@ -24,10 +25,10 @@ class CommandReceiver {
 
  private:
   ReceiveBuffer& buffer_;
-  CommandDefinition definition_ = {};
-  uint32_t first_us_ = 0;
-  uint8_t length_ = 0;
-  bool is_in_payload_ = false;
+  CommandDefinition definition_ ZEROED;
+  uint32_t first_us_ ZEROED;
+  uint8_t length_ ZEROED;
+  bool is_in_payload_ ZEROED;
 };
 
 }  // namespace raspilot

@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "../core/compiler.h"
 #include "../core/types.h"
 
 #ifndef RASPILOT_BAUD
@@ -52,15 +53,15 @@ class Forwarder {
   void remember(uint32_t now_us);
 
   Autopilot& autopilot_;
-  uint32_t due_us_[STREAMS] = {};
-  uint32_t remembered_us_ = 0;
+  uint32_t due_us_[STREAMS] ZEROED;
+  uint32_t remembered_us_ ZEROED;
   /** When the newest orientations were sent, in steps of 64 us, by sequence modulo REMEMBERED. */
-  uint16_t sent_[REMEMBERED] = {};
-  uint16_t sequence_ = 0;
-  uint16_t period_ms_ = 0;
-  uint8_t remembered_ = 0;
-  uint8_t next_ = 0;
-  bool is_started_ = false;
+  uint16_t sent_[REMEMBERED] ZEROED;
+  uint16_t sequence_ ZEROED;
+  uint16_t period_ms_ ZEROED;
+  uint8_t remembered_ ZEROED;
+  uint8_t next_ ZEROED;
+  bool is_started_ ZEROED;
 };
 
 }  // namespace raspilot

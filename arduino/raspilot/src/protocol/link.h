@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "../core/compiler.h"
 #include "../core/types.h"
 #include "answers.h"
 #include "checked_reader.h"
@@ -66,23 +67,23 @@ class Link {
   void on_dropped();
 
   Autopilot& autopilot_;
-  ReceiveBuffer buffer_ = {};
+  ReceiveBuffer buffer_ ZEROED;
   CheckedReader reader_;
   CommandReceiver receiver_;
   ThesisDoor door_;
   Answers answers_;
   RefusalLimit limit_;
   Forwarder forwarder_;
-  uint32_t heard_us_ = 0;
-  uint16_t dropped_ = 0;
-  uint16_t missing_ = 0;
-  uint8_t sequence_ = 0;
-  uint8_t expected_ = 0;
-  bool has_expected_ = false;
-  bool is_heard_ = false;
-  bool is_thesis_ = false;
+  uint32_t heard_us_ ZEROED;
+  uint16_t dropped_ ZEROED;
+  uint16_t missing_ ZEROED;
+  uint8_t sequence_ ZEROED;
+  uint8_t expected_ ZEROED;
+  bool has_expected_ ZEROED;
+  bool is_heard_ ZEROED;
+  bool is_thesis_ ZEROED;
   /** A valid checked frame closes the door to thesis framing until reset. */
-  bool is_door_closed_ = false;
+  bool is_door_closed_ ZEROED;
 };
 
 }  // namespace raspilot

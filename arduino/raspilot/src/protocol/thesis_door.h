@@ -6,6 +6,8 @@
 
 #include <stdint.h>
 
+#include "../core/compiler.h"
+
 namespace raspilot {
 
 /**
@@ -26,12 +28,12 @@ class ThesisDoor {
   bool is_field_good() const;
   void break_run();
 
-  uint32_t window_ = 0;
-  uint32_t first_us_ = 0;
-  char type_ = 0;
-  uint8_t left_ = 0;
-  uint8_t points_ = 0;
-  uint8_t commands_ = 0;
+  uint32_t window_ ZEROED;
+  uint32_t first_us_ ZEROED;
+  char type_ ZEROED;
+  uint8_t left_ ZEROED;
+  uint8_t points_ ZEROED;
+  uint8_t commands_ ZEROED;
 };
 
 }  // namespace raspilot

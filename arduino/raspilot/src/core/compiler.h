@@ -1,0 +1,15 @@
+/** What the chip's compiler needs to be told where flash is short; nothing on a PC. */
+#pragma once
+
+#ifdef __AVR__
+/** One copy, called: where it is inlined or cloned for its object it takes more. */
+#define OUT_OF_LINE __attribute__((noinline, noclone))
+/**
+ * A member that is zero at first. On the chip whatever has such members is static and lies in
+ * memory that start-up clears: to clear it member by member takes a kilobyte of flash.
+ */
+#define ZEROED
+#else
+#define OUT_OF_LINE
+#define ZEROED = {}
+#endif
