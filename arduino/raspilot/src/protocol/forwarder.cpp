@@ -21,13 +21,11 @@ constexpr uint32_t OUTPUT_AGE_US = 100000;
 constexpr uint8_t STEP_BITS = 6;
 constexpr uint8_t ORIENTATION_SIZE = 26;
 constexpr uint8_t ATTITUDE_SIZE = 12;
-constexpr float DEG_PER_CDEG = 0.01f;
-constexpr float DEG_S_PER_16TH = 0.0625f;
 
 void write_angles(const Attitude& attitude, WireWriter& writer) {
-  writer.f32(attitude.yaw_cdeg * DEG_PER_CDEG);
-  writer.f32(attitude.pitch_cdeg * DEG_PER_CDEG);
-  writer.f32(attitude.roll_cdeg * DEG_PER_CDEG);
+  writer.hundredths(attitude.yaw_cdeg);
+  writer.hundredths(attitude.pitch_cdeg);
+  writer.hundredths(attitude.roll_cdeg);
 }
 
 }  // namespace
@@ -125,9 +123,9 @@ bool Forwarder::send_orientation(uint32_t now_us) {
   WireWriter writer(payload);
   writer.u16(sequence_);
   write_angles(attitude, writer);
-  writer.f32(attitude.yaw_rate_16 * DEG_S_PER_16TH);
-  writer.f32(attitude.pitch_rate_16 * DEG_S_PER_16TH);
-  writer.f32(attitude.roll_rate_16 * DEG_S_PER_16TH);
+  writer.sixteenths(attitude.yaw_rate_16);
+  writer.sixteenths(attitude.pitch_rate_16);
+  writer.sixteenths(attitude.roll_rate_16);
   if (!autopilot_.link.send('O', payload, sizeof payload)) return false;
   remember(now_us);
   return true;

@@ -1,9 +1,10 @@
 #include "thesis_door.h"
 
-#include <string.h>
-
+#include "../core/flash.h"
 #include "../store/gains.h"
+#include "../store/wire_bytes.h"
 #include "frame.h"
+#include "location.h"
 
 namespace raspilot {
 
@@ -11,34 +12,18 @@ namespace {
 
 constexpr uint8_t POINTS_NEEDED = 8;
 constexpr uint8_t COMMANDS_NEEDED = 2;
-constexpr uint8_t NOT_OF_THE_THESIS = 255;
 
-uint8_t size_of(char type) {
-  switch (type) {
-    case 'T': return 0;
-    case 'h': case 'b': case 'B': return 2;
-    case 'p': return 3;
-    case 'l': return 8;
-    case 't': return TWO_AXIS_GAINS_SIZE;
-    default: return NOT_OF_THE_THESIS;
-  }
-}
+/** A Command of the thesis: its type, its size, its points. */
+struct ThesisCommand {
+  char type;
+  uint8_t size;
+  uint8_t points;
+};
 
-uint8_t points_of(char type) {
-  switch (type) {
-    case 't': return 8;
-    case 'p': return 4;
-    case 'b': case 'B': return 3;
-    case 'l': return 2;
-    default: return 0;
-  }
-}
-
-bool is_within(uint32_t bits, float lowest, float highest) {
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return value >= lowest && value <= highest;
-}
+const ThesisCommand THESIS_COMMANDS[] PROGMEM = {
+    {'T', 0, 0}, {'h', 2, 0}, {'b', 2, 3}, {'B', 2, 3},
+    {'p', 3, 4}, {'l', 8, 2}, {'t', TWO_AXIS_GAINS_SIZE, 8},
+};
 
 }  // namespace
 
@@ -55,21 +40,22 @@ bool ThesisDoor::take(uint8_t byte, uint32_t now_us) {
     }
   }
   if (type_ == 0 || left_ != 0) return false;
-  points_ = static_cast<uint8_t>(points_ + points_of(type_));
+  points_ = static_cast<uint8_t>(points_ + worth_);
   type_ = 0;
   if (commands_ < COMMANDS_NEEDED) ++commands_;
   return commands_ >= COMMANDS_NEEDED && points_ >= POINTS_NEEDED;
 }
 
 void ThesisDoor::begin(char type, uint32_t now_us) {
-  const uint8_t size = size_of(type);
-  if (size == NOT_OF_THE_THESIS) {
-    break_run();
+  for (const ThesisCommand& command : THESIS_COMMANDS) {
+    if (static_cast<char>(pgm_read_byte(&command.type)) != type) continue;
+    type_ = type;
+    left_ = pgm_read_byte(&command.size);
+    worth_ = pgm_read_byte(&command.points);
+    first_us_ = now_us;
     return;
   }
-  type_ = type;
-  left_ = size;
-  first_us_ = now_us;
+  break_run();
 }
 
 void ThesisDoor::expire(uint32_t now_us) {
@@ -84,10 +70,10 @@ bool ThesisDoor::is_field_good() const {
     case 'p':
       if (left_ == 2) return (window_ & 0xFF) <= 1;
       return left_ != 0 || (number >= 10 && number <= 1000);
-    case 't': return (left_ & 3) != 0 || is_within(window_, 0.0f, GREATEST_GAIN);
+    case 't': return (left_ & 3) != 0 || is_gain(window_);
     case 'l':
-      if (left_ == 4) return is_within(window_, -90.0f, 90.0f);
-      return left_ != 0 || is_within(window_, -180.0f, 180.0f);
+      if (left_ == 4) return is_magnitude_within(window_, MOST_LATITUDE);
+      return left_ != 0 || is_magnitude_within(window_, MOST_LONGITUDE);
     default: return true;
   }
 }

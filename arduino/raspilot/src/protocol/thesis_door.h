@@ -32,6 +32,8 @@ class ThesisDoor {
   uint32_t first_us_ ZEROED;
   char type_ ZEROED;
   uint8_t left_ ZEROED;
+  /** Points of the Command that is being taken. */
+  uint8_t worth_ ZEROED;
   uint8_t points_ ZEROED;
   uint8_t commands_ ZEROED;
 };

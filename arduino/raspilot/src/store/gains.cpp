@@ -17,8 +17,6 @@ constexpr uint8_t WIRED_GAINS_A_LOOP = 6;
 constexpr uint32_t GREATEST_GAIN_BITS = 0x42480000;
 constexpr uint32_t MINUS_ZERO_BITS = 0x80000000;
 
-bool is_gain(uint32_t bits) { return bits <= GREATEST_GAIN_BITS || bits == MINUS_ZERO_BITS; }
-
 bool read(const uint8_t* wire, Gains& gains, uint8_t gains_a_loop) {
   WireReader judged(wire);
   for (uint8_t count = 0; count < 2 * gains_a_loop; ++count) {
@@ -50,6 +48,8 @@ void write(const Gains& gains, uint8_t* wire, uint8_t gains_a_loop) {
 }
 
 }  // namespace
+
+bool is_gain(uint32_t bits) { return bits <= GREATEST_GAIN_BITS || bits == MINUS_ZERO_BITS; }
 
 const Gains DEFAULT_GAINS PROGMEM = {
     {{6.0f, 0.0f, 0.0f}, {3.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}},

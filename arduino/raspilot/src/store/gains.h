@@ -20,6 +20,9 @@ struct Gains {
   PidGains stabilize[3];
 };
 
+/** Whether a gain of these IEEE 754 bits is 0 to 50. */
+bool is_gain(uint32_t bits);
+
 /** What levels the default aircraft. In flash: copy with memcpy_P. */
 extern const Gains DEFAULT_GAINS;
 

@@ -3,6 +3,8 @@
 
 #include <stdint.h>
 
+#include "../core/compiler.h"
+
 namespace raspilot {
 
 /** Reads on from `bytes`; the caller knows that enough are there. */
@@ -14,11 +16,16 @@ class WireReader {
   uint16_t u16();
   int16_t i16() { return static_cast<int16_t>(u16()); }
   uint32_t u32();
-  float f32();
 
  private:
   const uint8_t* next_;
 };
+
+/**
+ * Whether an IEEE 754 single is at most `most_bits`, a positive one, in magnitude; false for NaN.
+ * Positive floats are ordered as their bits are.
+ */
+bool is_magnitude_within(uint32_t bits, uint32_t most_bits);
 
 /** Writes on from `bytes`; the caller knows that there is room. */
 class WireWriter {
@@ -30,8 +37,13 @@ class WireWriter {
   void i16(int16_t value) { u16(static_cast<uint16_t>(value)); }
   void u32(uint32_t value);
   void f32(float value);
+  /** `value` / 100 and `value` / 16 as the nearest single, without floating point. */
+  void hundredths(int16_t value);
+  void sixteenths(int16_t value);
 
  private:
+  void fraction(int16_t value, uint32_t unit, uint8_t halvings);
+
   uint8_t* next_;
 };
 

@@ -4,15 +4,10 @@
  */
 #include "../../store/wire_bytes.h"
 #include "../command_executor.h"
+#include "../location.h"
 
 namespace raspilot {
 namespace {
-
-constexpr float MOST_LATITUDE_DEG = 90.0f;
-constexpr float MOST_LONGITUDE_DEG = 180.0f;
-
-/** False for NaN too. */
-bool is_within(float value, float most) { return value >= -most && value <= most; }
 
 Reason on_altitude(Autopilot&, const Request&) { return Reason::NONE; }
 
@@ -23,8 +18,8 @@ Reason on_heading(Autopilot&, const Request& request) {
 
 Reason on_location(Autopilot&, const Request& request) {
   WireReader reader(request.payload);
-  const bool is_latitude = is_within(reader.f32(), MOST_LATITUDE_DEG);
-  const bool is_longitude = is_within(reader.f32(), MOST_LONGITUDE_DEG);
+  const bool is_latitude = is_magnitude_within(reader.u32(), MOST_LATITUDE);
+  const bool is_longitude = is_magnitude_within(reader.u32(), MOST_LONGITUDE);
   return is_latitude && is_longitude ? Reason::NONE : Reason::OUT_OF_RANGE;
 }
 
