@@ -22,6 +22,7 @@ help:
 	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
 	@echo 'make format   put the code into the project'"'"'s form'
 	@echo 'make schemas  JSON Schema of every configuration file, into build/schemas'
+	@echo 'make -C arduino help  the firmware: build, upload, figures'
 	@echo 'make clean    remove what the others made'
 
 $(PY):
@@ -66,4 +67,4 @@ schemas: $(VENV)/.run-ready
 	$(BIN)/up schemas build/schemas
 
 clean:
-	rm -rf build dist run $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info
+	rm -rf build dist run arduino/build* $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info
