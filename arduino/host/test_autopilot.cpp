@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "flying_board.h"
@@ -45,6 +46,17 @@ bool is_answered(FlyingBoard& board, char type) {
     if (frame.type == 'K' && frame.payload[0] == type) return true;
   }
   return false;
+}
+
+uint32_t greatest_gap_us(const FlyingBoard& board, char type) {
+  uint32_t newest_us = 0;
+  uint32_t gap_us = 0;
+  for (const SentFrame& frame : board.frames) {
+    if (frame.type != type) continue;
+    if (newest_us != 0) gap_us = std::max(gap_us, frame.at_us - newest_us);
+    newest_us = frame.at_us;
+  }
+  return gap_us;
 }
 
 }  // namespace
@@ -150,6 +162,41 @@ TEST_CASE("a reset in flight comes back armed, in its mode, with its attitude") 
   CHECK_FALSE(later.autopilot.attitude.is_calibrating());
 }
 
+TEST_CASE("FBW flies until the Outputs come that the Raspberry Pi has asked to send") {
+  Armed board;
+  board.sticks[AUX1] = 2000;
+  board.send('s');
+  board.imu.turn(50, 0, 0);
+  board.run(400);
+  board.imu.turn(0, 0, 0);
+  board.run(100);
+  REQUIRE(board.output_us(AILERONS) < 1400);
+  board.send('M', {'u'});
+  for (int slot = 0; slot < 100; ++slot) {
+    board.run(2);
+    REQUIRE(board.autopilot.authority.mode() == Mode::OUTPUT);
+    REQUIRE(board.output_us(AILERONS) < 1400);
+    REQUIRE(board.output_us(ELEVATOR) > 1300);
+  }
+}
+
+TEST_CASE("an armed aircraft that is still for once does not take that for its gyro's bias") {
+  fake_board().reset();
+  FlyingBoard board;
+  board.imu.gyro_noise_deg_s = 8;
+  board.wake();
+  REQUIRE(board.autopilot.attitude.is_bias_from_eeprom());
+  board.flick_aux2();
+  REQUIRE(board.autopilot.authority.is_armed());
+  board.imu.gyro_noise_deg_s = 0.06;
+  board.run(5000);
+  CHECK(board.autopilot.attitude.is_still());
+  CHECK(board.autopilot.attitude.is_bias_from_eeprom());
+  board.sticks[AUX2] = 1000;
+  board.run(3000);
+  CHECK_FALSE(board.autopilot.authority.is_armed());
+}
+
 TEST_CASE("power-on never arms, whatever the sticks say") {
   fake_board().reset();
   FlyingBoard board;
@@ -201,6 +248,7 @@ TEST_CASE("gains of the Raspberry Pi fly at once and are kept, without holding u
   for (const SentFrame& frame : board.frames) orientations += frame.type == 'O';
   CHECK(orientations >= slots / 10 - 1);
   CHECK(orientations >= 5);
+  CHECK(greatest_gap_us(board, 'O') <= 24000);
   board.run(500);
   CHECK((board.take('x').payload[FLAGS_AT] & GAINS_STORED) != 0);
   CHECK(board.autopilot.settings.gains.stabilize[2].d == 7.5f);

@@ -199,6 +199,25 @@ TEST_CASE("a change that nobody marks does not end in a copy of two halves") {
   CHECK(later.stabilize[2].p == 41);
 }
 
+TEST_CASE("a save takes the slot's mark away first and puts it there last") {
+  Settings settings = with_two_copies();
+  save_gain(settings, 3);
+  write_bytes(settings, 1);
+  const uint8_t& mark = fake_board().eeprom[slot_address(1, 0)];
+  CHECK(mark == SLOT_NO_MARK);
+  uint8_t slot[GAINS_SIZE + SLOT_OVERHEAD];
+  while (mark == SLOT_NO_MARK) {
+    memcpy(slot, &mark, sizeof slot);
+    REQUIRE(settings.is_saving());
+    settings.background(false);
+    fake_board().elapse(LOOK_US);
+  }
+  slot[0] = SLOT_MARK;
+  CHECK(memcmp(slot, &mark, sizeof slot) == 0);
+  REQUIRE(save_all(settings));
+  CHECK(memcmp(slot, &mark, sizeof slot) == 0);
+}
+
 TEST_CASE("one flipped bit in the newest copy gives the older one") {
   with_two_copies();
   uint8_t whole[EEPROM_SIZE];

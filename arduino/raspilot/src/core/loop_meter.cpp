@@ -7,10 +7,6 @@ namespace {
 constexpr uint32_t SECOND_US = 1000000;
 constexpr uint16_t GREATEST = 65535;
 
-uint16_t bounded(uint32_t value) {
-  return value < GREATEST ? static_cast<uint16_t>(value) : GREATEST;
-}
-
 }  // namespace
 
 void LoopMeter::on_slot(uint32_t due_us, uint32_t now_us) {
@@ -22,17 +18,17 @@ void LoopMeter::on_slot(uint32_t due_us, uint32_t now_us) {
     end_second(now_us);
   }
   ++slots_;
-  const uint32_t late_us = now_us - due_us;
-  if (static_cast<int32_t>(late_us) <= 0) return;
-  if (late_us > latest_us_) latest_us_ = bounded(late_us);
-  if (late_us > MOST_LATE_US && overruns_ < GREATEST) ++overruns_;
+  const int32_t late_us = static_cast<int32_t>(now_us - due_us);
+  if (late_us <= latest_us_) return;
+  latest_us_ = late_us < GREATEST ? static_cast<uint16_t>(late_us) : GREATEST;
 }
 
 void LoopMeter::end_second(uint32_t now_us) {
   // The seconds keep their own grid: a slot that begins a little early or late moves no second.
   second_us_ += SECOND_US;
-  if (seconds_ < GREATEST) ++seconds_;
-  period_us_ = bounded((now_us - first_slot_us_ + slots_ / 2) / slots_);
+  if (seconds_ != GREATEST) ++seconds_;
+  // The watchdog ends a slot of 120 ms, so that there are eight and more in a second.
+  period_us_ = static_cast<uint16_t>((now_us - first_slot_us_) / slots_);
   first_slot_us_ = now_us;
   slots_ = 0;
   late_us_ = latest_us_;

@@ -27,11 +27,9 @@ bool read_slot(uint16_t address, uint8_t version, uint8_t size, uint8_t* data, u
   return crc.is_zero();
 }
 
-bool is_slot_erased(uint16_t address, uint8_t size) {
-  for (uint8_t at = 0; at < size + SLOT_OVERHEAD; ++at) {
-    if (board::eeprom_read(static_cast<uint16_t>(address + at)) != ERASED) return false;
-  }
-  return true;
+bool is_slot_erased(uint16_t address) {
+  // Two cells: one alone may have lost its value.
+  return board::eeprom_read(address) == ERASED && board::eeprom_read(++address) == ERASED;
 }
 
 }  // namespace raspilot

@@ -26,7 +26,7 @@ constexpr uint16_t slot_address(uint8_t kind, uint8_t slot) {
 
 /** Copies the slot's data; false when mark, version or checksum is wrong. */
 bool read_slot(uint16_t address, uint8_t version, uint8_t size, uint8_t* data, uint8_t& sequence);
-/** Whether nothing was ever written there. */
-bool is_slot_erased(uint16_t address, uint8_t size);
+/** Whether nothing was ever written there: a save changes the mark first, and nothing erases. */
+bool is_slot_erased(uint16_t address);
 
 }  // namespace raspilot

@@ -1,8 +1,9 @@
 #include "profile.h"
 
+#include <string.h>
+
 #include "../core/flash.h"
 #include "fields.h"
-#include "wire_bytes.h"
 
 namespace raspilot {
 
@@ -31,7 +32,8 @@ bool is_profile(const uint8_t* wire) {
   if (!are_in_range(FIELDS, sizeof FIELDS, wire)) return false;
   for (uint8_t output = 0; output < OUTPUTS; ++output) {
     const uint8_t* const servo = wire + output * SERVO_SIZE;
-    if (WireReader(servo + LOWEST_AT).u16() >= WireReader(servo + HIGHEST_AT).u16()) return false;
+    // Big-endian numbers are ordered as their bytes are.
+    if (memcmp(servo + LOWEST_AT, servo + HIGHEST_AT, 2) >= 0) return false;
   }
   for (uint8_t position = 0; position < 3; ++position) {
     if (!is_switch_mode(wire[SWITCH_AT + position])) return false;

@@ -30,15 +30,18 @@ void Settings::load() {
   memcpy_P(&gains, &DEFAULT_GAINS, sizeof gains);
   memcpy_P(&calibration, &DEFAULT_CALIBRATION, sizeof calibration);
   for (uint8_t kind = 0; kind < KINDS; ++kind) load_kind(static_cast<Kind>(kind));
-  is_profile_broken_ = !kinds_[PROFILE].is_stored &&
-                       !(is_slot_erased(slot_address(PROFILE, 0), PROFILE_SIZE) &&
-                         is_slot_erased(slot_address(PROFILE, 1), PROFILE_SIZE));
+  is_profile_broken_ = !kinds_[PROFILE].is_stored && !(is_slot_erased(slot_address(PROFILE, 0)) &&
+                                                        is_slot_erased(slot_address(PROFILE, 1)));
+  kind_ = PROFILE;
   begin_save();
 }
 
 void Settings::load_kind(Kind kind) {
   KindState& state = kinds_[kind];
-  state = KindState();
+  state.is_pending = false;
+  state.is_stored = false;
+  state.slot = 1;
+  state.sequence = 0;
   for (uint8_t slot = 0; slot < SLOTS_A_KIND; ++slot) {
     uint8_t data[LARGEST_SIZE];
     uint8_t sequence;
@@ -75,48 +78,27 @@ bool Settings::background(bool is_armed) {
 }
 
 void Settings::begin_save() {
-  step_ = Step::WRITE;
+  is_checking_ = false;
   offset_ = 0;
   attempts_ = 0;
 }
 
 void Settings::step() {
-  switch (step_) {
-    case Step::WRITE:
-      write_next();
-      break;
-    case Step::CHECK:
-      check_next();
-      break;
-    case Step::MARK:
-      board::eeprom_write(target(), SLOT_MARK);
-      step_ = Step::CHECK_MARK;
-      break;
-    case Step::CHECK_MARK:
-      if (board::eeprom_read(target()) == SLOT_MARK) {
-        finish();
-      } else {
-        fail();
-      }
-      break;
+  const uint16_t start = target();
+  const uint16_t address = static_cast<uint16_t>(start + offset_);
+  if (is_checking_) {
+    if (board::eeprom_read(address) != next_byte()) {
+      fail();
+    } else if (is_at_end()) {
+      finish();
+    }
+  } else if (!is_at_end()) {
+    board::eeprom_write(address, next_byte());
+  } else {
+    board::eeprom_write(start, SLOT_MARK);
+    is_checking_ = true;
+    offset_ = 0;
   }
-}
-
-void Settings::write_next() {
-  const uint16_t address = static_cast<uint16_t>(target() + offset_);
-  board::eeprom_write(address, next_byte());
-  if (!is_at_end()) return;
-  offset_ = 0;
-  step_ = Step::CHECK;
-}
-
-void Settings::check_next() {
-  const uint16_t address = static_cast<uint16_t>(target() + offset_);
-  if (board::eeprom_read(address) != next_byte()) {
-    fail();
-    return;
-  }
-  if (is_at_end()) step_ = Step::MARK;
 }
 
 void Settings::fail() {
@@ -143,7 +125,7 @@ uint8_t Settings::next_byte() {
   const uint8_t at = offset_++;
   if (at == 0) {
     crc_ = Crc16();
-    return SLOT_NO_MARK;
+    return is_checking_ ? SLOT_MARK : SLOT_NO_MARK;
   }
   const uint8_t end = static_cast<uint8_t>(SLOT_HEADER_SIZE + size_of(kind_));
   if (at >= end) return at == end ? crc_.high() : crc_.low();

@@ -44,22 +44,19 @@ class Settings {
 
  private:
   enum Kind : uint8_t { PROFILE, GAINS, CALIBRATION, KINDS };
-  enum class Step : uint8_t { WRITE, CHECK, MARK, CHECK_MARK };
 
   struct KindState {
-    bool is_pending = false;
-    bool is_stored = false;
+    bool is_pending;
+    bool is_stored;
     /** Where the newest copy lies, and its sequence. */
-    uint8_t slot = 1;
-    uint8_t sequence = 0;
+    uint8_t slot;
+    uint8_t sequence;
   };
 
   void load_kind(Kind kind);
   void save(Kind kind);
   void begin_save();
   void step();
-  void write_next();
-  void check_next();
   void fail();
   void finish();
   uint8_t next_byte();
@@ -68,14 +65,16 @@ class Settings {
   bool take(Kind kind, const uint8_t* data);
   void give(uint8_t* data) const;
 
+  // load() sets all of these: nothing is to be done before it.
   KindState kinds_[KINDS];
   /** The kind that is being saved, if any is pending. */
-  Kind kind_ = PROFILE;
-  Step step_ = Step::WRITE;
-  uint8_t offset_ = 0;
-  uint8_t attempts_ = 0;
+  Kind kind_;
+  /** Reads back what was written. */
+  bool is_checking_;
+  uint8_t offset_;
+  uint8_t attempts_;
   Crc16 crc_;
-  bool is_profile_broken_ = false;
+  bool is_profile_broken_;
 };
 
 }  // namespace raspilot
