@@ -119,7 +119,7 @@ static void read_imu_until(uint16_t due_ticks) {
   }
 }
 
-void run_slot() {
+OUT_OF_LINE void run_slot() {
   const uint32_t now = clock::now_us();
   autopilot.meter.on_slot(due_us, now);
   edges::drain(autopilot.receiver, now);

@@ -1,5 +1,6 @@
 #include "mpu6050.h"
 
+#include "../core/compiler.h"
 #include "../core/flash.h"
 
 namespace raspilot {
@@ -44,7 +45,7 @@ void Mpu6050::begin() {
   start_over(0);
 }
 
-void Mpu6050::start_over(uint8_t rest_slots) {
+OUT_OF_LINE void Mpu6050::start_over(uint8_t rest_slots) {
   step_ = FREE_BUS;
   rest_slots_ = rest_slots;
   equals_ = 0;

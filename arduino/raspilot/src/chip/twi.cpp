@@ -3,6 +3,7 @@
 #include <avr/io.h>
 #include <util/twi.h>
 
+#include "../core/compiler.h"
 #include "clock.h"
 
 namespace raspilot {
@@ -57,7 +58,7 @@ void Twi::begin_write(uint8_t device, uint8_t at, uint8_t value) {
   start();
 }
 
-void Twi::begin_read(uint8_t device, uint8_t at, uint8_t* bytes, uint8_t count) {
+OUT_OF_LINE void Twi::begin_read(uint8_t device, uint8_t at, uint8_t* bytes, uint8_t count) {
   device_ = device;
   at_ = at;
   bytes_ = bytes;
@@ -66,7 +67,7 @@ void Twi::begin_read(uint8_t device, uint8_t at, uint8_t* bytes, uint8_t count) 
   start();
 }
 
-Twi::State Twi::pump() {
+OUT_OF_LINE Twi::State Twi::pump() {
   if (state_ != State::BUSY) return state_;
   if (clocks_) {
     recover();

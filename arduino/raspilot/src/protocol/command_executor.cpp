@@ -1,9 +1,18 @@
 #include "command_executor.h"
 
+#include "../core/compiler.h"
+
 namespace raspilot {
 
 // Zero before any constructor runs, whatever their order.
 CommandGroup* CommandGroup::first_ = nullptr;
+
+OUT_OF_LINE void CommandGroup::enter(const CommandDefinition* table, uint8_t count) {
+  table_ = table;
+  count_ = count;
+  next_ = first_;
+  first_ = this;
+}
 
 bool CommandExecutor::find(char type, CommandDefinition& found) {
   for (const CommandGroup* group = CommandGroup::first_; group != nullptr; group = group->next_) {

@@ -47,15 +47,16 @@ struct CommandDefinition {
 class CommandGroup {
  public:
   template <size_t N>
-  explicit CommandGroup(const CommandDefinition (&table)[N])
-      : table_(table), next_(first_), count_(static_cast<uint8_t>(N)) {
-    first_ = this;
+  explicit CommandGroup(const CommandDefinition (&table)[N]) {
+    enter(table, static_cast<uint8_t>(N));
   }
   CommandGroup(const CommandGroup&) = delete;
   CommandGroup& operator=(const CommandGroup&) = delete;
 
  private:
   friend class CommandExecutor;
+
+  void enter(const CommandDefinition* table, uint8_t count);
 
   static CommandGroup* first_;
 

@@ -1,5 +1,6 @@
 #include "saved_state.h"
 
+#include "../core/compiler.h"
 #include "../protocol/crc16.h"
 
 namespace raspilot {
@@ -24,7 +25,7 @@ bool SavedStates::is_whole(const Copy& copy) {
 }
 
 /** The copy that counts, by sequence: neither whole nor broken matters here. */
-uint8_t SavedStates::newest() const {
+OUT_OF_LINE uint8_t SavedStates::newest() const {
   const uint8_t ahead = static_cast<uint8_t>(copies_[1].sequence - copies_[0].sequence);
   return static_cast<int8_t>(ahead) > 0;
 }
