@@ -1,6 +1,7 @@
 #include "forwarder.h"
 
 #include "../core/autopilot.h"
+#include "../core/compiler.h"
 #include "../store/wire_bytes.h"
 #include "status.h"
 
@@ -13,12 +14,18 @@ constexpr uint32_t LOAD_BYTES_S = RASPILOT_BAUD / 10 * 7 / 10;
 constexpr uint32_t STATUS_BYTES_S = 26 * 5;
 constexpr uint32_t STREAMED_BYTES = 19 + 32 + 14;
 constexpr uint32_t LEAST_PERIOD_US = STREAMED_BYTES * 1000000UL / (LOAD_BYTES_S - STATUS_BYTES_S);
-constexpr uint32_t PERIOD_US = LEAST_PERIOD_US > 20000 ? LEAST_PERIOD_US : 20000;
-constexpr uint32_t STATUS_PERIOD_US = 200000;
-constexpr uint32_t THESIS_PERIOD_US = 50000;
-constexpr uint32_t US_PER_MS = 1000;
-constexpr uint32_t OUTPUT_AGE_US = 100000;
-constexpr uint8_t STEP_BITS = 6;
+constexpr uint8_t STEP_BITS = 5;
+
+/** At least so long. */
+constexpr uint16_t steps_of(uint32_t us) {
+  return static_cast<uint16_t>((us + (1 << STEP_BITS) - 1) >> STEP_BITS);
+}
+
+constexpr uint16_t LEAST_PERIOD = steps_of(LEAST_PERIOD_US);
+constexpr uint16_t PERIOD = steps_of(LEAST_PERIOD_US > 20000 ? LEAST_PERIOD_US : 20000);
+constexpr uint16_t STATUS_PERIOD = steps_of(200000);
+constexpr uint16_t THESIS_PERIOD = steps_of(50000);
+constexpr uint16_t OLDEST = steps_of(100000);
 constexpr uint8_t ORIENTATION_SIZE = 26;
 constexpr uint8_t ATTITUDE_SIZE = 12;
 
@@ -32,48 +39,53 @@ void write_angles(const Attitude& attitude, WireWriter& writer) {
 
 constexpr uint32_t Forwarder::NEVER;
 
-void Forwarder::start(uint32_t now_us) {
+OUT_OF_LINE Forwarder::Steps Forwarder::to_steps(uint32_t time_us) {
+  return static_cast<Steps>(time_us >> STEP_BITS);
+}
+
+OUT_OF_LINE void Forwarder::start(uint32_t now_us) {
   if (is_started_) return;
   is_started_ = true;
-  for (uint8_t stream = 0; stream < STREAMS; ++stream) due_us_[stream] = now_us;
+  for (Steps& due : due_) due = to_steps(now_us);
 }
 
 bool Forwarder::send_next(uint32_t now_us) {
   if (!is_started_) return false;
+  const Steps now = to_steps(now_us);
   for (uint8_t tried = 0; tried < STREAMS; ++tried) {
     const uint8_t stream = next_;
-    if (is_due(stream, now_us)) {
-      // What does not fit stays due and is sent with newer values; nothing overtakes it.
-      if (!send(stream, now_us)) return false;
-      const uint32_t period = period_us(stream);
-      due_us_[stream] += period;
-      if (static_cast<int32_t>(now_us - due_us_[stream]) >= 0) due_us_[stream] = now_us + period;
-      next_ = static_cast<uint8_t>((stream + 1) % STREAMS);
-      return true;
-    }
+    const bool is_now = is_due(stream, now);
+    // What does not fit stays due and is sent with newer values; nothing overtakes it.
+    if (is_now && !send(stream, now_us)) return false;
     next_ = static_cast<uint8_t>((stream + 1) % STREAMS);
+    if (!is_now) continue;
+    const Steps each = period(stream);
+    due_[stream] = static_cast<Steps>(due_[stream] + each);
+    if (is_due(stream, now)) due_[stream] = static_cast<Steps>(now + each);
+    return true;
   }
   return false;
 }
 
-uint32_t Forwarder::period_us(uint8_t stream) const {
-  if (stream == STATUS_STREAM) return STATUS_PERIOD_US;
+OUT_OF_LINE Forwarder::Steps Forwarder::period(uint8_t stream) const {
+  if (stream == STATUS_STREAM) return STATUS_PERIOD;
   const bool is_thesis = autopilot_.link.is_thesis();
-  const uint32_t usual_us = is_thesis ? THESIS_PERIOD_US : PERIOD_US;
-  if (period_ms_ == 0) return usual_us;
-  const uint32_t asked_us = period_ms_ * US_PER_MS;
+  const Steps usual = is_thesis ? THESIS_PERIOD : PERIOD;
+  if (period_ms_ == 0) return usual;
+  // A millisecond is 31 1/4 steps.
+  const Steps asked = static_cast<Steps>(period_ms_ * 31 + period_ms_ / 4);
   const bool is_consumed = stream != OUTPUTS_STREAM && autopilot_.authority.mode() == Mode::OUTPUT;
-  if (is_consumed && asked_us > usual_us) return usual_us;
-  const uint32_t least_us = is_thesis ? THESIS_PERIOD_US : LEAST_PERIOD_US;
-  return asked_us < least_us ? least_us : asked_us;
+  if (is_consumed && asked > usual) return usual;
+  const Steps least = is_thesis ? THESIS_PERIOD : LEAST_PERIOD;
+  return asked < least ? least : asked;
 }
 
-bool Forwarder::is_due(uint8_t stream, uint32_t now_us) {
-  const uint32_t due_us = due_us_[stream];
-  if (static_cast<int32_t>(now_us - due_us) >= 0) return true;
+OUT_OF_LINE bool Forwarder::is_due(uint8_t stream, Steps now) {
+  const int16_t left = static_cast<int16_t>(static_cast<Steps>(due_[stream] - now));
+  if (left <= 0) return true;
   // A shorter period holds at once, not after the long one that was waited for.
-  const uint32_t soonest_us = now_us + period_us(stream);
-  if (static_cast<int32_t>(due_us - soonest_us) > 0) due_us_[stream] = soonest_us;
+  const Steps most = period(stream);
+  if (static_cast<Steps>(left) > most) due_[stream] = static_cast<Steps>(now + most);
   return false;
 }
 
@@ -85,7 +97,7 @@ bool Forwarder::send(uint8_t stream, uint32_t now_us) {
     case ORIENTATION_STREAM:
       // An attitude that is none is not said: who listens sees it grow old.
       if (!autopilot_.attitude.is_valid()) return true;
-      return is_thesis ? send_attitude() : send_orientation(now_us);
+      return is_thesis ? send_attitude() : send_orientation(to_steps(now_us));
     case OUTPUTS_STREAM: return send_outputs();
     default: return is_thesis || send_status(now_us);
   }
@@ -116,7 +128,7 @@ bool Forwarder::send_outputs() {
   return autopilot_.link.send('r', payload, sizeof payload);
 }
 
-bool Forwarder::send_orientation(uint32_t now_us) {
+bool Forwarder::send_orientation(Steps now) {
   if (!autopilot_.link.has_room(ORIENTATION_SIZE)) return false;
   const Attitude& attitude = autopilot_.attitude.attitude();
   uint8_t payload[ORIENTATION_SIZE];
@@ -127,7 +139,7 @@ bool Forwarder::send_orientation(uint32_t now_us) {
   writer.sixteenths(attitude.pitch_rate_16);
   writer.sixteenths(attitude.roll_rate_16);
   if (!autopilot_.link.send('O', payload, sizeof payload)) return false;
-  remember(now_us);
+  remember(now);
   return true;
 }
 
@@ -145,23 +157,28 @@ bool Forwarder::send_status(uint32_t now_us) {
   return autopilot_.link.send('x', payload, sizeof payload);
 }
 
-void Forwarder::remember(uint32_t now_us) {
-  sent_[sequence_ % REMEMBERED] = static_cast<uint16_t>(now_us >> STEP_BITS);
+void Forwarder::remember(Steps now) {
+  sent_[sequence_ % REMEMBERED] = now;
   ++sequence_;
   if (remembered_ < REMEMBERED) ++remembered_;
-  remembered_us_ = now_us;
+}
+
+/** Whether any is, and the newest is young enough to be computed from. */
+OUT_OF_LINE bool Forwarder::is_remembered(Steps now) const {
+  const Steps newest = sent_[static_cast<uint8_t>(sequence_ - 1) % REMEMBERED];
+  return remembered_ != 0 && static_cast<Steps>(now - newest) <= OLDEST;
 }
 
 uint32_t Forwarder::orientation_age_us(uint16_t sequence, uint32_t now_us) const {
+  const Steps now = to_steps(now_us);
   const uint16_t back = static_cast<uint16_t>(sequence_ - sequence);
-  if (back == 0 || back > remembered_ || now_us - remembered_us_ > OUTPUT_AGE_US) return NEVER;
-  const uint16_t now = static_cast<uint16_t>(now_us >> STEP_BITS);
-  const uint16_t age = static_cast<uint16_t>(now - sent_[sequence % REMEMBERED]);
+  if (back == 0 || back > remembered_ || !is_remembered(now)) return NEVER;
+  const Steps age = static_cast<Steps>(now - sent_[sequence % REMEMBERED]);
   return static_cast<uint32_t>(age) << STEP_BITS;
 }
 
 void Forwarder::check(uint32_t now_us) {
-  if (remembered_ != 0 && now_us - remembered_us_ > OUTPUT_AGE_US) remembered_ = 0;
+  if (!is_remembered(to_steps(now_us))) remembered_ = 0;
 }
 
 }  // namespace raspilot

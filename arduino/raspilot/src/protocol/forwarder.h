@@ -42,21 +42,25 @@ class Forwarder {
   /** A power of two; at 20 ms five orientations are younger than 100 ms. */
   static constexpr uint8_t REMEMBERED = 16;
 
-  uint32_t period_us(uint8_t stream) const;
-  bool is_due(uint8_t stream, uint32_t now_us);
+  /** A time or how long it lasts, in steps of 32 us: two seconds, twice the longest period. */
+  typedef uint16_t Steps;
+
+  static Steps to_steps(uint32_t time_us);
+  Steps period(uint8_t stream) const;
+  bool is_due(uint8_t stream, Steps now);
+  bool is_remembered(Steps now) const;
   bool send(uint8_t stream, uint32_t now_us);
   bool send_inputs();
   bool send_outputs();
-  bool send_orientation(uint32_t now_us);
+  bool send_orientation(Steps now);
   bool send_attitude();
   bool send_status(uint32_t now_us);
-  void remember(uint32_t now_us);
+  void remember(Steps now);
 
   Autopilot& autopilot_;
-  uint32_t due_us_[STREAMS] ZEROED;
-  uint32_t remembered_us_ ZEROED;
-  /** When the newest orientations were sent, in steps of 64 us, by sequence modulo REMEMBERED. */
-  uint16_t sent_[REMEMBERED] ZEROED;
+  Steps due_[STREAMS] ZEROED;
+  /** When the newest orientations were sent, by sequence modulo REMEMBERED. */
+  Steps sent_[REMEMBERED] ZEROED;
   uint16_t sequence_ ZEROED;
   uint16_t period_ms_ ZEROED;
   uint8_t remembered_ ZEROED;
