@@ -13,7 +13,7 @@ CheckedReader::Found CheckedReader::take(uint8_t byte, uint32_t now_us) {
   }
   if (!has_begun_) {
     has_begun_ = true;
-    first_us_ = now_us;
+    beginning_.note(now_us);
   }
   uint8_t decoded;
   if (cobs_.take(byte, decoded) == CobsDecoder::Step::NOTHING) return Found::NOTHING;
@@ -27,7 +27,7 @@ CheckedReader::Found CheckedReader::take(uint8_t byte, uint32_t now_us) {
 }
 
 bool CheckedReader::expire(uint32_t now_us) {
-  if (!has_begun_ || now_us - first_us_ < UNFINISHED_US) return false;
+  if (!has_begun_ || !beginning_.is_too_old(now_us)) return false;
   restart();
   return true;
 }

@@ -32,7 +32,7 @@ class CheckedReader {
   ReceiveBuffer& buffer_;
   CobsDecoder cobs_;
   Crc16 crc_;
-  uint32_t first_us_ ZEROED;
+  Beginning beginning_;
   uint8_t length_ ZEROED;
   uint8_t payload_size_ ZEROED;
   bool has_begun_ ZEROED;

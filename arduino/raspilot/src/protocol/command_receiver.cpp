@@ -8,7 +8,7 @@ CommandReceiver::Found CommandReceiver::take(uint8_t byte, uint32_t now_us) {
         definition_.framing != Framing::BOTH) {
       return Found::UNKNOWN;
     }
-    first_us_ = now_us;
+    beginning_.note(now_us);
     length_ = 0;
     is_in_payload_ = definition_.size != 0;
     return is_in_payload_ ? Found::NOTHING : Found::COMMAND;
@@ -20,7 +20,7 @@ CommandReceiver::Found CommandReceiver::take(uint8_t byte, uint32_t now_us) {
 }
 
 bool CommandReceiver::expire(uint32_t now_us) {
-  if (!is_in_payload_ || now_us - first_us_ < UNFINISHED_US) return false;
+  if (!is_in_payload_ || !beginning_.is_too_old(now_us)) return false;
   is_in_payload_ = false;
   return true;
 }

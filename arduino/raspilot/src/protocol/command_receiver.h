@@ -26,7 +26,7 @@ class CommandReceiver {
  private:
   ReceiveBuffer& buffer_;
   CommandDefinition definition_ ZEROED;
-  uint32_t first_us_ ZEROED;
+  Beginning beginning_;
   uint8_t length_ ZEROED;
   bool is_in_payload_ ZEROED;
 };

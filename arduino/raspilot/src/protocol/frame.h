@@ -3,6 +3,9 @@
 
 #include <stdint.h>
 
+#include "../core/compiler.h"
+#include "../pilot/lifetime.h"
+
 namespace raspilot {
 
 constexpr uint8_t LONGEST_PAYLOAD = 96;
@@ -11,8 +14,19 @@ constexpr uint8_t FRAME_OVERHEAD = 4;
 constexpr uint8_t LONGEST_FRAME = LONGEST_PAYLOAD + FRAME_OVERHEAD;
 /** The one byte that COBS adds, and the zero that ends a frame. */
 constexpr uint8_t COBS_OVERHEAD = 2;
-/** What is unfinished for so long after its first byte is dropped. */
-constexpr uint32_t UNFINISHED_US = 100000;
+/** When the first byte of a message came: what is unfinished 100 ms later is dropped. */
+class Beginning {
+ public:
+  void note(uint32_t now_us) { units_ = to_units(now_us); }
+  OUT_OF_LINE bool is_too_old(uint32_t now_us) const {
+    return static_cast<uint16_t>(to_units(now_us) - units_) >= UNFINISHED_UNITS;
+  }
+
+ private:
+  static constexpr uint16_t UNFINISHED_UNITS = units_at_least(100);
+
+  uint16_t units_ ZEROED;
+};
 
 /** The bytes of the message being received; both framings use it, never at the same time. */
 struct ReceiveBuffer {

@@ -8,7 +8,7 @@ namespace raspilot {
 
 namespace {
 
-constexpr uint32_t HEARD_US = 1000000;
+constexpr uint16_t HEARD_UNITS = units_at_least(1000);
 constexpr uint16_t MOST = 65535;
 constexpr uint8_t REFUSED_SIZE = 3;
 
@@ -35,7 +35,7 @@ void Link::check(uint32_t now_us) {
   expire(now_us);
   limit_.check(now_us);
   forwarder_.check(now_us);
-  if (is_heard_ && now_us - heard_us_ > HEARD_US) is_heard_ = false;
+  is_heard_ = has_heard(now_us);
 }
 
 bool Link::background(uint32_t now_us) {
@@ -43,8 +43,8 @@ bool Link::background(uint32_t now_us) {
   return forwarder_.send_next(now_us);
 }
 
-bool Link::has_heard(uint32_t now_us) const {
-  return is_heard_ && now_us - heard_us_ <= HEARD_US;
+OUT_OF_LINE bool Link::has_heard(uint32_t now_us) const {
+  return is_heard_ && static_cast<uint16_t>(to_units(now_us) - heard_units_) <= HEARD_UNITS;
 }
 
 bool Link::has_room(uint8_t size) const {
@@ -120,7 +120,7 @@ void Link::hear_thesis(uint8_t byte, uint32_t now_us) {
 
 void Link::carry_out(const CommandDefinition& command, const Request& request) {
   is_heard_ = true;
-  heard_us_ = request.now_us;
+  heard_units_ = to_units(request.now_us);
   const bool is_stream = command.answer == Answer::UNANSWERED;
   if (!is_stream && !answers_.has_place()) {
     // Carried out without a word would be worse: who asked asks again.

@@ -74,7 +74,7 @@ class Link {
   Answers answers_;
   RefusalLimit limit_;
   Forwarder forwarder_;
-  uint32_t heard_us_ ZEROED;
+  uint16_t heard_units_ ZEROED;
   uint16_t dropped_ ZEROED;
   uint16_t missing_ ZEROED;
   uint8_t sequence_ ZEROED;

@@ -52,14 +52,14 @@ void ThesisDoor::begin(char type, uint32_t now_us) {
     type_ = type;
     left_ = pgm_read_byte(&command.size);
     worth_ = pgm_read_byte(&command.points);
-    first_us_ = now_us;
+    beginning_.note(now_us);
     return;
   }
   break_run();
 }
 
 void ThesisDoor::expire(uint32_t now_us) {
-  if (left_ != 0 && now_us - first_us_ >= UNFINISHED_US) break_run();
+  if (left_ != 0 && beginning_.is_too_old(now_us)) break_run();
 }
 
 /** Looks at the field that ended with the newest byte; true in the middle of one. */

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "../core/compiler.h"
+#include "frame.h"
 
 namespace raspilot {
 
@@ -29,7 +30,7 @@ class ThesisDoor {
   void break_run();
 
   uint32_t window_ ZEROED;
-  uint32_t first_us_ ZEROED;
+  Beginning beginning_;
   char type_ ZEROED;
   uint8_t left_ ZEROED;
   /** Points of the Command that is being taken. */
