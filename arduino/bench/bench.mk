@@ -18,3 +18,9 @@ $(RIG): $(RIG_SOURCES) $(wildcard bench/up_rig/shim/*.h)
 figures: rig
 	@$(MAKE) -s -C .. .venv/.run-ready
 	@cd .. && .venv/bin/python -m bench firmware $(if $(QUICK),--quick)
+
+# Each safety rule is taken out of a copy, and its test must fail: RULES="words of rule or test".
+.PHONY: mutations
+mutations: rig
+	@$(MAKE) -s -C .. .venv/.dev-ready
+	@cd .. && .venv/bin/python -m tests.arduino.mutate $(RULES)

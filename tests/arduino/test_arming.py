@@ -34,14 +34,31 @@ def test_only_an_edge_of_aux2_arms(calm):
     assert calm.status().is_armed
 
 
-def test_an_aux2_that_is_high_at_power_on_arms_nothing():
-    flight = Flight(boots=False)
+@pytest.mark.parametrize("receiver_after_ms", [0, 2500])
+def test_an_aux2_that_is_high_at_power_on_arms_nothing(receiver_after_ms):
+    """Nor one of a receiver that is switched on when nothing else speaks against it any more."""
+    flight = Flight(boots=False, receiver=False)
+    flight.run_ms(receiver_after_ms)
     flight.rig.receiver.sticks(aux2=HIGH)
-    flight.run_ms(4000)
-    assert not flight.status().is_armed
+    flight.rig.receiver.start()
+    flight.run_ms(3000)
+    status = flight.status()
+    assert not status.vetoes
+    assert not status.is_armed
     flight.sticks(500, aux2=LOW)
     flight.sticks(400, aux2=HIGH)
     assert flight.status().is_armed
+
+
+def test_an_aux2_that_went_high_while_the_receiver_was_lost_arms_nothing(calm):
+    calm.rig.receiver.stop()
+    calm.run_ms(400)
+    calm.rig.receiver.sticks(aux2=HIGH)
+    calm.rig.receiver.start()
+    calm.run_ms(1000)
+    status = calm.status()
+    assert not status.vetoes
+    assert not status.is_armed
 
 
 def test_the_edge_is_debounced_for_300_ms(calm):
