@@ -1,0 +1,162 @@
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "link_bench.h"
+#include "protocol/thesis_door.h"
+#include "wire_vectors.h"
+
+using namespace raspilot;
+
+namespace {
+
+const std::string ALTITUDE("h\x01\x2c", 3);
+const std::string HEADING("b\x01\x3b", 3);
+const std::string REQUIRED(std::string("B\x00\x5b", 3));
+const std::string LOCATION("l\x42\x48\x00\x00\x41\x68\x00\x00", 9);
+const std::string PANIC("p\x01\x00\x96", 4);
+
+std::string gains() {
+  return "t" + std::string(4 * 12, '\0');
+}
+
+/** How many bytes the door takes until it opens; 0 when it does not. */
+size_t opened_after(const std::string& bytes) {
+  ThesisDoor door = {};
+  for (size_t at = 0; at < bytes.size(); ++at) {
+    if (door.take(static_cast<uint8_t>(bytes[at]), 0)) return at + 1;
+  }
+  return 0;
+}
+
+bool opens(const std::string& bytes) { return opened_after(bytes) == bytes.size(); }
+
+}  // namespace
+
+TEST_CASE("an old Raspberry Pi opens the door") {
+  CHECK(opens(gains() + "T"));
+  CHECK(opens(gains() + ALTITUDE));
+  CHECK(opens(PANIC + PANIC));
+  CHECK(opens(HEADING + LOCATION + REQUIRED));
+  CHECK(opens(HEADING + ALTITUDE + LOCATION + "T" + HEADING));
+  CHECK(opens(LOCATION + LOCATION + LOCATION + LOCATION));
+}
+
+TEST_CASE("less than that does not open it") {
+  CHECK(opened_after(gains()) == 0);
+  CHECK(opened_after(std::string(1000, 'T')) == 0);
+  CHECK(opened_after(std::string(999, 'h')) == 0);
+  CHECK(opened_after(ALTITUDE + LOCATION + HEADING) == 0);
+  CHECK(opened_after(LOCATION + LOCATION + LOCATION) == 0);
+}
+
+TEST_CASE("no byte repeated for ever opens it") {
+  for (int byte = 0; byte < 256; ++byte) {
+    CHECK(opened_after(std::string(2000, static_cast<char>(byte))) == 0);
+  }
+}
+
+TEST_CASE("what is between, out of range or unfinished breaks the run") {
+  const std::string half = HEADING + REQUIRED;
+  CHECK(opens(half + LOCATION));
+  CHECK(opened_after(half + "\xff" + LOCATION) == 0);
+  CHECK(opened_after(half + std::string(1, '\0') + LOCATION) == 0);
+  CHECK(opened_after(half + "b\x01\x68" + LOCATION) == 0);
+  CHECK(opened_after(half + "b\xff\xff" + LOCATION) == 0);
+  CHECK(opened_after(half + "p\x02") == 0);
+  CHECK(opened_after(half + std::string("p\x01\x00\x09", 4)) == 0);
+  CHECK(opened_after(half + std::string("l\x7f\xc0\x00\x00\x00\x00\x00\x00", 9)) == 0);
+  CHECK(opened_after(half + std::string("l\x00\x00\x00\x00\x7f\x80\x00\x00", 9)) == 0);
+  for (const char* bad : {"7fc00000", "7f800000", "42480001", "bf800000"}) {
+    std::string set = gains();
+    const Bytes gain = bytes_of(bad);
+    set.replace(1 + 4 * 7, 4, std::string(gain.begin(), gain.end()));
+    CHECK(opened_after(half + set) == 0);
+  }
+  ThesisDoor door = {};
+  for (char byte : half + "l") door.take(static_cast<uint8_t>(byte), 0);
+  door.expire(99999);
+  bool is_open = false;
+  for (char byte : LOCATION.substr(1)) is_open |= door.take(static_cast<uint8_t>(byte), 99999);
+  CHECK(is_open);
+  door = ThesisDoor();
+  for (char byte : half + "l") door.take(static_cast<uint8_t>(byte), 0);
+  door.expire(102048);
+  is_open = false;
+  for (char byte : LOCATION) is_open |= door.take(static_cast<uint8_t>(byte), 102048);
+  CHECK_FALSE(is_open);
+}
+
+TEST_CASE("ten million random bytes do not open it, whatever their pauses") {
+  std::mt19937 random(20150517);
+  ThesisDoor door = {};
+  uint32_t now_us = 0;
+  unsigned openings = 0;
+  for (int count = 0; count < 10000000; ++count) {
+    const uint32_t drawn = static_cast<uint32_t>(random());
+    if ((drawn >> 8 & 0x3F) == 0) now_us += 150000;
+    openings += door.take(static_cast<uint8_t>(drawn), now_us);
+  }
+  CHECK(openings == 0);
+}
+
+TEST_CASE("random bytes of the thesis's own letters do not open it") {
+  std::mt19937 random(4711);
+  const std::string letters = "ptThbBl";
+  ThesisDoor door = {};
+  unsigned openings = 0;
+  for (int count = 0; count < 3000000; ++count) {
+    openings += door.take(static_cast<uint8_t>(letters[random() % letters.size()]), 0);
+  }
+  CHECK(openings == 0);
+}
+
+TEST_CASE("through the door thesis framing is spoken until reset") {
+  LinkBench bench;
+  bench.take_raw();
+  bench.hear(gains() + "T");
+  CHECK(bench.autopilot.link.is_thesis());
+  // Neither was carried out, and nothing had to be started.
+  CHECK(bench.take_raw().empty());
+  bench.run_ms(60);
+  const Bytes streamed = bench.take_raw();
+  REQUIRE(streamed.size() % 9 == 0);
+  CHECK(streamed[0] == 'r');
+  bench.hear("T");
+  bench.run_ms(10);
+  const Bytes answer = bench.take_raw();
+  REQUIRE(answer.size() >= 49);
+  CHECK(answer[0] == 'T');
+  bench.send('s');
+  CHECK(bench.autopilot.link.is_thesis());
+}
+
+TEST_CASE("thesis framing takes no Command with authority, and answers as old firmware does") {
+  LinkBench bench;
+  bench.hear(gains() + "T");
+  bench.take_raw();
+  for (char type : {'a', 'M', 'u', 'S', 'C', 'e', 's', 'g'}) {
+    bench.hear(std::string(1, type));
+    const Bytes answer = bench.take_raw();
+    CHECK(answer == Bytes{'!', static_cast<uint8_t>(type)});
+  }
+  CHECK_FALSE(bench.autopilot.authority.is_armed());
+  bench.hear(std::string("p\x03\x00\x32", 4));
+  CHECK(bench.take_raw() == Bytes{'!', 'p'});
+  bench.hear("h\x01");
+  bench.now_us += 102048;
+  bench.autopilot.link.check(bench.now_us);
+  CHECK(bench.take_raw() == Bytes{'!'});
+}
+
+TEST_CASE("a valid checked frame closes the door; a broken one, or one of no type, does not") {
+  LinkBench closed;
+  closed.send('v', {0});
+  closed.hear(gains() + "T" + PANIC + PANIC);
+  CHECK_FALSE(closed.autopilot.link.is_thesis());
+  LinkBench open;
+  open.send('?');
+  open.hear(Bytes{5, 1, 2, 3, 4, 0});
+  open.hear(gains() + "T");
+  CHECK(open.autopilot.link.is_thesis());
+}

@@ -1,0 +1,198 @@
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "protocol/checked_reader.h"
+#include "protocol/cobs.h"
+#include "protocol/command_receiver.h"
+#include "protocol/crc16.h"
+#include "protocol/frame_writer.h"
+#include "wire_vectors.h"
+
+using namespace raspilot;
+
+namespace {
+
+typedef std::vector<uint8_t> Bytes;
+
+nlohmann::json vectors_of(const std::string& name) {
+  std::ifstream file(std::string(VECTORS "/") + name + ".json");
+  const nlohmann::json page = nlohmann::json::parse(file);
+  REQUIRE(page["vectors"].size() > 2);
+  return page["vectors"];
+}
+
+Bytes written;
+
+Bytes frame_of(uint8_t sequence, char type, const Bytes& payload) {
+  written.clear();
+  write_frame(sequence, type, payload.data(), static_cast<uint8_t>(payload.size()),
+              [](uint8_t byte) { written.push_back(byte); });
+  return written;
+}
+
+struct Reading {
+  ReceiveBuffer buffer = {};
+  CheckedReader reader{buffer};
+  unsigned frames = 0;
+  unsigned broken = 0;
+
+  void take(const Bytes& bytes, uint32_t now_us = 0) {
+    for (uint8_t byte : bytes) {
+      const CheckedReader::Found found = reader.take(byte, now_us);
+      frames += found == CheckedReader::Found::FRAME;
+      broken += found == CheckedReader::Found::BROKEN;
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the CRC is that of the golden vectors") {
+  for (const auto& vector : vectors_of("crc16")) {
+    Crc16 crc;
+    for (uint8_t byte : bytes_of(vector["bytes"])) crc.put(byte);
+    const Bytes expected = bytes_of(vector["crc"]);
+    CHECK(crc.high() == expected[0]);
+    CHECK(crc.low() == expected[1]);
+    crc.put(expected[0]);
+    crc.put(expected[1]);
+    CHECK(crc.is_zero());
+  }
+}
+
+TEST_CASE("COBS is that of the golden vectors, as long as frames are short") {
+  unsigned short_ones = 0;
+  for (const auto& vector : vectors_of("cobs")) {
+    const Bytes plain = bytes_of(vector["plain"]);
+    const Bytes encoded = bytes_of(vector["encoded"]);
+    if (plain.size() > LONGEST_FRAME) continue;
+    ++short_ones;
+    Bytes buffer(plain.size() + 1);
+    CobsEncoder encoder(buffer.data());
+    for (uint8_t byte : plain) encoder.put(byte);
+    CHECK(encoder.finish() == buffer.data() + buffer.size());
+    CHECK(buffer == encoded);
+    CobsDecoder decoder;
+    Bytes decoded;
+    for (uint8_t byte : encoded) {
+      uint8_t one;
+      if (decoder.take(byte, one) == CobsDecoder::Step::BYTE) decoded.push_back(one);
+    }
+    CHECK(decoder.is_complete());
+    CHECK(decoded == plain);
+  }
+  CHECK(short_ones > 3);
+}
+
+TEST_CASE("every golden frame is written byte for byte and read back") {
+  for (const auto& vector : vectors_of("serial_checked")) {
+    const Bytes wire = bytes_of(vector["wire"]);
+    const Bytes payload = bytes_of(vector["payload"]);
+    const char type = vector["type"].get<std::string>()[0];
+    const uint8_t sequence = vector["sequence"];
+    CHECK(frame_of(sequence, type, payload) == wire);
+    Reading reading;
+    reading.take(wire);
+    REQUIRE(reading.frames == 1);
+    CHECK(reading.reader.type() == type);
+    CHECK(reading.reader.sequence() == sequence);
+    const uint8_t* const first = reading.reader.payload();
+    CHECK(Bytes(first, first + reading.reader.payload_size()) == payload);
+  }
+}
+
+TEST_CASE("every golden Command is registered once, with its size, and in its framings") {
+  const nlohmann::json thesis = vectors_of("serial_thesis");
+  for (const auto& vector : vectors_of("serial_checked")) {
+    if (vector["direction"] != "to_arduino") continue;
+    const char type = vector["type"].get<std::string>()[0];
+    CAPTURE(type);
+    CHECK(CommandExecutor::count(type) == 1);
+    CommandDefinition command;
+    REQUIRE(CommandExecutor::find(type, command));
+    CHECK(command.size == bytes_of(vector["payload"]).size());
+    bool is_thesis = false;
+    for (const auto& old : thesis) {
+      is_thesis |= old["direction"] == "to_arduino" && old["type"] == vector["type"];
+    }
+    CHECK((command.framing == Framing::BOTH) == is_thesis);
+    // Who answers by itself is asked when there is room, and its payload is gone by then.
+    if (command.answer == Answer::OWN) CHECK(command.size == 0);
+  }
+  for (int type = 0; type < 256; ++type) CHECK(CommandExecutor::count(static_cast<char>(type)) < 2);
+}
+
+TEST_CASE("every golden thesis Command is received whole") {
+  for (const auto& vector : vectors_of("serial_thesis")) {
+    if (vector["direction"] != "to_arduino") continue;
+    ReceiveBuffer buffer = {};
+    CommandReceiver receiver(buffer);
+    const Bytes wire = bytes_of(vector["wire"]);
+    for (size_t at = 0; at < wire.size(); ++at) {
+      const bool is_last = at + 1 == wire.size();
+      CHECK(receiver.take(wire[at], 0) == (is_last ? CommandReceiver::Found::COMMAND
+                                                   : CommandReceiver::Found::NOTHING));
+    }
+    CHECK(receiver.definition().type == vector["type"].get<std::string>()[0]);
+    const Bytes payload = bytes_of(vector["payload"]);
+    CHECK(Bytes(receiver.payload(), receiver.payload() + payload.size()) == payload);
+  }
+}
+
+TEST_CASE("thesis framing knows no byte that is no thesis Command") {
+  unsigned unknown = 0;
+  for (int byte = 0; byte < 256; ++byte) {
+    ReceiveBuffer buffer = {};
+    CommandReceiver receiver(buffer);
+    unknown += receiver.take(static_cast<uint8_t>(byte), 0) == CommandReceiver::Found::UNKNOWN;
+  }
+  CHECK(unknown == 256 - 7);
+}
+
+TEST_CASE("the longest frame is read, one byte more is too long, and the next is read again") {
+  Reading reading;
+  reading.take(frame_of(1, 'g', Bytes(LONGEST_PAYLOAD, 0x11)));
+  CHECK(reading.frames == 1);
+  CHECK(reading.reader.payload_size() == LONGEST_PAYLOAD);
+  Bytes too_long(LONGEST_FRAME + 2, 0x11);
+  too_long[0] = LONGEST_FRAME + 2;
+  too_long.push_back(0);
+  reading.take(too_long);
+  CHECK(reading.broken == 1);
+  reading.take(Bytes(1000, 0xFF));
+  reading.take({0});
+  CHECK(reading.broken == 2);
+  reading.take(frame_of(2, 's', {}));
+  CHECK(reading.frames == 2);
+}
+
+TEST_CASE("a frame in which any one bit is wrong is no frame, and costs no other") {
+  const Bytes good = frame_of(7, 'u', bytes_of("05dc058f000006400201"));
+  for (size_t bit = 0; bit < (good.size() - 1) * 8; ++bit) {
+    Bytes bad = good;
+    bad[bit / 8] = static_cast<uint8_t>(bad[bit / 8] ^ 1 << bit % 8);
+    Reading reading;
+    reading.take(bad);
+    CHECK(reading.frames == 0);
+    CHECK(reading.broken >= 1);
+    reading.take(good);
+    CHECK(reading.frames == 1);
+  }
+}
+
+TEST_CASE("an unfinished frame ends 100 ms after its first byte, also across the clock's wrap") {
+  for (uint32_t begin_us : {0u, 5000u, 0xFFFFFFF0u}) {
+    Reading reading;
+    CHECK_FALSE(reading.reader.expire(begin_us + 500000));
+    reading.take({5, 1}, begin_us);
+    reading.take({1}, begin_us + 99000);
+    CHECK_FALSE(reading.reader.expire(begin_us + 99999));
+    // It counts in steps of 1024 us.
+    CHECK(reading.reader.expire(begin_us + 102048));
+    CHECK_FALSE(reading.reader.expire(begin_us + 300000));
+    reading.take({0}, begin_us + 300000);
+    CHECK(reading.broken == 0);
+  }
+}
