@@ -1,5 +1,7 @@
 #include "checked_reader.h"
 
+#include "../core/compiler.h"
+
 namespace raspilot {
 
 CheckedReader::Found CheckedReader::take(uint8_t byte, uint32_t now_us) {
@@ -26,13 +28,13 @@ CheckedReader::Found CheckedReader::take(uint8_t byte, uint32_t now_us) {
   return Found::NOTHING;
 }
 
-bool CheckedReader::expire(uint32_t now_us) {
+OUT_OF_LINE bool CheckedReader::expire(uint32_t now_us) {
   if (!has_begun_ || !beginning_.is_too_old(now_us)) return false;
   restart();
   return true;
 }
 
-void CheckedReader::restart() {
+OUT_OF_LINE void CheckedReader::restart() {
   cobs_.restart();
   crc_ = Crc16();
   length_ = 0;

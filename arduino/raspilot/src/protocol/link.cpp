@@ -15,7 +15,7 @@ constexpr uint8_t REFUSED_SIZE = 3;
 }  // namespace
 
 Link::Link(Autopilot& autopilot)
-    : autopilot_(autopilot), reader_(buffer_), receiver_(buffer_), forwarder_(autopilot) {}
+    : autopilot_(autopilot), forwarder_(autopilot), reader_(buffer_), receiver_(buffer_) {}
 
 void Link::open() {
   if (!is_thesis_ && board::serial_room() != 0) board::serial_write(0);

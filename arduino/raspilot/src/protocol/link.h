@@ -67,9 +67,6 @@ class Link {
   void on_dropped();
 
   Autopilot& autopilot_;
-  ReceiveBuffer buffer_ ZEROED;
-  CheckedReader reader_;
-  CommandReceiver receiver_;
   ThesisDoor door_;
   Answers answers_;
   RefusalLimit limit_;
@@ -84,6 +81,10 @@ class Link {
   bool is_thesis_ ZEROED;
   /** A valid checked frame closes the door to thesis framing until reset. */
   bool is_door_closed_ ZEROED;
+  // What is small lies before it, where one instruction reaches it.
+  ReceiveBuffer buffer_ ZEROED;
+  CheckedReader reader_;
+  CommandReceiver receiver_;
 };
 
 }  // namespace raspilot

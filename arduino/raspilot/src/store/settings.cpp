@@ -1,6 +1,7 @@
 #include "settings.h"
 
 #include "../core/board.h"
+#include "../core/compiler.h"
 #include "../core/flash.h"
 #include "eeprom_slot.h"
 
@@ -54,7 +55,7 @@ void Settings::load_kind(Kind kind) {
   }
 }
 
-void Settings::save(Kind kind) {
+OUT_OF_LINE void Settings::save(Kind kind) {
   kinds_[kind].is_pending = true;
   if (kind == kind_) begin_save();
 }
