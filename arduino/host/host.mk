@@ -16,6 +16,8 @@ HOST_DEFINES := -DVECTORS='"$(abspath ../tests/vectors)"'
 PORTABLE := $(sort $(foreach part,$(PARTS),$(wildcard raspilot/src/$(part)/*.cpp)))
 HOST_SOURCES := host/main.cpp $(sort $(wildcard host/fake_*.cpp)) \
 	$(sort $(if $(TESTS),$(foreach test,$(TESTS),$(wildcard host/test_$(test)*.cpp)),$(wildcard host/test_*.cpp)))
+# The fuzzer's rules, for the test that replays its scripts.
+HOST_SOURCES += $(if $(filter host/test_protocol_fuzz.cpp,$(HOST_SOURCES)),host/fuzz/link_script.cpp)
 HOST_OBJECTS := $(patsubst %.cpp,$(HOST_BUILD)/%.o,$(PORTABLE) $(HOST_SOURCES))
 
 .PHONY: host host-test host-clean

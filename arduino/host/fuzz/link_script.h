@@ -1,0 +1,26 @@
+/**
+ * A conversation with the serial line out of arbitrary bytes, and what must hold whatever they are.
+ * The fuzzer invents scripts; the host tests replay those that were kept.
+ */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+namespace raspilot {
+
+/** What a script led to. */
+struct ScriptEnd {
+  bool is_armed;
+  bool is_thesis;
+};
+
+/**
+ * Plays one script on an aircraft that only an Arm Command can arm. Its records are: 0x00 to 0x7F,
+ * so many bytes as they are; 0x80 to 0xBF, so many slots of 2 ms and one; 0xC0 to 0xFF, a checked
+ * frame of the type and payload that follow, which is right whatever came before. Aborts when one
+ * of the rules is broken.
+ */
+ScriptEnd play(const uint8_t* script, size_t size);
+
+}  // namespace raspilot
