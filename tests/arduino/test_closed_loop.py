@@ -120,13 +120,14 @@ def test_a_lost_receiver_ends_in_the_circle_from_a_steep_bank():
 
 
 def test_a_bank_that_the_stick_asks_for_is_held_though_the_accelerometer_feels_level():
+    # At 20 degrees it feels 1.06 g, which alone would not give the turn away.
     flight, aircraft = banked(0, 0)
-    flight.sticks(25, aux1=MIDDLE, ailerons=1800)
+    flight.sticks(25, aux1=MIDDLE, ailerons=1700)
     worst = []
 
     def watch(time_s):
         if time_s > 2:
-            worst.append(abs(aircraft.roll_deg - 30))
+            worst.append(abs(aircraft.roll_deg - 20))
 
     fly(flight, aircraft, 8.0, watch)
     assert max(worst) < 4

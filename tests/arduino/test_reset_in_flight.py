@@ -45,11 +45,12 @@ def aloft(bootloader=None, aux1=MIDDLE):
 def hang(flight, code=RJMP_SELF):
     """Stop the loop with ``code`` until the watchdog has bitten; the flash is whole again then."""
     ((base, program),) = flight.rig.firmware.flash[:1]
-    main = flight.rig.firmware.symbols["main"].address
+    # The other one is start-up's, which lies before all functions.
+    functions = flight.rig.firmware.symbols["__bad_interrupt"].address
     places = [
         base + at
         for at in range(0, len(program) - 1, 2)
-        if program[at : at + 2] == WDR and base + at > main
+        if program[at : at + 2] == WDR and base + at > functions
     ]
     assert len(places) == 1, "the loop feeds the watchdog at one place"
     at = places[0]
