@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from tests.support.firmware import build_firmware, make, need_toolchain
@@ -12,6 +14,7 @@ OPTIBOOT_ROOM = 32256
 CLASSIC_NANO_ROOM = 30720
 RAM = 2048
 LEAST_STACK = 400
+FUZZ = Path(__file__).parents[2] / "arduino" / "host" / "fuzz"
 
 
 @pytest.mark.parametrize("options", [(), ("BAUD=9600",), ("BOARD=prototype",)])
@@ -41,3 +44,9 @@ def test_the_portable_part_passes_its_tests_on_this_computer():
             unavailable(str(failure).strip().splitlines()[-1])
         raise
     assert "test cases:" in said
+
+
+def test_the_serial_line_takes_every_kept_input_of_the_fuzzer():
+    need_tool("clang++", "clang")
+    kept = [each for name in ("corpus", "flying_corpus") for each in (FUZZ / name).iterdir()]
+    assert make("fuzz-corpus").count("\nExecuted ") == len(kept) > 40
