@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "flying_board.h"
 #include "link_bench.h"
 #include "protocol/thesis_door.h"
 #include "wire_vectors.h"
@@ -159,4 +160,23 @@ TEST_CASE("a valid checked frame closes the door; a broken one, or one of no typ
   open.hear(Bytes{5, 1, 2, 3, 4, 0});
   open.hear(gains() + "T");
   CHECK(open.autopilot.link.is_thesis());
+}
+
+TEST_CASE("an armed aircraft keeps checked framing, whatever the line brings") {
+  fake_board().reset();
+  FlyingBoard board;
+  board.wake();
+  board.flick_aux2();
+  REQUIRE(board.autopilot.authority.is_armed());
+  for (char byte : gains() + "T" + PANIC + PANIC) {
+    board.autopilot.link.on_byte(static_cast<uint8_t>(byte), board.now_us());
+  }
+  CHECK_FALSE(board.autopilot.link.is_thesis());
+  board.sticks[AUX2] = 1000;
+  board.run(400);
+  REQUIRE_FALSE(board.autopilot.authority.is_armed());
+  for (char byte : gains() + "T") {
+    board.autopilot.link.on_byte(static_cast<uint8_t>(byte), board.now_us());
+  }
+  CHECK(board.autopilot.link.is_thesis());
 }
