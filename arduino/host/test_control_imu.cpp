@@ -37,8 +37,10 @@ TEST_CASE("without stillness the bias of the calibration flies, and the search e
   CHECK(flight.filter.is_bias_from_eeprom());
   CHECK_FALSE(flight.filter.is_still());
   CHECK(flight.bias_deg_s(0) == doctest::Approx(2).epsilon(0.2));
-  // Put down at last, still disarmed.
+  // A steady turn is still, too: whoever means the ground sends the Command.
   flight.fly(1.2);
+  CHECK(flight.filter.is_bias_from_eeprom());
+  CHECK(flight.filter.calibrate_gyro() == Reason::NONE);
   CHECK_FALSE(flight.filter.is_bias_from_eeprom());
 }
 

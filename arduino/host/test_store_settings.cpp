@@ -61,7 +61,7 @@ TEST_CASE("an erased EEPROM gives the defaults and nothing is broken") {
   const Settings settings = reloaded();
   CHECK_FALSE(settings.has_gains());
   CHECK_FALSE(settings.has_calibration());
-  CHECK_FALSE(settings.is_profile_broken());
+  CHECK_FALSE(settings.is_broken());
   CHECK_FALSE(settings.is_saving());
   CHECK(settings.gains.rate[0].p == DEFAULT_GAINS.rate[0].p);
   CHECK(settings.profile.throttle_lost_us == DEFAULT_PROFILE.throttle_lost_us);
@@ -90,7 +90,7 @@ TEST_CASE("what was saved is loaded at the next power-on, each kind for itself")
   CHECK(later.calibration.level_roll_cdeg == -77);
   CHECK(later.has_gains());
   CHECK(later.has_calibration());
-  CHECK_FALSE(later.is_profile_broken());
+  CHECK_FALSE(later.is_broken());
   CHECK(fake_board().violations == 0);
 }
 
@@ -247,19 +247,19 @@ TEST_CASE("a profile that cannot be read any more is told, and mended by a new o
   for (uint16_t at = 0; at < PROFILE_SIZE + SLOT_OVERHEAD; ++at) {
     fake_board().eeprom[slot_address(0, 0) + at] ^= 0x01;
     Settings broken = reloaded();
-    REQUIRE(broken.is_profile_broken());
+    REQUIRE(broken.is_broken());
     CHECK(broken.profile.has_motor);
     fake_board().eeprom[slot_address(0, 0) + at] ^= 0x01;
   }
-  REQUIRE_FALSE(reloaded().is_profile_broken());
+  REQUIRE_FALSE(reloaded().is_broken());
   fake_board().eeprom[slot_address(0, 0)] = 0xFF;
   Settings broken = reloaded();
-  REQUIRE(broken.is_profile_broken());
+  REQUIRE(broken.is_broken());
   broken.save_profile();
-  CHECK(broken.is_profile_broken());
+  CHECK(broken.is_broken());
   REQUIRE(save_all(broken));
-  CHECK_FALSE(broken.is_profile_broken());
-  CHECK_FALSE(reloaded().is_profile_broken());
+  CHECK_FALSE(broken.is_broken());
+  CHECK_FALSE(reloaded().is_broken());
 }
 
 TEST_CASE("a first profile of which power left a part is broken, not absent") {
@@ -268,14 +268,14 @@ TEST_CASE("a first profile of which power left a part is broken, not absent") {
   settings.profile.has_motor = false;
   settings.save_profile();
   write_bytes(settings, 5);
-  CHECK(reloaded().is_profile_broken());
+  CHECK(reloaded().is_broken());
 }
 
-TEST_CASE("broken gains and calibrations are no broken profile") {
+TEST_CASE("gains and calibrations that cannot be read are broken settings") {
   fake_board().reset();
   for (uint16_t at = slot_address(1, 0); at < slot_address(3, 0); ++at) fake_board().eeprom[at] = 0;
   const Settings settings = reloaded();
-  CHECK_FALSE(settings.is_profile_broken());
+  CHECK(settings.is_broken());
   CHECK_FALSE(settings.has_gains());
   CHECK_FALSE(settings.has_calibration());
 }
@@ -324,7 +324,7 @@ TEST_CASE("any bytes in EEPROM load without harm, and never as values out of ran
       fake_board().eeprom[slot_address(kind, round & 1) + 1] = 1;
     }
     const Settings settings = reloaded();
-    CHECK(settings.is_profile_broken());
+    CHECK(settings.is_broken());
     CHECK_FALSE(settings.has_gains());
     CHECK(settings.gains.rate[0].p == DEFAULT_GAINS.rate[0].p);
   }

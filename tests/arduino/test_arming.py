@@ -222,7 +222,8 @@ def test_a_glider_needs_neither_low_throttle_nor_arming():
     flight.run_ms(1500)
     assert flight.ask("C", profile(motor=0)) == "K"
     flight.sticks(throttle=1700)
-    assert flight.servo_us("throttle") == pytest.approx(1700, abs=1)
+    # An edge that an interrupt delays is believed to 6 us only.
+    assert flight.servo_us("throttle") == pytest.approx(1700, abs=3)
     assert not flight.status().vetoes & 1
     flight.sticks(aux1=HIGH)
     flight.send("s")

@@ -274,6 +274,18 @@ def test_a_setpoint_lives_as_long_as_it_says(auto):
     assert auto.servo_us("ailerons") == pytest.approx(1500, abs=15)
 
 
+def test_an_output_leaves_nothing_of_an_older_setpoint(auto):
+    auto.send("S", setpoint(throttle=1200))
+    auto.run_ms(30)
+    auto.send("u", outputs(auto, 1900, 1900, 1100, 1900))
+    auto.run_ms(30)
+    assert auto.ask("M", b"s") == "K"
+    auto.rig.servo.forget()
+    auto.run_ms(150)
+    for channel, most_us in (("throttle", 1001), ("ailerons", 1520), ("rudder", 1520)):
+        assert max(each.width_us for each in auto.rig.servo.pulses(channel)[1:]) <= most_us
+
+
 def test_a_veto_holds_off_arming_for_a_second(flight):
     flight.run_ms(1500)
     flight.send("v", b"\1")

@@ -77,23 +77,6 @@ def test_power_cut_at_any_byte_of_a_write_leaves_one_whole_set(kept):
     assert cuts > 15
 
 
-def test_a_profile_that_cannot_be_read_forbids_arming():
-    flight = Flight()
-    profile = flight.ask("c")
-    keep(flight, "C", profile)
-    spoilt = bytearray(flight.rig.eeprom.read())
-    for at, value in enumerate(spoilt):
-        if value != 0xFF:
-            spoilt[at] = value ^ 0x55
-    again = Flight(eeprom=bytes(spoilt))
-    again.run_ms(1500)
-    assert again.status().vetoes & PROFILE_VETO
-    again.sticks(400, aux2=2000)
-    assert not again.status().is_armed
-    keep(again, "C", profile)
-    assert not again.status().vetoes & PROFILE_VETO
-
-
 def test_the_same_set_again_writes_no_byte_twice(kept):
     flight = boot(kept)
     keep(flight, "g", OLD)
@@ -102,15 +85,35 @@ def test_the_same_set_again_writes_no_byte_twice(kept):
     assert flight.rig.eeprom.writes - first < 90
 
 
-def test_nothing_is_written_while_armed():
+def test_nothing_is_written_while_armed_and_gains_of_a_flight_are_never_kept():
     flight = Flight()
     flight.run_ms(1500)
     flight.arm()
     assert flight.ask("g", NEW) == "K"
-    before = flight.rig.eeprom.writes
     flight.run_ms(600)
-    assert flight.rig.eeprom.writes == before
+    assert flight.rig.eeprom.writes == 0
     flight.sticks(400, aux2=1000)
     assert not flight.status().is_armed
     flight.run_ms(600)
-    assert boot(flight.rig.eeprom.read()).ask("G") == NEW
+    assert flight.ask("G") == NEW
+    assert flight.rig.eeprom.writes == 0
+
+
+@pytest.mark.parametrize("kind", ["profile", "gains", "calibration"])
+def test_what_was_kept_and_cannot_be_read_forbids_arming(kind):
+    flight = Flight()
+    flight.run_ms(2000)
+    letter, payload = {
+        "profile": ("C", flight.ask("c")),
+        "gains": ("g", OLD),
+        "calibration": ("e", b"\3"),
+    }[kind]
+    keep(flight, letter, payload)
+    spoilt = bytes(value if value == 0xFF else value ^ 0x55 for value in flight.rig.eeprom.read())
+    again = Flight(eeprom=spoilt)
+    again.run_ms(2000)
+    assert again.status().vetoes & PROFILE_VETO
+    again.sticks(400, aux2=2000)
+    assert not again.status().is_armed
+    keep(again, letter, payload)
+    assert not again.status().vetoes & PROFILE_VETO

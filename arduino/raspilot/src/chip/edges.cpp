@@ -61,7 +61,8 @@ static uint8_t channels(uint8_t stored) {
 
 void drain(PwmReader& receiver, uint32_t now_us) {
   uint8_t place = oldest;
-  while (place != GPIOR2) {
+  const uint8_t end = GPIOR2;
+  while (place != end) {
     const uint16_t stamp = static_cast<uint16_t>(ring[place] | ring[place + 1] << 8);
     const uint8_t stored = ring[place + 2];
     place = after(place);

@@ -45,7 +45,8 @@ bool restore(SavedState& state) {
 void keep(const SavedState& state) { states.write(state); }
 
 void feed() {
-  wdt_reset();
+  // With interrupts off for ever the servos stand still, though the slots go on.
+  if (SREG & _BV(SREG_I)) wdt_reset();
   overflows_without_slot = 0;
   if (marker != 0) marker = 0;
 }

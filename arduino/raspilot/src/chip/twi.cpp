@@ -18,7 +18,9 @@ static constexpr uint8_t RECOVERY_STEPS = 21;
 
 void Twi::begin_recovery() {
   TWCR = 0;
-  PORTC &= static_cast<uint8_t>(~(SDA | SCL));
+  // One bit each, in one instruction: interrupts move other bits of the port.
+  PORTC &= static_cast<uint8_t>(~SDA);
+  PORTC &= static_cast<uint8_t>(~SCL);
   DDRC &= static_cast<uint8_t>(~(SDA | SCL));
   clocks_ = RECOVERY_STEPS;
   clocked_ticks_ = clock::ticks();

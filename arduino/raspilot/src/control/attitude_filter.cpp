@@ -8,7 +8,7 @@ namespace raspilot {
 namespace {
 
 constexpr uint16_t STALE_SLOTS = 25;   // 50 ms
-constexpr uint16_t LOST_SLOTS = 250;   // half a second
+constexpr uint16_t LOST_SLOTS = 125;   // a quarter of a second
 constexpr uint16_t OLDEST_SLOTS = 32767;
 constexpr uint16_t SEARCH_SLOTS = 5000;
 constexpr uint8_t FROZEN_COPIES = 24;  // with the one they copy 25 samples, 50 ms
@@ -89,7 +89,8 @@ OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
   const int16_t gyro[3] = {sample.gyro[0], negative(sample.gyro[1]), negative(sample.gyro[2])};
   if (searched_slots_ < SEARCH_SLOTS) ++searched_slots_;
   collect(sample);
-  if ((phase_ & 1) != 0 && stillness_.on_sample(gyro) && !has_ended_search_) take_own_bias();
+  const bool is_looking = !has_ended_search_ && searched_slots_ < SEARCH_SLOTS;
+  if ((phase_ & 1) != 0 && stillness_.on_sample(gyro) && is_looking) take_own_bias();
   // The slot that looks at the accelerometer has no time for a second step.
   for (uint8_t step = phase_ == 0 ? 1 : 0; step < STEPS_A_SLOT && pending_slots_ != 0; ++step) {
     --pending_slots_;
@@ -119,6 +120,8 @@ OUT_OF_LINE void AttitudeFilter::miss() {
   is_fresh_ = false;
   good_samples_ = 0;
   stillness_.forget();
+  // How it turned meanwhile is not known: the accelerometer draws quickly for a while.
+  if (found_groups_ > FINDING_GROUPS) found_groups_ = FINDING_GROUPS;
   if (missing_slots_ >= LOST_SLOTS) lose();
 }
 
@@ -173,7 +176,7 @@ OUT_OF_LINE void AttitudeFilter::take_own_bias() {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     state_.bias_q36[axis] = product(stillness_.mean_q4()[axis], TURN_PER_COUNT);
   }
-  has_own_bias_ = true;
+  state_.has_own_bias = true;
   has_ended_search_ = true;
 }
 
@@ -347,7 +350,6 @@ void AttitudeFilter::restore(const AttitudeState& state, uint32_t) {
   has_gravity_ = true;
   found_groups_ = SETTLED_GROUPS;
   has_ended_search_ = true;
-  has_own_bias_ = true;
   find_down();
   find_angles();
 }

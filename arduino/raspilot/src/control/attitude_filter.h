@@ -14,6 +14,7 @@ struct AttitudeState {
   int32_t gravity_q30[3];  // direction of down in body axes
   int32_t bias_q36[3];     // of the gyro, rad per slot
   uint32_t yaw;            // a full circle is 2^32
+  bool has_own_bias;       // found since power-on, not EEPROM's
 };
 
 /**
@@ -26,7 +27,6 @@ struct AttitudeMemory {
   bool is_fresh_;
   bool has_gravity_;
   bool has_ended_search_;
-  bool has_own_bias_;
   uint8_t copies_;
   uint8_t good_samples_;
   uint8_t distrust_;
@@ -74,10 +74,10 @@ class AttitudeFilter : private AttitudeMemory {
 
   /**
    * Gyro bias from stillness at start; never while armed. True while it looks for it, 10 s at
-   * most: a still second that comes later, still disarmed, is taken all the same.
+   * most: later the aircraft may fly, and a steady turn is still too.
    */
   bool is_calibrating() const;
-  bool is_bias_from_eeprom() const { return !has_own_bias_; }
+  bool is_bias_from_eeprom() const { return !state_.has_own_bias; }
   /** Whether the aircraft has been still for the last second. */
   bool is_still() const { return stillness_.is_still(); }
   /** `e` 3: NONE when the bias of the still second was taken into the calibration. */

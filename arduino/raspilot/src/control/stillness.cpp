@@ -8,7 +8,7 @@ namespace {
 
 constexpr uint16_t WINDOW = 256;
 constexpr int16_t GREATEST_CHANGE = 40;  // 256 of them fit in 16 bits; 1.2 deg/s
-constexpr int16_t GREATEST_BIAS = 1000;  // 30 deg/s: the data sheet's 20 and warmth
+constexpr int16_t GREATEST_BIAS = 656;   // 20 deg/s (data sheet 6.1)
 
 }  // namespace
 

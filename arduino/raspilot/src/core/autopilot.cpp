@@ -14,6 +14,9 @@ void Autopilot::begin(const SavedState* restored, uint8_t cause, uint32_t now_us
   reset_cause = cause;
   settings.load();
   controller.on_gains();
+  // What resets by itself may be flying: stillness there is a steady turn.
+  const bool is_in_flight = (cause & (RESET_BROWN_OUT | RESET_WATCHDOG)) && !(cause & RESET_POWER_ON);
+  if (is_in_flight) attitude.stop_calibrating();
   if (restored == nullptr) return;
   reset_cause |= RESET_RESTORED;
   authority.restore(restored->authority, now_us);
@@ -29,7 +32,7 @@ void Autopilot::control(const ImuSample* sample, uint32_t now_us) {
     attitude.on_missing(now_us);
   }
   const bool is_calibrating = attitude.is_calibrating() || receiver.is_learning();
-  authority.update(attitude.is_valid(), is_calibrating, settings.is_profile_broken(), now_us);
+  authority.update(attitude.is_valid(), is_calibrating, settings.is_broken(), now_us);
   controller.update(demand(), attitude.attitude());
 }
 

@@ -183,7 +183,8 @@ Reason Authority::take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint3
   for (uint8_t i = 0; i < OUTPUTS; ++i) {
     asked_outputs_.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
   }
-  // It outlives any older Setpoint, whose lifetime is no longer.
+  // They lie where a Setpoint lay: none may be read there any more.
+  lives_[DEMAND].end();
   lives_[OUTPUT].start(OUTPUT_LIVES_UNITS);
   return Reason::NONE;
 }

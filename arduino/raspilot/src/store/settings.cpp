@@ -31,8 +31,6 @@ void Settings::load() {
   memcpy_P(&gains, &DEFAULT_GAINS, sizeof gains);
   memcpy_P(&calibration, &DEFAULT_CALIBRATION, sizeof calibration);
   for (uint8_t kind = 0; kind < KINDS; ++kind) load_kind(static_cast<Kind>(kind));
-  is_profile_broken_ = !kinds_[PROFILE].is_stored && !(is_slot_erased(slot_address(PROFILE, 0)) &&
-                                                        is_slot_erased(slot_address(PROFILE, 1)));
   kind_ = PROFILE;
   begin_save();
 }
@@ -53,11 +51,17 @@ void Settings::load_kind(Kind kind) {
     state.slot = slot;
     state.sequence = sequence;
   }
+  state.is_broken = !state.is_stored && !(is_slot_erased(slot_address(kind, 0)) &&
+                                          is_slot_erased(slot_address(kind, 1)));
 }
 
 OUT_OF_LINE void Settings::save(Kind kind) {
   kinds_[kind].is_pending = true;
   if (kind == kind_) begin_save();
+}
+
+bool Settings::is_broken() const {
+  return kinds_[PROFILE].is_broken || kinds_[GAINS].is_broken || kinds_[CALIBRATION].is_broken;
 }
 
 bool Settings::is_saving() const {
@@ -108,7 +112,7 @@ void Settings::fail() {
   attempts_ = attempts;
   if (attempts < MOST_ATTEMPTS) return;
   kinds_[kind_].is_pending = false;
-  if (kind_ == PROFILE && !kinds_[PROFILE].is_stored) is_profile_broken_ = true;
+  kinds_[kind_].is_broken = !kinds_[kind_].is_stored;
 }
 
 void Settings::finish() {
@@ -117,8 +121,8 @@ void Settings::finish() {
   state.is_stored = true;
   state.slot ^= 1;
   ++state.sequence;
+  state.is_broken = false;
   begin_save();
-  if (kind_ == PROFILE) is_profile_broken_ = false;
 }
 
 /** The byte that belongs at `offset_`; moves on, and keeps the CRC of what went before. */

@@ -7,7 +7,6 @@
 #pragma once
 
 #include "../protocol/crc16.h"
-#include "../protocol/crc16.h"
 #include "calibration.h"
 #include "gains.h"
 #include "profile.h"
@@ -39,8 +38,8 @@ class Settings {
   /** Whether a valid copy is in EEPROM (gains: status flag bit 6). */
   bool has_gains() const { return kinds_[GAINS].is_stored; }
   bool has_calibration() const { return kinds_[CALIBRATION].is_stored; }
-  /** EEPROM held a profile and no copy of it can be read: arming veto bit 6. */
-  bool is_profile_broken() const { return is_profile_broken_; }
+  /** EEPROM held a kind and no copy of it can be read: arming veto bit 6. */
+  bool is_broken() const;
 
  private:
   enum Kind : uint8_t { PROFILE, GAINS, CALIBRATION, KINDS };
@@ -48,6 +47,7 @@ class Settings {
   struct KindState {
     bool is_pending;
     bool is_stored;
+    bool is_broken;
     /** Where the newest copy lies, and its sequence. */
     uint8_t slot;
     uint8_t sequence;
@@ -74,7 +74,6 @@ class Settings {
   uint8_t offset_;
   uint8_t attempts_;
   Crc16 crc_;
-  bool is_profile_broken_;
 };
 
 }  // namespace raspilot

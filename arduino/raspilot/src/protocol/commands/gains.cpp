@@ -8,7 +8,8 @@ namespace {
 Reason take_over(Autopilot& autopilot, bool is_in_range) {
   if (!is_in_range) return Reason::OUT_OF_RANGE;
   autopilot.controller.on_gains();
-  autopilot.settings.save_gains();
+  // In flight they live in RAM.
+  if (!autopilot.authority.is_armed()) autopilot.settings.save_gains();
   return Reason::NONE;
 }
 
