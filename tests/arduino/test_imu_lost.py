@@ -5,7 +5,7 @@ import itertools
 import pytest
 
 from tests.arduino.flight import FRAME_US, HIGH, IMU, MIDDLE, Flight
-from up_rig.imu import Fault
+from up_rig.imu import Fault, motion_at
 
 # HANGS, which holds data low until the clock is worked by hand, is cured by the firmware itself.
 LASTING = [Fault.NO_ANSWER, Fault.SDA_LOW, Fault.SCL_LOW]
@@ -215,3 +215,23 @@ def test_an_imu_lost_for_a_few_samples_keeps_its_attitude(fbw):
     fbw.run_ms(250)
     assert fbw.mode() == "f"
     assert fbw.attitude()[0] == pytest.approx(30, abs=1)
+
+
+@pytest.mark.parametrize("gone_ms", [120, 240, 400])
+def test_the_horizon_is_found_soon_after_a_turn_that_nobody_saw(gone_ms):
+    flight = Flight(aux1=MIDDLE)
+    flight.run_ms(1500)
+    flight.rig.imu.fail(Fault.NO_ANSWER)
+    start_s, gone_s = flight.rig.now_us / 1e6, gone_ms / 1000
+
+    def motion(time_s):
+        passed_s = min(time_s - start_s, gone_s)
+        return motion_at(60 * passed_s, 0, (60.0 * (passed_s < gone_s), 0.0, 0.0))
+
+    flight.rig.imu.motion = motion
+    flight.run_ms(gone_ms)
+    flight.rig.imu.mend()
+    flight.run_ms(5000)
+    roll, pitch, *_ = flight.attitude()
+    assert roll == pytest.approx(60 * gone_s, abs=5)
+    assert pitch == pytest.approx(0, abs=3)

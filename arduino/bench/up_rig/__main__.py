@@ -54,11 +54,11 @@ def main(arguments: list[str] | None = None) -> int:
         def end(_number: int, _frame: object) -> None:
             real_time.is_ending = True
 
-        signal.signal(signal.SIGINT, end)
-        signal.signal(signal.SIGTERM, end)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, end)
         real_time.run()
         if options.eeprom is not None:
-            options.eeprom.write_bytes(rig.eeprom.read())
+            _save(options.eeprom, rig.eeprom.read())
     except (CrashError, FirmwareError, RigUnavailableError, PtyLineError, OSError) as error:
         sys.stderr.write(f"up_rig: {error}\n")
         return 1
@@ -68,10 +68,25 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
+def _load(path: Path) -> bytes:
+    """Return what an EEPROM file holds; nothing but such a file, or a new one, is ever written."""
+    if not path.exists():
+        if not path.parent.is_dir():
+            raise FirmwareError(f"there is no folder {path.parent} for the EEPROM's file")
+        return b""
+    if not path.is_file() or path.stat().st_size != SIZE:
+        raise FirmwareError(f"{path} is no EEPROM's file: those have {SIZE} bytes")
+    return path.read_bytes()
+
+
+def _save(path: Path, contents: bytes) -> None:
+    fresh = path.with_name(path.name + ".new")
+    fresh.write_bytes(contents)
+    fresh.replace(path)
+
+
 def _make_rig(options: argparse.Namespace) -> Rig:
-    eeprom: bytes = b""
-    if options.eeprom is not None and options.eeprom.exists():
-        eeprom = options.eeprom.read_bytes()[:SIZE]
+    eeprom = b"" if options.eeprom is None else _load(options.eeprom)
     rig = Rig(
         options.firmware,
         bootloader=build_optiboot() if options.optiboot else None,
