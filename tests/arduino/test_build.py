@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.firmware import build_firmware, make, need_toolchain
+from tests.support.firmware import ARDUINO, build_firmware, make, need_toolchain
 from tests.support.tools import need_tool, unavailable
 from up_rig.elf import read_firmware
 
@@ -22,6 +22,12 @@ def test_every_variant_fits_the_board(options):
     firmware = read_firmware(build_firmware(*options))
     assert firmware.size <= CLASSIC_NANO_ROOM < OPTIBOOT_ROOM
     assert RAM - (firmware.symbols["_end"].address - 0x100) >= LEAST_STACK
+
+
+def test_it_fits_as_the_arduino_ide_compiles_it():
+    need_toolchain()
+    make("SMALLER=", "FOLDER=build-ide", "build-ide/raspilot.elf")
+    assert read_firmware(ARDUINO / "build-ide" / "raspilot.elf").size <= CLASSIC_NANO_ROOM
 
 
 def test_there_is_no_heap():
