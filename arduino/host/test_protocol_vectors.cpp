@@ -121,7 +121,13 @@ TEST_CASE("every golden Command is registered once, with its size, and in its fr
     // Who answers by itself is asked when there is room, and its payload is gone by then.
     if (command.answer == Answer::OWN) CHECK(command.size == 0);
   }
-  for (int type = 0; type < 256; ++type) CHECK(CommandExecutor::count(static_cast<char>(type)) < 2);
+  for (int type = 0; type < 256; ++type) {
+    const char letter = static_cast<char>(type);
+    CHECK(CommandExecutor::count(letter) < 2);
+    // A longer one than what can be received is never found.
+    CommandDefinition command;
+    CHECK(CommandExecutor::find(letter, command) == (CommandExecutor::count(letter) == 1));
+  }
 }
 
 TEST_CASE("every golden thesis Command is received whole") {
@@ -156,6 +162,7 @@ TEST_CASE("the longest frame is read, one byte more is too long, and the next is
   reading.take(frame_of(1, 'g', Bytes(LONGEST_PAYLOAD, 0x11)));
   CHECK(reading.frames == 1);
   CHECK(reading.reader.payload_size() == LONGEST_PAYLOAD);
+  CHECK(reading.reader.payload()[LONGEST_COMMAND - 1] == 0x11);
   Bytes too_long(LONGEST_FRAME + 2, 0x11);
   too_long[0] = LONGEST_FRAME + 2;
   too_long.push_back(0);

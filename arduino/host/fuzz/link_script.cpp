@@ -105,7 +105,7 @@ class Conversation {
     const char type = static_cast<char>(*script++);
     CommandDefinition command;
     const bool is_known = CommandExecutor::find(type, command);
-    uint8_t payload[LONGEST_PAYLOAD] = {};
+    uint8_t payload[LONGEST_COMMAND] = {};
     const size_t size = std::min<size_t>(is_known ? command.size : 3, left - 1);
     std::copy(script, script + size, payload);
     if (is_known && !autopilot_.link.is_thesis()) is_door_closed_ = true;

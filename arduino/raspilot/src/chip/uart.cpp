@@ -1,6 +1,7 @@
 #include "uart.h"
 
 #include "../core/board.h"
+#include "../protocol/frame.h"
 #include "interrupts_off.h"
 
 namespace raspilot {
@@ -8,8 +9,8 @@ namespace uart {
 
 /** 4 ms of bytes, two slots. */
 static constexpr uint8_t RX_SIZE = 48;
-/** The longest message that the protocol knows takes 102 bytes, and one place stays empty. */
-static constexpr uint8_t TX_SIZE = 104;
+/** The longest message that is ever sent, and one place that stays empty. */
+static constexpr uint8_t TX_SIZE = LONGEST_COMMAND + FRAME_OVERHEAD + COBS_OVERHEAD + 1;
 static constexpr uint16_t DIVIDER = (F_CPU / 4 / RASPILOT_BAUD - 1) / 2;
 
 static uint8_t rx[RX_SIZE];

@@ -36,7 +36,7 @@ class Answers {
 };
 
 /**
- * Lets each type be refused once a second (docs/protocols.md 2.5). It knows twelve types at a time,
+ * Lets each type be refused once a second (docs/protocols.md 2.5). It knows eight types at a time, one
  * more than there are streams; when more are refused within a second it forgets the oldest.
  */
 class RefusalLimit {
@@ -51,7 +51,7 @@ class RefusalLimit {
     char type;
     uint8_t stamp;
   };
-  static constexpr uint8_t CAPACITY = 12;
+  static constexpr uint8_t CAPACITY = 8;
 
   void forget_oldest();
 

@@ -23,7 +23,8 @@ CheckedReader::Found CheckedReader::take(uint8_t byte, uint32_t now_us) {
     is_too_long_ = true;
     return Found::NOTHING;
   }
-  buffer_.bytes[length_++] = decoded;
+  if (length_ < sizeof buffer_.bytes) buffer_.bytes[length_] = decoded;
+  ++length_;
   crc_.put(decoded);
   return Found::NOTHING;
 }

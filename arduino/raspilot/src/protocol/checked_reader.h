@@ -23,6 +23,7 @@ class CheckedReader {
 
   uint8_t sequence() const { return buffer_.bytes[0]; }
   char type() const { return static_cast<char>(buffer_.bytes[1]); }
+  /** LONGEST_COMMAND bytes of it at most. */
   const uint8_t* payload() const { return buffer_.bytes + 2; }
   uint8_t payload_size() const { return payload_size_; }
 

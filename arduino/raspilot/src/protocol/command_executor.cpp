@@ -1,5 +1,7 @@
 #include "command_executor.h"
 
+#include "frame.h"
+
 #include "../core/compiler.h"
 
 namespace raspilot {
@@ -20,7 +22,8 @@ bool CommandExecutor::find(char type, CommandDefinition& found) {
     for (uint8_t left = group->count_; left != 0; --left, ++at) {
       if (static_cast<char>(pgm_read_byte(&at->type)) != type) continue;
       memcpy_P(&found, at, sizeof found);
-      return true;
+      // A longer one would not fit into what is received.
+      return found.size <= LONGEST_COMMAND;
     }
   }
   return false;

@@ -67,7 +67,7 @@ class CommandGroup {
 
 class CommandExecutor {
  public:
-  /** Looks a type up; false when nobody registered it. */
+  /** Looks a type up; false when nobody registered it with at most LONGEST_COMMAND bytes. */
   static bool find(char type, CommandDefinition& found);
   /** How many Commands are registered for this type: one, unless two files name the same. */
   static uint8_t count(char type);

@@ -8,12 +8,15 @@
 
 namespace raspilot {
 
+/** What a frame may carry at most, and what any Command or answer of ours does (`g` and `G`). */
 constexpr uint8_t LONGEST_PAYLOAD = 96;
+constexpr uint8_t LONGEST_COMMAND = 72;
 /** Sequence, type, payload, CRC. */
 constexpr uint8_t FRAME_OVERHEAD = 4;
 constexpr uint8_t LONGEST_FRAME = LONGEST_PAYLOAD + FRAME_OVERHEAD;
 /** The one byte that COBS adds, and the zero that ends a frame. */
 constexpr uint8_t COBS_OVERHEAD = 2;
+
 /** When the first byte of a message came: what is unfinished 100 ms later is dropped. */
 class Beginning {
  public:
@@ -28,9 +31,12 @@ class Beginning {
   uint16_t units_ ZEROED;
 };
 
-/** The bytes of the message being received; both framings use it, never at the same time. */
+/**
+ * The bytes of the message being received; both framings use it, never at the same time. Of a
+ * frame that is longer than any Command the rest is checked and not kept.
+ */
 struct ReceiveBuffer {
-  uint8_t bytes[LONGEST_FRAME];
+  uint8_t bytes[LONGEST_COMMAND + 2];
 };
 
 }  // namespace raspilot

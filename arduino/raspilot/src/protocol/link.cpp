@@ -53,7 +53,7 @@ bool Link::has_room(uint8_t size) const {
 }
 
 bool Link::send(char type, const uint8_t* payload, uint8_t size) {
-  if (size > LONGEST_PAYLOAD || !has_room(size)) return false;
+  if (size > LONGEST_COMMAND || !has_room(size)) return false;
   if (is_thesis_) {
     board::serial_write(static_cast<uint8_t>(type));
     for (uint8_t index = 0; index < size; ++index) board::serial_write(payload[index]);
@@ -168,7 +168,7 @@ bool Link::send_answer(uint32_t now_us) {
 /** Lets a handler answer by itself; false when there is no room. A refusal replaces the request. */
 bool Link::ask(PendingAnswer& pending, uint32_t now_us) {
   CommandDefinition command;
-  if (!has_room(LONGEST_PAYLOAD)) return false;
+  if (!has_room(LONGEST_COMMAND)) return false;
   if (!CommandExecutor::find(static_cast<char>(pending.type), command)) return true;
   const Request request = {buffer_.bytes, pending.sequence, now_us};
   const Reason reason = command.handler(autopilot_, request);
