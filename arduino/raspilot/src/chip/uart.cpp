@@ -7,8 +7,8 @@
 namespace raspilot {
 namespace uart {
 
-/** 4 ms of bytes, two slots. */
-static constexpr uint8_t RX_SIZE = 48;
+/** Two of the longest Commands in a row come faster than a full slot reads them: 11 ms of bytes. */
+static constexpr uint8_t RX_SIZE = 128;
 /** The longest message that is ever sent, and one place that stays empty. */
 static constexpr uint8_t TX_SIZE = LONGEST_COMMAND + FRAME_OVERHEAD + COBS_OVERHEAD + 1;
 static constexpr uint16_t DIVIDER = (F_CPU / 4 / RASPILOT_BAUD - 1) / 2;
