@@ -1,0 +1,90 @@
+"""What a simulated flight asks of the board that is aboard."""
+
+from __future__ import annotations
+
+from typing import Literal, Protocol
+
+from up_rig.imu import Motion
+from up_simulator.firmware.imu_errors import ImuErrors
+
+Channel = Literal["ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"]
+ImuFault = Literal["well", "frozen", "unplugged", "stuck", "garbage"]
+ResetCause = Literal["watchdog", "power", "button", "brown-out"]
+BoardKind = Literal["auto", "firmware", "host", "direct"]
+Pulses = tuple[float, float, float, float]
+"""Servo pulses, us: ailerons, elevator, throttle, rudder."""
+
+NEUTRAL_US: Pulses = (1500.0, 1500.0, 1000.0, 1500.0)
+
+
+class BoardCrashedError(Exception):
+    """The board's program did what its chip cannot do: the message is one sentence."""
+
+
+class BoardImu(Protocol):
+    """The sensor aboard: how it errs and how it fails; both may change in flight.
+
+    ``throttle`` (0 to 1) is how fast the motor turns that shakes it.
+    """
+
+    errors: ImuErrors
+    throttle: float
+
+    @property
+    def fault(self) -> ImuFault:
+        """Return what was set last."""
+
+    def set_fault(self, fault: ImuFault) -> None:
+        """Let it fail, or mend it.
+
+        frozen: it answers with the same sample for ever. unplugged: nobody answers. stuck: it
+        holds the bus. garbage: it answers with random numbers.
+        """
+
+
+class FirmwareBoard(Protocol):
+    """A board with its receiver, servos, IMU and serial line, in its own time.
+
+    Times are microseconds since its first power-on; they never fall, whatever resets it.
+    """
+
+    title: str
+    imu: BoardImu
+
+    @property
+    def now_us(self) -> float:
+        """Return the board's time."""
+
+    def run_us(self, duration_us: float) -> None:
+        """Run on; raises ``BoardCrashedError``."""
+
+    def set_stick(self, channel: Channel, width_us: float) -> None:
+        """Set the receiver's pulse of a channel, from its next frame on."""
+
+    def set_receiver(self, is_on: bool) -> None:
+        """Switch all channels of the receiver on or off."""
+
+    def set_channel(self, channel: Channel, is_on: bool) -> None:
+        """Let one channel of the receiver send pulses or stay silent."""
+
+    def set_motion(self, motion: Motion) -> None:
+        """Set what the IMU feels from now on."""
+
+    def pulses_us(self) -> Pulses:
+        """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
+
+    def pulse_ages_us(self) -> tuple[float, float, float, float]:
+        """Return how long ago the newest pulse of each servo ended; infinite before the first."""
+
+    def read(self) -> bytes:
+        """Return what came on the serial line since the last reading."""
+
+    def write(self, data: bytes) -> None:
+        """Put bytes on the serial line."""
+
+    def reset(self, cause: ResetCause) -> None:
+        """Reset it now."""
+
+    @property
+    def eeprom(self) -> bytes:
+        """Return what the EEPROM holds; empty for a board that has none."""

@@ -1,0 +1,180 @@
+"""The firmware as it is compiled, on a simulated ATmega328P."""
+
+from __future__ import annotations
+
+import math
+import random
+from pathlib import Path
+
+from up_rig import SERVOS, CrashError, Motion, Rig
+from up_rig.imu import Fault
+from up_simulator.firmware.board import (
+    NEUTRAL_US,
+    BoardCrashedError,
+    Channel,
+    ImuFault,
+    Pulses,
+    ResetCause,
+)
+from up_simulator.firmware.imu_errors import ImuErrors, ImuModel
+
+LEVEL_AND_STILL = Motion()
+CYCLES_PER_US = 16
+
+
+class RigImu:
+    """The MPU6050 of the rig, with the errors of an ``ImuModel`` in place of the rig's own."""
+
+    def __init__(self, rig: Rig, errors: ImuErrors, seed: int) -> None:
+        self._imu = rig.imu
+        self._imu.noise_deg_s = self._imu.noise_m_s2 = 0.0
+        self._imu.motion = self._measure
+        self._model = ImuModel(errors, seed)
+        self._fault: ImuFault = "well"
+        self.motion = LEVEL_AND_STILL
+
+    @property
+    def errors(self) -> ImuErrors:
+        """Return how it errs."""
+        return self._model.errors
+
+    @errors.setter
+    def errors(self, errors: ImuErrors) -> None:
+        self._model.errors = errors
+
+    @property
+    def throttle(self) -> float:
+        """Return how fast the motor turns, 0 to 1."""
+        return self._model.throttle
+
+    @throttle.setter
+    def throttle(self, throttle: float) -> None:
+        self._model.throttle = throttle
+
+    @property
+    def fault(self) -> ImuFault:
+        """Return what was set last."""
+        return self._fault
+
+    def set_fault(self, fault: ImuFault) -> None:
+        """Let it fail, or mend it."""
+        imu = self._imu
+        imu.mend()
+        imu.is_frozen = fault == "frozen"
+        imu.is_garbage = fault == "garbage"
+        if fault == "unplugged":
+            imu.unplug()
+        else:
+            imu.plug()
+        if fault == "stuck":
+            imu.fail(Fault.SDA_LOW)
+        self._fault = fault
+
+    def _measure(self, time_s: float) -> Motion:
+        return self._model.measure(self.motion, time_s)
+
+
+class RigBoard:
+    """A ``FirmwareBoard`` that runs the machine code in a ``Rig``.
+
+    Servo pulses are those measured at the pins, the IMU's bytes pass the two-wire bus. The
+    receiver's frames begin 100 ms after power-on. Raises ``FirmwareError`` and
+    ``RigUnavailableError``.
+    """
+
+    title = "the firmware on a simulated ATmega328P"
+
+    def __init__(
+        self, elf: str | Path, *, seed: int = 1, imu_errors: ImuErrors, eeprom: bytes = b""
+    ) -> None:
+        self._rig = Rig(elf, seed=seed, eeprom=eeprom, is_measuring=False)
+        self.imu = RigImu(self._rig, imu_errors, seed)
+        self._until_us = 0.0
+        self._pulses_us = list(NEUTRAL_US)
+        self._ended_us = [-math.inf] * len(SERVOS)
+        # A receiver has no reason to begin with the board.
+        start_us = 100_000 + random.Random(f"receiver start {seed}").uniform(0, 20_000)
+        self._rig.receiver.start(at_us=start_us)
+
+    @property
+    def now_us(self) -> float:
+        """Return the time since power-on."""
+        return self._rig.now_us
+
+    def run_us(self, duration_us: float) -> None:
+        """Run on; raises ``BoardCrashedError``."""
+        # Not from now: a run ends with an instruction, thus a little late.
+        self._until_us += duration_us
+        try:
+            self._rig.run_until_us(self._until_us)
+        except CrashError as crash:
+            raise BoardCrashedError(f"{self.title}: {crash}") from crash
+        self._rig.receiver.sent.clear()
+        self._take_pulses()
+
+    def set_stick(self, channel: Channel, width_us: float) -> None:
+        """Set the receiver's pulse of a channel, from its next frame on."""
+        self._rig.receiver.set(channel, width_us)
+
+    def set_receiver(self, is_on: bool) -> None:
+        """Switch all channels of the receiver on or off."""
+        if is_on:
+            self._rig.receiver.start()
+        else:
+            self._rig.receiver.stop()
+
+    def set_channel(self, channel: Channel, is_on: bool) -> None:
+        """Let one channel of the receiver send pulses or stay silent."""
+        if is_on:
+            self._rig.receiver.resume(channel)
+        else:
+            self._rig.receiver.stop(channel)
+
+    def set_motion(self, motion: Motion) -> None:
+        """Set what the IMU feels from now on."""
+        self.imu.motion = motion
+
+    def pulses_us(self) -> Pulses:
+        """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
+        ailerons, elevator, throttle, rudder = self._pulses_us
+        return ailerons, elevator, throttle, rudder
+
+    def pulse_ages_us(self) -> tuple[float, float, float, float]:
+        """Return how long ago the newest pulse of each servo ended; infinite before the first."""
+        now_us = self.now_us
+        ailerons, elevator, throttle, rudder = (now_us - each for each in self._ended_us)
+        return ailerons, elevator, throttle, rudder
+
+    def read(self) -> bytes:
+        """Return what came on the serial line since the last reading."""
+        return self._rig.serial.read()
+
+    def write(self, data: bytes) -> None:
+        """Put bytes on the serial line, each when the one before has ended."""
+        self._rig.serial.write(data)
+
+    def reset(self, cause: ResetCause) -> None:
+        """Reset it now; a brown-out is too short to lose the RAM."""
+        match cause:
+            case "watchdog":
+                self._rig.force_watchdog_reset()
+            case "power":
+                self._rig.power_on()
+            case "button":
+                self._rig.press_reset()
+            case "brown-out":
+                self._rig.brown_out()
+
+    @property
+    def eeprom(self) -> bytes:
+        """Return what the EEPROM holds."""
+        return self._rig.eeprom.read()
+
+    def _take_pulses(self) -> None:
+        for at, channel in enumerate(SERVOS):
+            pulses = self._rig.servo.pulses(channel)
+            if pulses:
+                newest = pulses[-1]
+                self._pulses_us[at] = newest.width_us
+                self._ended_us[at] = (newest.rise_cycle + newest.width_cycles) / CYCLES_PER_US
+        self._rig.servo.forget()

@@ -1,0 +1,116 @@
+"""An aircraft, its air and its board, in one time."""
+
+from __future__ import annotations
+
+import math
+from typing import Protocol
+
+from up_rig.imu import Motion, motion_at
+from up_simulator.firmware.board import FirmwareBoard, Pulses
+from up_simulator.flight import FlightState
+
+STEP_S = 0.002
+STEP_US = 2000.0
+STILL_S = 2.0
+TILT_S = 1.0
+SETTLE_S = 0.5
+THROTTLE, THROTTLE_LOW_US, THROTTLE_RANGE_US = 2, 1000.0, 1000.0
+
+
+class Dynamics(Protocol):
+    """What flies: the servos move it, and it says what an IMU aboard feels."""
+
+    @property
+    def state(self) -> FlightState:
+        """Return the newest state."""
+
+    @property
+    def motion(self) -> Motion:
+        """Return what the IMU feels now."""
+
+    def set_servos(self, pulses_us: Pulses) -> None:
+        """Ask the servos to go to these pulses."""
+
+    def advance(self, duration_s: float) -> None:
+        """Fly on."""
+
+
+class World:
+    """The board and the flight in lockstep: 2 ms of the one, 2 ms of the other.
+
+    Time begins in the air: ``boot`` runs the board before, on the ground, and need not be called
+    for a flight that begins with a board that has just got its power.
+    """
+
+    def __init__(self, dynamics: Dynamics, board: FirmwareBoard) -> None:
+        self.dynamics = dynamics
+        self.board = board
+        self._steps = 0
+        self._owed_s = 0.0
+
+    @property
+    def time_s(self) -> float:
+        """Return the time in the air."""
+        return self._steps * STEP_S
+
+    @property
+    def state(self) -> FlightState:
+        """Return the true state of the aircraft."""
+        return self.dynamics.state
+
+    def boot(self, *, arms: bool = False) -> None:
+        """Switch the board on at rest and level, then tilt it to how the flight begins.
+
+        The aircraft lies still until the gyro is calibrated; ``arms`` then raises AUX2 with the
+        throttle low, as a pilot does. Raises ``BoardCrashedError``.
+        """
+        board = self.board
+        board.set_motion(motion_at(0.0, 0.0))
+        board.run_us(STILL_S * 1e6)
+        if arms:
+            board.set_stick("aux2", 1000.0)
+            board.run_us(SETTLE_S * 1e6)
+            board.set_stick("aux2", 2000.0)
+            board.run_us(SETTLE_S * 1e6)
+        self._tilt(self.state.roll_deg, self.state.pitch_deg)
+        self._feel()
+
+    def step(self) -> None:
+        """Run the board for 2 ms, then the flight. Raises ``BoardCrashedError``."""
+        self.board.run_us(STEP_US)
+        self.dynamics.set_servos(self.board.pulses_us())
+        self.dynamics.advance(STEP_S)
+        self._steps += 1
+        self._feel()
+
+    def advance(self, duration_s: float) -> None:
+        """Make as many steps as fit into what was asked so far. Raises ``BoardCrashedError``."""
+        self._owed_s += duration_s
+        while self._owed_s >= STEP_S - 1e-9:
+            self._owed_s -= STEP_S
+            self.step()
+
+    def _feel(self) -> None:
+        throttle_us = self.board.pulses_us()[THROTTLE]
+        part = (throttle_us - THROTTLE_LOW_US) / THROTTLE_RANGE_US
+        self.board.imu.throttle = min(1.0, max(0.0, part))
+        self.board.set_motion(self.dynamics.motion)
+
+    def _tilt(self, roll_deg: float, pitch_deg: float) -> None:
+        """Pitch, then roll, within a second each; the rates are those of the body's axes."""
+        steps = round(TILT_S / STEP_S)
+        for turns_pitch in (True, False):
+            for at in range(steps):
+                part = _eased(at + 0.5, steps)
+                rate = (_eased(at + 1, steps) - _eased(at, steps)) / STEP_S
+                if turns_pitch:
+                    motion = motion_at(0.0, pitch_deg * part, (0.0, pitch_deg * rate, 0.0))
+                else:
+                    motion = motion_at(roll_deg * part, pitch_deg, (roll_deg * rate, 0.0, 0.0))
+                self.board.set_motion(motion)
+                self.board.run_us(STEP_US)
+
+
+def _eased(at: float, steps: int) -> float:
+    """Return the part of the way that is done: it begins and ends without a jerk."""
+    return 0.5 - 0.5 * math.cos(math.pi * at / steps)
