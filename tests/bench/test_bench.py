@@ -1,6 +1,5 @@
 """Rows come out of every benchmark, whatever their figures are."""
 
-import shutil
 import subprocess
 import sys
 
@@ -13,6 +12,7 @@ from bench.processes import running
 from bench.table import Row
 from bench.timing import percentile
 from tests.support.firmware import build_firmware
+from tests.support.tools import need_tool
 
 SUBJECTS = {
     "bus": (bus, 9),
@@ -44,9 +44,9 @@ def test_rows_of(name):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(shutil.which("taskset") is None, reason="the relay needs taskset")
 def test_rows_of_the_relay():
     """In a process of its own: it raises the limit of open files."""
+    need_tool("taskset", "util-linux")
     command = [sys.executable, "-m", "bench", "relay", "--quick"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True)
     rows = [line for line in done.stdout.splitlines() if line.startswith("relay, ")]
@@ -74,8 +74,8 @@ def test_answers_that_do_not_come_are_counted():
     assert figures.lost == figures.sent == 10
 
 
-@pytest.mark.skipif(shutil.which("gcc") is None, reason="the floor is a C program")
 def test_the_floor_answers_every_frame():
+    need_tool("gcc")
     with latency.floor_program() as path, terminal() as (board_end, port), running((path, port)):
         board = Board(board_end)
         board.greet(30.0)

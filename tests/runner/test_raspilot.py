@@ -15,11 +15,6 @@ from tests.runner.test_watching import restarted
 
 ROOT = Path(__file__).parents[2]
 
-pytestmark = pytest.mark.skipif(
-    not (ROOT / "main.py").is_file() or importlib.util.find_spec("android_cog") is None,
-    reason="needs main.py and an installed android_cog",
-)
-
 
 @pytest.fixture
 def raspilot(runners, short_path):

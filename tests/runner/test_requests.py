@@ -1,9 +1,7 @@
 """The request port under good, bad and hostile askers; real sockets and a real runner."""
 
 import json
-import os
 import random
-import shutil
 import socket
 import subprocess
 import sys
@@ -13,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.runner.runners import wait_until
+from tests.support.tools import need_root, need_tool
 
 
 def memory_kb(pid):
@@ -174,12 +173,12 @@ for source in sys.argv[2:]:
 """
 
 
-@pytest.mark.skipif(
-    os.geteuid() != 0 or not all(map(shutil.which, ("unshare", "nsenter", "ip"))),
-    reason="needs root, unshare, nsenter and ip",
-)
 @pytest.mark.parametrize("accepted", [False, True])
 def test_a_public_address_is_turned_away_unless_accepted(runners, accepted):
+    need_root()
+    need_tool("unshare", "util-linux")
+    need_tool("nsenter", "util-linux")
+    need_tool("ip", "iproute2")
     holder = subprocess.Popen(
         ["unshare", "-n", "sh", "-c", "ip link set lo up && echo up && cat"],
         stdin=subprocess.PIPE,

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.tools import need_root
 from up_runner.run_folder import LONGEST, RunFolder, RunFolderError, default_run_folder
 
 
@@ -34,8 +35,8 @@ def test_one_that_others_can_look_into_is_refused_and_left_as_it_is(short_path, 
     assert stat.S_IMODE(short_path.stat().st_mode) == mode
 
 
-@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a folder away")
 def test_one_that_belongs_to_another_is_refused(short_path):
+    need_root()
     os.chown(short_path, 12345, -1)
     with pytest.raises(RunFolderError, match="belongs to user 12345"):
         RunFolder(short_path).take()

@@ -2,12 +2,13 @@
 
 import configparser
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from tests.support.tools import need_tool
 
 FOLDER = Path(__file__).parents[2] / "runner"
 UNIT = FOLDER / "up-runner.service"
@@ -24,8 +25,8 @@ def service():
     return parser["Service"]
 
 
-@pytest.mark.skipif(shutil.which("systemd-analyze") is None, reason="systemd is not installed")
 def test_systemd_finds_no_fault(tmp_path):
+    need_tool("systemd-analyze", "systemd")
     # Verification looks at the program, so the unit names the one that is installed here.
     text = UNIT.read_text(encoding="utf-8").replace("/opt/raspilot/bin/up-runner", str(PROGRAM))
     assert str(PROGRAM) in text

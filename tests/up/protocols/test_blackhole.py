@@ -1,27 +1,25 @@
 """A peer that is there and hears nothing, as behind a cellular gap; needs root and nftables."""
 
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-SCRIPT = Path(__file__).with_name("blackhole.py")
-TOOLS = ("unshare", "nft", "ip")
+from tests.support.tools import need_root, need_tool
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(
-        os.geteuid() != 0 or not all(shutil.which(tool) for tool in TOOLS),
-        reason="network namespaces need root, unshare, nft and ip",
-    ),
-]
+SCRIPT = Path(__file__).with_name("blackhole.py")
+TOOLS = {"unshare": "util-linux", "nft": "nftables", "ip": "iproute2"}
+
+pytestmark = pytest.mark.slow
 
 
 @pytest.mark.parametrize("way", ["sending", "idle"])
 def test_a_blackhole_is_noticed_long_before_the_system_would(way):
+    need_root()
+    for tool, package in TOOLS.items():
+        need_tool(tool, package)
     environment = {**os.environ, "PYTHONPATH": str(SCRIPT.parents[3])}
     result = subprocess.run(
         ["unshare", "-n", sys.executable, str(SCRIPT), way],
