@@ -21,7 +21,9 @@ ARROWS: dict[str, set[str]] = {
     "up_runner": {"up"},
     "up_ground": {"up"},
     "up_proxy": {"up"},
-    "up_simulator": set(),
+    # It flies the whole system: daemon and ground station in its own process, the compiled firmware.
+    # Raspilot and its cogs are loaded as any application is, never imported.
+    "up_simulator": {"up", "up_ground", "up_rig"},
     "up_rig": set(),
 }
 # The parts of Up that a program on another machine may use: the proxy knows no modules, no bus.

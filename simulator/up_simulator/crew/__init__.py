@@ -1,0 +1,1 @@
+"""The programs and stand-ins that a virtual aircraft is flown with."""

@@ -1,0 +1,77 @@
+"""What a scenario asks of those who fly with the aircraft, in process or as real programs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
+
+
+class Raspilot(Protocol):
+    """The daemon aboard: started, stopped, killed and started again in flight."""
+
+    @property
+    def is_running(self) -> bool:
+        """Return whether it runs now."""
+
+    @property
+    def log(self) -> Sequence[str]:
+        """Return the newest lines that it logged, the oldest first."""
+
+    def start(self) -> None:
+        """Start it, or start it again; raises CrewError with the daemon's own sentences."""
+
+    def stop(self) -> None:
+        """Ask it to end and wait until it has."""
+
+    def kill(self) -> None:
+        """End it at once, wherever it is, as ``kill -9`` does."""
+
+
+class Ground(Protocol):
+    """A ground station: what it sees, and what it asks for."""
+
+    @property
+    def telemetry(self) -> Mapping[str, Any]:
+        """Return the newest frame, empty before the first."""
+
+    @property
+    def frames(self) -> int:
+        """Return how many frames have come."""
+
+    @property
+    def newest_s(self) -> float | None:
+        """Return when the newest frame came, in the crew's time; None before the first."""
+
+    @property
+    def is_connected(self) -> bool:
+        """Return whether there is a connection, as far as this end knows."""
+
+    def start(self) -> None:
+        """Connect, and connect again after every loss."""
+
+    def stop(self) -> None:
+        """Hang up for good."""
+
+    def send(self, name: str, **data: Any) -> str:
+        """Send a Command and return the id that its answer will carry."""
+
+    def answer(self, command_id: str) -> str | None:
+        """Return None without an answer, an empty text for an ack, a nack's reason."""
+
+
+class Phone(Protocol):
+    """The phone aboard, by USB or by the network."""
+
+    @property
+    def is_plugged(self) -> bool:
+        """Return whether its cable is plugged in."""
+
+    def plug(self) -> None:
+        """Plug it in: it connects within its own retry time."""
+
+    def unplug(self) -> None:
+        """Pull the cable: nothing passes, and neither side is told."""
+
+
+class CrewError(Exception):
+    """A member of the crew cannot begin or has died: the text is for the user, by lines."""

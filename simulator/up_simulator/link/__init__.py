@@ -1,0 +1,1 @@
+"""The link between aircraft, phone and ground, and how it fails."""
