@@ -17,7 +17,7 @@ called = []
 reactor.callWhenRunning(lambda: jump_s.__setitem__(0, -86400.0))
 reactor.callLater(0.2, lambda: (called.append(1), reactor.stop()))
 import threading, os, signal
-threading.Thread(target=lambda: (time.sleep({limit_s}), os.kill(os.getpid(), signal.SIGINT)),
+threading.Thread(target=lambda: (time.sleep({limit_s}), os.kill(os.getpid(), signal.SIGTERM)),
                  daemon=True).start()
 reactor.run()
 print("called" if called else "late")
