@@ -76,6 +76,7 @@ setup(
         "dev": [
             "pytest>=8",
             "pytest-xdist>=3",
+            "pytest-timeout>=2.3",
             "hypothesis>=6.100",
             "ruff>=0.6",
             "mypy>=1.11",
