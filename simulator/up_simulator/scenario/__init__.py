@@ -1,0 +1,1 @@
+"""Scenarios: flights that are written down in YAML, flown, logged and judged."""

@@ -1,0 +1,129 @@
+"""Where a scenario's flight begins and what it flies through."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from up.config import items, key, section
+from up.fields import Constraint
+
+_RATE = Constraint(float, minimum=-500, maximum=500, unit="deg/s")
+_FORCE = Constraint(float, minimum=-50, maximum=50, unit="m/s^2")
+
+
+@dataclass(frozen=True, slots=True)
+class StartPart:
+    """How the flight begins: in the air, at the moment that counts as 0 s."""
+
+    height_m: float = key(120.0, "Above the ground.", unit="m", minimum=5, maximum=5000)
+    airspeed_m_s: float | None = key(
+        None, "null: the airframe's cruise.", unit="m/s", minimum=3, maximum=80
+    )
+    roll_deg: float = key(0.0, "Right wing down positive.", unit="deg", minimum=-180, maximum=180)
+    pitch_deg: float | None = key(
+        None, "Nose up positive. null: the airframe's own.", unit="deg", minimum=-85, maximum=85
+    )
+    heading_deg: float = key(0.0, "0 is north, 90 east.", unit="deg", minimum=0, maximum=360)
+    throttle: float | None = key(
+        None, "What the motor already gives; null: the airframe's cruise.", minimum=0, maximum=1
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Gust:
+    """Air that moves for a while: it swells and fades as (1 - cos) does."""
+
+    at_s: float = key(0.0, "When it begins.", unit="s", minimum=0, maximum=3600)
+    duration_s: float = key(1.0, "How long it lasts.", unit="s", minimum=0.02, maximum=600)
+    north_m_s: float = key(0.0, "Blows to the north.", unit="m/s", minimum=-30, maximum=30)
+    east_m_s: float = key(0.0, "Blows to the east.", unit="m/s", minimum=-30, maximum=30)
+    down_m_s: float = key(0.0, "Sinks.", unit="m/s", minimum=-30, maximum=30)
+
+
+@dataclass(frozen=True, slots=True)
+class WeatherPart:
+    """The air."""
+
+    wind_m_s: float = key(0.0, "How fast it blows.", unit="m/s", minimum=0, maximum=30)
+    wind_from_deg: float = key(
+        180.0, "Where it comes from: 0 is north.", unit="deg", minimum=0, maximum=360
+    )
+    turbulence: Literal["none", "light", "moderate", "severe"] = key(
+        "none", "Of the military standard's spectrum (MIL-F-8785C), different for every seed."
+    )
+    gusts: tuple[Gust, ...] = items(Gust, "Single gusts.", max_length=100)
+
+
+@dataclass(frozen=True, slots=True)
+class ImuPart:
+    """What is wrong with the IMU although it works: noise, bias, vibration."""
+
+    noise_deg_s: float | None = key(
+        None,
+        "Noise of the gyroscopes, standard deviation. null: the part's own.",
+        unit="deg/s",
+        minimum=0,
+        maximum=100,
+    )
+    noise_m_s2: float | None = key(
+        None,
+        "Noise of the accelerometers, standard deviation. null: the part's own.",
+        unit="m/s^2",
+        minimum=0,
+        maximum=50,
+    )
+    bias_deg_s: tuple[float, ...] = items(
+        _RATE, "Bias of the gyroscopes: roll, pitch, yaw.", default=(0.0, 0.0, 0.0), max_length=3
+    )
+    bias_m_s2: tuple[float, ...] = items(
+        _FORCE, "Bias of the accelerometers: x, y, z.", default=(0.0, 0.0, 0.0), max_length=3
+    )
+    vibration_deg_s: float = key(
+        0.0,
+        "Amplitude of the motor's vibration in the rates.",
+        unit="deg/s",
+        minimum=0,
+        maximum=500,
+    )
+    vibration_m_s2: float = key(
+        0.0, "Amplitude of the vibration in the forces.", unit="m/s^2", minimum=0, maximum=100
+    )
+    vibration_hz: float = key(
+        90.0, "How fast the motor shakes it.", unit="Hz", minimum=1, maximum=1000
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what does not fit together."""
+        for name in ("bias_deg_s", "bias_m_s2"):
+            if len(getattr(self, name)) != 3:
+                yield name, "must have three numbers, one for each axis"
+
+
+@dataclass(frozen=True, slots=True)
+class LinkSettingsPart:
+    """One direction of the link between aircraft and ground."""
+
+    delay_ms: float = key(0.0, "How long each packet takes.", unit="ms", minimum=0, maximum=60_000)
+    jitter_ms: float = key(
+        0.0, "How much longer at most, at random.", unit="ms", minimum=0, maximum=60_000
+    )
+    loss_percent: float = key(
+        0.0,
+        "How many packets are lost; TCP sends them again, later.",
+        unit="%",
+        minimum=0,
+        maximum=100,
+    )
+    rate_bytes_s: float = key(
+        0.0, "How many bytes pass in a second; 0: any.", unit="B/s", minimum=0, maximum=1e9
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class LinkPart:
+    """The link between aircraft and ground, as a cellular network is one."""
+
+    up: LinkSettingsPart = section(LinkSettingsPart, "From the aircraft to the ground.")
+    down: LinkSettingsPart = section(LinkSettingsPart, "From the ground to the aircraft.")

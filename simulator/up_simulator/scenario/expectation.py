@@ -1,0 +1,203 @@
+"""What a scenario expects of a signal in a part of the flight."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from up.config import items, key, section
+from up.fields import Constraint
+from up_simulator.scenario.signals import Kind, signal_of
+
+_NUMBER = Constraint(float)
+
+
+@dataclass(frozen=True, slots=True)
+class StepLimits:
+    """How a step of the signal may look; the figures are those of control engineering."""
+
+    start: float | None = key(
+        None, "The value before; null: what the demand asked for just before the step."
+    )
+    end: float | None = key(
+        None, "The value wanted; null: what the demand asks for just after the step."
+    )
+    demand: str = key(
+        "", "The signal that steps; empty: the signal's own demand.*.", max_length=100
+    )
+    rise_time_s: float | None = key(
+        None, "From 10 to 90 % of the step, at most.", unit="s", minimum=0
+    )
+    overshoot_percent: float | None = key(
+        None, "Beyond the wanted value, of the step's height, at most.", unit="%", minimum=0
+    )
+    settling_time_s: float | None = key(
+        None, "Until it stays within 5 % of the step's height, at most.", unit="s", minimum=0
+    )
+    steady_error: float | None = key(
+        None, "What is left at the end of the window, at most; the signal's unit.", minimum=0
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what is missing."""
+        if not self.limits:
+            yield "rise_time_s", "sets no limit: name one of " + ", ".join(STEP_FIGURES)
+        if self.demand:
+            yield from _signal_problems("demand", self.demand)
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """Return the figures that have a limit."""
+        found = {name: getattr(self, name) for name in STEP_FIGURES}
+        return {name: limit for name, limit in found.items() if limit is not None}
+
+
+STEP_FIGURES = ("rise_time_s", "overshoot_percent", "settling_time_s", "steady_error")
+
+
+@dataclass(frozen=True, slots=True)
+class Expectation:
+    """One sentence about the flight that holds or does not, with a figure either way.
+
+    The window is from ``from_s`` to ``to_s``; with ``after`` both count from that event.
+    """
+
+    name: str = key("", "The sentence: 'The bank stays within 5 degrees'.", max_length=120)
+    signal: str = key("", "What is looked at (docs/scenarios.md lists them).", max_length=100)
+    after: str = key("", "An event's name: the window counts from it.", max_length=80)
+    from_s: float = key(0.0, "Where the window begins.", unit="s", minimum=0, maximum=3600)
+    to_s: float | None = key(
+        None, "Where it ends; null: with the flight.", unit="s", minimum=0, maximum=3600
+    )
+    between: tuple[float, ...] = items(
+        _NUMBER, "[lowest, highest]: it never leaves them.", max_length=2
+    )
+    below: float | None = key(None, "It is never above this. The figure is its greatest value.")
+    above: float | None = key(None, "It is never below this. The figure is its least value.")
+    is_: str | None = key(
+        None, "It is this all the time: a word, a number, true or false.", name="is", max_length=100
+    )
+    is_not: str | None = key(None, "It is never this.", max_length=100)
+    becomes: str | None = key(
+        None,
+        "It gets to be this within 'within_s'. The figure is the time that it took.",
+        max_length=100,
+    )
+    becomes_below: float | None = key(None, "It comes down to this within 'within_s'.")
+    becomes_above: float | None = key(None, "It comes up to this within 'within_s'.")
+    settles_between: tuple[float, ...] = items(
+        _NUMBER,
+        "[lowest, highest]: within 'within_s' it is between them, and stays there to the window's"
+        " end. The figure is the time that it took.",
+        max_length=2,
+    )
+    within_s: float | None = key(
+        None, "How long 'becomes...' and 'settles...' may take.", unit="s", minimum=0, maximum=3600
+    )
+    rms_below: float | None = key(None, "The root of its mean square is at most this.", minimum=0)
+    mean_between: tuple[float, ...] = items(
+        _NUMBER, "[lowest, highest]: its mean lies between them.", max_length=2
+    )
+    max_step: float | None = key(
+        None, "It never changes more than this from one row (20 ms) to the next.", minimum=0
+    )
+    stays: float | None = key(
+        None, "It never gets further than this from its value when the window begins.", minimum=0
+    )
+    grows_below: float | None = key(
+        None, "What it grows by over the window (a counter, a height) is at most this."
+    )
+    grows_above: float | None = key(None, "What it grows by over the window is at least this.")
+    changes_below: int | None = key(None, "How often its value changes is at most this.", minimum=0)
+    changes_above: int | None = key(
+        None, "How often its value changes is at least this.", minimum=0
+    )
+    step: StepLimits | None = section(
+        StepLimits, "It follows a step at the window's begin.", optional=True
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what is missing, too much or of the wrong kind."""
+        if not self.name:
+            yield "name", "must be a sentence that says what is expected"
+        if self.signal:
+            yield from _signal_problems("signal", self.signal)
+        else:
+            yield "signal", "must be the name of a signal"
+        if self.to_s is not None and self.to_s <= self.from_s:
+            yield "to_s", f"must be after from_s, which is {self.from_s:g}"
+        kinds = self.kinds
+        if not kinds:
+            yield "name", "expects nothing: name one of " + ", ".join(_FILE_KINDS)
+        for kind in kinds[1:]:
+            other, this = _FILE_NAMES.get(kinds[0], kinds[0]), _FILE_NAMES.get(kind, kind)
+            yield kind, f"'{other}' is expected already: give '{this}' an expectation of its own"
+        if len(kinds) == 1:
+            yield from self._kind_problems(kinds[0])
+
+    def _kind_problems(self, kind: str) -> Iterator[tuple[str, str]]:
+        if kind in PAIRS:
+            pair = getattr(self, kind)
+            if len(pair) != 2 or pair[0] > pair[1]:
+                yield kind, "must be two numbers, the lower one first"
+        if kind in TIMED and self.within_s is None:
+            yield kind, "needs 'within_s': how long it may take"
+        if kind not in TIMED and self.within_s is not None:
+            yield "within_s", "belongs to 'becomes...' and 'settles...' only"
+        try:
+            signal = signal_of(self.signal)
+        except KeyError:
+            return
+        if kind in VALUED:
+            try:
+                value_of(getattr(self, kind), signal.kind)
+            except ValueError as error:
+                yield kind, str(error)
+        elif kind not in COUNTED and signal.kind is not Kind.NUMBER:
+            yield kind, f"needs a number, and {signal.name} is a {signal.kind.value}: use 'is' ..."
+
+    @property
+    def kinds(self) -> list[str]:
+        """Return the attributes that say what is expected: one, when it has been read."""
+        return [kind for kind in KINDS if getattr(self, kind) not in (None, ())]
+
+    @property
+    def kind(self) -> str:
+        """Return what is expected."""
+        return self.kinds[0]
+
+
+PAIRS = ("between", "settles_between", "mean_between")
+TIMED = ("becomes", "becomes_below", "becomes_above", "settles_between")
+VALUED = ("is_", "is_not", "becomes")
+COUNTED = ("changes_below", "changes_above")
+_FILE_NAMES = {"is_": "is"}
+_WINDOW = ("name", "signal", "after", "from_s", "to_s", "within_s")
+KINDS = tuple(name for name in Expectation.__slots__ if name not in _WINDOW)
+_FILE_KINDS = tuple(_FILE_NAMES.get(kind, kind) for kind in KINDS)
+_TRUE, _FALSE = ("true", "yes", "on"), ("false", "no", "off")
+NULLS = ("null", "~", "")
+
+
+def value_of(text: str, kind: Kind) -> float | str:
+    """Return what a text means for a signal of that kind; a flag is 1.0 or 0.0.
+
+    Raises ValueError with a sentence.
+    """
+    if kind is Kind.WORD:
+        return "" if text in NULLS else text
+    if kind is Kind.FLAG:
+        if text.lower() in _TRUE + _FALSE:
+            return float(text.lower() in _TRUE)
+        raise ValueError("must be true or false for this signal")
+    try:
+        return _NUMBER.check(float(text))  # type: ignore[no-any-return]
+    except ValueError:
+        raise ValueError("must be a number for this signal") from None
+
+
+def _signal_problems(attribute: str, name: str) -> Iterator[tuple[str, str]]:
+    try:
+        signal_of(name)
+    except KeyError as error:
+        yield attribute, f'"{name[:60]}": {error.args[0]}'

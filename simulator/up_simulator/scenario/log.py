@@ -1,0 +1,159 @@
+"""The log of a flight: one row every 20 ms, one column for every signal, as CSV on the disk."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from up_simulator.scenario.signals import EVENT_COLUMN, Kind, signal_of
+
+ROW_S = 0.02
+DIGITS = 6
+Value = float | str
+"""A number (a flag is 1.0 or 0.0, not a number is not known) or a word (empty: not known)."""
+
+
+class LogError(Exception):
+    """A file is no log of a flight: the message is one sentence with file and line."""
+
+
+class FlightLog:
+    """What every signal was at every row; ``columns`` begin with time_s and end with event.
+
+    A number is rounded to six decimals when it is taken, so that a log that is read from the disk
+    is the one that was written.
+    """
+
+    def __init__(self, columns: Sequence[str]) -> None:
+        self.columns = tuple(columns)
+        self.rows: list[tuple[Value, ...]] = []
+        self._words = frozenset(name for name in columns if is_word(name))
+        self._index = {name: at for at, name in enumerate(self.columns)}
+
+    def __len__(self) -> int:
+        """Return the number of rows."""
+        return len(self.rows)
+
+    def __contains__(self, column: object) -> bool:
+        """Return whether there is a column of that name."""
+        return column in self._index
+
+    def append(self, values: Mapping[str, float | bool | str | None]) -> None:
+        """Take a row; what is not in it is not known."""
+        row: list[Value] = []
+        for name in self.columns:
+            value = values.get(name)
+            if name in self._words:
+                row.append("" if value is None else str(value))
+            else:
+                row.append(math.nan if value is None else _rounded(float(value)))
+        self.rows.append(tuple(row))
+
+    def column(self, name: str) -> list[Value]:
+        """Return all values of a column; raises KeyError."""
+        at = self._index[name]
+        return [row[at] for row in self.rows]
+
+    def numbers(self, name: str) -> list[float]:
+        """Return a column of numbers; raises KeyError, and TypeError for a column of words."""
+        if name in self._words:
+            raise TypeError(f"{name} holds words")
+        return [float(value) for value in self.column(name)]
+
+    def has_words(self, name: str) -> bool:
+        """Return whether a column holds words."""
+        return name in self._words
+
+    @property
+    def events(self) -> list[tuple[float, str]]:
+        """Return time and name of everything that happened."""
+        if EVENT_COLUMN not in self._index:
+            return []
+        found: list[tuple[float, str]] = []
+        for time_s, cell in zip(self.numbers("time_s"), self.column(EVENT_COLUMN), strict=True):
+            found += [(time_s, name) for name in str(cell).split(EVENT_SEPARATOR) if name]
+        return found
+
+    def text(self) -> str:
+        """Return the log as CSV."""
+        into = io.StringIO()
+        writer = csv.writer(into, lineterminator="\n")
+        writer.writerow(self.columns)
+        for row in self.rows:
+            writer.writerow([_cell(value) for value in row])
+        return into.getvalue()
+
+    def write(self, path: Path) -> None:
+        """Write the CSV file; raises OSError."""
+        path.write_text(self.text(), encoding="utf-8")
+
+
+EVENT_SEPARATOR = "; "
+
+
+def is_word(name: str) -> bool:
+    """Return whether a column of that name holds words."""
+    if name == EVENT_COLUMN:
+        return True
+    try:
+        return signal_of(name).kind is Kind.WORD
+    except KeyError:
+        return False
+
+
+def read_log(path: Path) -> FlightLog:
+    """Return the log in a file; raises LogError in one sentence, also where nothing can be read."""
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            return _read(path, csv.reader(file))
+    except OSError as error:
+        raise LogError(f"{path}: cannot be read: {error.strerror or error}") from error
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise LogError(f"{path}: is no log of a flight: {error}") from error
+
+
+def _read(path: Path, lines: Iterator[list[str]]) -> FlightLog:
+    columns = next(lines, [])
+    if not columns or columns[0] != "time_s":
+        raise LogError(f"{path}:1: is no log of a flight: its first column is not time_s")
+    if len(set(columns)) != len(columns):
+        raise LogError(f"{path}:1: has two columns of one name")
+    log = FlightLog(columns)
+    for line, row in enumerate(lines, 2):
+        if len(row) != len(columns):
+            what = f"has {len(row)} values, not {len(columns)}"
+            raise LogError(f"{path}:{line}: {what}")
+        values: dict[str, float | str | None] = {}
+        for name, cell in zip(columns, row, strict=True):
+            if log.has_words(name):
+                values[name] = cell
+            else:
+                values[name] = _number(path, line, name, cell)
+        log.append(values)
+    return log
+
+
+def _number(path: Path, line: int, name: str, cell: str) -> float | None:
+    if not cell:
+        return None
+    try:
+        number = float(cell)
+    except ValueError:
+        raise LogError(f"{path}:{line}: {name} is no number: {cell[:40]!r}") from None
+    return number
+
+
+def _rounded(number: float) -> float:
+    # Adding zero makes minus zero plain: one value has one spelling.
+    return round(number, DIGITS) + 0.0 if math.isfinite(number) else number
+
+
+def _cell(value: Value) -> str:
+    if isinstance(value, str):
+        return value
+    if math.isnan(value):
+        return ""
+    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
