@@ -3,65 +3,15 @@
 from __future__ import annotations
 
 import random
-from dataclasses import dataclass
+
+from up_rig.pins import CHANNELS
+from up_rig.sticks import StickMove, SticksError, read_sticks
+
+__all__ = ["POWERED", "SOARING", "Receiver", "StickMove", "SticksError", "read_sticks"]
 
 PERIOD_S = 0.02
-CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
-SINGULAR = {"aileron": "ailerons"}
-LOWEST_US, HIGHEST_US = 800, 2200
-
 SOARING = "t=0 throttle=1000 aux1=2000 aux2=1000 t=1 aux2=2000"
 POWERED = SOARING + " t=3 throttle=1700"
-
-
-class SticksError(ValueError):
-    """A stick script is wrong: the message is one sentence for the user."""
-
-
-@dataclass(frozen=True, slots=True)
-class StickMove:
-    """At ``time_s`` the channel goes to ``value``: us, or for ``receiver`` 1 on and 0 off."""
-
-    time_s: float
-    channel: str
-    value: int
-
-
-def read_sticks(text: str) -> list[StickMove]:
-    """Return the moves of a script such as ``t=5 aileron=1600 t=6 aileron=1500``.
-
-    ``t=SECONDS`` since the start holds for the words after it. Channels take pulses of 800 to
-    2200 us, ``receiver`` takes ``on`` or ``off``. Raises ``SticksError``.
-    """
-    time_s = 0.0
-    moves: list[StickMove] = []
-    for word in text.replace(",", " ").split():
-        name, equals, value = word.partition("=")
-        name = SINGULAR.get(name, name)
-        if not equals:
-            raise SticksError(f"sticks: {word!r} is not of the form name=value")
-        if name == "t":
-            time_s = _time_s(value, time_s)
-        elif name == "receiver" and value in ("on", "off"):
-            moves.append(StickMove(time_s, name, int(value == "on")))
-        elif name in CHANNELS and value.isascii() and value.isdigit():
-            if not LOWEST_US <= int(value) <= HIGHEST_US:
-                raise SticksError(f"sticks: {word}: pulses are {LOWEST_US} to {HIGHEST_US} us")
-            moves.append(StickMove(time_s, name, int(value)))
-        else:
-            known = ", ".join((*CHANNELS, "receiver=on|off"))
-            raise SticksError(f"sticks: {word!r} is not understood (t, {known})")
-    return moves
-
-
-def _time_s(text: str, previous_s: float) -> float:
-    try:
-        time_s = float(text)
-    except ValueError:
-        raise SticksError(f"sticks: t={text} is not a number of seconds") from None
-    if not previous_s <= time_s < 1e9:
-        raise SticksError(f"sticks: t={text} does not come after t={previous_s:g}")
-    return time_s
 
 
 class Receiver:

@@ -22,7 +22,7 @@ def test_a_script_is_read():
         ("aileron", "name=value"),
         ("aileron=799", "800 to 2200"),
         ("aileron=2201", "800 to 2200"),
-        ("aileron=fast", "not understood"),
+        ("aileron=fast", "800 to 2200"),
         ("flaps=1500", "not understood"),
         ("receiver=maybe", "not understood"),
         ("t=soon", "number of seconds"),
