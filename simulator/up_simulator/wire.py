@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from binascii import crc_hqx
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -39,14 +40,8 @@ class Odd:
 
 def crc16(data: bytes) -> int:
     """Return CRC-16/CCITT-FALSE of ``data`` (0x29B1 for ``123456789``)."""
-    register = 0xFFFF
-    for byte in data:
-        register ^= byte << 8
-        for _ in range(8):
-            register <<= 1
-            if register & 0x10000:
-                register ^= 0x11021
-    return register
+    # XMODEM's CRC is the same but for where it begins.
+    return crc_hqx(data, 0xFFFF)
 
 
 def cobs_encode(plain: bytes) -> bytes:

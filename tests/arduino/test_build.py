@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.firmware import ARDUINO, build_firmware, make, need_toolchain
+from tests.support.firmware import ARDUINO, BuildError, build_firmware, make, need_toolchain
 from tests.support.tools import need_tool, unavailable
 from up_rig.elf import read_firmware
 
@@ -37,7 +37,7 @@ def test_there_is_no_heap():
 
 def test_a_wrong_option_is_a_sentence():
     need_toolchain()
-    with pytest.raises(AssertionError, match="BOARD is default or prototype, not 'mega'"):
+    with pytest.raises(BuildError, match="BOARD is default or prototype, not 'mega'"):
         make("BOARD=mega")
 
 
@@ -45,7 +45,7 @@ def test_the_portable_part_passes_its_tests_on_this_computer():
     need_tool("g++")
     try:
         said = make("host-test")
-    except AssertionError as failure:
+    except BuildError as failure:
         if "apt-get install" in str(failure):
             unavailable(str(failure).strip().splitlines()[-1])
         raise

@@ -48,8 +48,13 @@ class FirmwareBoard(Protocol):
     Times are microseconds since its first power-on; they never fall, whatever resets it.
     """
 
-    title: str
-    imu: BoardImu
+    @property
+    def title(self) -> str:
+        """Return what it is, in a few words."""
+
+    @property
+    def imu(self) -> BoardImu:
+        """Return its sensor."""
 
     @property
     def now_us(self) -> float:

@@ -1,0 +1,72 @@
+"""Builds the firmware by its Makefile, one process at a time."""
+
+from __future__ import annotations
+
+import fcntl
+import shutil
+import subprocess
+from pathlib import Path
+
+from up_rig.library import SOURCES, RigUnavailableError
+
+ARDUINO = SOURCES.parents[2]
+CORE = Path("/usr/share/arduino/hardware/arduino/avr/cores/arduino/Arduino.h")
+AVR_LIBC = Path("/usr/lib/avr/include/avr/io.h")
+PACKAGES = "make gcc-avr avr-libc arduino-core-avr"
+LONGEST_S = 900.0
+
+
+class BuildError(Exception):
+    """The firmware does not compile: the message is what make said."""
+
+
+def missing_toolchain() -> str | None:
+    """Return one sentence when the firmware cannot be built here; None when it can."""
+    if not (ARDUINO / "raspilot" / "raspilot.ino").is_file():
+        return f"the firmware's sources are not here ({ARDUINO})"
+    programs = [name for name in ("make", "avr-g++", "avr-gcc") if shutil.which(name) is None]
+    files = [str(path) for path in (CORE, AVR_LIBC) if not path.exists()]
+    if not programs and not files:
+        return None
+    lacking = ", ".join(programs + files)
+    return f"building the firmware needs {lacking} (Debian packages {PACKAGES})"
+
+
+def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
+    """Run make in ``arduino/`` and return what it printed.
+
+    Of several processes one builds, the others wait. Raises ``BuildError``, and
+    ``RigUnavailableError`` without make.
+    """
+    program = shutil.which("make")
+    if program is None:
+        raise RigUnavailableError("building needs make (Debian package make)")
+    build = ARDUINO / "build"
+    build.mkdir(exist_ok=True)
+    with (build / ".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        done = subprocess.run(
+            [program, "-C", str(ARDUINO), *arguments],
+            capture_output=True,
+            text=True,
+            timeout=timeout_s,
+            check=False,
+        )
+    said = done.stdout + done.stderr
+    if done.returncode:
+        raise BuildError(said)
+    return said
+
+
+def build_firmware(*options: str) -> Path:
+    """Return the ELF file of the firmware, built if need be; options such as ``BAUD=9600``.
+
+    Raises ``BuildError``, and ``RigUnavailableError`` without the toolchain.
+    """
+    lacking = missing_toolchain()
+    if lacking is not None:
+        raise RigUnavailableError(lacking)
+    chosen = dict(option.split("=") for option in options)
+    folder = "build" + "".join(f"-{chosen[name]}" for name in ("BAUD", "BOARD") if name in chosen)
+    make(*options, f"{folder}/raspilot.elf")
+    return ARDUINO / folder / "raspilot.elf"

@@ -1,0 +1,122 @@
+"""No flight computer at all: the receiver's wires go straight to the servos."""
+
+from __future__ import annotations
+
+import math
+import random
+
+from up_rig.imu import Motion
+from up_rig.pins import CHANNELS, SERVOS
+from up_rig.receiver import NEUTRAL_US as RECEIVER_NEUTRAL_US
+from up_simulator.firmware.board import NEUTRAL_US, Channel, ImuFault, Pulses, ResetCause
+from up_simulator.firmware.imu_errors import ImuErrors
+
+FRAME_US = 20_000.0
+GAP_US = 10.0
+
+
+class NoImu:
+    """Nobody measures here; what is set is kept and has no effect."""
+
+    def __init__(self, errors: ImuErrors) -> None:
+        self.errors = errors
+        self.throttle = 0.0
+        self._fault: ImuFault = "well"
+
+    @property
+    def fault(self) -> ImuFault:
+        """Return what was set last."""
+        return self._fault
+
+    def set_fault(self, fault: ImuFault) -> None:
+        """Keep it."""
+        self._fault = fault
+
+
+class DirectBoard:
+    """A ``FirmwareBoard`` without firmware: Black Box mode, and what a flight is without help.
+
+    Frames of six pulses, one after the other, come every 20 ms; a servo has the newest whole one.
+    The serial line is silent and nothing resets.
+    """
+
+    title = "no flight computer: the receiver moves the servos"
+
+    def __init__(self, *, seed: int = 1, imu_errors: ImuErrors | None = None) -> None:
+        self.imu = NoImu(imu_errors or ImuErrors())
+        self._now_us = 0.0
+        self._frame_us = random.Random(f"receiver start {seed}").uniform(0, FRAME_US)
+        self._sticks_us: dict[str, float] = dict(RECEIVER_NEUTRAL_US)
+        self._silent: set[str] = set()
+        self._coming: list[tuple[float, str, float]] = []
+        self._pulses_us = dict(zip(SERVOS, NEUTRAL_US, strict=True))
+        self._ended_us = dict.fromkeys(SERVOS, -math.inf)
+
+    @property
+    def now_us(self) -> float:
+        """Return the time since it was made."""
+        return self._now_us
+
+    def run_us(self, duration_us: float) -> None:
+        """Let the receiver's pulses come."""
+        self._now_us += duration_us
+        while self._frame_us <= self._now_us:
+            self._send_frame(self._frame_us)
+            self._frame_us += FRAME_US
+        while self._coming and self._coming[0][0] <= self._now_us:
+            end_us, channel, width_us = self._coming.pop(0)
+            self._pulses_us[channel] = width_us
+            self._ended_us[channel] = end_us
+
+    def set_stick(self, channel: Channel, width_us: float) -> None:
+        """Set the receiver's pulse of a channel, from its next frame on."""
+        self._sticks_us[channel] = width_us
+
+    def set_receiver(self, is_on: bool) -> None:
+        """Switch all channels of the receiver on or off."""
+        self._silent = set() if is_on else set(CHANNELS)
+
+    def set_channel(self, channel: Channel, is_on: bool) -> None:
+        """Let one channel of the receiver send pulses or stay silent."""
+        if is_on:
+            self._silent.discard(channel)
+        else:
+            self._silent.add(channel)
+
+    def set_motion(self, motion: Motion) -> None:
+        """Nothing aboard feels it."""
+
+    def pulses_us(self) -> Pulses:
+        """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
+        ailerons, elevator, throttle, rudder = (self._pulses_us[each] for each in SERVOS)
+        return ailerons, elevator, throttle, rudder
+
+    def pulse_ages_us(self) -> tuple[float, float, float, float]:
+        """Return how long ago the newest pulse of each servo ended; infinite before the first."""
+        ailerons, elevator, throttle, rudder = (
+            self._now_us - self._ended_us[each] for each in SERVOS
+        )
+        return ailerons, elevator, throttle, rudder
+
+    def read(self) -> bytes:
+        """Return nothing: the line is silent."""
+        return b""
+
+    def write(self, data: bytes) -> None:
+        """Nobody reads it."""
+
+    def reset(self, cause: ResetCause) -> None:
+        """There is nothing to reset."""
+
+    @property
+    def eeprom(self) -> bytes:
+        """Return nothing: there is none."""
+        return b""
+
+    def _send_frame(self, start_us: float) -> None:
+        at_us = start_us
+        for channel in CHANNELS:
+            at_us += self._sticks_us[channel]
+            if channel in self._pulses_us and channel not in self._silent:
+                self._coming.append((at_us, channel, self._sticks_us[channel]))
+            at_us += GAP_US
