@@ -1,0 +1,140 @@
+"""Which axis or button of a game controller moves which channel, and how."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+from up_simulator.radio.js_event import FULL, JsEvent
+from up_simulator.radio.sticks import (
+    CENTRE_US,
+    CHANNELS,
+    HIGHEST_US,
+    LOWEST_US,
+    SWITCH_US,
+    RadioError,
+    Sticks,
+)
+
+PRESETS = {
+    "transmitter": "ailerons=0 elevator=1 throttle=2 rudder=3 aux1=4 aux2=5 dead=0.01",
+    "gamepad": "rudder=0 throttle=1- ailerons=3 elevator=4 aux1=b5 aux2=b4 dead=0.08",
+}
+"""A radio on a USB cable (channels in the order AETR), and a game pad as Linux numbers it."""
+DEAD_MOST = 0.5
+MODES = tuple(SWITCH_US.values())
+_SOURCE = re.compile(
+    r"(?P<button>b?)(?P<number>\d{1,3})(?P<reversed>-?)"
+    r"(?::(?P<low>-?\d{1,5})\.\.(?P<centre>-?\d{1,5})\.\.(?P<high>-?\d{1,5}))?"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """An axis (or button) and how it is read; ``low``, ``centre``, ``high`` calibrate it."""
+
+    number: int
+    is_axis: bool = True
+    is_reversed: bool = False
+    low: int = -FULL
+    centre: int = 0
+    high: int = FULL
+
+    def pulse_us(self, value: int, dead: float) -> int:
+        """Return the pulse of an axis that stands at ``value``.
+
+        ``dead`` is the part of the way around the centre in which nothing moves.
+        """
+        way = self.high - self.centre if value >= self.centre else self.centre - self.low
+        part = max(-1.0, min(1.0, (value - self.centre) / way))
+        moved = max(0.0, (abs(part) - dead) / (1.0 - dead))
+        signed = moved if (part < 0) == self.is_reversed else -moved
+        return round(CENTRE_US + signed * (HIGHEST_US - CENTRE_US))
+
+
+@dataclass(frozen=True, slots=True)
+class AxisMap:
+    """The sources of the channels, and the dead band (part of the way) around each centre."""
+
+    sources: dict[str, Source] = field(default_factory=dict)
+    dead: float = 0.0
+
+
+def read_axis_map(text: str) -> AxisMap:
+    """Return the map of a preset's name, or of a text such as ``ailerons=0 elevator=1- dead=0.05``.
+
+    A source is an axis' number, ``-`` behind it reverses, ``b`` before it makes it a button: AUX1
+    goes through its positions, other channels from end to end and back at every press.
+    ``ailerons=0:-30000..120..31000`` calibrates. ``gamepad elevator=4-`` changes a preset. Raises
+    ``RadioError``.
+    """
+    sources: dict[str, Source] = {}
+    dead = 0.0
+    words = text.replace(",", " ").split()
+    if words and words[0] in PRESETS:
+        words = PRESETS[words.pop(0)].split() + words
+    for word in words:
+        name, equals, value = word.partition("=")
+        if equals and name == "dead":
+            dead = _dead(value)
+        elif equals and name in CHANNELS:
+            sources[name] = _source(word, value)
+        else:
+            known = ", ".join((*PRESETS, *CHANNELS, "dead"))
+            raise RadioError(f"controller map: {word!r} is not understood (known: {known})")
+    if not sources:
+        raise RadioError(f"controller map: no channel is named (or say {' or '.join(PRESETS)})")
+    return AxisMap(sources, dead)
+
+
+class MappedSticks:
+    """The sticks of a controller: its events in, pulses out."""
+
+    def __init__(self, axis_map: AxisMap, start: Sticks | None = None) -> None:
+        self._map = axis_map
+        self.now = start or Sticks(aux1=SWITCH_US["FBW"])
+
+    def take(self, event: JsEvent) -> None:
+        """Move the channels that this event is the source of."""
+        for channel, source in self._map.sources.items():
+            if (source.number, source.is_axis) != (event.number, event.is_axis):
+                continue
+            if source.is_axis:
+                pulse_us = source.pulse_us(event.value, self._map.dead)
+                self.now = self.now.moved(channel, pulse_us)
+            elif event.value:
+                self.now = self.now.moved(channel, _next(channel, getattr(self.now, channel)))
+
+
+def _next(channel: str, pulse_us: int) -> int:
+    """Return where a button takes a channel."""
+    if channel == "aux1":
+        nearest = min(MODES, key=lambda each: abs(each - pulse_us))
+        return MODES[(MODES.index(nearest) + 1) % len(MODES)]
+    return LOWEST_US if pulse_us > CENTRE_US else HIGHEST_US
+
+
+def _dead(text: str) -> float:
+    try:
+        dead = float(text)
+    except ValueError:
+        dead = -1.0
+    if not 0.0 <= dead <= DEAD_MOST:
+        raise RadioError(f"controller map: dead={text} is not a part from 0 to {DEAD_MOST}")
+    return dead
+
+
+def _source(word: str, text: str) -> Source:
+    found = _SOURCE.fullmatch(text) if text.isascii() else None
+    if found is None or int(found["number"]) > 255:
+        raise RadioError(f"controller map: {word!r} is not CHANNEL=NUMBER, =NUMBER- or =bNUMBER")
+    if found["button"]:
+        if found["reversed"] or found["low"]:
+            raise RadioError(f"controller map: {word!r}: a button has no direction and no range")
+        return Source(int(found["number"]), is_axis=False)
+    if found["low"] is None:
+        return Source(int(found["number"]), is_reversed=bool(found["reversed"]))
+    low, centre, high = int(found["low"]), int(found["centre"]), int(found["high"])
+    if not -FULL - 1 <= low < centre < high <= FULL:
+        raise RadioError(f"controller map: {word!r}: LOW..CENTRE..HIGH rise from -32768 to {FULL}")
+    return Source(int(found["number"]), True, bool(found["reversed"]), low, centre, high)

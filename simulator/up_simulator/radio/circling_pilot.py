@@ -1,0 +1,108 @@
+"""A pilot who keeps the aircraft in sight: circles around where it was launched."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from up.earth import bearing_deg, distance_m
+from up_simulator.flight import FlightState
+from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_US, Sticks
+
+GRAVITY_M_S2 = 9.80665
+HALF_TRAVEL_US = 500
+ARMS_S, CLIMBS_S = 0.3, 1.5
+"""AUX2 rises, and counts after 300 ms; then the throttle may."""
+BANK_MOST_DEG = 28.0
+BANK_PER_COURSE = 0.7
+FULL_BANK_DEG, FULL_UP_DEG, FULL_DOWN_DEG = 50.0, 20.0, 25.0
+"""What a full stick asks for in FBW (a new Arduino's profile)."""
+THROTTLE_US_PER_M, THROTTLE_US_PER_M_S = 25.0, 60.0
+THROTTLE_MOST_US = 1900
+PITCH_DEG_PER_M, PITCH_MOST_DEG = 0.3, 4.0
+
+
+@dataclass(frozen=True, slots=True)
+class Circuit:
+    """A circle to the right around the launch: radius, and height above the ground (both m).
+
+    Without a height it is that of the launch. ``cruise_us`` is the throttle that about keeps it.
+    """
+
+    radius_m: float = 80.0
+    height_m: float | None = None
+    cruise_us: int = 1450
+
+
+class CirclingPilot:
+    """Moves the sticks of FBW so that the aircraft stays near and high, for as long as it flies.
+
+    The switch stands at ``switch``. AUX2 and the throttle are raised soon after the start; without
+    a ``motor`` the height is what the air leaves of it.
+    """
+
+    def __init__(
+        self, circuit: Circuit | None = None, *, switch: str = "AUTO", has_motor: bool = True
+    ) -> None:
+        self._circuit = circuit or Circuit()
+        self._switch_us = SWITCH_US[switch]
+        self._has_motor = has_motor
+        self._home: FlightState | None = None
+        self._newest: FlightState | None = None
+        self._climb_m_s = 0.0
+
+    def sticks(self, time_s: float, state: FlightState) -> Sticks:
+        """Return what keeps the aircraft on its circle."""
+        if self._home is None:
+            self._home = state
+        self._watch_climb(state)
+        wanted_m = self._home.height_m if self._circuit.height_m is None else self._circuit.height_m
+        low_m = wanted_m - state.height_m
+        return Sticks(
+            ailerons=_stick(self._bank_deg(self._home, state) / FULL_BANK_DEG),
+            elevator=self._elevator_us(low_m),
+            throttle=self._throttle_us(low_m) if time_s >= CLIMBS_S else LOWEST_US,
+            aux1=self._switch_us,
+            aux2=HIGHEST_US if time_s >= ARMS_S else LOWEST_US,
+        )
+
+    def close(self) -> None:
+        """There is nothing to give back."""
+
+    def _bank_deg(self, home: FlightState, state: FlightState) -> float:
+        here = (home.latitude_deg, home.longitude_deg, state.latitude_deg, state.longitude_deg)
+        away_m = distance_m(*here)
+        radius_m = self._circuit.radius_m
+        inward_deg = math.degrees(math.atan((away_m - radius_m) / radius_m * 2.0))
+        course_deg = bearing_deg(*here) + 90.0 + max(-80.0, min(85.0, inward_deg))
+        off_deg = (course_deg - state.track_deg + 180.0) % 360.0 - 180.0
+        turn_deg = math.degrees(math.atan(state.speed_m_s**2 / (GRAVITY_M_S2 * radius_m)))
+        # Far away the way home is straight.
+        share = max(0.0, 1.0 - abs(inward_deg) / 80.0)
+        bank_deg = turn_deg * share + BANK_PER_COURSE * off_deg
+        return max(-BANK_MOST_DEG, min(BANK_MOST_DEG, bank_deg))
+
+    def _elevator_us(self, low_m: float) -> int:
+        pitch_deg = max(-PITCH_MOST_DEG, min(PITCH_MOST_DEG, PITCH_DEG_PER_M * low_m))
+        if not self._has_motor:
+            pitch_deg = 0.0
+        return _stick(pitch_deg / (FULL_UP_DEG if pitch_deg > 0 else FULL_DOWN_DEG))
+
+    def _throttle_us(self, low_m: float) -> int:
+        if not self._has_motor:
+            return LOWEST_US
+        asked_us = self._circuit.cruise_us + THROTTLE_US_PER_M * low_m
+        asked_us -= THROTTLE_US_PER_M_S * self._climb_m_s
+        return round(max(LOWEST_US, min(THROTTLE_MOST_US, asked_us)))
+
+    def _watch_climb(self, state: FlightState) -> None:
+        before, self._newest = self._newest, state
+        if before is None or state.time_s <= before.time_s:
+            return
+        passed_s = state.time_s - before.time_s
+        climb_m_s = (state.height_m - before.height_m) / passed_s
+        self._climb_m_s += (climb_m_s - self._climb_m_s) * min(1.0, passed_s)
+
+
+def _stick(deflection: float) -> int:
+    return round(CENTRE_US + HALF_TRAVEL_US * max(-1.0, min(1.0, deflection)))

@@ -1,0 +1,105 @@
+"""A game controller, or a real transmitter on a USB cable, as a radio."""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from up_simulator.flight import FlightState
+from up_simulator.radio.axis_map import AxisMap, MappedSticks
+from up_simulator.radio.js_event import JsEventReader
+from up_simulator.radio.sticks import RadioError, Sticks
+
+DEVICES = Path("/dev/input")
+LOOK_AGAIN_S = 1.0
+_READ_SIZE = 4096
+_HEAPS_MOST = 64
+
+
+class GameController:
+    """Reads Linux's joystick device; while it is unplugged, the receiver gets no pulses.
+
+    A device that is plugged in again goes on. ``say`` takes one line for the user. Raises
+    ``RadioError`` where the device is missing, or may not be read, at the start.
+    """
+
+    def __init__(
+        self, device: Path, axis_map: AxisMap, say: Callable[[str], None] = lambda _text: None
+    ) -> None:
+        self._device = device
+        self._sticks = MappedSticks(axis_map)
+        self._say = say
+        self._reader = JsEventReader()
+        self._looked_s = float("-inf")
+        self._file: int | None = _open(device)
+
+    def sticks(self, time_s: float, state: FlightState) -> Sticks:
+        """Return where its sticks stand now."""
+        if self._file is None and time_s - self._looked_s >= LOOK_AGAIN_S:
+            self._looked_s = time_s
+            self._look_again()
+        self._read(time_s)
+        return self._sticks.now
+
+    def close(self) -> None:
+        """Close the device."""
+        if self._file is not None:
+            os.close(self._file)
+            self._file = None
+
+    def _read(self, time_s: float) -> None:
+        # A device that never ends its heap must not hold up the flight.
+        for _ in range(_HEAPS_MOST):
+            if self._file is None:
+                return
+            try:
+                data = os.read(self._file, _READ_SIZE)
+            except BlockingIOError:
+                return
+            except OSError as error:
+                if error.errno not in (errno.ENODEV, errno.EIO, errno.ENXIO):
+                    raise
+                data = b""
+            if not data:
+                self._lose(time_s)
+                return
+            for event in self._reader.feed(data):
+                self._sticks.take(event)
+
+    def _lose(self, time_s: float) -> None:
+        self.close()
+        self._looked_s = time_s
+        self._sticks.now = replace(self._sticks.now, is_on=False)
+        self._say(f"{self._device} was unplugged: the receiver gets no pulses until it is back")
+
+    def _look_again(self) -> None:
+        try:
+            self._file = _open(self._device)
+        except RadioError:
+            return
+        self._reader = JsEventReader()
+        self._sticks.now = replace(self._sticks.now, is_on=True)
+        self._say(f"{self._device} is back")
+
+
+def controller_device(name: str) -> Path:
+    """Return the device of ``js0``; a path is taken as it is."""
+    return Path(name) if "/" in name else DEVICES / name
+
+
+def _open(device: Path) -> int:
+    try:
+        return os.open(device, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    except FileNotFoundError:
+        found = ", ".join(sorted(each.name for each in DEVICES.glob("js*")))
+        there = f"there is {found}" if found else "no game controller is plugged in"
+        raise RadioError(f"{device} is missing: {there}") from None
+    except PermissionError:
+        raise RadioError(
+            f"{device} may not be read: add yourself to the group 'input' and log in again"
+        ) from None
+    except OSError as error:
+        raise RadioError(f"{device} cannot be opened: {error.strerror}") from None

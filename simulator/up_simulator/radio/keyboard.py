@@ -1,0 +1,83 @@
+"""A keyboard as a radio: arrows are the right stick, letters the left one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_US, Sticks
+
+STEP_US = 60
+THROTTLE_STEP_US = 50
+HELD_S = 0.6
+"""A key that is held repeats after up to half a second: so long its stick stays."""
+RETURN_US_S = 1500
+_STICK_KEYS = {
+    "left": ("ailerons", -1),
+    "right": ("ailerons", 1),
+    "up": ("elevator", -1),
+    "down": ("elevator", 1),
+    "a": ("rudder", -1),
+    "d": ("rudder", 1),
+}
+_THROTTLE_KEYS = {"w": THROTTLE_STEP_US, "s": -THROTTLE_STEP_US}
+_MODE_KEYS = {"1": "ACRO", "2": "FBW", "3": "AUTO"}
+HELP = """\
+arrows   ailerons and elevator: left, right bank; up pushes (nose down), down pulls (nose up)
+w s      throttle up, down                 a d  rudder left, right
+1 2 3    mode switch: ACRO, FBW, AUTO      x    sticks to the middle
+space    arming switch (the motor arms with the throttle low)
+?        this help                         q    leave"""
+
+
+class KeyboardSticks:
+    """Sticks that keys move: each press one step, back to the middle when no key is held.
+
+    Throttle and switches stay where they were put. Times are seconds that only rise.
+    """
+
+    def __init__(self, start: Sticks | None = None) -> None:
+        self._sticks = start or Sticks(aux1=SWITCH_US["FBW"])
+        self._pressed_s = dict.fromkeys(("ailerons", "elevator", "rudder"), float("-inf"))
+        self._now_s = float("-inf")
+
+    def press(self, key: str, time_s: float) -> bool:
+        """Move what a key moves; False: it moves nothing."""
+        self._centre(time_s)
+        sticks = self._sticks
+        if key in _STICK_KEYS:
+            channel, sign = _STICK_KEYS[key]
+            self._sticks = sticks.moved(channel, _within(getattr(sticks, channel) + sign * STEP_US))
+            self._pressed_s[channel] = time_s
+        elif key in _THROTTLE_KEYS:
+            self._sticks = sticks.moved("throttle", _within(sticks.throttle + _THROTTLE_KEYS[key]))
+        elif key in _MODE_KEYS:
+            self._sticks = sticks.moved("aux1", SWITCH_US[_MODE_KEYS[key]])
+        elif key == " ":
+            self._sticks = sticks.moved("aux2", LOWEST_US if sticks.is_armed else HIGHEST_US)
+        elif key == "x":
+            self._sticks = replace(sticks, ailerons=CENTRE_US, elevator=CENTRE_US, rudder=CENTRE_US)
+        else:
+            return False
+        return True
+
+    def sticks(self, time_s: float) -> Sticks:
+        """Return where they stand now."""
+        self._centre(time_s)
+        return self._sticks
+
+    def _centre(self, time_s: float) -> None:
+        """Let every stick go back that nobody has held for a while."""
+        for channel, pressed_s in self._pressed_s.items():
+            released_s = max(pressed_s + HELD_S, self._now_s)
+            if time_s <= released_s:
+                continue
+            away_us = getattr(self._sticks, channel) - CENTRE_US
+            way_us = round(min(abs(away_us), (time_s - released_s) * RETURN_US_S))
+            if way_us:
+                to_us = CENTRE_US + away_us + (way_us if away_us < 0 else -way_us)
+                self._sticks = self._sticks.moved(channel, to_us)
+        self._now_s = max(self._now_s, time_s)
+
+
+def _within(pulse_us: int) -> int:
+    return max(LOWEST_US, min(HIGHEST_US, pulse_us))

@@ -1,0 +1,87 @@
+"""What a radio sends: six pulses, or nothing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+from up_simulator.flight import FlightState
+
+LOWEST_US, CENTRE_US, HIGHEST_US = 1000, 1500, 2000
+SWITCH_US = {"ACRO": 1000, "FBW": 1500, "AUTO": 2000}
+"""Where the mode switch (AUX1) stands for each mode, as a new Arduino has it."""
+
+
+class RadioError(Exception):
+    """A radio cannot be used: the message is one sentence for the user."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sticks:
+    """Pulses of the six channels, us; without ``is_on`` the receiver gets none of them."""
+
+    ailerons: int = CENTRE_US
+    elevator: int = CENTRE_US
+    throttle: int = LOWEST_US
+    rudder: int = CENTRE_US
+    aux1: int = HIGHEST_US
+    aux2: int = LOWEST_US
+    is_on: bool = True
+
+    @property
+    def mode(self) -> str:
+        """Return the mode that the switch stands for."""
+        return min(SWITCH_US, key=lambda mode: abs(SWITCH_US[mode] - self.aux1))
+
+    @property
+    def is_armed(self) -> bool:
+        """Return whether the arming switch (AUX2) is up."""
+        return self.aux2 > CENTRE_US
+
+    def moved(self, channel: str, pulse_us: int) -> Sticks:
+        """Return these with one channel elsewhere."""
+        moved: dict[str, Any] = {channel: pulse_us}
+        return replace(self, **moved)
+
+
+class Radio(Protocol):
+    """Somebody, or something, that moves the sticks."""
+
+    def sticks(self, time_s: float, state: FlightState) -> Sticks:
+        """Return where they stand at a time that only rises; ``state`` is what the pilot sees."""
+
+    def close(self) -> None:
+        """Give back what was taken: a terminal, a device, a socket."""
+
+
+class Receiver(Protocol):
+    """The board's end of the radio."""
+
+    def set_stick(self, channel: str, width_us: float) -> None:
+        """Set the pulse of a channel."""
+
+    def set_receiver(self, is_on: bool) -> None:
+        """Switch the pulses of all channels on or off."""
+
+
+CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
+
+
+class Transmitter:
+    """Hands sticks to a receiver; only what has moved is told."""
+
+    def __init__(self, receiver: Receiver) -> None:
+        self._receiver = receiver
+        self._sent: Sticks | None = None
+
+    def send(self, sticks: Sticks) -> None:
+        """Let the receiver get these from now on."""
+        for channel in CHANNELS:
+            pulse_us = getattr(sticks, channel)
+            if self._sent is None or getattr(self._sent, channel) != pulse_us:
+                self._receiver.set_stick(channel, pulse_us)
+        # A receiver is on by itself: to switch it on again would begin its frames anew.
+        was_on = self._sent is None or self._sent.is_on
+        if was_on != sticks.is_on:
+            self._receiver.set_receiver(sticks.is_on)
+        self._sent = sticks

@@ -1,0 +1,79 @@
+"""A terminal that gives its keys at once, and is given back as it was."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import termios
+import tty
+from contextlib import suppress
+from typing import Any
+
+from up_simulator.radio.sticks import RadioError
+
+_OFF = b"\x00"
+
+
+class KeyTerminal:
+    """Takes a terminal's keys without echo until ``leave``; Ctrl-C still ends the program.
+
+    Whatever ends the program, but for kill -9, the terminal is given back: ``leave`` is called at
+    exit, too. Raises ``RadioError`` where there is no terminal.
+    """
+
+    def __init__(self, keys: int = 0, picture: int = 1) -> None:
+        self._keys = keys
+        self._picture = picture
+        self._is_shown = False
+        try:
+            self._saved: Any = termios.tcgetattr(keys)
+        except termios.error:
+            raise RadioError("the keyboard needs a terminal; here is none") from None
+        atexit.register(self.leave)
+        tty.setcbreak(keys, termios.TCSANOW)
+        settings = termios.tcgetattr(keys)
+        # Suspended, the aircraft would stand still in the air and the shell without an echo.
+        settings[6][termios.VSUSP] = _OFF
+        termios.tcsetattr(keys, termios.TCSANOW, settings)
+
+    def fileno(self) -> int:
+        """Return where keys are read."""
+        return self._keys
+
+    def read(self) -> bytes:
+        """Return what was typed; empty at the end of input."""
+        try:
+            return os.read(self._keys, 256)
+        except OSError:
+            return b""
+
+    def show(self, line: str) -> None:
+        """Show one line in the place of the last one, cut to the terminal's width."""
+        self._write(f"\r{line[: self._columns() - 1]}\x1b[K")
+        self._is_shown = True
+
+    def say(self, text: str) -> None:
+        """Write lines that stay, above the line that does not."""
+        self._write(f"\r\x1b[K{text}\n")
+        self._is_shown = False
+
+    def leave(self) -> None:
+        """Give the terminal back; what was typed for the sticks is not for the shell."""
+        saved, self._saved = self._saved, None
+        if saved is None:
+            return
+        atexit.unregister(self.leave)
+        if self._is_shown:
+            self._write("\n")
+        with suppress(termios.error):
+            termios.tcsetattr(self._keys, termios.TCSAFLUSH, saved)
+
+    def _columns(self) -> int:
+        try:
+            return os.get_terminal_size(self._picture).columns or 80
+        except OSError:
+            return 80
+
+    def _write(self, text: str) -> None:
+        with suppress(OSError):
+            os.write(self._picture, text.encode("utf-8", "replace"))
