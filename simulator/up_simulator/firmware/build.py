@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from up_rig import FirmwareError, RigUnavailableError
 from up_rig.build import ARDUINO, BuildError, build_firmware, make
+from up_rig.library import load_library
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.direct_board import DirectBoard
 from up_simulator.firmware.imu_errors import ImuErrors
@@ -18,6 +20,24 @@ HOST_LIBRARY = ARDUINO / "build" / "libraspilot.so"
 
 class BoardUnavailableError(Exception):
     """No such board can be had here: the message is one sentence for the user."""
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A built program, and how a board with it is made."""
+
+    path: Path
+    make: Callable[..., FirmwareBoard]
+
+    def board(
+        self, *, seed: int = 1, imu_errors: ImuErrors | None = None, eeprom: bytes = b""
+    ) -> FirmwareBoard:
+        """Return a board that has just got its power; raises ``BoardUnavailableError``."""
+        errors = imu_errors or ImuErrors()
+        try:
+            return self.make(self.path, seed=seed, imu_errors=errors, eeprom=eeprom)
+        except (RigUnavailableError, FirmwareError) as error:
+            raise BoardUnavailableError(str(error)) from error
 
 
 def choose_board(
@@ -33,35 +53,36 @@ def choose_board(
 
     ``auto`` is the firmware on the simulated chip where the AVR tools and simavr are, else the same
     sources built for this computer, which ``say`` is told in one sentence. ``elf`` is a firmware
-    that is built already. Raises ``BoardUnavailableError``.
+    that is built already, in the place of the project's own. Raises ``BoardUnavailableError``.
     """
-    errors = imu_errors or ImuErrors()
     if kind == "direct":
-        return DirectBoard(seed=seed, imu_errors=errors)
+        return DirectBoard(seed=seed, imu_errors=imu_errors)
+    program = aboard("firmware" if elf else kind, say, elf)
+    return program.board(seed=seed, imu_errors=imu_errors, eeprom=eeprom)
+
+
+def aboard(
+    kind: BoardKind,
+    say: Callable[[str], None] = lambda _text: None,
+    elf: Path | None = None,
+) -> Program:
+    """Return the program for a kind of board, built if need be; raises as ``choose_board``."""
     if kind == "host":
-        return _host_board(seed, errors, eeprom)
+        return _host_program()
     try:
-        return RigBoard(elf or firmware(), seed=seed, imu_errors=errors, eeprom=eeprom)
-    except (RigUnavailableError, FirmwareError) as error:
-        if kind == "firmware":
-            raise BoardUnavailableError(str(error)) from error
-        say(f"the sources of the firmware, built for this computer, fly instead: {error}")
-    return _host_board(seed, errors, eeprom)
-
-
-def firmware() -> Path:
-    """Return the ELF file, built if need be.
-
-    Raises ``RigUnavailableError`` without the tools and ``BoardUnavailableError`` where the
-    sources do not compile.
-    """
-    try:
-        return build_firmware()
+        load_library()
+        return Program(elf or build_firmware(), RigBoard)
     except BuildError as error:
         raise BoardUnavailableError(f"the firmware does not compile: {_reason(error)}") from error
+    except RigUnavailableError as error:
+        if kind == "firmware":
+            raise BoardUnavailableError(str(error)) from error
+        program = _host_program()
+        say(f"the firmware's sources, built for this computer, fly instead: {error}")
+        return program
 
 
-def _host_board(seed: int, errors: ImuErrors, eeprom: bytes) -> FirmwareBoard:
+def _host_program() -> Program:
     try:
         make("host-library")
     except RigUnavailableError as error:
@@ -71,10 +92,7 @@ def _host_board(seed: int, errors: ImuErrors, eeprom: bytes) -> FirmwareBoard:
             f"the firmware's sources do not compile for this computer: {_reason(error)}"
         ) from error
     module = importlib.import_module("up_simulator.firmware.host_board")
-    board: FirmwareBoard = module.HostBoard(
-        HOST_LIBRARY, seed=seed, imu_errors=errors, eeprom=eeprom
-    )
-    return board
+    return Program(HOST_LIBRARY, module.HostBoard)
 
 
 def _reason(error: BuildError) -> str:

@@ -1,0 +1,141 @@
+"""Puts an airframe's settings into a board's EEPROM, over its serial line as the Pi does."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from up_rig.imu import motion_at
+from up_rig.library import library_path
+from up_simulator.firmware.board import BoardKind, FirmwareBoard
+from up_simulator.firmware.build import aboard
+from up_simulator.firmware.settings_wire import gains_bytes, profile_bytes
+from up_simulator.firmware.tap import BoardTap
+from up_simulator.reason import Reason
+
+STEP_US = 10_000.0
+BOOT_US = 1_500_000.0
+ANSWER_STEPS = 50
+QUIET_STEPS = 30
+"""An EEPROM that has not changed for so long holds all that it was to get: a byte takes 3.4 ms."""
+WRITE_STEPS = 600
+_ANSWERS = {"c": "C", "G": "G"}
+
+
+class PreparationError(Exception):
+    """The board does not take its settings: the message is one sentence."""
+
+
+def prepared_eeprom(
+    kind: BoardKind,
+    profile: Mapping[str, Any],
+    gains: Mapping[str, Any],
+    say: Callable[[str], None] = lambda _text: None,
+) -> bytes:
+    """Return the EEPROM of a board of this kind that holds an airframe's profile and gains.
+
+    The work is done once for each firmware and each set of values and then kept beside what was
+    built. Raises ``BoardUnavailableError``, ``BoardCrashedError``, ``SettingsError`` and
+    ``PreparationError``.
+    """
+    if kind == "direct":
+        return b""
+    program = aboard(kind, say)
+    values = json.dumps([profile, gains], sort_keys=True, default=str).encode()
+    name = hashlib.sha256(program.path.read_bytes() + values).hexdigest()[:32]
+    kept = library_path().parent / "eeprom" / f"{name}.bin"
+    if kept.is_file():
+        return kept.read_bytes()
+    eeprom = prepare_eeprom(program.board(), profile, gains)
+    _keep(kept, eeprom)
+    return eeprom
+
+
+def prepare_eeprom(
+    board: FirmwareBoard, profile: Mapping[str, Any], gains: Mapping[str, Any]
+) -> bytes:
+    """Boot a board, write profile and gains, and return what its EEPROM then holds.
+
+    ``profile`` is shaped like airframe.yml, ``gains`` like pids.yml; what is null or missing the
+    board keeps. The values are read back after another power-on. The board ends disarmed, at
+    rest and level. Raises ``PreparationError``, ``SettingsError`` and ``BoardCrashedError``.
+    """
+    talk = _Talk(board)
+    board.set_motion(motion_at(0.0, 0.0))
+    board.run_us(BOOT_US)
+    wanted_profile = profile_bytes(profile, talk.ask("c"))
+    wanted_gains = gains_bytes(gains, talk.ask("G"))
+    if wanted_profile != talk.ask("c"):
+        talk.command("C", wanted_profile, "the profile of the airframe")
+    if wanted_gains != talk.ask("G"):
+        talk.command("g", wanted_gains, "the gains")
+    _wait_for_eeprom(board)
+    board.reset("power")
+    board.run_us(BOOT_US)
+    talk = _Talk(board)
+    if talk.ask("c") != wanted_profile or talk.ask("G") != wanted_gains:
+        raise PreparationError("the board has other settings after a power-on than it was given")
+    return board.eeprom
+
+
+class _Talk:
+    """One Command at a time, each with its answer."""
+
+    def __init__(self, board: FirmwareBoard) -> None:
+        self._board = board
+        self._tap = BoardTap()
+
+    def command(self, letter: str, payload: bytes, what: str) -> None:
+        answer = self._exchange(letter, payload, "K")
+        if answer is None:
+            raise PreparationError(f"the board does not answer to {what}")
+        if answer[0] == "!":
+            raise PreparationError(f"the board refuses {what}: {_reason(answer[1][2])}")
+
+    def ask(self, letter: str) -> bytes:
+        answer = self._exchange(letter, b"", _ANSWERS[letter])
+        if answer is None or answer[0] == "!":
+            raise PreparationError(f"the board does not answer to {letter}")
+        return answer[1]
+
+    def _exchange(self, letter: str, payload: bytes, expected: str) -> tuple[str, bytes] | None:
+        self._tap.take_answers()
+        self._board.write(self._tap.command_bytes(letter, payload))
+        for _ in range(ANSWER_STEPS):
+            self._board.run_us(STEP_US)
+            self._tap.feed(self._board.read(), self._board.now_us / 1e6)
+            for each in self._tap.take_answers():
+                is_mine = each.type not in "K!" or each.payload[0] == ord(letter)
+                if each.type in (expected, "!") and is_mine:
+                    return each.type, each.payload
+        return None
+
+
+def _wait_for_eeprom(board: FirmwareBoard) -> None:
+    held, quiet = board.eeprom, 0
+    for _ in range(WRITE_STEPS):
+        board.run_us(STEP_US)
+        fresh = board.eeprom
+        quiet, held = (quiet + 1 if fresh == held else 0), fresh
+        if quiet >= QUIET_STEPS:
+            return
+    raise PreparationError("the board writes its EEPROM without end")
+
+
+def _reason(code: int) -> str:
+    try:
+        return Reason(code).name.lower().replace("_", " ")
+    except ValueError:
+        return f"reason {code}"
+
+
+def _keep(path: Path, eeprom: bytes) -> None:
+    """Write it whole or not at all; other processes may do the same now."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    fresh = path.with_name(f"{path.name}.{os.getpid()}.new")
+    fresh.write_bytes(eeprom)
+    fresh.replace(path)

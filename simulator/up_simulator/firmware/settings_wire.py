@@ -1,0 +1,116 @@
+"""Settings of an airframe, named as in airframe.yml and pids.yml, as the bytes of the wire."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+from typing import Any
+
+from up_simulator.memory import GREATEST_GAIN, PROFILE, Gains, OutOfRangeError, read_profile
+
+MODES = {"ACRO": "a", "RATE": "r", "FBW": "f", "AUTO": "A"}
+MIXES = ("none", "elevon", "V-tail")
+_SERVOS = ("ailerons", "elevator", "throttle", "rudder")
+_OF_A_SERVO = ("reversed", "trim_us", "lowest_us", "highest_us")
+_CENTI = 100
+_PLACES = {
+    **{
+        f"{servo}.{name}": 4 * at + offset
+        for at, servo in enumerate(_SERVOS)
+        for offset, name in enumerate(_OF_A_SERVO)
+    },
+    "mix": 16,
+    "motor": 17,
+    "fly_by_wire.roll_deg": 19,
+    "fly_by_wire.pitch_up_deg": 20,
+    "fly_by_wire.pitch_down_deg": 21,
+    "receiver_lost.glide_pitch_deg": 22,
+    "receiver_lost.circle_bank_deg": 23,
+    "receiver_lost.throttle_us": 24,
+    "receiver_lost.below_us": 25,
+    "receiver_lost.ailerons_us": 26,
+    "receiver_lost.elevator_us": 27,
+    "receiver_lost.rudder_us": 28,
+    "receiver_lost.return_with_motor": 29,
+}
+"""Where each key stands among the fields of a profile (protocols 2.6)."""
+_SWITCH, _ANGLES = 18, range(19, 24)
+_POSITIONS = ("switch.low", "switch.middle", "switch.high")
+_LOOPS, _AXES, _TERMS = ("rate", "stabilize"), ("ailerons", "elevator", "rudder"), "pid"
+_GAINS = struct.Struct(">18f")
+
+
+class SettingsError(ValueError):
+    """A setting cannot be put on the wire: the message is one sentence that names it."""
+
+
+def profile_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
+    """Return the 54 bytes of ``C``: what a board holds, with the settings that are not null.
+
+    Raises ``SettingsError``.
+    """
+    fields = list(PROFILE.unpack(held))
+    letters = list(fields[_SWITCH].decode("latin-1"))
+    for key, value in _flat(settings):
+        if key in _POSITIONS:
+            letters[_POSITIONS.index(key)] = _choice(key, value, MODES)
+        elif key == "mix":
+            fields[_PLACES[key]] = _choice(key, value, {name: at for at, name in enumerate(MIXES)})
+        elif key not in _PLACES:
+            raise SettingsError(f"a profile has no {key}")
+        elif _PLACES[key] in _ANGLES:
+            fields[_PLACES[key]] = round(_number(key, value) * _CENTI)
+        else:
+            fields[_PLACES[key]] = round(_number(key, value))
+    fields[_SWITCH] = "".join(letters).encode("latin-1")
+    try:
+        wire = PROFILE.pack(*fields)
+        read_profile(wire)
+    except (struct.error, OutOfRangeError):
+        raise SettingsError("a value of the profile is out of range") from None
+    return wire
+
+
+def gains_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
+    """Return the 72 bytes of ``g``: what a board holds, with the gains that are given.
+
+    Raises ``SettingsError``.
+    """
+    values = list(_GAINS.unpack(held))
+    for key, value in _flat(settings):
+        loop, _, rest = key.partition(".")
+        axis, _, term = rest.partition(".")
+        if key == "units" or loop == "navigation":
+            continue
+        if loop not in _LOOPS or axis not in _AXES or term not in tuple(_TERMS):
+            raise SettingsError(f"there is no gain {key}")
+        at = 9 * _LOOPS.index(loop) + 3 * _AXES.index(axis) + _TERMS.index(term)
+        values[at] = _number(key, value)
+    wire = _GAINS.pack(*values)
+    try:
+        Gains().set_three_axes(wire)
+    except OutOfRangeError:
+        raise SettingsError(f"a gain is not within 0 to {GREATEST_GAIN:g}") from None
+    return wire
+
+
+def _flat(settings: Mapping[str, Any], above: str = "") -> list[tuple[str, Any]]:
+    found: list[tuple[str, Any]] = []
+    for name, value in settings.items():
+        if isinstance(value, Mapping):
+            found += _flat(value, f"{above}{name}.")
+        elif value is not None:
+            found.append((f"{above}{name}", value))
+    return found
+
+
+def _choice(key: str, value: Any, known: Mapping[str, Any]) -> Any:
+    if value not in known:
+        raise SettingsError(f"{key} is one of {', '.join(known)}, not {value}")
+    return known[value]
+
+
+def _number(key: str, value: Any) -> float:
+    if not isinstance(value, int | float):
+        raise SettingsError(f"{key} is a number, not {value!r}")
+    return float(value)
