@@ -8,8 +8,11 @@ from typing import Literal
 
 from up.config import items, key, section
 from up.fields import Constraint
+from up_rig.imu import NOISE_DEG_S, NOISE_M_S2
+from up_simulator.firmware.imu_errors import ImuErrors
 
 _RATE = Constraint(float, minimum=-500, maximum=500, unit="deg/s")
+_ZERO = (0.0, 0.0, 0.0)
 _FORCE = Constraint(float, minimum=-50, maximum=50, unit="m/s^2")
 
 
@@ -58,47 +61,49 @@ class WeatherPart:
 
 @dataclass(frozen=True, slots=True)
 class ImuPart:
-    """What is wrong with the IMU although it works: noise, bias, vibration."""
+    """What is wrong with the IMU although it works: noise, bias, warming up, vibration."""
 
-    noise_deg_s: float | None = key(
-        None,
-        "Noise of the gyroscopes, standard deviation. null: the part's own.",
-        unit="deg/s",
-        minimum=0,
-        maximum=100,
+    gyro_noise_deg_s: float = key(
+        NOISE_DEG_S, "Standard deviation of each sample.", unit="deg/s", minimum=0, maximum=100
     )
-    noise_m_s2: float | None = key(
-        None,
-        "Noise of the accelerometers, standard deviation. null: the part's own.",
-        unit="m/s^2",
-        minimum=0,
-        maximum=50,
+    accel_noise_m_s2: float = key(
+        NOISE_M_S2, "Standard deviation of each sample.", unit="m/s^2", minimum=0, maximum=50
     )
-    bias_deg_s: tuple[float, ...] = items(
-        _RATE, "Bias of the gyroscopes: roll, pitch, yaw.", default=(0.0, 0.0, 0.0), max_length=3
+    gyro_bias_deg_s: tuple[float, ...] = items(
+        _RATE, "Constant error of the rates: roll, pitch, yaw.", default=_ZERO, max_length=3
     )
-    bias_m_s2: tuple[float, ...] = items(
-        _FORCE, "Bias of the accelerometers: x, y, z.", default=(0.0, 0.0, 0.0), max_length=3
+    accel_bias_m_s2: tuple[float, ...] = items(
+        _FORCE, "Constant error of the forces: x, y, z.", default=_ZERO, max_length=3
+    )
+    gyro_drift_deg_s: tuple[float, ...] = items(
+        _RATE, "What the bias changes by until the IMU is warm.", default=_ZERO, max_length=3
+    )
+    warm_up_s: float = key(
+        60.0, "Time constant of the warming, from power-on.", unit="s", minimum=0.1, maximum=3600
     )
     vibration_deg_s: float = key(
         0.0,
-        "Amplitude of the motor's vibration in the rates.",
+        "Amplitude in the rates at full throttle; it goes with the square of the throttle.",
         unit="deg/s",
         minimum=0,
         maximum=500,
     )
     vibration_m_s2: float = key(
-        0.0, "Amplitude of the vibration in the forces.", unit="m/s^2", minimum=0, maximum=100
+        0.0, "Amplitude in the forces at full throttle.", unit="m/s^2", minimum=0, maximum=100
     )
     vibration_hz: float = key(
-        90.0, "How fast the motor shakes it.", unit="Hz", minimum=1, maximum=1000
+        150.0, "How fast it shakes at full throttle.", unit="Hz", minimum=1, maximum=1000
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
         """Yield what does not fit together."""
-        for name in ("bias_deg_s", "bias_m_s2"):
+        for name in ("gyro_bias_deg_s", "accel_bias_m_s2", "gyro_drift_deg_s"):
             if len(getattr(self, name)) != 3:
                 yield name, "must have three numbers, one for each axis"
+
+    def errors(self) -> ImuErrors:
+        """Return what the board's IMU is to be set to."""
+        return ImuErrors(**{name: getattr(self, name) for name in self.__slots__})
 
 
 @dataclass(frozen=True, slots=True)
