@@ -9,9 +9,9 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
+from up_rig.pty_line import PtyLineError
 from up_simulator.flight import FlightUnavailableError
 from up_simulator.options import read_options
-from up_simulator.pty_port import PtyLinkError
 from up_simulator.simulation import Simulation
 
 
@@ -31,7 +31,7 @@ def main(arguments: list[str] | None = None) -> int:
 
     try:
         simulation = Simulation(reactor, options, say)
-    except (FlightUnavailableError, PtyLinkError, OSError) as error:
+    except (FlightUnavailableError, PtyLineError, OSError) as error:
         sys.stderr.write(f"up_simulator: {error}\n")
         return 1
     reactor.callWhenRunning(simulation.start, fail)

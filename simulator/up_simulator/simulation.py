@@ -8,6 +8,7 @@ from typing import Any
 
 from twisted.internet.task import LoopingCall
 
+from up_rig.pty_line import PtyLine
 from up_simulator.airframe import AIRFRAMES
 from up_simulator.board import Board, OldFirmware
 from up_simulator.flight import Flight, FlightUnavailableError
@@ -16,12 +17,12 @@ from up_simulator.pace import Pace
 from up_simulator.phone import Phone
 from up_simulator.phone_address import RaspberryPi, Runner, discover, spawn
 from up_simulator.phone_link import PhoneLink
-from up_simulator.pty_port import PtyPort
 from up_simulator.receiver import POWERED, SOARING, Receiver, read_sticks
 from up_simulator.recorded_flight import read_recording
 from up_simulator.state_log import StateLog
 
 TICK_S = 0.005
+READ_SIZE = 4096
 
 Say = Callable[[str], None]
 
@@ -30,7 +31,7 @@ class Simulation:
     """Everything that the options ask for, built at once and started by ``start``.
 
     ``reactor`` gives time, sockets and readers; its clock must be monotonic. ``say`` takes one
-    line for the user. Raises ``FlightUnavailableError``, ``PtyLinkError`` and ``OSError`` (the
+    line for the user. Raises ``FlightUnavailableError``, ``PtyLineError`` and ``OSError`` (the
     state log) with messages for the user.
     """
 
@@ -39,15 +40,15 @@ class Simulation:
         self._flight = make_flight(options, say)
         self._pace = Pace(self._flight, reactor, say)
         self._ticks: list[Callable[[], None]] = [self._pace.keep]
-        self._port: PtyPort | None = None
+        self._port: PtyLine | None = None
         self._link: PhoneLink | None = None
         self._log = StateLog(options.state_log) if options.state_log else None
         self._loop = LoopingCall(self._tick)
         self._loop.clock = reactor
         if not options.no_board:
-            self._port = PtyPort(reactor, options.pty_link)
+            self._port = PtyLine(options.pty_link)
             self._board = _make_board(self._flight, reactor, self._port, options, say)
-            self._ticks.append(self._board.tick)
+            self._ticks += [self._hear, self._board.tick]
         if not options.no_phone:
             phone = Phone(
                 self._flight, reactor, seed=options.seed, say=lambda text: say(f"phone: {text}")
@@ -80,6 +81,10 @@ class Simulation:
             self._log.close()
         if self._link is not None:
             await self._link.stop()
+
+    def _hear(self) -> None:
+        if self._port is not None and (data := self._port.read(0.0, READ_SIZE)):
+            self._board.data_received(data)
 
     def _tick(self) -> None:
         for tick in self._ticks:
@@ -117,7 +122,7 @@ def make_flight(options: argparse.Namespace, say: Say) -> Flight:
 
 
 def _make_board(
-    flight: Flight, reactor: Any, port: PtyPort, options: argparse.Namespace, say: Say
+    flight: Flight, reactor: Any, port: PtyLine, options: argparse.Namespace, say: Say
 ) -> Board:
     has_motor = AIRFRAMES[options.aircraft].has_motor and options.replay is None
     moves = read_sticks(POWERED if has_motor else SOARING) + options.sticks
@@ -131,7 +136,6 @@ def _make_board(
         old=old if options.framing == "thesis" else None,
         say=lambda text: say(f"board: {text}"),
     )
-    port.received = board.data_received
     port.returned = board.opened
     return board
 

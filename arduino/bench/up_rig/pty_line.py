@@ -9,6 +9,7 @@ import select
 import struct
 import termios
 import tty
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -20,17 +21,23 @@ class PtyLineError(Exception):
 
 
 class PtyLine:
-    """Bytes to and from whoever opens ``path``; nobody reading means that they are dropped.
+    """Bytes to and from whoever opens ``path``; neither direction ever blocks.
 
-    Raises ``PtyLineError``.
+    When nobody reads, what waits is thrown away and the newest piece alone waits instead, as a USB
+    port without a listener does: who comes back gets nothing old. ``dropped`` counts the pieces,
+    ``returned`` is called when there is a reader again. Raises ``PtyLineError``.
     """
 
     def __init__(self, link: Path | None = None) -> None:
-        # The other end stays open here, too: its raw mode outlives every reader.
+        self.returned: Callable[[], None] = lambda: None
+        self.dropped = 0
+        self._is_unread = False
+        # The other end stays open here, too: its raw mode outlives every reader, and its absence
+        # is no hang-up that would have to be polled.
         self._own, self._other = os.openpty()
         tty.setraw(self._other)
         os.set_blocking(self._own, False)
-        self._name = os.ttyname(self._other)
+        self.name = os.ttyname(self._other)
         self._link: Path | None = None
         if link is not None:
             try:
@@ -42,46 +49,65 @@ class PtyLine:
     @property
     def path(self) -> str:
         """Return where to open it: the link if there is one."""
-        return self._name if self._link is None else str(self._link)
+        return self.name if self._link is None else str(self._link)
 
     def read(self, timeout_s: float, most: int) -> bytes:
         """Return what has come, waiting for it up to a time."""
         if not select.select([self._own] if most > 0 else [], [], [], max(timeout_s, 0.0))[0]:
             return b""
-        # The last close would end an exclusive use, but there is none while this end holds it.
-        fcntl.ioctl(self._other, termios.TIOCNXCL)
+        self._release()
         try:
             return os.read(self._own, most)
         except BlockingIOError:
             return b""
 
     def write(self, data: bytes) -> None:
-        """Send bytes; what nobody has read is thrown away when it becomes too much."""
-        unread: int = struct.unpack("i", fcntl.ioctl(self._other, termios.FIONREAD, bytes(4)))[0]
-        if unread > UNREAD_MOST:
+        """Send bytes if somebody reads; drop them otherwise."""
+        unread = self._unread()
+        if self._is_unread and unread == 0:
+            self._is_unread = False
+            self.returned()
+        elif self._is_unread or unread > UNREAD_MOST:
+            self._is_unread = True
+            self.dropped += 1
             termios.tcflush(self._other, termios.TCIFLUSH)
+            self._release()
         try:
-            os.write(self._own, data)
+            written = os.write(self._own, data)
         except OSError as error:
             if error.errno not in (errno.EAGAIN, errno.EIO):
                 raise
+            written = 0
+        if written < len(data):
+            self.dropped += 1
 
     def close(self) -> None:
         """Remove the link and close the line."""
         if self._link is not None:
             with suppress(OSError):
-                if str(self._link.readlink()) == self._name:
+                if str(self._link.readlink()) == self.name:
                     self._link.unlink()
         os.close(self._own)
         os.close(self._other)
 
+    def _release(self) -> None:
+        """Undo exclusive use: the last close would, but there is none while we hold the line."""
+        fcntl.ioctl(self._other, termios.TIOCNXCL)
+
+    def _unread(self) -> int:
+        count: int = struct.unpack("i", fcntl.ioctl(self._other, termios.FIONREAD, bytes(4)))[0]
+        return count
+
     def _make_link(self, link: Path) -> None:
+        """Let ``link`` point here in one step; an old link is replaced, nothing else is."""
         if link.exists() and not link.is_symlink():
             raise PtyLineError(f"{link} exists and is no symbolic link: left alone")
         temporary = link.with_name(f".{link.name}.{os.getpid()}")
         try:
-            temporary.symlink_to(self._name)
+            temporary.symlink_to(self.name)
             temporary.replace(link)
         except OSError as error:
+            with suppress(OSError):
+                temporary.unlink()
             raise PtyLineError(f"cannot make the link {link}: {error.strerror}") from error
         self._link = link
