@@ -71,7 +71,7 @@ setup(
         "simple-pid>=2.0",
     ],
     extras_require={
-        "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'"],
+        "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
         "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6"],
         "dev": [
             "pytest>=8",
