@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from random import Random, SystemRandom
 from typing import Any, TypeVar
 
 from up.config import ConfigFile
@@ -18,7 +19,8 @@ class Context:
     """The reactor, its clock, the mode and the configuration of this run.
 
     Modules take all that they use of the outside from this object, so that a test can hand in its
-    own: a ``task.Clock`` is a reactor whose time stands still.
+    own: a ``task.Clock`` is a reactor whose time stands still. What others must not guess, or
+    must not do all at once, is drawn from ``random``: of the system, of a seed in a simulation.
     """
 
     reactor: Any
@@ -26,6 +28,7 @@ class Context:
     config_folder: Path
     values: dict[ConfigFile[Any], Any] = field(default_factory=dict)
     instance: str = ""
+    random: Random = field(default_factory=SystemRandom)
 
     def config(self, file: ConfigFile[_T]) -> _T:
         """Return the values of a configuration file, read once; raises ConfigErrors."""

@@ -36,7 +36,7 @@ class Up:
     def __init__(self, plan: Plan, context: Context) -> None:
         self.context = context
         self.vetoes = Vetoes()
-        self.beacons = Beacons(context.reactor)
+        self.beacons = Beacons(context.reactor, context.random)
         registry = CommandRegistry((*BUILTIN_COMMANDS, *plan.commands))
         self.command_executor = CommandExecutor(registry, context.reactor.callFromThread)
         self.command_receiver = CommandReceiver(

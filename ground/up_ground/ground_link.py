@@ -49,7 +49,12 @@ class GroundLink:
     """
 
     def __init__(
-        self, reactor: Any, settings: Settings, listener: LinkListener, tokens: TokenStore
+        self,
+        reactor: Any,
+        settings: Settings,
+        listener: LinkListener,
+        tokens: TokenStore,
+        backoff: Backoff | None = None,
     ) -> None:
         self.status = LinkStatus(since_s=reactor.seconds())
         self._reactor = reactor
@@ -58,7 +63,7 @@ class GroundLink:
         self._tokens = tokens
         self._wanted = settings.seat
         self._token: str | None = None
-        self._backoff = Backoff()
+        self._backoff = backoff or Backoff()
         self._connection: GroundProtocol | None = None
         self._attempt: Deferred[Any] | None = None
         self._timer: Timer | None = None

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import secrets
 from collections import deque
+from random import Random, SystemRandom
 
 from up.system.clock import Clock
 
@@ -18,9 +18,9 @@ class Beacons:
     of this run. Age is monotonic seconds since the frame left.
     """
 
-    def __init__(self, clock: Clock) -> None:
+    def __init__(self, clock: Clock, random: Random | None = None) -> None:
         self._clock = clock
-        self._first = self._next = secrets.randbelow(2**31)
+        self._first = self._next = (random or SystemRandom()).randrange(2**31)
         self._times: deque[float] = deque(maxlen=KEPT)
 
     def draw(self) -> int:

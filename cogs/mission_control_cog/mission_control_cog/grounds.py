@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Callable
+from random import Random, SystemRandom
 from typing import Any
 
 from twisted.internet.defer import Deferred
@@ -39,6 +40,7 @@ class Grounds:
         on_message: Callable[[GeneralMessage, CommandLink], object],
         on_malformed: Callable[[MalformedMessage, CommandLink], object],
         on_holder: Callable[[str], object],
+        random: Random | None = None,
     ) -> None:
         self.dropped = 0
         self.peers = peers
@@ -49,6 +51,7 @@ class Grounds:
         self._on_message = on_message
         self._on_malformed = on_malformed
         self._on_holder = on_holder
+        self._random = random or SystemRandom()
         self._stations: dict[GroundConnection, CommandLink] = {}
         self._holder: GroundConnection | None = None
         self._kept_token = ""
@@ -97,7 +100,7 @@ class Grounds:
         if token and kept and secrets.compare_digest(token, kept):
             self._resume(station, token)
         elif not station.token:
-            station.token = secrets.token_hex(16)
+            station.token = self._random.randbytes(16).hex()
             if wants_seat and self._is_free():
                 self._seat(station)
         seat = "command" if station is self._holder else "listen"

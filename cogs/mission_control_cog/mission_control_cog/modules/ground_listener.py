@@ -53,6 +53,7 @@ class GroundListener(BaseStartedModule):
             on_message=self._on_message,
             on_malformed=self._on_malformed,
             on_holder=self._on_holder,
+            random=self.context.random,
         )
         self._port: Any = None
         self._has_holder = False

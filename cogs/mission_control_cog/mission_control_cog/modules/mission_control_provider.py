@@ -16,6 +16,7 @@ from up.commands.telemetry_commands import TelemetryCommand
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.addresses import is_private
+from up.system.backoff import Backoff
 
 LINK = "mission_control"
 ROLE_KEY = "mission_control.yml: role"
@@ -68,6 +69,7 @@ class MissionControlProvider(BaseMissionControlProvider):
                 on_malformed=self._on_malformed,
                 on_ready=self._on_ready,
                 on_lost=self._on_lost,
+                backoff=Backoff(self.context.random.random),
             )
 
     def add_outlet(self, outlet: Outlet) -> None:

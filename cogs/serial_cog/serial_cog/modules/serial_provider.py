@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from typing import Any, Protocol
 
@@ -17,6 +17,7 @@ from up.mode import WITH_ARDUINO
 from up.protocols.frame import UNFINISHED_TIMEOUT_S, Frame
 from up.protocols.framing import FrameDecoder, FrameEncoder, make_framing
 from up.protocols.serial_line import SerialLine
+from up.protocols.serial_port import open_serial
 from up.system.clock import Timer
 
 TRY_ANOTHER_AFTER_S = 5.0
@@ -52,6 +53,7 @@ class SerialProvider(BaseStartedModule):
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self.lister: Lister = list_ports
+        self.open_port: Callable[[str, int], int] = open_serial
         self.counters: Counter[str] = Counter()
         self._table = HandlerTable()
         self._handlers = self._table.by_type
@@ -148,7 +150,7 @@ class SerialProvider(BaseStartedModule):
         self._encoder, self._decoder = make_framing(config.framing, self._table.sizes)
         self._is_numbered = config.framing == "checked"
         self._seconds = self.context.reactor.seconds
-        self._opener = PortOpener(config.port, config.baud_rate, self.lister)
+        self._opener = PortOpener(config.port, config.baud_rate, self.lister, self.open_port)
         warning = odd_speed(config)
         if warning:
             self._log_warning(warning)
