@@ -1,0 +1,1 @@
+"""The whole system in one process and in simulated time: daemon, links, phone, ground."""

@@ -1,0 +1,187 @@
+"""One program's reactor: everything that it opened can be cut off at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from ipaddress import ip_address
+from typing import TYPE_CHECKING, Any
+
+from twisted.internet.address import IPv4Address, IPv6Address
+from twisted.internet.base import DelayedCall
+from twisted.internet.interfaces import (
+    IHostnameResolver,
+    IReactorFDSet,
+    IReactorPluggableNameResolver,
+    IReactorTCP,
+    IReactorTime,
+    IReactorUDP,
+)
+from zope.interface import implementer
+
+from up_simulator.in_process.tcp_ports import Connector, TcpPort
+from up_simulator.in_process.udp_port import UdpPort
+
+if TYPE_CHECKING:
+    from up_simulator.in_process.reactor import SimulatedReactor
+
+_FORGET_AT = 256
+
+
+@implementer(IReactorTime, IReactorTCP, IReactorUDP, IReactorFDSet, IReactorPluggableNameResolver)
+class Machine:
+    """What a program takes for its reactor; sockets stay in this process, at 127.0.0.1.
+
+    ``cut_off`` is its end without a word: no timer, descriptor or port of it is left.
+    """
+
+    def __init__(self, reactor: SimulatedReactor, name: str) -> None:
+        self.name = name
+        self.running = True
+        self.reactor = reactor
+        self.network = reactor.network
+        self.nameResolver = _LiteralResolver()
+        self.opened: dict[Any, None] = {}
+        self.seconds = reactor.seconds
+        self._calls: list[DelayedCall] = []
+        self._descriptors: dict[Any, None] = {}
+
+    def callLater(  # noqa: N802 - Twisted's name
+        self, delay: float, callable: Callable[..., object], *args: object, **kw: object
+    ) -> DelayedCall:
+        """Call later; after the end of this program nothing is called."""
+        call = self.reactor.callLater(delay, callable, *args, **kw)
+        self._calls.append(call)
+        if len(self._calls) > _FORGET_AT:
+            self._calls = [each for each in self._calls if each.active()]
+        return call
+
+    def callFromThread(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
+        """Make a call at the next step, from whatever thread it was asked for."""
+        self.reactor.call_from_thread(lambda: callable(*args, **kw) if self.running else None)
+
+    def callWhenRunning(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
+        """Make a call at once: time is always running here."""
+        callable(*args, **kw)
+
+    def getDelayedCalls(self) -> list[DelayedCall]:  # noqa: N802 - Twisted's name
+        """Return what is still to be called."""
+        return [each for each in self._calls if each.active()]
+
+    def addSystemEventTrigger(self, *_: object, **__: object) -> object:  # noqa: N802
+        """Keep nothing: this reactor never shuts down by itself."""
+        return object()
+
+    def removeSystemEventTrigger(self, _: object) -> None:  # noqa: N802 - Twisted's name
+        """Forget nothing."""
+
+    def addReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name
+        """Watch a descriptor of the system, as a serial port's."""
+        self._descriptors[reader] = None
+        self.reactor.add_reader(reader)
+
+    def removeReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name
+        """Watch it no longer."""
+        self.reactor.remove_reader(reader)
+
+    def addWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
+        """Tell when a descriptor of the system takes bytes."""
+        self._descriptors[writer] = None
+        self.reactor.add_writer(writer)
+
+    def removeWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
+        """Tell no longer."""
+        self.reactor.remove_writer(writer)
+
+    def removeAll(self) -> list[Any]:  # noqa: N802 - Twisted's name
+        """Let go of every descriptor and return them."""
+        descriptors, self._descriptors = list(self._descriptors), {}
+        for each in descriptors:
+            self.reactor.remove_reader(each)
+            self.reactor.remove_writer(each)
+        return descriptors
+
+    def getReaders(self) -> list[Any]:  # noqa: N802 - Twisted's name
+        """Return the watched descriptors."""
+        return list(self._descriptors)
+
+    def getWriters(self) -> list[Any]:  # noqa: N802 - Twisted's name
+        """Return the watched descriptors."""
+        return list(self._descriptors)
+
+    def listenTCP(  # noqa: N802 - Twisted's name
+        self, port: int, factory: Any, backlog: int = 50, interface: str = ""
+    ) -> TcpPort:
+        """Listen in memory; raises CannotListenError where somebody else does already."""
+        listening = TcpPort(self, port, factory, interface)
+        listening.startListening()
+        return listening
+
+    def connectTCP(  # noqa: N802 - Twisted's name
+        self,
+        host: str,
+        port: int,
+        factory: Any,
+        timeout: float = 30,
+        bindAddress: Any = None,  # noqa: N803 - Twisted's name
+    ) -> Connector:
+        """Connect in memory."""
+        connector = Connector(self, host, port, factory, timeout)
+        connector.connect()
+        return connector
+
+    def listenUDP(  # noqa: N802 - Twisted's name
+        self,
+        port: int,
+        protocol: Any,
+        interface: str = "",
+        maxPacketSize: int = 8192,  # noqa: N803 - Twisted's name
+    ) -> UdpPort:
+        """Receive datagrams in memory; raises CannotListenError where somebody else does."""
+        listening = UdpPort(self, port, protocol, interface)
+        listening.startListening()
+        return listening
+
+    def installNameResolver(self, resolver: Any) -> Any:  # noqa: N802 - Twisted's name
+        """Replace the resolver and return the one before."""
+        before, self.nameResolver = self.nameResolver, resolver
+        return before
+
+    def cut_off(self) -> None:
+        """End at once, as a killed process: its system closes what it leaves behind."""
+        self.running = False
+        for call in self._calls:
+            if call.active():
+                call.cancel()
+        self._calls.clear()
+        self.removeAll()
+        opened, self.opened = self.opened, {}
+        for each in opened:
+            each.cut_off()
+
+
+@implementer(IHostnameResolver)
+class _LiteralResolver:
+    """Knows addresses alone: a name would have to be looked up outside this process."""
+
+    def resolveHostName(  # noqa: N802 - Twisted's name
+        self,
+        receiver: Any,
+        host_name: str,
+        port: int = 0,
+        address_types: Any = None,
+        semantics: str = "TCP",
+    ) -> Any:
+        """Answer a literal address by itself at once, anything else by nothing."""
+        receiver.resolutionBegan(self)
+        try:
+            address = ip_address(host_name)
+        except ValueError:
+            pass
+        else:
+            kind = IPv4Address if address.version == 4 else IPv6Address
+            receiver.addressResolved(kind("TCP", str(address), port))
+        receiver.resolutionComplete()
+        return self
+
+    def cancel(self) -> None:
+        """Everything is answered already."""

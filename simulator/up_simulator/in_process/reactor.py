@@ -1,0 +1,162 @@
+"""A reactor whose time only its owner moves, and what every machine on it shares."""
+
+from __future__ import annotations
+
+import select
+from bisect import insort
+from collections.abc import Callable
+from queue import Empty, SimpleQueue
+from typing import Any
+
+from twisted.internet.base import DelayedCall
+from twisted.internet.main import CONNECTION_DONE, CONNECTION_LOST
+from twisted.internet.task import Clock
+from twisted.logger import Logger
+from twisted.python.failure import Failure
+
+from up_simulator.in_process.machine import Machine
+from up_simulator.in_process.network import Network
+from up_simulator.link.model import LinkModel
+
+STEP_S = 0.002
+_TINY_S = 1e-9
+_READABLE = select.POLLIN | select.POLLHUP | select.POLLERR | select.POLLNVAL
+
+
+class SimulatedReactor(Clock):
+    """The time, the network and the descriptors of all programs that fly in this process.
+
+    Each program gets a ``machine``, which is a reactor to it. ``advance`` moves the time in steps
+    of 2 ms: timers first, then descriptors, then what the network brings, then what is to leave.
+    Nothing happens between two calls, and the same calls give the same bytes everywhere, as long
+    as no program uses threads. A call that raises is logged, as by any reactor.
+    """
+
+    log = Logger()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.network = Network(self)
+        self._machines: list[Machine] = []
+        self._handed_over: SimpleQueue[Callable[[], Any]] = SimpleQueue()
+        self._poll = select.poll()
+        self._readers: dict[Any, int] = {}
+        self._writers: dict[Any, int] = {}
+
+    def machine(self, name: str = "") -> Machine:
+        """Return a reactor for one program; ``name`` is what people call it."""
+        machine = Machine(self, name)
+        self._machines.append(machine)
+        return machine
+
+    def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
+        """Let connections and datagrams to a port pass a link from now on.
+
+        ``up`` is the way to the port, ``down`` the way back. Several ports may share the models.
+        """
+        self.network.link(port, up, down)
+
+    def callLater(  # type: ignore[override]  # noqa: N802 - Twisted's name
+        self, when: float, what: Callable[..., object], *a: object, **kw: object
+    ) -> DelayedCall:
+        """Call ``what`` when the time has come; of equal times the earlier call is first."""
+        call = DelayedCall(
+            self.rightNow + when, what, a, kw, self.calls.remove, self._moved, self.seconds
+        )
+        insort(self.calls, call, key=DelayedCall.getTime)
+        return call
+
+    def call_from_thread(self, call: Callable[[], Any]) -> None:
+        """Keep a call for the next step; safe from any thread."""
+        self._handed_over.put(call)
+
+    def advance(self, amount: float) -> None:
+        """Move the time on, in whole steps and a rest."""
+        while amount > _TINY_S:
+            step_s = min(STEP_S, amount)
+            amount -= step_s
+            self._step(step_s)
+
+    def add_reader(self, reader: Any) -> None:
+        """Call ``reader.doRead`` when its descriptor has something to read."""
+        self._readers[reader] = reader.fileno()
+        self._watch(self._readers[reader])
+
+    def remove_reader(self, reader: Any) -> None:
+        """Forget a reader; one that is none is no error."""
+        number = self._readers.pop(reader, None)
+        if number is not None:
+            self._watch(number)
+
+    def add_writer(self, writer: Any) -> None:
+        """Call ``writer.doWrite`` when its descriptor takes bytes."""
+        self._writers[writer] = writer.fileno()
+        self._watch(self._writers[writer])
+
+    def remove_writer(self, writer: Any) -> None:
+        """Forget a writer; one that is none is no error."""
+        number = self._writers.pop(writer, None)
+        if number is not None:
+            self._watch(number)
+
+    def guarded(self, call: Callable[..., Any], *arguments: Any, **more: Any) -> Any:
+        """Make a call of somebody else's; what it raises is logged and ends nothing."""
+        try:
+            return call(*arguments, **more)
+        except Exception:  # noqa: BLE001 - a reactor outlives the faults of what it calls
+            self.log.failure("an unhandled error in {call}", call=call)
+            return None
+
+    def _step(self, step_s: float) -> None:
+        self.rightNow = now_s = self.rightNow + step_s
+        if not self._handed_over.empty():
+            self._take_calls()
+        calls, due_s = self.calls, now_s + _TINY_S
+        while calls and calls[0].getTime() <= due_s:
+            call = calls.pop(0)
+            call.called = 1
+            self.guarded(call.func, *call.args, **call.kw)
+        if self._readers or self._writers:
+            self._serve_descriptors()
+        self.network.move(now_s)
+
+    def _moved(self, call: DelayedCall) -> None:
+        self.calls.sort(key=DelayedCall.getTime)
+
+    def _take_calls(self) -> None:
+        for _ in range(self._handed_over.qsize()):
+            try:
+                call = self._handed_over.get_nowait()
+            except Empty:
+                return
+            self.guarded(call)
+
+    def _watch(self, number: int) -> None:
+        events = select.POLLIN if number in self._readers.values() else 0
+        events |= select.POLLOUT if number in self._writers.values() else 0
+        if events:
+            self._poll.register(number, events)
+        else:
+            self._poll.unregister(number)
+
+    def _serve_descriptors(self) -> None:
+        for number, events in self._poll.poll(0):
+            if events & _READABLE:
+                for reader in [each for each, of in self._readers.items() if of == number]:
+                    self._serve(reader, reader.doRead)
+            if events & select.POLLOUT:
+                for writer in [each for each, of in self._writers.items() if of == number]:
+                    self._serve(writer, writer.doWrite)
+
+    def _serve(self, selectable: Any, work: Callable[[], Any]) -> None:
+        try:
+            why = work()
+        except Exception as error:  # noqa: BLE001 - as of any reactor: it loses its descriptor
+            self.log.failure("an unhandled error in {work}", work=work)
+            why = error
+        if why:
+            self.remove_reader(selectable)
+            self.remove_writer(selectable)
+            is_usual = why in (CONNECTION_DONE, CONNECTION_LOST)
+            reason = Failure(why if is_usual or isinstance(why, BaseException) else CONNECTION_LOST)
+            self.guarded(selectable.connectionLost, reason)

@@ -1,0 +1,246 @@
+"""A Twisted transport over a simulated connection."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from twisted.internet.address import IPv4Address
+from twisted.internet.error import ConnectionAborted, ConnectionDone
+from twisted.internet.interfaces import IHalfCloseableProtocol, ITCPTransport
+from twisted.logger import Logger
+from twisted.python.failure import Failure
+from zope.interface import implementer
+
+from up_simulator.in_process.network import ADDRESS
+from up_simulator.in_process.socket_options import SocketOptions
+from up_simulator.in_process.tcp_end import TcpEnd
+
+BUFFER_LIMIT = 65536
+"""Beyond which a streaming producer is asked to pause, as Twisted's own transports do."""
+
+
+@implementer(ITCPTransport)
+class TcpTransport:
+    """Writes as a reactor does: what waits leaves at the end of the step, then more is asked for.
+
+    A protocol that raises loses its connection, and the failure is logged.
+    """
+
+    log = Logger()
+
+    def __init__(self, machine: Any, end: TcpEnd, own_port: int, peer_port: int) -> None:
+        self.protocol: Any = None
+        self.on_closed: Callable[[Failure], object] | None = None
+        self.connected = False
+        self.disconnected = False
+        self.disconnecting = False
+        self._machine = machine
+        self._end = end
+        self._host = IPv4Address("TCP", ADDRESS, own_port)
+        self._peer = IPv4Address("TCP", ADDRESS, peer_port)
+        self._waiting = bytearray()
+        self._producer: Any = None
+        self._is_streaming = False
+        self._is_paused = False
+        self._write_is_closing = False
+        self._write_is_closed = False
+        self._read_is_closed = False
+        end.owner = self
+        machine.opened[self] = None
+
+    # What programs call.
+
+    def write(self, data: bytes) -> None:
+        """Send bytes in order."""
+        if not isinstance(data, bytes | bytearray | memoryview):
+            raise TypeError(f"bytes can be written, not {type(data).__name__}")
+        if self.disconnected or self._write_is_closed or not data:
+            return
+        self._waiting += data
+        if self._is_streaming and not self._is_paused and len(self._waiting) > BUFFER_LIMIT:
+            self._is_paused = True
+            self._producer.pauseProducing()
+        self._want_to_write()
+
+    def writeSequence(self, iovec: Iterable[bytes]) -> None:  # noqa: N802 - Twisted's name
+        """Send several pieces."""
+        self.write(b"".join(iovec))
+
+    def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
+        """Send what waits, then close."""
+        if self.connected and not self.disconnecting:
+            self.disconnecting = True
+            self._want_to_write()
+
+    def loseWriteConnection(self) -> None:  # noqa: N802 - Twisted's name
+        """Send what waits, then a FIN; go on reading."""
+        self._write_is_closing = True
+        self._want_to_write()
+
+    def abortConnection(self) -> None:  # noqa: N802 - Twisted's name
+        """Cut the connection off; the other side is told by a reset."""
+        if not self.disconnected and self._end.owner is self:
+            self._end.reset()
+            self._machine.callLater(0, self._lost, ConnectionAborted())
+
+    def getPeer(self) -> IPv4Address:  # noqa: N802 - Twisted's name
+        """Return the other side."""
+        return self._peer
+
+    def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
+        """Return this side."""
+        return self._host
+
+    def getHandle(self) -> SocketOptions:  # noqa: N802 - Twisted's name
+        """Return what takes socket options."""
+        return self._end.options
+
+    def setTcpNoDelay(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
+        """Note it: nothing is delayed here."""
+        self._end.options.has_no_delay = bool(enabled)
+
+    def getTcpNoDelay(self) -> bool:  # noqa: N802 - Twisted's name
+        """Return what was set."""
+        return self._end.options.has_no_delay
+
+    def setTcpKeepAlive(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
+        """Probe a silent peer."""
+        self._end.options.keeps_alive = bool(enabled)
+        # Its intervals are set in the calls that follow this one.
+        self._machine.callLater(0, self._end.watch)
+
+    def getTcpKeepAlive(self) -> bool:  # noqa: N802 - Twisted's name
+        """Return what was set."""
+        return self._end.options.keeps_alive
+
+    def registerProducer(self, producer: Any, streaming: bool) -> None:  # noqa: N802
+        """Ask a producer for more when nothing waits, or tell it to pause when too much does."""
+        if self._producer is not None:
+            raise RuntimeError(f"there is a producer already: {self._producer!r}")
+        if self.disconnected:
+            producer.stopProducing()
+            return
+        self._producer, self._is_streaming = producer, streaming
+        if not streaming:
+            producer.resumeProducing()
+
+    def unregisterProducer(self) -> None:  # noqa: N802 - Twisted's name
+        """Forget the producer."""
+        self._producer = None
+        self._is_streaming = self._is_paused = False
+        if self.connected and self.disconnecting:
+            self._want_to_write()
+
+    def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Read no more for now."""
+        self._end.set_reading(False)
+
+    def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Read on."""
+        if self.connected and not self.disconnecting:
+            self._end.set_reading(True)
+
+    def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Close, as a consumer of what is read asks."""
+        self.loseConnection()
+
+    # What the network and the machine call.
+
+    def flush(self) -> None:
+        """Let as much leave as the connection takes, and ask the producer for more."""
+        if self.disconnected or not self.connected:
+            return
+        room = self._end.room
+        if self._waiting and room:
+            part = bytes(self._waiting[:room])
+            del self._waiting[:room]
+            self._end.write(part)
+        if self._waiting:
+            return
+        if self._producer is not None and (not self._is_streaming or self._is_paused):
+            self._is_paused = False
+            self._guarded(self._producer.resumeProducing)
+        elif self.disconnecting and self._producer is None:
+            self._end.close()
+            self._lost(ConnectionDone())
+        elif self._write_is_closing and not self._write_is_closed:
+            self._write_is_closed = True
+            self._end.finish()
+            if IHalfCloseableProtocol.providedBy(self.protocol):
+                self._guarded(self.protocol.writeConnectionLost)
+
+    def cut_off(self) -> None:
+        """End as the connection of a killed process: its system closes it."""
+        self.connected, self.disconnected = False, True
+        self._waiting.clear()
+        if not self._end.is_closed:
+            self._end.close()
+
+    def refuse(self) -> None:
+        """End a connection that nobody wants."""
+        self.disconnected = True
+        self._machine.opened.pop(self, None)
+        self._end.reset()
+
+    def on_established(self) -> None:
+        """Tell the protocol that it is connected."""
+        self.connected = True
+        self._guarded(self.protocol.makeConnection, self)
+
+    def on_bytes(self, data: bytes) -> None:
+        """Hand bytes to the protocol."""
+        if self.connected and not self.disconnecting and not self._read_is_closed:
+            self._guarded(self.protocol.dataReceived, data)
+
+    def on_eof(self) -> None:
+        """Close, unless the protocol can do without the reading half."""
+        if IHalfCloseableProtocol.providedBy(self.protocol):
+            self._read_is_closed = True
+            self._guarded(self.protocol.readConnectionLost)
+            if self._write_is_closed:
+                self.on_finished()
+        else:
+            self.on_finished()
+
+    def on_finished(self) -> None:
+        """Close after the other side did."""
+        self._end.close()
+        self._lost(ConnectionDone())
+
+    def on_lost(self, error: Exception) -> None:
+        """Tell the protocol that the connection broke."""
+        self._lost(error)
+
+    def on_room(self) -> None:
+        """Go on writing."""
+        if self._waiting or self.disconnecting or self._producer is not None:
+            self._want_to_write()
+
+    def _want_to_write(self) -> None:
+        self._machine.network.to_write[self] = None
+
+    def _lost(self, error: Exception) -> None:
+        if self.disconnected:
+            return
+        was_connected = self.connected
+        self.connected, self.disconnected = False, True
+        self._waiting.clear()
+        self._machine.opened.pop(self, None)
+        producer, self._producer = self._producer, None
+        if producer is not None:
+            self._guarded(producer.stopProducing)
+        reason = Failure(error)
+        if was_connected:
+            self._guarded(self.protocol.connectionLost, reason)
+        if self.on_closed is not None:
+            self._guarded(self.on_closed, reason)
+
+    def _guarded(self, call: Any, *arguments: Any) -> None:
+        try:
+            call(*arguments)
+        except Exception as error:  # noqa: BLE001 - as of any reactor: it costs the connection
+            self.log.failure("an unhandled error in {name}", name=type(self.protocol).__name__)
+            if not self.disconnected:
+                self._end.reset()
+                self._lost(error)

@@ -1,0 +1,90 @@
+"""Datagrams in memory, as listenUDP gives."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from twisted.internet.address import IPv4Address
+from twisted.internet.defer import Deferred, succeed
+from twisted.internet.interfaces import IListeningPort, IUDPTransport
+from zope.interface import implementer
+
+from up_simulator.in_process.network import ADDRESS
+
+HEADER = 28
+LARGEST = 65507
+
+
+@implementer(IListeningPort, IUDPTransport)
+class UdpPort:
+    """A port for datagrams; whatever goes to nobody vanishes."""
+
+    def __init__(self, machine: Any, port: int, protocol: Any, interface: str) -> None:
+        self.protocol = protocol
+        self.interface = interface
+        self._machine = machine
+        self._number = port
+        self._peer: tuple[str, int] | None = None
+        self._is_open = False
+
+    def startListening(self) -> None:  # noqa: N802 - Twisted's name
+        """Open it; raises CannotListenError."""
+        network = self._machine.network
+        self._number = network.bind(network.udp, self._number, self, self.interface)
+        self._is_open = True
+        self._machine.opened[self] = None
+        self.protocol.makeConnection(self)
+
+    def stopListening(self) -> Deferred[None]:  # noqa: N802 - Twisted's name
+        """Close it."""
+        if self._is_open:
+            self.cut_off()
+            self.protocol.doStop()
+        return succeed(None)
+
+    loseConnection = stopListening  # noqa: N815 - Twisted's name
+
+    def write(self, packet: bytes, addr: tuple[str, int] | None = None) -> None:
+        """Send a datagram."""
+        target = addr or self._peer
+        if not self._is_open or target is None or len(packet) > LARGEST:
+            return
+        network = self._machine.network
+        route = network.datagram_route(self._number, target[1])
+        source = (ADDRESS, self._number)
+        route.carry(HEADER + len(packet), _arrive, network, target[1], bytes(packet), source)
+
+    def writeSequence(self, seq: Any, addr: tuple[str, int] | None = None) -> None:  # noqa: N802
+        """Send pieces as one datagram."""
+        self.write(b"".join(seq), addr)
+
+    def connect(self, host: str, port: int) -> None:
+        """Send to one peer from now on."""
+        self._peer = (host, port)
+
+    def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
+        """Return where it listens."""
+        return IPv4Address("UDP", self.interface or "0.0.0.0", self._number)
+
+    def setBroadcastAllowed(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
+        """Do nothing: there is one machine to reach."""
+
+    def getBroadcastAllowed(self) -> bool:  # noqa: N802 - Twisted's name
+        """Return whether broadcasts can be sent."""
+        return True
+
+    def cut_off(self) -> None:
+        """Close it without a word."""
+        self._is_open = False
+        self._machine.opened.pop(self, None)
+        self._machine.network.udp.pop(self._number, None)
+
+    def take(self, packet: bytes, source: tuple[str, int]) -> None:
+        """Hand a datagram to the protocol."""
+        self._machine.reactor.guarded(self.protocol.datagramReceived, packet, source)
+
+
+def _arrive(network: Any, port: int, packet: bytes, source: tuple[str, int]) -> None:
+    listening = network.udp.get(port)
+    if listening is not None:
+        listening.take(packet, source)
