@@ -44,7 +44,43 @@ $(HOST_BUILD)/%.o: %.cpp host/host.mk
 		{ echo 'The host tests need doctest: apt-get install doctest-dev' >&2; exit 1; }
 	$(HOST_CXX) $(HOST_FLAGS) $(HOST_DEFINES) -Iraspilot/src -Ihost -MMD -MP -c -o $@ $<
 
+# The same sources with a board around them, for a program that loads them (host/library/host_board.h):
+# where the AVR compiler is missing, the simulator flies these.
+HOST_LIBRARY := build/libraspilot.so
+LIBRARY_BUILD := build/host-library
+LIBRARY_CXX ?= $(shell command -v g++ || command -v clang++)
+LIBRARY_FLAGS := -std=gnu++11 -O2 -g -Wall -Wextra -fPIC -fvisibility=hidden -DF_CPU=16000000L \
+	-DRASPILOT_BAUD=$(or $(BAUD),115200)L -Ihost/library -Iraspilot/src -MMD -MP
+# Of src/chip what is not below: host/library answers in its place, or takes it in whole.
+LIBRARY_SOURCES := $(sort $(wildcard host/library/*.cpp)) \
+	$(sort $(foreach part,core protocol protocol/commands pilot control store,$(wildcard raspilot/src/$(part)/*.cpp))) \
+	raspilot/src/chip/mpu6050.cpp raspilot/src/chip/servos.cpp
+LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.cpp=$(LIBRARY_BUILD)/%.o) $(LIBRARY_BUILD)/raspilot/raspilot.ino.o
+
+.PHONY: host-library
+host-library: $(HOST_LIBRARY)
+
+$(HOST_LIBRARY): $(LIBRARY_OBJECTS) $(LIBRARY_BUILD)/choice
+	@echo 'link $@'
+	@$(LIBRARY_CXX) -shared -o $@.new $(LIBRARY_OBJECTS) && mv $@.new $@
+
+$(LIBRARY_BUILD)/choice: FORCE
+	@[ -n '$(LIBRARY_CXX)' ] || { echo 'Building the firmware for this computer needs a C++ compiler:' \
+		'apt-get install g++' >&2; exit 1; }
+	@mkdir -p $(@D)
+	@echo '$(LIBRARY_CXX) $(LIBRARY_FLAGS) $(LIBRARY_OBJECTS)' | cmp -s - $@ || \
+		echo '$(LIBRARY_CXX) $(LIBRARY_FLAGS) $(LIBRARY_OBJECTS)' > $@
+
+$(LIBRARY_BUILD)/%.o: %.cpp $(LIBRARY_BUILD)/choice
+	@mkdir -p $(@D)
+	@echo 'compile $< for this computer'
+	@$(LIBRARY_CXX) $(LIBRARY_FLAGS) -c -o $@ $<
+
+$(LIBRARY_BUILD)/raspilot/raspilot.ino.o: raspilot/raspilot.ino $(LIBRARY_BUILD)/choice
+	@mkdir -p $(@D)
+	@$(LIBRARY_CXX) $(LIBRARY_FLAGS) -x c++ -c -o $@ $<
+
 .PHONY: FORCE
 FORCE:
 
--include $(HOST_OBJECTS:.o=.d)
+-include $(HOST_OBJECTS:.o=.d) $(LIBRARY_OBJECTS:.o=.d)

@@ -1,0 +1,18 @@
+/**
+ * The registers that the sources of src/chip name, as far as they are compiled here: plain memory,
+ * at which the hardware of this folder looks. Numbers of bits are those of the data sheet.
+ */
+#pragma once
+
+#include <stdint.h>
+
+#define _BV(bit) (1 << (bit))
+
+enum StatusBit { SREG_I = 7 };
+enum ResetBit { PORF = 0, EXTRF = 1, BORF = 2, WDRF = 3 };
+enum LineBit { U2X0 = 1, UCSZ00 = 1, UCSZ01 = 2, TXEN0 = 3, RXEN0 = 4, UDRIE0 = 5, RXCIE0 = 7 };
+enum PinBit { PCIF0 = 0, PCIF2 = 2 };
+
+extern uint8_t SREG, MCUSR, ADCSRA, DDRB, PORTB, PINB, GPIOR0, GPIOR1, TCNT2, PCIFR;
+extern uint8_t UCSR0A, UCSR0B, UCSR0C, UDR0;
+extern uint16_t UBRR0;

@@ -1,0 +1,191 @@
+"""The same firmware compiled for this computer, for where the AVR compiler is missing."""
+
+from __future__ import annotations
+
+import ctypes
+import random
+from pathlib import Path
+
+from up_rig.imu import GRAVITY_M_S2, Motion
+from up_rig.pins import CHANNELS
+from up_simulator.firmware.board import (
+    NEUTRAL_US,
+    Channel,
+    ImuFault,
+    Pulses,
+    ResetCause,
+)
+from up_simulator.firmware.host_library import (
+    EEPROM_SIZE,
+    SAMPLE_NUMBERS,
+    HostLibrary,
+    HostUnavailableError,
+    View,
+)
+from up_simulator.firmware.imu_errors import ImuErrors, ImuModel
+
+__all__ = ["HostBoard", "HostImu", "HostUnavailableError"]
+
+_CAUSES: dict[ResetCause, int] = {"power": 1, "button": 2, "brown-out": 4, "watchdog": 8}
+_CHANNELS = {channel: at for at, channel in enumerate(CHANNELS)}
+_READ_SIZE = 4096
+_GYRO_CONFIG, _ACCEL_CONFIG = 27, 28
+_COUNTS_DEG_S, _COUNTS_G = 131.0, 16384.0
+# 25 degrees (PS-MPU-6000A-00, 6.2: 340 counts a degree, 0 at 36.53 degrees).
+_TEMPERATURE = round((25.0 - 36.53) * 340)
+
+
+class HostImu:
+    """What the MPU6050 of a host build measures, by the same ``ImuModel`` as the rig's."""
+
+    def __init__(self, library: HostLibrary, errors: ImuErrors, seed: int) -> None:
+        self._library = library
+        self._view: View = library.view
+        self._model = ImuModel(errors, seed)
+        self._random = random.Random(f"imu {seed}")
+        self._fault: ImuFault = "well"
+        self._numbers = [0] * SAMPLE_NUMBERS
+        self.motion = Motion()
+
+    @property
+    def errors(self) -> ImuErrors:
+        """Return how it errs."""
+        return self._model.errors
+
+    @errors.setter
+    def errors(self, errors: ImuErrors) -> None:
+        self._model.errors = errors
+
+    @property
+    def throttle(self) -> float:
+        """Return how fast the motor turns, 0 to 1."""
+        return self._model.throttle
+
+    @throttle.setter
+    def throttle(self, throttle: float) -> None:
+        self._model.throttle = throttle
+
+    @property
+    def fault(self) -> ImuFault:
+        """Return what was set last."""
+        return self._fault
+
+    def set_fault(self, fault: ImuFault) -> None:
+        """Let it fail, or mend it."""
+        self._fault = fault
+        self._library.set_imu_fault({"unplugged": 1, "stuck": 2}.get(fault, 0))
+
+    def give_sample(self) -> None:
+        """Put the sample where the firmware reads it."""
+        if self._fault == "garbage":
+            self._numbers = [self._random.randint(-32768, 32767) for _ in range(SAMPLE_NUMBERS)]
+        elif self._fault != "frozen":
+            self._numbers = self._measure()
+        self._view.sample[:] = self._numbers
+
+    def _measure(self) -> list[int]:
+        view = self._view
+        felt = self._model.measure(self.motion, view.sample_us / 1e6)
+        registers = view.imu_registers
+        a_deg_s = _COUNTS_DEG_S / (1 << (registers[_GYRO_CONFIG] >> 3 & 3))
+        a_m_s2 = _COUNTS_G / (1 << (registers[_ACCEL_CONFIG] >> 3 & 3)) / GRAVITY_M_S2
+        # The chip lies x forward, y left, z up.
+        return [
+            _count(felt.force_x_m_s2 * a_m_s2),
+            _count(-felt.force_y_m_s2 * a_m_s2),
+            _count(-felt.force_z_m_s2 * a_m_s2),
+            _TEMPERATURE,
+            _count(felt.roll_rate_deg_s * a_deg_s),
+            _count(-felt.pitch_rate_deg_s * a_deg_s),
+            _count(-felt.yaw_rate_deg_s * a_deg_s),
+        ]
+
+
+class HostBoard:
+    """A ``FirmwareBoard`` that runs the firmware's sources, compiled for this computer.
+
+    The chip's hardware is modelled by function, not by register: pulses are exact, and the time
+    that its instructions take is a guess. Raises ``HostUnavailableError``.
+    """
+
+    title = "the firmware compiled for this computer"
+
+    def __init__(
+        self, library: str | Path, *, seed: int = 1, imu_errors: ImuErrors, eeprom: bytes = b""
+    ) -> None:
+        if len(eeprom) > EEPROM_SIZE:
+            raise ValueError(f"the EEPROM has {EEPROM_SIZE} bytes")
+        self._library = HostLibrary(Path(library))
+        self.imu = HostImu(self._library, imu_errors, seed)
+        self._until_us = 0.0
+        self._into = ctypes.create_string_buffer(_READ_SIZE)
+        # As in the rig: a receiver has no reason to begin with the board.
+        start_us = 100_000 + random.Random(f"receiver start {seed}").uniform(0, 20_000)
+        self._library.begin(eeprom, len(eeprom), seed & 0xFFFFFFFF, start_us)
+
+    @property
+    def now_us(self) -> float:
+        """Return the time since power-on."""
+        return float(self._library.view.now_us)
+
+    def run_us(self, duration_us: float) -> None:
+        """Run on."""
+        self._until_us += duration_us
+        while self._library.run(self._until_us):
+            self.imu.give_sample()
+
+    def set_stick(self, channel: Channel, width_us: float) -> None:
+        """Set the receiver's pulse of a channel, from its next frame on."""
+        self._library.set_stick(_CHANNELS[channel], width_us)
+
+    def set_receiver(self, is_on: bool) -> None:
+        """Switch all channels of the receiver on or off."""
+        self._library.set_receiver(is_on)
+
+    def set_channel(self, channel: Channel, is_on: bool) -> None:
+        """Let one channel of the receiver send pulses or stay silent."""
+        self._library.set_channel(_CHANNELS[channel], is_on)
+
+    def set_motion(self, motion: Motion) -> None:
+        """Set what the IMU feels from now on."""
+        self.imu.motion = motion
+
+    def pulses_us(self) -> Pulses:
+        """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
+        ailerons, elevator, throttle, rudder = (
+            width if width else neutral
+            for width, neutral in zip(self._library.view.width_us, NEUTRAL_US, strict=True)
+        )
+        return ailerons, elevator, throttle, rudder
+
+    def pulse_ages_us(self) -> tuple[float, float, float, float]:
+        """Return how long ago the newest pulse of each servo ended; infinite before the first."""
+        now_us = self.now_us
+        ailerons, elevator, throttle, rudder = (
+            now_us - each for each in self._library.view.ended_us
+        )
+        return ailerons, elevator, throttle, rudder
+
+    def read(self) -> bytes:
+        """Return what came on the serial line since the last reading."""
+        parts = []
+        while size := self._library.read(self._into, _READ_SIZE):
+            parts.append(self._into.raw[:size])
+        return b"".join(parts)
+
+    def write(self, data: bytes) -> None:
+        """Put bytes on the serial line, each when the one before has ended."""
+        self._library.write(data, len(data))
+
+    def reset(self, cause: ResetCause) -> None:
+        """Reset it now; neither power-on nor brown-out is long enough to lose the RAM."""
+        self._library.reset(_CAUSES[cause])
+
+    @property
+    def eeprom(self) -> bytes:
+        """Return what the EEPROM holds."""
+        return bytes(self._library.view.eeprom)
+
+
+def _count(value: float) -> int:
+    return max(-32768, min(32767, round(value)))
