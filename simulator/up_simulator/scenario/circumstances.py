@@ -16,6 +16,10 @@ _ZERO = (0.0, 0.0, 0.0)
 _FORCE = Constraint(float, minimum=-50, maximum=50, unit="m/s^2")
 
 
+def _rate(comment: str) -> float:
+    return key(0.0, comment, unit="deg/s", minimum=-720, maximum=720)
+
+
 @dataclass(frozen=True, slots=True)
 class StartPart:
     """How the flight begins: in the air, at the moment that counts as 0 s."""
@@ -29,8 +33,21 @@ class StartPart:
         None, "Nose up positive. null: the airframe's own.", unit="deg", minimum=-85, maximum=85
     )
     heading_deg: float = key(0.0, "0 is north, 90 east.", unit="deg", minimum=0, maximum=360)
+    climb_m_s: float | None = key(
+        None,
+        "Through the air, up positive. null: as the airframe flies at this pitch.",
+        unit="m/s",
+        minimum=-60,
+        maximum=30,
+    )
+    roll_rate_deg_s: float = _rate("The rotation that it begins with, right wing down positive.")
+    pitch_rate_deg_s: float = _rate("The same, nose up positive.")
+    yaw_rate_deg_s: float = _rate("The same, clockwise from above positive.")
     throttle: float | None = key(
-        None, "What the motor already gives; null: the airframe's cruise.", minimum=0, maximum=1
+        None,
+        "What the motor runs at already. null: what the throttle stick says at 0 s.",
+        minimum=0,
+        maximum=1,
     )
 
 

@@ -74,9 +74,6 @@ class Event:
     reset: Literal["watchdog", "power", "button", "brown-out"] | None = key(
         None, "The Arduino resets."
     )
-    eeprom: Literal["spoiled", "blank"] | None = key(
-        None, "What the Arduino keeps over a reset: spoiled has wrong bits, blank is a new chip's."
-    )
     serial: Literal["unplugged", "back"] | None = key(
         None, "The serial line between Arduino and Raspberry Pi."
     )

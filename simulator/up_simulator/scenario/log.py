@@ -48,8 +48,10 @@ class FlightLog:
             value = values.get(name)
             if name in self._words:
                 row.append("" if value is None else str(value))
+            elif isinstance(value, bool | int | float):
+                row.append(_rounded(float(value)))
             else:
-                row.append(math.nan if value is None else _rounded(float(value)))
+                row.append(math.nan)
         self.rows.append(tuple(row))
 
     def column(self, name: str) -> list[Value]:

@@ -119,6 +119,11 @@ class Scenario:
         " source compiled for this machine. auto: firmware where it can be built, else host."
         " direct: no flight computer, the receiver is wired to the servos.",
     )
+    eeprom: Literal["prepared", "blank", "spoiled"] = key(
+        "prepared",
+        "What the Arduino finds at power-on. prepared: the airframe's profile and gains. blank: a"
+        " new chip. spoiled: wrong bits everywhere.",
+    )
     may_crash: bool = key(False, "Whether hitting the ground is no failure.")
     start: StartPart = section(StartPart)
     weather: WeatherPart = section(WeatherPart)

@@ -136,7 +136,6 @@ def _ground() -> Iterator[Signal]:
     yield Signal("ground.age_s", "since the newest telemetry came", "s")
     yield Signal("ground.frames", "telemetry frames that have come")
     yield Signal("ground.connected", "it has a connection, as far as it knows", kind=_FLAG)
-    yield Signal("ground.latency_s", "age of the newest telemetry when it came", "s")
     for group, unit in (("orientation", "deg"), ("rates", "deg/s")):
         for axis in ("roll", "pitch", "yaw"):
             yield _telemetry(f"{group}.{axis}", unit)

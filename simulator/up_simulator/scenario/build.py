@@ -1,0 +1,85 @@
+"""Puts together what flies a scenario: aircraft, board, crew."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
+from up_simulator.aircraft import Gust as AirGust
+from up_simulator.firmware.build import choose_board
+from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.scenario.companions import Companions, Nobody
+from up_simulator.scenario.demand import DemandModel
+from up_simulator.scenario.flight import ScenarioFlight
+from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.scenario import Scenario
+from up_simulator.scenario.serial_line import SerialWires
+from up_simulator.scenario.settings import gains_of, profile_of, spoilt
+from up_simulator.scenario.sticks import SWITCH_US, StickTimeline
+from up_simulator.world import World
+
+Say = Callable[[str], None]
+
+
+def build_flight(scenario: Scenario, say: Say = lambda _text: None) -> ScenarioFlight:
+    """Return a flight that is ready to boot.
+
+    Raises AirframeError, FlightUnavailableError, BoardUnavailableError, SettingsError,
+    PreparationError, BoardCrashedError and CrewError, each with one sentence for the user.
+    """
+    airframe = load_airframe(scenario.airframe)
+    dynamics = FlightDynamics(
+        airframe, start=_start(scenario), weather=_weather(scenario), seed=scenario.seed
+    )
+    board = _board(scenario, airframe, say)
+    world = World(dynamics, board)
+    companions = _companions(scenario, airframe, world, board, say)
+    demand = DemandModel(profile_of(scenario, airframe.profile))
+    return ScenarioFlight(scenario, world, board, companions, demand)
+
+
+def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
+    eeprom = b""
+    if scenario.eeprom != "blank":
+        profile, gains = profile_of(scenario, airframe.profile), gains_of(scenario, airframe.gains)
+        eeprom = prepared_eeprom(scenario.board, profile, gains, say)
+    if scenario.eeprom == "spoiled":
+        eeprom = spoilt(eeprom, scenario.seed)
+    board = choose_board(
+        scenario.board,
+        seed=scenario.seed,
+        imu_errors=scenario.imu.errors(),
+        eeprom=eeprom,
+        say=say,
+    )
+    return LineBoard(board, SerialWires(scenario.seed))
+
+
+def _companions(
+    scenario: Scenario, airframe: Airframe, world: World, board: LineBoard, say: Say
+) -> Companions:
+    return Nobody(board)
+
+
+def _start(scenario: Scenario) -> Start:
+    start = scenario.start
+    values = {name: getattr(start, name) for name in start.__slots__}
+    if start.throttle is None:
+        sticks = StickTimeline(scenario.sticks, scenario.switch.positions()).pulses_us(0.0)
+        runs = sticks["aux2"] > SWITCH_US["middle"] or scenario.board == "direct"
+        values["throttle"] = min(1.0, max(0.0, sticks["throttle"] / 1000 - 1)) if runs else 0.0
+    return Start(**values)
+
+
+def _weather(scenario: Scenario) -> Weather:
+    weather = scenario.weather
+    gusts = tuple(
+        AirGust(gust.at_s, gust.duration_s, gust.north_m_s, gust.east_m_s, gust.down_m_s)
+        for gust in weather.gusts
+    )
+    return Weather(
+        wind_m_s=weather.wind_m_s,
+        wind_from_deg=weather.wind_from_deg,
+        turbulence=weather.turbulence,
+        gusts=gusts,
+    )

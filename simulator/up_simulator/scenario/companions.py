@@ -1,0 +1,84 @@
+"""Who flies with the aircraft: the daemon, the phone and the ground station, or nobody."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from up_simulator.crew.protocols import Ground, Phone, Raspilot
+from up_simulator.scenario.event import Event
+from up_simulator.scenario.line_board import LineBoard
+
+AGAIN_S = 0.5
+
+
+class Companions(Protocol):
+    """The crew of a flight as a whole; what is not aboard is None."""
+
+    @property
+    def raspilot(self) -> Raspilot | None:
+        """Return the daemon."""
+
+    @property
+    def ground(self) -> Ground | None:
+        """Return the ground station."""
+
+    @property
+    def phone(self) -> Phone | None:
+        """Return the phone aboard."""
+
+    def start(self) -> None:
+        """Start everybody; raises CrewError."""
+
+    def is_ready(self) -> bool:
+        """Return whether the flight may begin: whoever is to connect has connected."""
+
+    def exchange(self, step_s: float) -> None:
+        """Let bytes pass and this time go by; raises CrewError when somebody has died."""
+
+    def seconds(self) -> float:
+        """Return the crew's time."""
+
+    def carry_out(self, event: Event) -> None:
+        """Let happen what concerns the crew; raises CrewError."""
+
+    def stop(self) -> None:
+        """End everybody."""
+
+
+class Nobody:
+    """No Raspberry Pi: a listener on the serial line asks the board to tell what it does."""
+
+    raspilot: Raspilot | None = None
+    ground: Ground | None = None
+    phone: Phone | None = None
+
+    def __init__(self, board: LineBoard) -> None:
+        self._board = board
+        self._asked_s = -AGAIN_S
+
+    def start(self) -> None:
+        """Start nothing."""
+
+    def is_ready(self) -> bool:
+        """Return True: nobody is waited for."""
+        return True
+
+    def exchange(self, step_s: float) -> None:
+        """Listen; ask again after a reset, which ends the streams."""
+        board = self._board
+        board.read()
+        now_s = board.now_s
+        is_silent = now_s - board.tap.status_s > AGAIN_S
+        if is_silent and now_s - self._asked_s >= AGAIN_S:
+            self._asked_s = now_s
+            board.write(board.tap.start_bytes())
+
+    def seconds(self) -> float:
+        """Return the board's time."""
+        return self._board.now_s
+
+    def carry_out(self, event: Event) -> None:
+        """Do nothing: nobody of the crew is concerned."""
+
+    def stop(self) -> None:
+        """End nothing."""

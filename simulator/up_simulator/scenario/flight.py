@@ -1,0 +1,245 @@
+"""One flight of a scenario, step by step."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from up_rig.imu import motion_at
+from up_simulator.crew.protocols import CrewError
+from up_simulator.firmware.board import BoardCrashedError
+from up_simulator.scenario.companions import Companions
+from up_simulator.scenario.demand import DemandModel
+from up_simulator.scenario.event import Event
+from up_simulator.scenario.happening import happen
+from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.log import EVENT_SEPARATOR, FlightLog
+from up_simulator.scenario.question import Question
+from up_simulator.scenario.sampler import Sampler, columns_of
+from up_simulator.scenario.scenario import Scenario
+from up_simulator.scenario.signals import EVENT_COLUMN
+from up_simulator.scenario.sticks import AT_FIRST_US, CHANNELS, StickTimeline
+from up_simulator.wire import Command
+from up_simulator.world import STEP_S, World
+
+STEPS_A_ROW = 10
+READY_S = 15.0
+READY_STEP_US = 20_000.0
+LOG_TAIL = 20
+_HALF_STEP_S = STEP_S / 2
+
+
+@dataclass(slots=True)
+class FlightRecord:
+    """What came out of a flight: the log, and everything that is no signal.
+
+    ``crash`` is a sentence about how it ended on the ground, ``failure`` one about what kept it
+    from being flown to its end, with the lines of the daemon's log behind it.
+    """
+
+    scenario: Scenario
+    log: FlightLog
+    event_times: dict[str, float] = field(default_factory=dict)
+    questions: list[Question] = field(default_factory=list)
+    flown_s: float = 0.0
+    took_s: float = 0.0
+    crash: str | None = None
+    crash_s: float | None = None
+    failure: str | None = None
+    failure_log: Sequence[str] = ()
+    is_interrupted: bool = False
+    board_title: str = ""
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def speed(self) -> float:
+        """Return how many times faster than the real time it was."""
+        return self.flown_s / self.took_s if self.took_s > 0 else 0.0
+
+
+class ScenarioFlight:
+    """Boots the board, then flies: sticks, events, rows of the log.
+
+    ``switch`` gives each position of the mode switch its mode; ``held_mode`` keeps the switch
+    there whatever the scenario says.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        world: World,
+        board: LineBoard,
+        companions: Companions,
+        demand: DemandModel,
+    ) -> None:
+        self._scenario = scenario
+        self._world = world
+        self._board = board
+        self._companions = companions
+        self._demand = demand
+        self._timeline = StickTimeline(scenario.sticks, scenario.switch.positions())
+        self._events = sorted(scenario.events, key=lambda event: event.at_s)
+        self._happened: list[str] = []
+        self._sticks_us = dict(AT_FIRST_US)
+        self._steps = 0
+        self._total_steps = round(scenario.duration_s / STEP_S)
+        self.record = FlightRecord(scenario, FlightLog(columns_of(scenario)))
+        self.record.board_title = board.title
+        self._sampler = Sampler(
+            world,
+            board,
+            demand,
+            has_flight_computer=scenario.board != "direct",
+            raspilot=companions.raspilot,
+            ground=companions.ground,
+            phone=companions.phone,
+            ground_now_s=companions.seconds,
+        )
+        board.after_slice = self._exchange
+        board.on_command = self._hear_command
+
+    @property
+    def time_s(self) -> float:
+        """Return the time in the air."""
+        return self._steps * STEP_S
+
+    @property
+    def is_over(self) -> bool:
+        """Return whether nothing more is to be flown."""
+        record = self.record
+        ended = record.crash is not None or record.failure is not None
+        return ended or self._steps >= self._total_steps
+
+    def fly(self, progress: Callable[[float], None] = lambda _time_s: None) -> FlightRecord:
+        """Boot and fly to the end as fast as it goes; Ctrl-C ends it with what there is."""
+        began_s = time.perf_counter()
+        try:
+            self.boot()
+            began_s = time.perf_counter()
+            while not self.is_over:
+                self.step()
+                if self._steps % STEPS_A_ROW == 0:
+                    progress(self.time_s)
+        except KeyboardInterrupt:
+            self.record.is_interrupted = True
+        finally:
+            self.record.flown_s = self.time_s
+            self.record.took_s = time.perf_counter() - began_s
+            self._companions.stop()
+        return self.record
+
+    def boot(self) -> None:
+        """Switch everything on, on the ground; arm if the sticks say so; begin in the air."""
+        wanted_us = self._timeline.pulses_us(0.0)
+        is_armed = wanted_us["aux2"] > AT_FIRST_US["ailerons"]
+        for channel in CHANNELS:
+            at_rest = channel in ("throttle", "aux2")
+            self._set_stick(channel, AT_FIRST_US[channel] if at_rest else wanted_us[channel])
+        try:
+            self._companions.start()
+            self._wait_until_ready()
+            self._world.boot(arms=is_armed)
+        except (BoardCrashedError, CrewError) as error:
+            self._fail(str(error))
+            return
+        self._sticks_us["aux2"] = wanted_us["aux2"]
+        self._note_if_not_armed(is_armed)
+        self._move_sticks(0.0)
+        self._board.take_stalest_us()
+        self._happen_until(0.0)
+        self._take_row()
+
+    def step(self) -> None:
+        """Fly for 2 ms; a row is logged every 20 ms."""
+        try:
+            self._world.step()
+        except (BoardCrashedError, CrewError) as error:
+            self._fail(str(error))
+            return
+        self._steps += 1
+        time_s = self.time_s
+        self._look_for_crash(time_s)
+        self._look_for_answers(time_s)
+        self._move_sticks(time_s)
+        self._happen_until(time_s)
+        if self._steps % STEPS_A_ROW == 0 or self.is_over:
+            self._take_row()
+
+    def _wait_until_ready(self) -> None:
+        companions, board = self._companions, self._board
+        board.set_motion(motion_at(0.0, 0.0))
+        waited_s = 0.0
+        while not companions.is_ready():
+            if waited_s >= READY_S:
+                self.record.notes.append(f"not everybody had connected after {READY_S:g} s")
+                return
+            board.run_us(READY_STEP_US)
+            waited_s += READY_STEP_US / 1e6
+
+    def _note_if_not_armed(self, is_armed: bool) -> None:
+        status = self._board.tap.status
+        if is_armed and status is not None and not status.is_armed:
+            self.record.notes.append(
+                f"the board was not armed when the flight began (vetoes 0x{status.vetoes:02X})"
+            )
+
+    def _exchange(self) -> None:
+        self._companions.exchange(STEP_S)
+
+    def _hear_command(self, command: Command) -> None:
+        if command.type == "S":
+            self._demand.hear_setpoint(command.payload)
+
+    def _move_sticks(self, time_s: float) -> None:
+        for channel in CHANNELS:
+            pulse_us = self._timeline.pulse_us(channel, time_s)
+            if pulse_us != self._sticks_us[channel]:
+                self._set_stick(channel, pulse_us)
+
+    def _set_stick(self, channel: str, pulse_us: float) -> None:
+        self._sticks_us[channel] = pulse_us
+        self._board.set_stick(channel, pulse_us)  # type: ignore[arg-type]
+
+    def _happen_until(self, time_s: float) -> None:
+        while self._events and self._events[0].at_s <= time_s + _HALF_STEP_S:
+            event = self._events.pop(0)
+            self._happened.append(event.title)
+            self.record.event_times.setdefault(event.title, time_s)
+            try:
+                if event.command is not None:
+                    self._ask(event, time_s)
+                else:
+                    happen(event, self._board, self._companions)
+            except CrewError as error:
+                self._fail(str(error))
+
+    def _ask(self, event: Event, time_s: float) -> None:
+        ground = self._companions.ground
+        assert ground is not None and event.command is not None
+        command = event.command
+        command_id = ground.send(command.name, **command.data)
+        self.record.questions.append(Question(event, command, command_id, time_s))
+
+    def _look_for_answers(self, time_s: float) -> None:
+        if self.record.questions and self._companions.ground is not None:
+            for question in self.record.questions:
+                question.look(self._companions.ground, time_s)
+
+    def _look_for_crash(self, time_s: float) -> None:
+        crash: str | None = getattr(self._world.dynamics, "crash", None)
+        if crash is not None and self.record.crash is None:
+            self.record.crash = crash
+            self.record.crash_s = time_s
+            self._happened.append("crash")
+
+    def _fail(self, sentence: str) -> None:
+        self.record.failure = sentence
+        if self._companions.raspilot is not None:
+            self.record.failure_log = list(self._companions.raspilot.log)[-LOG_TAIL:]
+
+    def _take_row(self) -> None:
+        row = self._sampler.row(self.time_s, self._sticks_us)
+        row[EVENT_COLUMN] = EVENT_SEPARATOR.join(self._happened)
+        self._happened.clear()
+        self.record.log.append(row)

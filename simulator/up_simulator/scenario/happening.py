@@ -1,0 +1,36 @@
+"""Makes the events of a scenario happen."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from up_simulator.firmware.board import Channel, ImuFault, ResetCause
+from up_simulator.scenario.companions import Companions
+from up_simulator.scenario.event import Event
+from up_simulator.scenario.line_board import LineBoard
+
+
+def happen(event: Event, board: LineBoard, companions: Companions) -> None:
+    """Let one event happen now: to the board and its wires, or to the crew. Raises CrewError."""
+    match event.kinds[0]:
+        case "imu":
+            board.imu.set_fault(cast(ImuFault, event.imu))
+        case "imu_errors":
+            assert event.imu_errors is not None
+            board.imu.errors = event.imu_errors.errors()
+        case "receiver":
+            board.set_receiver(event.receiver == "back")
+        case "channel_lost":
+            board.set_channel(cast(Channel, event.channel_lost), False)
+        case "channel_back":
+            board.set_channel(cast(Channel, event.channel_back), True)
+        case "reset":
+            board.reset(cast(ResetCause, event.reset))
+        case "serial_noise":
+            assert event.serial_noise is not None
+            board.wires.set_noise(event.serial_noise, board.now_s)
+        case "serial":
+            board.wires.is_plugged = event.serial == "back"
+            companions.carry_out(event)
+        case _:
+            companions.carry_out(event)

@@ -1,0 +1,114 @@
+"""A board whose serial line is listened to, and spoilt, on its way to whoever speaks with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from up_rig.imu import Motion
+from up_simulator.firmware.board import BoardImu, Channel, FirmwareBoard, Pulses, ResetCause
+from up_simulator.firmware.tap import BoardTap
+from up_simulator.scenario.serial_line import FROM_BOARD, TO_BOARD, SerialWires
+from up_simulator.wire import CheckedReader, Command
+
+SLICE_US = 2000.0
+
+
+class LineBoard:
+    """A ``FirmwareBoard`` around another one, run in slices of 2 ms.
+
+    After each slice ``after_slice`` is called: there the daemon's bytes are exchanged, in flight
+    and while the board boots. The tap hears what leaves the board before any noise, ``on_command``
+    gets what the board hears after it.
+    """
+
+    def __init__(self, board: FirmwareBoard, wires: SerialWires) -> None:
+        self._board = board
+        self.wires = wires
+        self.tap = BoardTap()
+        self.after_slice: Callable[[], None] = lambda: None
+        self.on_command: Callable[[Command], None] = lambda _command: None
+        self.stalest_us = 0.0
+        self._heard = CheckedReader()
+
+    @property
+    def title(self) -> str:
+        """Return what it is."""
+        return self._board.title
+
+    @property
+    def imu(self) -> BoardImu:
+        """Return its sensor."""
+        return self._board.imu
+
+    @property
+    def now_us(self) -> float:
+        """Return the board's time."""
+        return self._board.now_us
+
+    @property
+    def now_s(self) -> float:
+        """Return the board's time in seconds."""
+        return self._board.now_us / 1e6
+
+    @property
+    def eeprom(self) -> bytes:
+        """Return what the EEPROM holds."""
+        return self._board.eeprom
+
+    def run_us(self, duration_us: float) -> None:
+        """Run on; raises ``BoardCrashedError``."""
+        left_us = duration_us
+        while left_us > 1e-6:
+            slice_us = min(left_us, SLICE_US)
+            left_us -= slice_us
+            self._board.run_us(slice_us)
+            self.stalest_us = max(self.stalest_us, *self._board.pulse_ages_us())
+            self.after_slice()
+
+    def take_stalest_us(self) -> float:
+        """Return the greatest age of any output's pulse since the last call."""
+        stalest_us, self.stalest_us = self.stalest_us, max(self._board.pulse_ages_us())
+        return stalest_us
+
+    def set_stick(self, channel: Channel, width_us: float) -> None:
+        """Set the receiver's pulse of a channel."""
+        self._board.set_stick(channel, width_us)
+
+    def set_receiver(self, is_on: bool) -> None:
+        """Switch all channels of the receiver on or off."""
+        self._board.set_receiver(is_on)
+
+    def set_channel(self, channel: Channel, is_on: bool) -> None:
+        """Let one channel of the receiver send pulses or stay silent."""
+        self._board.set_channel(channel, is_on)
+
+    def set_motion(self, motion: Motion) -> None:
+        """Set what the IMU feels from now on."""
+        self._board.set_motion(motion)
+
+    def pulses_us(self) -> Pulses:
+        """Return the newest whole servo pulses."""
+        return self._board.pulses_us()
+
+    def pulse_ages_us(self) -> tuple[float, float, float, float]:
+        """Return how long ago the newest pulse of each servo ended."""
+        return self._board.pulse_ages_us()
+
+    def read(self) -> bytes:
+        """Return what came on the serial line, as it arrives at the other end."""
+        data = self._board.read()
+        self.tap.feed(data, self.now_s)
+        return self.wires.pass_on(data, FROM_BOARD, self.now_s)
+
+    def write(self, data: bytes) -> None:
+        """Put bytes on the serial line."""
+        arrived = self.wires.pass_on(data, TO_BOARD, self.now_s)
+        if arrived:
+            for found in self._heard.feed(arrived, self.now_s):
+                if isinstance(found, Command):
+                    self.on_command(found)
+            self._board.write(arrived)
+
+    def reset(self, cause: ResetCause) -> None:
+        """Reset it now."""
+        self._board.reset(cause)

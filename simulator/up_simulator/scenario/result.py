@@ -1,0 +1,108 @@
+"""What a scenario came to: its flight, its verdicts, and those of its control run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.judging import FlightFacts, judge
+from up_simulator.scenario.scenario import Scenario
+from up_simulator.scenario.sticks import StickPoint
+from up_simulator.scenario.verdict import Verdict
+
+NO_CRASH = "It does not crash"
+
+
+@dataclass(slots=True)
+class Result:
+    """A flight with its verdicts; ``control`` is the record of the control run, where one flew."""
+
+    record: FlightRecord
+    verdicts: list[Verdict]
+    control: FlightRecord | None = None
+
+    @property
+    def is_held(self) -> bool:
+        """Return whether everything that was expected is true."""
+        records = (self.record, self.control)
+        broken = any(
+            record is not None and (record.failure is not None or record.is_interrupted)
+            for record in records
+        )
+        return not broken and all(verdict.is_held for verdict in self.verdicts)
+
+
+def verdicts_of(record: FlightRecord) -> list[Verdict]:
+    """Return the verdicts on one flight: each expectation, each answer, and that it is whole."""
+    scenario = record.scenario
+    facts = facts_of(record)
+    verdicts = [judge(expectation, facts) for expectation in scenario.expect]
+    for question in record.questions:
+        verdict = question.verdict()
+        if verdict is not None:
+            verdicts.append(verdict)
+    asked = {id(question.event) for question in record.questions}
+    for event in scenario.events:
+        if event.command is not None and id(event) not in asked:
+            verdicts.append(
+                Verdict(event.title, False, "never sent", "", "the flight ended before")
+            )
+    if not scenario.may_crash:
+        verdicts.append(_whole(record))
+    return verdicts
+
+
+def facts_of(record: FlightRecord) -> FlightFacts:
+    """Return what the judge must know."""
+    scenario = record.scenario
+    return FlightFacts(
+        record.log, record.event_times, scenario.duration_s, record.crash_s, scenario.may_crash
+    )
+
+
+def control_scenario(scenario: Scenario) -> Scenario:
+    """Return the scenario of the control run: the same without what makes it succeed."""
+    control = scenario.control
+    assert control is not None
+    sticks = scenario.sticks
+    if control.mode is not None:
+        held = StickPoint(at_s=0.0, mode=control.mode)
+        sticks = (held, *(replace(point, mode=None, aux1_us=None) for point in sticks))
+    return replace(
+        scenario,
+        sticks=sticks,
+        board=control.board or scenario.board,
+        control=None,
+    )
+
+
+def control_verdicts(scenario: Scenario, record: FlightRecord) -> list[Verdict]:
+    """Return, for every expectation that must fail without it, whether it visibly does."""
+    control = scenario.control
+    assert control is not None
+    facts = facts_of(record)
+    words = control.about or (
+        f"in {control.mode}" if control.mode else f"with board {control.board}"
+    )
+    return [
+        _failing(judge(expectation, facts), words)
+        for expectation in scenario.expect
+        if expectation.name in control.fails
+    ]
+
+
+def _failing(verdict: Verdict, words: str) -> Verdict:
+    fails = not verdict.is_held and verdict.has_figure
+    why = ""
+    if verdict.is_held:
+        why = "it holds all the same: this flight shows nothing"
+    elif not verdict.has_figure:
+        why = f"it cannot be measured there: {verdict.why}"
+    name = f"Control run ({words}): not '{verdict.name}'"
+    return Verdict(name, fails, verdict.figure, f"not {verdict.limit}", why)
+
+
+def _whole(record: FlightRecord) -> Verdict:
+    if record.crash is None:
+        return Verdict(NO_CRASH, True, f"{record.flown_s:g} s flown", "no crash")
+    return Verdict(NO_CRASH, False, f"crashed at {record.crash_s:.2f} s", "no crash", record.crash)

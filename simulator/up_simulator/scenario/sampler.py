@@ -1,0 +1,168 @@
+"""Reads every signal of a flight at a moment."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from up_simulator.crew.protocols import Ground, Phone, Raspilot
+from up_simulator.firmware.tap import BoardTap
+from up_simulator.scenario.demand import DemandModel
+from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.scenario import Scenario
+from up_simulator.scenario.signals import EVENT_COLUMN, SIGNALS
+from up_simulator.scenario.sticks import CHANNELS
+from up_simulator.world import Dynamics, World
+
+Values = dict[str, float | bool | str | None]
+MODES = {"a": "ACRO", "r": "RATE", "f": "FBW", "s": "SETPOINT", "u": "OUTPUT", "h": "RTH"}
+SWITCH = {0: "low", 1: "middle", 2: "high"}
+CAUSES = {1: "power", 2: "button", 4: "brown-out", 8: "watchdog"}
+_SERVOS = CHANNELS[:4]
+_GAINS_VALID, _RESTORED = 64, 128
+
+
+def columns_of(scenario: Scenario) -> list[str]:
+    """Return the log's columns: those of every part that flies, and what is expected besides."""
+    sources = sources_of(scenario)
+    columns = [name for name, signal in SIGNALS.items() if signal.source in sources]
+    wanted = [expectation.signal for expectation in scenario.expect]
+    more = [name for name in wanted if name not in SIGNALS and name.partition(".")[0] in sources]
+    return [*columns, *dict.fromkeys(more), EVENT_COLUMN]
+
+
+def sources_of(scenario: Scenario) -> set[str]:
+    """Return the first words of the signals that the parts of this flight have."""
+    sources = {"time_s", "truth", "stick", "servo"}
+    if scenario.board != "direct":
+        sources |= {"board", "demand", "error", "estimate_error"}
+    if scenario.has_raspilot:
+        sources.add("raspilot")
+    if scenario.phone is not None:
+        sources.add("phone")
+    if scenario.ground is not None:
+        sources.add("ground")
+    return sources
+
+
+class Sampler:
+    """Gathers rows; ``is_crashed`` is asked of the dynamics, all else of the parts themselves."""
+
+    def __init__(
+        self,
+        world: World,
+        board: LineBoard,
+        demand: DemandModel,
+        *,
+        has_flight_computer: bool,
+        raspilot: Raspilot | None = None,
+        ground: Ground | None = None,
+        phone: Phone | None = None,
+        ground_now_s: Callable[[], float] = lambda: 0.0,
+    ) -> None:
+        self._world = world
+        self._board = board
+        self._demand = demand
+        self._has_computer = has_flight_computer
+        self._raspilot = raspilot
+        self._ground = ground
+        self._phone = phone
+        self._ground_now_s = ground_now_s
+
+    def row(self, time_s: float, sticks_us: Mapping[str, float]) -> Values:
+        """Return all values now."""
+        values: Values = {"time_s": time_s}
+        values.update(_truth(self._world.dynamics))
+        values.update((f"stick.{name}_us", sticks_us[name]) for name in CHANNELS)
+        pulses_us = self._board.pulses_us()
+        values.update(
+            (f"servo.{name}_us", pulse) for name, pulse in zip(_SERVOS, pulses_us, strict=True)
+        )
+        stale_us = self._board.take_stalest_us()
+        values["servo.stale_ms"] = stale_us / 1e3 if stale_us < float("inf") else None
+        if self._has_computer:
+            values.update(_board(self._board.tap, self._board.now_s))
+            self._add_demand(values, sticks_us)
+        if self._raspilot is not None:
+            values["raspilot.running"] = self._raspilot.is_running
+        if self._phone is not None:
+            values["phone.plugged"] = self._phone.is_plugged
+        if self._ground is not None:
+            values.update(_ground(self._ground, self._ground_now_s()))
+        return values
+
+    def _add_demand(self, values: Values, sticks_us: Mapping[str, float]) -> None:
+        mode, is_failsafe = values.get("board.mode"), values.get("board.failsafe")
+        demand = self._demand.at(str(mode), bool(is_failsafe), sticks_us)
+        for name in ("roll_deg", "pitch_deg", "roll_rate_deg_s", "pitch_rate_deg_s"):
+            asked, truth = getattr(demand, name), values[f"truth.{name}"]
+            values[f"demand.{name}"] = asked
+            if asked is not None and isinstance(truth, float):
+                values[f"error.{name}"] = _shorter_way(truth - asked, name)
+        for name in ("roll_deg", "pitch_deg"):
+            told, truth = values.get(f"board.{name}"), values[f"truth.{name}"]
+            if isinstance(told, float) and isinstance(truth, float):
+                values[f"estimate_error.{name}"] = _shorter_way(told - truth, name)
+
+
+def _shorter_way(difference: float, name: str) -> float:
+    return (difference + 180.0) % 360.0 - 180.0 if name == "roll_deg" else difference
+
+
+def _truth(dynamics: Dynamics) -> Iterable[tuple[str, Any]]:
+    state = dynamics.state
+    for field in dataclasses.fields(state):
+        if field.name != "time_s":
+            yield f"truth.{field.name}", getattr(state, field.name)
+    yield "truth.crashed", getattr(dynamics, "crash", None) is not None
+
+
+def _board(tap: BoardTap, now_s: float) -> Iterable[tuple[str, Any]]:
+    yield "board.bad_frames", tap.bad_frames
+    if (orientation := tap.orientation) is not None:
+        for angle in ("roll", "pitch", "yaw"):
+            yield f"board.{angle}_deg", getattr(orientation, f"{angle}_deg")
+            yield f"board.{angle}_rate_deg_s", getattr(orientation, f"{angle}_rate_deg_s")
+        yield "board.orientation_age_s", now_s - tap.orientation_s
+    status = tap.status
+    if status is None:
+        return
+    yield "board.mode", MODES.get(status.mode, status.mode)
+    yield "board.armed", status.is_armed
+    yield "board.auto", status.is_auto
+    yield "board.failsafe", status.is_failsafe
+    yield "board.imu_valid", status.is_imu_valid
+    yield "board.receiver_valid", status.is_receiver_valid
+    yield "board.restored", status.is_restored
+    yield "board.pi_heard", status.has_heard
+    yield "board.gains_valid", bool(status.flags & _GAINS_VALID)
+    yield "board.switch", SWITCH.get(status.switch, "not known")
+    cause = status.cause & ~_RESTORED
+    yield "board.reset_cause", " ".join(word for bit, word in CAUSES.items() if cause & bit)
+    yield "board.loop_us", status.loop_us
+    yield "board.loop_late_us", status.late_us
+    yield "board.dropped_frames", status.dropped
+    yield "board.missing_frames", status.missing
+    yield "board.receiver_age_ms", status.receiver_age_ms
+    yield "board.imu_age_ms", status.imu_age_ms
+    yield "board.uptime_s", status.seconds
+    yield "board.status_age_s", now_s - tap.status_s
+
+
+def _ground(ground: Ground, now_s: float) -> Iterable[tuple[str, Any]]:
+    yield "ground.frames", ground.frames
+    yield "ground.connected", ground.is_connected
+    yield "ground.age_s", None if ground.newest_s is None else now_s - ground.newest_s
+    yield from _flat("ground", ground.telemetry)
+
+
+def _flat(prefix: str, values: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
+    for key, value in values.items():
+        name = f"{prefix}.{key}"
+        if isinstance(value, Mapping):
+            yield from _flat(name, value)
+        elif isinstance(value, list | tuple):
+            yield name, ", ".join(map(str, value))
+        elif value is None or isinstance(value, bool | int | float | str):
+            yield name, value
