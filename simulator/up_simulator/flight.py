@@ -21,7 +21,9 @@ class FlightState:
 
     Positive roll is right wing down, positive pitch nose up, positive yaw clockwise from above.
     Rates are those of the body axes, as a gyroscope feels them. Altitude is above the sea,
-    height above the ground; speed is over the ground, along ``track_deg``.
+    height above the ground; speed is over the ground, along ``track_deg``. The angles of the air
+    are of attack (alpha) and of sideslip (wind from the right positive); the load factor is 1 in
+    level flight; ``north_m`` and ``east_m`` count from the start of the flight.
     """
 
     time_s: float
@@ -38,6 +40,16 @@ class FlightState:
     speed_m_s: float
     track_deg: float
     airspeed_m_s: float
+    alpha_deg: float = 0.0
+    sideslip_deg: float = 0.0
+    load_factor_g: float = 1.0
+    climb_m_s: float = 0.0
+    north_m: float = 0.0
+    east_m: float = 0.0
+    battery_v: float = 0.0
+    battery_percent: float = 100.0
+    motor_rpm: float = 0.0
+    motor_w: float = 0.0
 
 
 class Flight(Protocol):

@@ -8,7 +8,7 @@ import io
 import math
 import zlib
 from bisect import bisect_right
-from dataclasses import astuple, fields, replace
+from dataclasses import MISSING, astuple, fields, replace
 from importlib import resources
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from up_simulator.flight import NEUTRAL, FlightState, FlightUnavailableError, Se
 
 BLEND_S = 4.0
 SHIPPED = "recorded_flight.csv.gz"
-COLUMNS = tuple(field.name for field in fields(FlightState))
+COLUMNS = tuple(field.name for field in fields(FlightState) if field.default is MISSING)
 ANGLES = ("roll_deg", "pitch_deg", "yaw_deg", "track_deg")
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import astuple
 from pathlib import Path
 
 from up_simulator.flight import FlightState, Servos
@@ -16,7 +15,7 @@ DECIMALS = {"latitude_deg": 8, "longitude_deg": 8, "time_s": 3}
 class StateLog:
     """A CSV line for every 20 ms of flight, written through at once.
 
-    Columns are the fields of ``FlightState``, then the four servo positions (us). The file can
+    Columns are what a recorded flight has (``recorded_flight.COLUMNS``), then the four servo positions (us). The file can
     be flown again with ``--replay``. Raises ``OSError`` when it cannot be written.
     """
 
@@ -30,10 +29,7 @@ class StateLog:
         if state.time_s < self._next_s - 1e-9:
             return
         self._next_s = state.time_s + PERIOD_S
-        values = [
-            f"{value:.{DECIMALS.get(name, 3)}f}"
-            for name, value in zip(COLUMNS, astuple(state), strict=True)
-        ]
+        values = [f"{getattr(state, name):.{DECIMALS.get(name, 3)}f}" for name in COLUMNS]
         self._file.write(",".join([*values, *map(str, servos_us)]) + "\n")
 
     def close(self) -> None:

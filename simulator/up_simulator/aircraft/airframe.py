@@ -1,0 +1,170 @@
+"""An aircraft to be flown: what its folder says, checked."""
+
+from __future__ import annotations
+
+import dataclasses
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from up.config import ConfigErrors
+from up.config.problems import ConfigProblem
+from up_simulator.aircraft.airframe_file import (
+    FILENAME,
+    AirframeFile,
+    BatteryConfig,
+    ImuConfig,
+    LaunchConfig,
+    LimitsConfig,
+    MotorConfig,
+    ServosConfig,
+    file_named,
+)
+
+SHIPPED = Path(__file__).parent / "airframes"
+DEFAULT_AIRFRAME = "glider"
+_LB_KG, _SLUG_KG = 0.45359237, 14.593903
+_CHECK_LIMIT_S = 60.0
+
+
+class AirframeError(Exception):
+    """An airframe cannot be flown: one sentence a mistake, each with its place."""
+
+
+@dataclass(frozen=True, slots=True)
+class Airframe:
+    """An aircraft of the simulator.
+
+    ``profile`` and ``gains`` are shaped as ``config/airframe.yml`` and ``config/pids.yml`` are;
+    the profile holds only what is said.
+    """
+
+    name: str
+    title: str
+    about: str
+    model_path: Path
+    mass_kg: float
+    launch: LaunchConfig
+    servos: ServosConfig
+    motor: MotorConfig
+    battery: BatteryConfig
+    imu: ImuConfig
+    limits: LimitsConfig
+    profile: dict[str, Any]
+    gains: dict[str, Any]
+
+    @property
+    def has_motor(self) -> bool:
+        """Tell whether something drives it."""
+        return self.motor.diameter_m > 0
+
+
+def airframe_names() -> tuple[str, ...]:
+    """Return the names of the shipped airframes, the default one first."""
+    names = sorted(each.parent.name for each in SHIPPED.glob(f"*/{FILENAME}"))
+    return (DEFAULT_AIRFRAME, *(name for name in names if name != DEFAULT_AIRFRAME))
+
+
+def load_airframe(name_or_path: str | Path) -> Airframe:
+    """Return a shipped airframe by its name, or one of the user's by its folder or file.
+
+    Raises ``AirframeError`` with every mistake that was found.
+    """
+    path = _path_of(name_or_path)
+    try:
+        file: AirframeFile = file_named(path.name).load(path.parent)
+    except ConfigErrors as errors:
+        raise AirframeError(str(errors)) from None
+    model_path = path.parent / file.model
+    mass_kg = _mass_of(model_path)
+    if SHIPPED not in path.resolve().parents:
+        _check_model(model_path)
+    return Airframe(
+        name=path.parent.resolve().name,
+        title=file.title,
+        about=file.about,
+        model_path=model_path,
+        mass_kg=mass_kg,
+        launch=file.launch,
+        servos=file.servos,
+        motor=file.motor,
+        battery=file.battery,
+        imu=file.imu,
+        limits=file.limits,
+        profile=_said(dataclasses.asdict(file.profile)),
+        gains={"units": "degrees per second", **dataclasses.asdict(file.gains)},
+    )
+
+
+def _path_of(name_or_path: str | Path) -> Path:
+    text = str(name_or_path)
+    if text in airframe_names():
+        return SHIPPED / text / FILENAME
+    path = Path(name_or_path)
+    if path.is_dir():
+        path = path / FILENAME
+    if not path.is_file():
+        names = ", ".join(airframe_names())
+        raise AirframeError(f"{text}: is no airframe ({names}), and no folder with an {FILENAME}")
+    return path
+
+
+def _said(values: dict[str, Any]) -> dict[str, Any]:
+    """Return a nested map without what is null."""
+    kept = {
+        name: _said(value) if isinstance(value, dict) else value for name, value in values.items()
+    }
+    return {name: value for name, value in kept.items() if value is not None and value != {}}
+
+
+def _mass_of(model_path: Path) -> float:
+    """Return the model's mass, kg. Raises ``AirframeError`` for a file that is no model."""
+    try:
+        root = ElementTree.parse(model_path).getroot()
+    except OSError as error:
+        raise AirframeError(f"{model_path}: cannot be read: {error.strerror or error}") from None
+    except ElementTree.ParseError as error:
+        line, column = error.position
+        what = str(error).split(":")[0]
+        raise AirframeError(f"{model_path}:{line}:{column + 1}: is no XML: {what}") from None
+    weight = root.find("mass_balance/emptywt")
+    if root.tag != "fdm_config" or weight is None:
+        raise AirframeError(f"{model_path}:1:1: is no JSBSim model with a mass_balance/emptywt")
+    unit = {"KG": 1.0, "SLUG": _SLUG_KG}.get(weight.get("unit", "LBS").upper(), _LB_KG)
+    try:
+        return float(weight.text or "") * unit
+    except ValueError:
+        raise AirframeError(f"{model_path}: emptywt is not a number: {weight.text}") from None
+
+
+def _check_model(model_path: Path) -> None:
+    """Let JSBSim read a model that is not ours in a process of its own: it may end there.
+
+    Raises ``AirframeError`` with what JSBSim has to say.
+    """
+    done = subprocess.run(
+        [sys.executable, "-m", "up_simulator.aircraft.model", str(model_path)],
+        capture_output=True,
+        text=True,
+        errors="replace",
+        timeout=_CHECK_LIMIT_S,
+        check=False,
+    )
+    if done.returncode == 0:
+        return
+    said = [line.strip() for line in (done.stderr + "\n" + done.stdout).splitlines()]
+    reason = " ".join(line for line in said if line) or f"it ended with {done.returncode}"
+    raise AirframeError(f"{model_path}: JSBSim does not load it: {reason[:500]}")
+
+
+__all__ = [
+    "DEFAULT_AIRFRAME",
+    "Airframe",
+    "AirframeError",
+    "ConfigProblem",
+    "airframe_names",
+    "load_airframe",
+]

@@ -1,0 +1,304 @@
+"""The flight dynamics: an airframe's JSBSim model, its servos, its drive, in the weather."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from up_rig.imu import Motion
+from up_simulator.aircraft.airframe import Airframe
+from up_simulator.aircraft.model import FOOT_M, load_model, reader, writer
+from up_simulator.aircraft.motor import Battery, Motor
+from up_simulator.aircraft.servos import ServoRack
+from up_simulator.aircraft.weather import Air, Weather
+from up_simulator.flight import FlightState, Servos
+
+GROUND_M = 250.0
+START_LATITUDE_DEG = 50.0
+START_LONGITUDE_DEG = 14.5
+_Move = tuple[Callable[[float], None], int, float, float]
+_NEWTON_LBS = 1 / 4.4482216
+# Radii of the Earth (WGS 84) at the start, along the meridian and about the axis.
+_MERIDIAN_M, _PARALLEL_M = 6_373_326.0, 4_108_102.0
+_INCH_M = 0.0254
+_CHANNELS = {"ailerons": 0, "elevator": 1, "rudder": 3}
+_READ = {
+    "roll": "attitude/phi-rad",
+    "pitch": "attitude/theta-rad",
+    "yaw": "attitude/psi-rad",
+    "p": "velocities/p-rad_sec",
+    "q": "velocities/q-rad_sec",
+    "r": "velocities/r-rad_sec",
+    "latitude": "position/lat-geod-deg",
+    "longitude": "position/long-gc-deg",
+    "altitude": "position/h-sl-ft",
+    "height": "position/h-agl-ft",
+    "north_speed": "velocities/v-north-fps",
+    "east_speed": "velocities/v-east-fps",
+    "down_speed": "velocities/v-down-fps",
+    "airspeed": "velocities/vt-fps",
+    "alpha": "aero/alpha-deg",
+    "beta": "aero/beta-deg",
+    "load": "accelerations/Nz",
+    "force_x": "accelerations/a-pilot-x-ft_sec2",
+    "force_y": "accelerations/a-pilot-y-ft_sec2",
+    "force_z": "accelerations/a-pilot-z-ft_sec2",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """How a flight begins; what is None is the airframe's own.
+
+    ``climb_m_s`` is through the air, up positive. ``throttle`` (0 to 1) is what the motor has run
+    at until now.
+    """
+
+    height_m: float = 120.0
+    airspeed_m_s: float | None = None
+    roll_deg: float = 0.0
+    pitch_deg: float | None = None
+    heading_deg: float = 0.0
+    climb_m_s: float | None = None
+    throttle: float = 0.0
+    roll_rate_deg_s: float = 0.0
+    pitch_rate_deg_s: float = 0.0
+    yaw_rate_deg_s: float = 0.0
+
+
+class FlightDynamics:
+    """A flight in steps of 2 ms, launched in the air; satisfies ``Flight``.
+
+    The same arguments and the same pulses at the same steps fly the same flight to the last
+    digit. ``crash`` says in one sentence what ended the flight; from then on nothing moves but
+    the time. Raises ``FlightUnavailableError`` where JSBSim is missing.
+    """
+
+    STEP_S = 0.002
+
+    def __init__(
+        self,
+        airframe: Airframe,
+        start: Start | None = None,
+        weather: Weather | None = None,
+        seed: int = 1,
+    ) -> None:
+        self.airframe = airframe
+        self.weather = weather or Weather()
+        self.crash: str | None = None
+        self._seed = seed
+        self._steps = 0
+        self._owed_s = 0.0
+        self._launches = 0
+        self._state: FlightState | None = None
+        self._motion: Motion | None = None
+        self._read: dict[str, Callable[[], float]] = {}
+        self._servos = ServoRack(
+            airframe.servos.slew_us_s, airframe.servos.lag_ms / 1000, self.STEP_S
+        )
+        self.launch(start or Start())
+
+    @property
+    def time_s(self) -> float:
+        """Return how long it has flown, launches included."""
+        return self._steps * self.STEP_S
+
+    @property
+    def state(self) -> FlightState:
+        """Return the state after the newest step."""
+        if self._state is None:
+            self._state = self._read_state()
+        return self._state
+
+    @property
+    def motion(self) -> Motion:
+        """Return what an IMU at the airframe's place for it feels."""
+        if self._motion is None:
+            read = self._read
+            self._motion = Motion(
+                math.degrees(read["p"]()),
+                math.degrees(read["q"]()),
+                math.degrees(read["r"]()),
+                read["force_x"]() * FOOT_M,
+                read["force_y"]() * FOOT_M,
+                read["force_z"]() * FOOT_M,
+            )
+        return self._motion
+
+    @property
+    def servos(self) -> Servos:
+        """Return where the servos stand, us."""
+        return self._servos.rounded_us
+
+    def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
+        """Ask the servos to go to these pulses; they move at their own speed."""
+        self._servos.set(pulses_us)
+
+    def advance(self, duration_s: float) -> None:
+        """Step as often as 2 ms fit; what is left is owed to the next call."""
+        self._owed_s += duration_s
+        while self._owed_s >= self.STEP_S - 1e-9:
+            self._owed_s -= self.STEP_S
+            self.step()
+
+    def step(self) -> None:
+        """Fly one step of 2 ms."""
+        self._steps += 1
+        self._state = None
+        if self.crash is not None:
+            return
+        servos = self._servos
+        servos.step()
+        positions_us = servos.positions_us
+        for set_surface, channel, neutral_us, travel in self._moves:
+            set_surface((positions_us[channel] - neutral_us) * travel)
+        if self._motor is not None:
+            throttle = (positions_us[2] - 1000.0) * 0.001
+            thrust_n = self._motor.step(
+                0.0 if throttle < 0.0 else 1.0 if throttle > 1.0 else throttle,
+                self._read_airspeed() * FOOT_M,
+                self.STEP_S,
+            )
+            self._set_thrust(thrust_n * _NEWTON_LBS)
+        else:
+            self._battery.draw(0.0, self.STEP_S)
+        self._air.blow(self._steps * self.STEP_S - self._launched_s)
+        self._motion = None
+        if not self._fdm.run():
+            self.crash = "the flight model has given up"
+        else:
+            self._watch()
+
+    def launch(self, start: Start) -> None:
+        """Begin the flight again in the air, with a full battery; the time goes on."""
+        airframe = self.airframe
+        self.crash = None
+        self._launched_s = self.time_s
+        self._state = None
+        self._motion = None
+        # A state that is no number survives new initial conditions: build the model anew.
+        self._fdm: Any = load_model(airframe.model_path, self.STEP_S)
+        self._set_initial(start)
+        self._read = {name: reader(self._fdm, node) for name, node in _READ.items()}
+        self._read_airspeed = self._read["airspeed"]
+        self._read_height, self._read_load = self._read["height"], self._read["load"]
+        self._moves = list(self._find_moves())
+        self._battery = Battery(airframe.battery)
+        self._motor = Motor(airframe.motor, self._battery) if airframe.has_motor else None
+        self._servos.jump((1500, 1500, 1000 + 1000 * start.throttle, 1500))
+        if self._motor is not None:
+            self._set_thrust = writer(self._fdm, "external_reactions/motor/magnitude")
+            self._motor.spin_up(start.throttle, self._read_airspeed() * FOOT_M)
+            self._set_thrust(self._motor.thrust_n * _NEWTON_LBS)
+        self._air = Air(self._fdm, self.weather)
+        self._launches += 1
+
+    def _set_initial(self, start: Start) -> None:
+        fdm, launch = self._fdm, self.airframe.launch
+        airspeed_m_s = launch.airspeed_m_s if start.airspeed_m_s is None else start.airspeed_m_s
+        pitch_deg = launch.pitch_deg if start.pitch_deg is None else start.pitch_deg
+        alpha_deg = launch.alpha_deg
+        if start.climb_m_s is not None:
+            share = max(-1.0, min(1.0, start.climb_m_s / max(0.1, airspeed_m_s)))
+            alpha_deg = pitch_deg - math.degrees(math.asin(share))
+        self._place_imu()
+        fdm["ic/terrain-elevation-ft"] = GROUND_M / FOOT_M
+        fdm["ic/lat-geod-deg"] = START_LATITUDE_DEG
+        fdm["ic/long-gc-deg"] = START_LONGITUDE_DEG
+        fdm["ic/h-sl-ft"] = (GROUND_M + start.height_m) / FOOT_M
+        fdm["ic/phi-deg"] = start.roll_deg
+        fdm["ic/theta-deg"] = pitch_deg
+        fdm["ic/psi-true-deg"] = start.heading_deg
+        # Over the ground, and before the wind, which leaves the speed over the ground as it is.
+        alpha = math.radians(alpha_deg)
+        air = (airspeed_m_s * math.cos(alpha), 0.0, airspeed_m_s * math.sin(alpha))
+        wind = _to_body((*self.weather.wind_ned_m_s, 0.0), start, pitch_deg)
+        for name, through, carried in zip("uvw", air, wind, strict=True):
+            fdm[f"ic/{name}-fps"] = (through + carried) / FOOT_M
+        fdm["ic/vw-mag-fps"] = self.weather.wind_m_s / FOOT_M
+        fdm["ic/vw-dir-deg"] = (self.weather.wind_from_deg + 180.0) % 360.0
+        fdm["ic/p-rad_sec"] = math.radians(start.roll_rate_deg_s)
+        fdm["ic/q-rad_sec"] = math.radians(start.pitch_rate_deg_s)
+        fdm["ic/r-rad_sec"] = math.radians(start.yaw_rate_deg_s)
+        fdm["simulation/randomseed"] = self._seed + self._launches
+        fdm.run_ic()
+
+    def _place_imu(self) -> None:
+        """Put JSBSim's pilot, whose acceleration it computes, at the IMU."""
+        fdm, imu = self._fdm, self.airframe.imu
+        for axis, offset_m in (("x", -imu.x_m), ("y", imu.y_m), ("z", -imu.z_m)):
+            fdm[f"metrics/eyepoint-{axis}-in"] = fdm[f"inertia/cg-{axis}-in"] + offset_m / _INCH_M
+
+    def _find_moves(self) -> Iterator[_Move]:
+        for name, channel in _CHANNELS.items():
+            servo = getattr(self.airframe.servos, name)
+            for node, travel in servo.moves.items():
+                scaled = math.radians(travel) if node.endswith("-rad") else travel
+                yield writer(self._fdm, node), channel, float(servo.neutral_us), scaled / 500
+
+    def _watch(self) -> None:
+        height_m, load_g = self._read_height() * FOOT_M, self._read_load()
+        if height_m > 0.1 and abs(load_g) <= self.airframe.limits.break_g:
+            return
+        time_s = self.time_s - self._launched_s
+        if not math.isfinite(height_m + load_g):
+            self.crash = f"the flight model lost itself after {time_s:.2f} s"
+        elif height_m <= 0.1:
+            speed_m_s = self._read_airspeed() * FOOT_M
+            down_m_s = self._read["down_speed"]() * FOOT_M
+            self.crash = (
+                f"hit the ground after {time_s:.2f} s, at {speed_m_s:.1f} m/s and sinking "
+                f"{down_m_s:.1f} m/s"
+            )
+        else:
+            self.crash = f"broke in the air after {time_s:.2f} s, at {load_g:.1f} g"
+
+    def _read_state(self) -> FlightState:
+        value = {name: read() for name, read in self._read.items()}
+        north, east = value["north_speed"], value["east_speed"]
+        return FlightState(
+            time_s=self.time_s,
+            roll_deg=math.degrees(value["roll"]),
+            pitch_deg=math.degrees(value["pitch"]),
+            yaw_deg=math.degrees(value["yaw"]) % 360.0,
+            roll_rate_deg_s=math.degrees(value["p"]),
+            pitch_rate_deg_s=math.degrees(value["q"]),
+            yaw_rate_deg_s=math.degrees(value["r"]),
+            latitude_deg=value["latitude"],
+            longitude_deg=value["longitude"],
+            altitude_m=value["altitude"] * FOOT_M,
+            height_m=value["height"] * FOOT_M,
+            speed_m_s=math.hypot(north, east) * FOOT_M,
+            track_deg=math.degrees(math.atan2(east, north)) % 360.0,
+            airspeed_m_s=value["airspeed"] * FOOT_M,
+            alpha_deg=value["alpha"],
+            sideslip_deg=value["beta"],
+            load_factor_g=value["load"],
+            climb_m_s=-value["down_speed"] * FOOT_M,
+            north_m=math.radians(value["latitude"] - START_LATITUDE_DEG) * _MERIDIAN_M,
+            east_m=math.radians(value["longitude"] - START_LONGITUDE_DEG) * _PARALLEL_M,
+            battery_v=self._battery.voltage_v,
+            battery_percent=self._battery.percent,
+            motor_rpm=self._motor.rpm if self._motor else 0.0,
+            motor_w=self._motor.power_w if self._motor else 0.0,
+        )
+
+
+def _to_body(
+    ned: tuple[float, float, float], start: Start, pitch_deg: float
+) -> tuple[float, float, float]:
+    """Return a vector of the ground's axes in those of the body at the start."""
+    roll, pitch = math.radians(start.roll_deg), math.radians(pitch_deg)
+    yaw = math.radians(start.heading_deg)
+    north, east, down = ned
+    ahead = north * math.cos(yaw) + east * math.sin(yaw)
+    right = east * math.cos(yaw) - north * math.sin(yaw)
+    x = ahead * math.cos(pitch) - down * math.sin(pitch)
+    below = ahead * math.sin(pitch) + down * math.cos(pitch)
+    return (
+        x,
+        right * math.cos(roll) + below * math.sin(roll),
+        below * math.cos(roll) - right * math.sin(roll),
+    )

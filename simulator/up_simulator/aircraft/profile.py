@@ -1,0 +1,117 @@
+"""The profile of the Arduino in an airframe of the simulator: the keys of config/airframe.yml."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from up.config import key, section
+
+MIXES = ("none", "elevon", "V-tail")
+_MODES = ("ACRO", "RATE", "FBW", "AUTO")
+
+
+def _pulse(comment: str, least: int = 800, most: int = 2200) -> int | None:
+    return key(None, comment, unit="us", minimum=least, maximum=most)
+
+
+def _angle(comment: str, least: float = 0.0) -> float | None:
+    return key(None, comment, unit="deg", minimum=least, maximum=90)
+
+
+def _switch(comment: str) -> str | None:
+    return key(None, comment, choices=_MODES, ignore_case=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Servo:
+    """One servo output."""
+
+    reversed: bool | None = key(None, "Whether it turns the other way.")
+    trim_us: int | None = _pulse("Added to every pulse. A new Arduino has 0.", -200, 200)
+    lowest_us: int | None = _pulse("Shortest pulse that it gets. A new Arduino has 1000.")
+    highest_us: int | None = _pulse("Longest pulse that it gets. A new Arduino has 2000.")
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what does not fit together."""
+        if (
+            self.lowest_us is not None
+            and self.highest_us is not None
+            and self.lowest_us >= self.highest_us
+        ):
+            yield "highest_us", f"must be above lowest_us, which is {self.lowest_us}"
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """What the positions of the mode switch (AUX1) select.
+
+    ACRO passes the sticks through, RATE holds rotation rates, FBW attitudes, and AUTO is the only
+    position in which the Raspberry Pi and the ground may fly.
+    """
+
+    low: str | None = _switch("Below 1300 us. A new Arduino has ACRO.")
+    middle: str | None = _switch("1300 to 1700 us. A new Arduino has FBW.")
+    high: str | None = _switch("Above 1700 us. A new Arduino has AUTO.")
+
+
+@dataclass(frozen=True, slots=True)
+class FlyByWire:
+    """How far the sticks bank and pitch the aeroplane in FBW."""
+
+    roll_deg: float | None = _angle("Greatest bank. A new Arduino has 50.")
+    pitch_up_deg: float | None = _angle("Greatest pitch up. A new Arduino has 20.")
+    pitch_down_deg: float | None = _angle("Greatest pitch down. A new Arduino has 25.")
+
+
+@dataclass(frozen=True, slots=True)
+class ReceiverLost:
+    """What happens without the receiver: a stabilised gentle circle, else the preset surfaces."""
+
+    below_us: int | None = _pulse(
+        "A throttle pulse below this is the receiver's own failsafe. A new Arduino has 900.", 0
+    )
+    throttle_us: int | None = _pulse("The throttle output then. A new Arduino has 1000.")
+    glide_pitch_deg: float | None = _angle(
+        "Pitch of the circle, nose up positive. A new Arduino has -3.", -90.0
+    )
+    circle_bank_deg: float | None = _angle(
+        "Bank of the circle, right wing down positive. A new Arduino has 20.", -90.0
+    )
+    ailerons_us: int | None = _pulse("The ailerons without IMU. A new Arduino has 1500.")
+    elevator_us: int | None = _pulse("The elevator without IMU. A new Arduino has 1500.")
+    rudder_us: int | None = _pulse("The rudder without IMU. A new Arduino has 1500.")
+    return_with_motor: bool | None = key(
+        None, "Whether returning home may use the motor. A new Arduino has false."
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """The airframe that the Arduino flies: servos, switch, limits, failsafe.
+
+    The Arduino keeps its own profile: what is null here, or not here, stays as the Arduino has it.
+    Every other value is compared with the Arduino's whenever it answers, and sent where it differs
+    and only while it is disarmed; until it holds them all, arming is refused. An old firmware
+    (framing: thesis) gets nothing of this.
+    """
+
+    ailerons: Servo = section(Servo, "The output at pin D9; with mix: elevon the left one.")
+    elevator: Servo = section(Servo, "The output at pin D10; with mix: elevon the right one.")
+    throttle: Servo = section(Servo, "The output at pin D3: the motor's ESC, or a brake or tow.")
+    rudder: Servo = section(Servo, "The output at pin D11.")
+    mix: str | None = key(
+        None,
+        "How surfaces are shared: elevon mixes ailerons and elevator, V-tail elevator and rudder."
+        " A new Arduino has none.",
+        choices=MIXES,
+        ignore_case=True,
+    )
+    motor: bool | None = key(
+        None,
+        "Whether the throttle drives a motor, which needs arming. false is a glider, whose Outputs"
+        " need no arming. A new Arduino has true.",
+    )
+    switch: Switch = section(Switch)
+    fly_by_wire: FlyByWire = section(FlyByWire)
+    receiver_lost: ReceiverLost = section(ReceiverLost)

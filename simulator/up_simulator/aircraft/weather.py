@@ -1,0 +1,76 @@
+"""The air that an aircraft flies in: wind, turbulence and single gusts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from up_simulator.aircraft.model import FOOT_M, writer
+
+Turbulence = Literal["none", "light", "moderate", "severe"]
+# Wind at 6 m above the ground, m/s, that MIL-F-8785C takes the turbulence from: its vertical part
+# is a tenth of it at every height that a model flies at.
+WIND_NEAR_GROUND_M_S: dict[str, float] = {"light": 4.0, "moderate": 8.0, "severe": 13.0}
+_TUSTIN = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Gust:
+    """A gust of 1-cosine shape: it begins ``at_s``, is greatest at half its duration, and ends."""
+
+    at_s: float
+    duration_s: float
+    north_m_s: float = 0.0
+    east_m_s: float = 0.0
+    down_m_s: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Weather:
+    """Steady wind from a direction, milspec turbulence, and gusts at their times."""
+
+    wind_m_s: float = 0.0
+    wind_from_deg: float = 180.0
+    turbulence: Turbulence = "none"
+    gusts: tuple[Gust, ...] = ()
+
+    @property
+    def wind_ned_m_s(self) -> tuple[float, float]:
+        """Return where the wind blows: to the north and to the east."""
+        angle = math.radians(self.wind_from_deg)
+        return -self.wind_m_s * math.cos(angle), -self.wind_m_s * math.sin(angle)
+
+
+class Air:
+    """The weather, blown into JSBSim."""
+
+    def __init__(self, fdm: Any, weather: Weather) -> None:
+        self._gusts = weather.gusts
+        self._end_s = max((gust.at_s + gust.duration_s for gust in weather.gusts), default=-1.0)
+        self._is_blowing = False
+        self._set = [writer(fdm, f"atmosphere/gust-{way}-fps") for way in ("north", "east", "down")]
+        if weather.turbulence != "none":
+            fdm["atmosphere/turb-type"] = _TUSTIN
+            near_ground_m_s = WIND_NEAR_GROUND_M_S[weather.turbulence]
+            fdm["atmosphere/turbulence/milspec/windspeed_at_20ft_AGL-fps"] = (
+                near_ground_m_s / FOOT_M
+            )
+            # Above 600 m only the severity counts.
+            fdm["atmosphere/turbulence/milspec/severity"] = 3
+
+    def blow(self, time_s: float) -> None:
+        """Set the gusts of this moment."""
+        if time_s > self._end_s and not self._is_blowing:
+            return
+        totals = [0.0, 0.0, 0.0]
+        self._is_blowing = False
+        for gust in self._gusts:
+            into_s = time_s - gust.at_s
+            if 0.0 <= into_s < gust.duration_s:
+                self._is_blowing = True
+                share = 0.5 * (1 - math.cos(2 * math.pi * into_s / gust.duration_s))
+                for index, most in enumerate((gust.north_m_s, gust.east_m_s, gust.down_m_s)):
+                    totals[index] += share * most
+        for set_gust, total in zip(self._set, totals, strict=True):
+            set_gust(total / FOOT_M)
