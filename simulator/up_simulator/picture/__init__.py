@@ -1,0 +1,1 @@
+"""Pictures of flights, drawn with matplotlib where it is installed."""

@@ -1,0 +1,33 @@
+"""Colours that people who see colours differently can tell apart (Okabe and Ito 2008)."""
+
+from __future__ import annotations
+
+INK = "#222222"
+MUTED = "#5f6368"
+GRID = "#dcdfe3"
+PAPER = "#ffffff"
+
+BLUE = "#0072B2"
+SKY = "#56B4E9"
+GREEN = "#009E73"
+ORANGE = "#E69F00"
+VERMILION = "#D55E00"
+PURPLE = "#CC79A7"
+BLACK = "#000000"
+
+TRUTH, ESTIMATE, DEMAND = BLUE, ORANGE, BLACK
+CHANNELS = {"ailerons": BLUE, "elevator": VERMILION, "throttle": GREEN, "rudder": PURPLE}
+FAULT = VERMILION
+
+BANDS = {
+    "ACRO": "#eceef0",
+    "RATE": "#fdf1d3",
+    "FBW": "#dcefe8",
+    "SETPOINT": "#dbeaf6",
+    "OUTPUT": "#e7e1f3",
+    "AUTO": "#dbeaf6",
+    "RTH": "#f6e3ee",
+    "FAILSAFE": "#fbdccb",
+}
+OTHER_BAND = "#f2f2f2"
+"""A mode that has no colour of its own; its name stands in the strip above the panels."""
