@@ -11,6 +11,7 @@ void rig_start_up(rig_t *rig, uint64_t cycles) { rig->start_up = cycles ? cycles
 
 void rig_load(rig_t *rig, const uint8_t *bytes, uint32_t size, uint32_t address) {
     memcpy(rig->avr->flash + address, bytes, size);
+    quick_forget(rig);
 }
 
 void rig_measure(rig_t *rig, bool is_measuring) { rig->is_measuring = is_measuring; }

@@ -12,6 +12,8 @@
 
 #include "rig.h"
 
+enum { SPM = 0x95E8 };
+
 avr_flashaddr_t avr_run_one(avr_t *avr);
 
 /* ---- time of a register access ---- */
@@ -159,6 +161,13 @@ static void preload(rig_t *rig) {
     rig->break_pc = UINT32_MAX;
 }
 
+static void run_one(rig_t *rig) {
+    bool writes_flash = opcode(rig->avr) == SPM;
+    rig->avr->run_cycle_count = 1;
+    rig->avr->pc = avr_run_one(rig->avr);
+    if (writes_flash) quick_forget(rig);
+}
+
 static void step(rig_t *rig, cycle_t until) {
     avr_t *avr = rig->avr;
     if (avr->pc == rig->break_pc) preload(rig);
@@ -169,9 +178,8 @@ static void step(rig_t *rig, cycle_t until) {
     uint8_t was_on = avr->sreg[S_I];
     uint32_t pc = avr->pc;
     cycle_t end = least(rig->next_due, until);
-    avr->run_cycle_count = is_stepping || end <= avr->cycle ? 1 : end - avr->cycle;
     avr->interrupt_state = 0;
-    avr->pc = avr_run_one(avr);
+    if (is_stepping || end <= avr->cycle || quick_run(rig, end)) run_one(rig);
     if (rig->is_measuring) {
         if (was_on && !avr->sreg[S_I]) {
             rig->off_since = avr->cycle;
@@ -288,6 +296,7 @@ void rig_free(rig_t *rig) {
     free(rig->sent.items);
     free(rig->queue.items);
     free(rig->uart.line);
+    free(rig->quick);
     avr_terminate(rig->avr);
     free(rig->avr);
     free(rig);

@@ -145,8 +145,13 @@ typedef struct {
     uint64_t resets[4];                 /* power, external, brown-out, watchdog */
 } meter_t;
 
+/* An instruction as quick.c has decoded it. */
+typedef uint64_t quick_op_t;
+
 struct rig {
     avr_t *avr;
+    quick_op_t *quick;       /* of each word that the program counter can point to */
+    bool is_decoded;         /* it is that of the flash as it is now */
     const char *trouble;     /* why the chip stopped, for good */
     char trouble_text[96];
     cycle_t next_due;
@@ -189,6 +194,10 @@ void in_trouble(rig_t *rig, const char *format, unsigned value);
 uint32_t next_random(rig_t *rig);
 void hook_read(rig_t *rig, uint16_t address, avr_io_read_t function);
 void hook_write(rig_t *rig, uint16_t address, avr_io_write_t function);
+
+/* ---- quick.c ---- */
+bool quick_run(rig_t *rig, cycle_t end);
+void quick_forget(rig_t *rig);
 
 /* ---- interrupts.c ---- */
 void interrupts_hook(rig_t *rig);

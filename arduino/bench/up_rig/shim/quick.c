@@ -1,0 +1,432 @@
+/* Instructions that concern nothing but registers, RAM and flash, run without simavr.
+ *
+ * Most of what a program does is of that kind, and simavr takes long for it, as it must look after
+ * every address. Here the flash is decoded once. What touches a peripheral, lets interrupts in or
+ * leaves the RAM is left to simavr, which the rig asks alone while it measures: both must come to
+ * the same cycles (tests/arduino/rig/test_quick.py). From the instruction set manual
+ * (DS40002198), times of the ATmega328P.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "rig.h"
+
+enum { RAM_FIRST = 0x100, RAM_LAST = 0x8FF, SPL = 0x5D, SPH = 0x5E, SREG = 0x5F };
+enum { WORDS = 0x10002, FLASH_WORDS = 0x4000, LONGEST_RUN = 1 << 24 };
+enum { XL = 26, YL = 28, ZL = 30 };
+
+#define OPERATIONS(DO) \
+    DO(ASK) DO(NOP) DO(MOVW) DO(MULS) DO(MULSU) DO(MUL) DO(CPC) DO(SBC) DO(ADD) DO(CPSE) DO(CP) \
+    DO(SUB) DO(ADC) DO(AND) DO(EOR) DO(OR) DO(MOV) DO(CPI) DO(SBCI) DO(SUBI) DO(ORI) DO(ANDI) \
+    DO(LDD) DO(STD) DO(LD_PLUS) DO(LD_MINUS) DO(ST_PLUS) DO(ST_MINUS) DO(LDS) DO(STS) DO(LPM) \
+    DO(LPM_PLUS) DO(PUSH) DO(POP) DO(COM) DO(NEG) DO(SWAP) DO(INC) DO(ASR) DO(LSR) DO(ROR) \
+    DO(DEC) DO(CLI) DO(SET_T) DO(CLEAR_T) DO(RET) DO(IJMP) DO(ICALL) DO(JMP) DO(RJMP) DO(CALL) \
+    DO(RCALL) DO(ADIW) DO(SBIW) DO(IN) DO(IN_SREG) DO(OUT) DO(OUT_SREG) DO(LDI) DO(BLD) DO(BST) \
+    DO(SBRC) DO(SBRS) DO(BR_C) DO(BR_Z) DO(BR_N) DO(BR_V) DO(BR_S) DO(BR_H) DO(BR_T) DO(BR_I) \
+    DO(BR_NOT_C) DO(BR_NOT_Z) DO(BR_NOT_N) DO(BR_NOT_V) DO(BR_NOT_S) DO(BR_NOT_H) DO(BR_NOT_T) \
+    DO(BR_NOT_I)
+
+#define NAME(operation) OP_##operation,
+enum { OPERATIONS(NAME) };
+
+/* ---- decoding ---- */
+static uint16_t word_at(const rig_t *rig, unsigned pc) {
+    const uint8_t *flash = rig->avr->flash + 2 * pc;
+    return (uint16_t)(flash[0] | flash[1] << 8);
+}
+
+static bool has_two_words(uint16_t code) {
+    return (code & 0xFC0F) == 0x9000 || (code & 0xFE0C) == 0x940C;
+}
+
+/* One number: the operation, two registers or a register and a constant, a longer constant. */
+static quick_op_t op(unsigned operation, unsigned d, unsigned r, unsigned k) {
+    return operation | d << 8 | r << 16 | (quick_op_t)k << 32;
+}
+
+static const quick_op_t ASK = OP_ASK;
+
+static quick_op_t decode_two_registers(uint16_t code, unsigned skipped) {
+    static const uint8_t OPERATION[16] = {
+        [1] = OP_CPC, OP_SBC, OP_ADD, OP_CPSE, OP_CP, OP_SUB, OP_ADC, OP_AND, OP_EOR, OP_OR, OP_MOV};
+    return op(OPERATION[code >> 10], code >> 4 & 31, (code & 15) | (code >> 5 & 16), skipped);
+}
+
+static quick_op_t decode_low(uint16_t code, unsigned skipped) {
+    if (code >= 0x0400) return decode_two_registers(code, skipped);
+    unsigned d = code >> 4 & 15, r = code & 15;
+    switch (code >> 8) {
+        case 0: return code ? ASK : op(OP_NOP, 0, 0, 0);
+        case 1: return op(OP_MOVW, 2 * d, 2 * r, 0);
+        case 2: return op(OP_MULS, 16 + d, 16 + r, 0);
+        default: /* the fractional ones of this group are asked for */
+            return code & 0x88 ? ASK : op(OP_MULSU, 16 + (d & 7), 16 + (r & 7), 0);
+    }
+}
+
+static quick_op_t decode_load_or_store(uint16_t code, uint16_t next) {
+    unsigned d = code >> 4 & 31;
+    bool is_store = code & 0x0200;
+    switch (code & 15) {
+        case 0:
+            if (next < RAM_FIRST || next > RAM_LAST) return ASK;
+            return op(is_store ? OP_STS : OP_LDS, d, 0, next);
+        case 1: return op(is_store ? OP_ST_PLUS : OP_LD_PLUS, d, ZL, 0);
+        case 2: return op(is_store ? OP_ST_MINUS : OP_LD_MINUS, d, ZL, 0);
+        case 4: return is_store ? ASK : op(OP_LPM, d, 0, 0);
+        case 5: return is_store ? ASK : op(OP_LPM_PLUS, d, 0, 0);
+        case 9: return op(is_store ? OP_ST_PLUS : OP_LD_PLUS, d, YL, 0);
+        case 10: return op(is_store ? OP_ST_MINUS : OP_LD_MINUS, d, YL, 0);
+        case 12: return op(is_store ? OP_STD : OP_LDD, d, XL, 0);
+        case 13: return op(is_store ? OP_ST_PLUS : OP_LD_PLUS, d, XL, 0);
+        case 14: return op(is_store ? OP_ST_MINUS : OP_LD_MINUS, d, XL, 0);
+        case 15: return op(is_store ? OP_PUSH : OP_POP, d, 0, 0);
+        default: return ASK;
+    }
+}
+
+static quick_op_t decode_one_register(uint16_t code, uint16_t next) {
+    static const uint8_t OPERATION[11] = {
+        OP_COM, OP_NEG, OP_SWAP, OP_INC, OP_ASK, OP_ASR, OP_LSR, OP_ROR, OP_ASK, OP_ASK, OP_DEC};
+    if (code == 0x9508) return op(OP_RET, 0, 0, 0);
+    if (code == 0x9409) return op(OP_IJMP, 0, 0, 0);
+    if (code == 0x9509) return op(OP_ICALL, 0, 0, 0);
+    if (code == 0x95C8) return op(OP_LPM, 0, 0, 0);
+    if (code == 0x94F8) return op(OP_CLI, 0, 0, 0);
+    if (code == 0x9468) return op(OP_SET_T, 0, 0, 0);
+    if (code == 0x94E8) return op(OP_CLEAR_T, 0, 0, 0);
+    if ((code & 0xFF0F) == 0x9408) return ASK;
+    bool is_far = code & 0x01F1 || next >= FLASH_WORDS;
+    if ((code & 0xFE0E) == 0x940C) return is_far ? ASK : op(OP_JMP, 0, 0, next);
+    if ((code & 0xFE0E) == 0x940E) return is_far ? ASK : op(OP_CALL, 0, 0, next);
+    return (code & 15) > 10 ? ASK : op(OPERATION[code & 15], code >> 4 & 31, 0, 0);
+}
+
+static quick_op_t decode_port(uint16_t code) {
+    unsigned address = 0x20 + ((code & 15) | (code >> 5 & 0x30)), d = code >> 4 & 31;
+    bool is_out = code & 0x0800;
+    if (address == SREG) return op(is_out ? OP_OUT_SREG : OP_IN_SREG, d, 0, 0);
+    if (address == SPL || address == SPH) return op(is_out ? OP_OUT : OP_IN, d, 0, address);
+    return ASK;
+}
+
+static quick_op_t decode_branch(uint16_t code, unsigned pc, unsigned skipped) {
+    unsigned d = code >> 4 & 31, bit = code & 7;
+    if (code < 0xF800) {
+        int offset = (code >> 3 & 127) - (code & 0x0200 ? 128 : 0);
+        unsigned target = pc + 1 + (unsigned)offset;
+        unsigned operation = (code & 0x0400 ? OP_BR_NOT_C : OP_BR_C) + bit;
+        return target >= FLASH_WORDS ? ASK : op(operation, 0, 0, target);
+    }
+    if (code & 8) return ASK;
+    switch (code >> 9 & 3) {
+        case 0: return op(OP_BLD, d, bit, 0);
+        case 1: return op(OP_BST, d, bit, 0);
+        case 2: return op(OP_SBRC, d, bit, skipped);
+        default: return op(OP_SBRS, d, bit, skipped);
+    }
+}
+
+static quick_op_t decode(const rig_t *rig, unsigned pc) {
+    uint16_t code = word_at(rig, pc), next = word_at(rig, pc + 1);
+    unsigned skipped = has_two_words(next) ? 2 : 1;
+    unsigned high = 16 + (code >> 4 & 15), value = (code & 15) | (code >> 4 & 0xF0);
+    unsigned jump = (pc + 1 + (code & 0xFFF) - (code & 0x800 ? 0x1000 : 0)) % FLASH_WORDS;
+    switch (code >> 12) {
+        case 0: case 1: case 2: return decode_low(code, skipped);
+        case 3: return op(OP_CPI, high, value, 0);
+        case 4: return op(OP_SBCI, high, value, 0);
+        case 5: return op(OP_SUBI, high, value, 0);
+        case 6: return op(OP_ORI, high, value, 0);
+        case 7: return op(OP_ANDI, high, value, 0);
+        case 8: case 10: {
+            unsigned offset = (code & 7) | (code >> 7 & 0x18) | (code >> 8 & 0x20);
+            unsigned base = code & 8 ? YL : ZL;
+            return op(code & 0x0200 ? OP_STD : OP_LDD, code >> 4 & 31, base, offset);
+        }
+        case 9: break;
+        case 11: return decode_port(code);
+        case 12: return op(OP_RJMP, 0, 0, jump);
+        case 13: return op(OP_RCALL, 0, 0, jump);
+        case 14: return op(OP_LDI, high, value, 0);
+        default: return decode_branch(code, pc, skipped);
+    }
+    unsigned pair = 24 + 2 * (code >> 4 & 3), constant = (code & 15) | (code >> 2 & 0x30);
+    switch (code >> 8 & 15) {
+        case 0: case 1: case 2: case 3: return decode_load_or_store(code, next);
+        case 4: case 5: return decode_one_register(code, next);
+        case 6: return op(OP_ADIW, pair, constant, 0);
+        case 7: return op(OP_SBIW, pair, constant, 0);
+        case 8: case 9: case 10: case 11: return ASK;
+        default: return op(OP_MUL, code >> 4 & 31, (code & 15) | (code >> 5 & 16), 0);
+    }
+}
+
+void quick_forget(rig_t *rig) { rig->is_decoded = false; }
+
+static void decode_all(rig_t *rig) {
+    if (!rig->quick) rig->quick = calloc(WORDS, sizeof *rig->quick);
+    for (unsigned pc = 0; pc < FLASH_WORDS - 1; pc++) rig->quick[pc] = decode(rig, pc);
+    rig->is_decoded = true;
+}
+
+/* ---- running ---- */
+static inline unsigned pair_at(const uint8_t *data, unsigned at) {
+    return data[at] | (unsigned)data[at + 1] << 8;
+}
+
+static inline void set_pair(uint8_t *data, unsigned at, unsigned value) {
+    data[at] = (uint8_t)value;
+    data[at + 1] = (uint8_t)(value >> 8);
+}
+
+static inline bool is_ram(unsigned address) {
+    return address - RAM_FIRST <= RAM_LAST - RAM_FIRST;
+}
+
+static inline bool is_stack(unsigned pointer) { return is_ram(pointer - 2) && is_ram(pointer); }
+
+static inline void push_return(uint8_t *data, unsigned stack, unsigned pc) {
+    data[stack] = (uint8_t)pc;
+    data[stack - 1] = (uint8_t)(pc >> 8);
+    set_pair(data, SPL, stack - 2);
+}
+
+/* Flags are kept as what they are computed from: the result for Z, bit 7 for N, V and S, bit 4 for
+ * H. Most are never looked at. */
+#define ADD_TO(carry) do { \
+        unsigned old = D, with = R, sum = old + with + (carry); \
+        half = old ^ with ^ sum, over = (old ^ sum) & (with ^ sum); \
+        c = sum >> 8, zero = sum & 0xFF, minus = sum, sign = minus ^ over, D = (uint8_t)sum; \
+    } while (0)
+#define COMPARE(from, with_, carry) \
+        unsigned old = (from), with = (with_), rest = old - with - (carry); \
+        half = old ^ with ^ rest, over = (old ^ with) & (old ^ rest); \
+        c = rest >> 8 & 1, minus = rest, sign = minus ^ over
+/* Zero stays only if it was: the result is the higher part of a longer number. */
+#define COMPARE_ON(from, with_) COMPARE(from, with_, c); zero |= rest & 0xFF
+#define LOGIC(value) do { \
+        unsigned result = (value); \
+        D = (uint8_t)result, zero = minus = sign = result, over = 0; \
+    } while (0)
+#define SHIFT(value) do { \
+        unsigned old = D, result = (value); \
+        c = old & 1, zero = minus = result, over = result ^ c << 7, sign = c << 7; \
+        D = (uint8_t)result; \
+    } while (0)
+#define STEP_BY(one, edge) do { \
+        unsigned result = (uint8_t)(D + (one)); \
+        zero = minus = result, over = result == (edge) ? 0x80 : 0, sign = minus ^ over; \
+        D = (uint8_t)result; \
+    } while (0)
+#define MULTIPLY(product_) do { \
+        unsigned product = (unsigned)(product_) & 0xFFFF; \
+        c = product >> 15, zero = product; \
+        set_pair(data, 0, product); \
+    } while (0)
+
+/* Runs on until a cycle; true when simavr is to run the next instruction before.
+ *
+ * Each operation must end in a jump of its own: gcc would lead all to one, which nothing predicts.
+ */
+__attribute__((optimize("no-gcse", "no-crossjumping")))
+bool quick_run(rig_t *rig, cycle_t end) {
+    if (!rig->is_decoded) decode_all(rig);
+#define LABEL(operation) &&DO_##operation,
+    static const void *const LABELS[] = {OPERATIONS(LABEL)};
+    const quick_op_t *const program = rig->quick;
+    avr_t *const avr = rig->avr;
+    uint8_t *const data = avr->data, *const flags = avr->sreg;
+    const uint8_t *const flash = avr->flash;
+    if (avr->cycle >= end) return false;
+    const quick_op_t *at = program + avr->pc / 2;
+    quick_op_t in;
+    unsigned address;
+    int left = end - avr->cycle < LONGEST_RUN ? (int)(end - avr->cycle) : LONGEST_RUN, all = left;
+    bool asks = false;
+    unsigned c = flags[S_C], zero = !flags[S_Z], minus = flags[S_N] << 7, over = flags[S_V] << 7;
+    unsigned sign = flags[S_S] << 7, half = flags[S_H] << 4, t = flags[S_T], i = flags[S_I];
+
+#define FETCH() do { in = *at; goto *LABELS[in & 0xFF]; } while (0)
+#define NEXT(words, cycles) \
+    do { at += (words); left -= (int)(cycles); if (left <= 0) goto done; FETCH(); } while (0)
+#define PC ((unsigned)(at - program))
+#define GO(pc, cycles) do { at = program + (pc); NEXT(0, cycles); } while (0)
+#define AT_D (in >> 8 & 0xFF)
+#define AT_R (in >> 16 & 0xFF)
+#define K ((unsigned)(in >> 32))
+#define D data[AT_D]
+#define R data[AT_R]
+#define NEED(condition) do { if (!(condition)) goto DO_ASK; } while (0)
+#define BRANCH(condition) do { if (condition) GO(K, 2); NEXT(1, 1); } while (0)
+#define SKIP(condition) do { if (condition) NEXT(1 + K, 1 + K); NEXT(1, 1); } while (0)
+
+    FETCH();
+DO_ASK: asks = true; goto done;
+DO_NOP: NEXT(1, 1);
+DO_MOVW: data[AT_D] = data[AT_R]; data[AT_D + 1] = data[AT_R + 1]; NEXT(1, 1);
+DO_MULS: MULTIPLY((int8_t)D * (int8_t)R); NEXT(1, 2);
+DO_MULSU: MULTIPLY((int8_t)D * (int)R); NEXT(1, 2);
+DO_MUL: MULTIPLY(D * R); NEXT(1, 2);
+DO_CPC: { COMPARE_ON(D, R); NEXT(1, 1); }
+DO_SBC: { COMPARE_ON(D, R); D = (uint8_t)rest; NEXT(1, 1); }
+DO_SBCI: { COMPARE_ON(D, AT_R); D = (uint8_t)rest; NEXT(1, 1); }
+DO_CP: { COMPARE(D, R, 0); zero = rest & 0xFF; NEXT(1, 1); }
+DO_CPI: { COMPARE(D, AT_R, 0); zero = rest & 0xFF; NEXT(1, 1); }
+DO_SUB: { COMPARE(D, R, 0); zero = rest & 0xFF; D = (uint8_t)rest; NEXT(1, 1); }
+DO_SUBI: { COMPARE(D, AT_R, 0); zero = rest & 0xFF; D = (uint8_t)rest; NEXT(1, 1); }
+DO_NEG: { COMPARE(0, D, 0); zero = rest & 0xFF; D = (uint8_t)rest; NEXT(1, 1); }
+DO_ADD: ADD_TO(0); NEXT(1, 1);
+DO_ADC: ADD_TO(c); NEXT(1, 1);
+DO_AND: LOGIC(D & R); NEXT(1, 1);
+DO_EOR: LOGIC(D ^ R); NEXT(1, 1);
+DO_OR: LOGIC(D | R); NEXT(1, 1);
+DO_ORI: LOGIC(D | AT_R); NEXT(1, 1);
+DO_ANDI: LOGIC(D & AT_R); NEXT(1, 1);
+DO_COM: LOGIC(D ^ 0xFF); c = 1; NEXT(1, 1);
+DO_INC: STEP_BY(1, 0x80); NEXT(1, 1);
+DO_DEC: STEP_BY(-1, 0x7F); NEXT(1, 1);
+DO_ASR: SHIFT(old >> 1 | (old & 0x80)); NEXT(1, 1);
+DO_LSR: SHIFT(old >> 1); NEXT(1, 1);
+DO_ROR: SHIFT(old >> 1 | c << 7); NEXT(1, 1);
+DO_MOV: D = R; NEXT(1, 1);
+DO_LDI: D = (uint8_t)AT_R; NEXT(1, 1);
+DO_SWAP: D = (uint8_t)(D << 4 | D >> 4); NEXT(1, 1);
+DO_CPSE: SKIP(D == R);
+DO_SBRC: SKIP(!(D >> AT_R & 1));
+DO_SBRS: SKIP(D >> AT_R & 1);
+DO_BLD: D = (uint8_t)((D & ~(1u << AT_R)) | t << AT_R); NEXT(1, 1);
+DO_BST: t = D >> AT_R & 1; NEXT(1, 1);
+DO_SET_T: t = 1; NEXT(1, 1);
+DO_CLEAR_T: t = 0; NEXT(1, 1);
+DO_CLI: i = 0; NEXT(1, 1);
+DO_LDD:
+    address = pair_at(data, AT_R) + K;
+    NEED(is_ram(address));
+    D = data[address];
+    NEXT(1, 2);
+DO_STD:
+    address = pair_at(data, AT_R) + K;
+    NEED(is_ram(address));
+    data[address] = D;
+    NEXT(1, 2);
+DO_LD_PLUS:
+    address = pair_at(data, AT_R);
+    NEED(is_ram(address));
+    set_pair(data, AT_R, address + 1);
+    D = data[address];
+    NEXT(1, 2);
+DO_LD_MINUS:
+    address = pair_at(data, AT_R) - 1;
+    NEED(is_ram(address));
+    set_pair(data, AT_R, address);
+    D = data[address];
+    NEXT(1, 2);
+DO_ST_PLUS:
+    address = pair_at(data, AT_R);
+    NEED(is_ram(address));
+    data[address] = D;
+    set_pair(data, AT_R, address + 1);
+    NEXT(1, 2);
+DO_ST_MINUS:
+    address = pair_at(data, AT_R) - 1;
+    NEED(is_ram(address));
+    data[address] = D;
+    set_pair(data, AT_R, address);
+    NEXT(1, 2);
+DO_LDS: D = data[K]; NEXT(2, 2);
+DO_STS: data[K] = D; NEXT(2, 2);
+DO_LPM: D = flash[pair_at(data, ZL)]; NEXT(1, 3);
+DO_LPM_PLUS:
+    address = pair_at(data, ZL);
+    D = flash[address];
+    set_pair(data, ZL, address + 1);
+    NEXT(1, 3);
+DO_PUSH:
+    address = pair_at(data, SPL);
+    NEED(is_stack(address));
+    data[address] = D;
+    set_pair(data, SPL, address - 1);
+    NEXT(1, 2);
+DO_POP:
+    address = pair_at(data, SPL) + 1;
+    NEED(is_ram(address));
+    D = data[address];
+    set_pair(data, SPL, address);
+    NEXT(1, 2);
+DO_JMP: GO(K, 3);
+DO_RJMP: GO(K, 2);
+DO_IJMP: GO(pair_at(data, ZL), 2);
+DO_CALL:
+    address = pair_at(data, SPL);
+    NEED(is_stack(address));
+    push_return(data, address, PC + 2);
+    GO(K, 4);
+DO_RCALL:
+    address = pair_at(data, SPL);
+    NEED(is_stack(address));
+    push_return(data, address, PC + 1);
+    GO(K, 3);
+DO_ICALL:
+    address = pair_at(data, SPL);
+    NEED(is_stack(address));
+    push_return(data, address, PC + 1);
+    GO(pair_at(data, ZL), 3);
+DO_RET:
+    address = pair_at(data, SPL);
+    NEED(is_ram(address + 1) && is_ram(address + 2));
+    set_pair(data, SPL, address + 2);
+    GO((unsigned)data[address + 1] << 8 | data[address + 2], 4);
+DO_ADIW: {
+    unsigned old = pair_at(data, AT_D), sum = old + AT_R;
+    set_pair(data, AT_D, sum);
+    c = sum >> 16, zero = sum & 0xFFFF, minus = sum >> 8, over = (~old & sum) >> 8;
+    sign = minus ^ over;
+    NEXT(1, 2);
+}
+DO_SBIW: {
+    unsigned old = pair_at(data, AT_D), rest = old - AT_R;
+    set_pair(data, AT_D, rest);
+    c = rest >> 16 & 1, zero = rest & 0xFFFF, minus = rest >> 8, over = (old & ~rest) >> 8;
+    sign = minus ^ over;
+    NEXT(1, 2);
+}
+DO_IN: D = data[K]; NEXT(1, 1);
+DO_OUT: data[K] = D; NEXT(1, 1);
+DO_IN_SREG:
+    D = (uint8_t)(c | (zero == 0) << 1 | (minus >> 5 & 4) | (over >> 4 & 8) | (sign >> 3 & 16) |
+                  (half << 1 & 32) | t << 6 | i << 7);
+    NEXT(1, 1);
+DO_OUT_SREG: {
+    unsigned value = D;
+    /* What lets interrupts in ends the run, and one more instruction runs before they come. */
+    NEED(i || !(value & 0x80));
+    c = value & 1, zero = !(value & 2), minus = value << 5, over = value << 4, sign = value << 3;
+    half = value >> 1, t = value >> 6 & 1, i = value >> 7;
+    NEXT(1, 1);
+}
+DO_BR_C: BRANCH(c);
+DO_BR_Z: BRANCH(!zero);
+DO_BR_N: BRANCH(minus & 0x80);
+DO_BR_V: BRANCH(over & 0x80);
+DO_BR_S: BRANCH(sign & 0x80);
+DO_BR_H: BRANCH(half & 0x10);
+DO_BR_T: BRANCH(t);
+DO_BR_I: BRANCH(i);
+DO_BR_NOT_C: BRANCH(!c);
+DO_BR_NOT_Z: BRANCH(zero);
+DO_BR_NOT_N: BRANCH(!(minus & 0x80));
+DO_BR_NOT_V: BRANCH(!(over & 0x80));
+DO_BR_NOT_S: BRANCH(!(sign & 0x80));
+DO_BR_NOT_H: BRANCH(!(half & 0x10));
+DO_BR_NOT_T: BRANCH(!t);
+DO_BR_NOT_I: BRANCH(!i);
+
+done:
+    flags[S_C] = (uint8_t)c, flags[S_Z] = zero == 0, flags[S_N] = minus >> 7 & 1;
+    flags[S_V] = over >> 7 & 1, flags[S_S] = sign >> 7 & 1, flags[S_H] = half >> 4 & 1;
+    flags[S_T] = (uint8_t)t, flags[S_I] = (uint8_t)i;
+    avr->pc = PC * 2;
+    avr->cycle += (cycle_t)(all - left);
+    return asks;
+}
