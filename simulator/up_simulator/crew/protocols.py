@@ -21,7 +21,7 @@ class Raspilot(Protocol):
         """Start it, or start it again; raises CrewError with the daemon's own sentences."""
 
     def stop(self) -> None:
-        """Ask it to end and wait until it has."""
+        """Ask it to end, as a service manager does; ``is_running`` tells when it has."""
 
     def kill(self) -> None:
         """End it at once, wherever it is, as ``kill -9`` does."""

@@ -165,22 +165,22 @@ class _LiteralResolver:
 
     def resolveHostName(  # noqa: N802 - Twisted's name
         self,
-        receiver: Any,
-        host_name: str,
-        port: int = 0,
-        address_types: Any = None,
-        semantics: str = "TCP",
+        resolutionReceiver: Any,  # noqa: N803 - Twisted's name
+        hostName: str,  # noqa: N803 - Twisted's name
+        portNumber: int = 0,  # noqa: N803 - Twisted's name
+        addressTypes: Any = None,  # noqa: N803 - Twisted's name
+        transportSemantics: str = "TCP",  # noqa: N803 - Twisted's name
     ) -> Any:
         """Answer a literal address by itself at once, anything else by nothing."""
-        receiver.resolutionBegan(self)
+        resolutionReceiver.resolutionBegan(self)
         try:
-            address = ip_address(host_name)
+            address = ip_address(hostName)
         except ValueError:
             pass
         else:
             kind = IPv4Address if address.version == 4 else IPv6Address
-            receiver.addressResolved(kind("TCP", str(address), port))
-        receiver.resolutionComplete()
+            resolutionReceiver.addressResolved(kind("TCP", str(address), portNumber))
+        resolutionReceiver.resolutionComplete()
         return self
 
     def cancel(self) -> None:

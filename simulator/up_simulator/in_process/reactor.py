@@ -19,6 +19,7 @@ from up_simulator.in_process.network import Network
 from up_simulator.link.model import LinkModel
 
 STEP_S = 0.002
+_STEP_NS = round(STEP_S * 1e9)
 _TINY_S = 1e-9
 _READABLE = select.POLLIN | select.POLLHUP | select.POLLERR | select.POLLNVAL
 
@@ -37,7 +38,7 @@ class SimulatedReactor(Clock):
     def __init__(self) -> None:
         super().__init__()
         self.network = Network(self)
-        self._machines: list[Machine] = []
+        self._now_ns = 0
         self._handed_over: SimpleQueue[Callable[[], Any]] = SimpleQueue()
         self._poll = select.poll()
         self._readers: dict[Any, int] = {}
@@ -45,9 +46,7 @@ class SimulatedReactor(Clock):
 
     def machine(self, name: str = "") -> Machine:
         """Return a reactor for one program; ``name`` is what people call it."""
-        machine = Machine(self, name)
-        self._machines.append(machine)
-        return machine
+        return Machine(self, name)
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
         """Let connections and datagrams to a port pass a link from now on.
@@ -72,10 +71,11 @@ class SimulatedReactor(Clock):
 
     def advance(self, amount: float) -> None:
         """Move the time on, in whole steps and a rest."""
-        while amount > _TINY_S:
-            step_s = min(STEP_S, amount)
-            amount -= step_s
-            self._step(step_s)
+        left_ns = round(amount * 1e9)
+        while left_ns > 0:
+            step_ns = min(_STEP_NS, left_ns)
+            left_ns -= step_ns
+            self._step(step_ns)
 
     def add_reader(self, reader: Any) -> None:
         """Call ``reader.doRead`` when its descriptor has something to read."""
@@ -107,8 +107,10 @@ class SimulatedReactor(Clock):
             self.log.failure("an unhandled error in {call}", call=call)
             return None
 
-    def _step(self, step_s: float) -> None:
-        self.rightNow = now_s = self.rightNow + step_s
+    def _step(self, step_ns: int) -> None:
+        # Counted in whole numbers: a sum of many small steps would drift.
+        self._now_ns += step_ns
+        self.rightNow = now_s = self._now_ns / 1e9
         if not self._handed_over.empty():
             self._take_calls()
         calls, due_s = self.calls, now_s + _TINY_S

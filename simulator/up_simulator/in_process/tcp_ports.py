@@ -106,6 +106,7 @@ class _Attempt:
             self._here = TcpEnd(self._network.clock, self._up)
             there = TcpEnd(self._network.clock, self._down)
             self._here.peer, there.peer = there, self._here
+            self._network.note_connection(self._port, (self._here, there))
             # Before whatever the other side sends: it may cut the connection off at once.
             self._down.carry(HEADER, self._answered)
             port.accept(there, self._own_port)

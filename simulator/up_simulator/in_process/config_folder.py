@@ -1,0 +1,53 @@
+"""The configuration of a daemon in a simulation: its defaults, and what a scenario changes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+GROUND_PORT = 50002
+SERIAL_PORT = "/dev/ttySimulated"
+BASE: Mapping[str, Mapping[str, Any]] = {
+    "arduino.yml": {"port": SERIAL_PORT},
+    "mission_control.yml": {
+        "listener": {"port": GROUND_PORT, "address": "127.0.0.1"},
+        "role": "pilot",
+    },
+}
+"""A wired Arduino, and a port for a ground station that may do everything."""
+
+
+def write_config(folder: Path, files: Mapping[str, Mapping[str, Any]] | None = None) -> Path:
+    """Write the configuration of a flight and return its folder.
+
+    ``files`` has a mapping for each file that differs from the defaults, ``airframe.yml`` and
+    ``pids.yml`` among them; keys of ``BASE`` that it does not name stay. It is not judged here:
+    the daemon does that when it starts. Raises OSError.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, changes in _merged(BASE, files or {}).items():
+        text = yaml.safe_dump(dict(changes), sort_keys=False, allow_unicode=True)
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    merged = dict(base)
+    for name, value in changes.items():
+        before = merged.get(name)
+        if isinstance(before, Mapping) and isinstance(value, Mapping):
+            merged[name] = _merged(before, value)
+        else:
+            merged[name] = value
+    return {name: _plain(value) for name, value in merged.items()}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _plain(each) for key, each in value.items()}
+    if isinstance(value, tuple | list):
+        return [_plain(each) for each in value]
+    return value

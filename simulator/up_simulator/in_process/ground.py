@@ -1,0 +1,148 @@
+"""A ground station in this process, with the link of the real one."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Mapping
+from pathlib import Path
+from random import Random
+from typing import Any
+
+from twisted.internet.defer import Deferred
+
+from up.protocols.general_message import GeneralMessage, encode
+from up.system.backoff import Backoff
+from up_ground.ground_link import GroundLink
+from up_ground.settings import Seat, Settings
+from up_ground.telemetry import Telemetry
+from up_ground.token_store import TokenStore
+from up_simulator.in_process.config_folder import GROUND_PORT
+from up_simulator.in_process.machine import Machine
+from up_simulator.in_process.network import ADDRESS
+from up_simulator.in_process.reactor import SimulatedReactor
+
+ANSWERS_KEPT = 256
+OTHERS_KEPT = 64
+
+
+class InProcessGround:
+    """Connects to the daemon's listener, takes the seat, keeps the newest telemetry, commands.
+
+    Each Command echoes the newest beacon. What can leave only with a link and has none is lost,
+    and never answered. ``others`` keeps the newest other message of each name, as what the
+    aircraft tells of its gains.
+    """
+
+    def __init__(
+        self, reactor: SimulatedReactor, port: int = GROUND_PORT, *, seed: int = 1
+    ) -> None:
+        self.others: OrderedDict[str, Mapping[str, Any]] = OrderedDict()
+        self._reactor = reactor
+        self._seed = seed
+        self._settings = Settings(ADDRESS, port, seat=Seat.COMMAND)
+        self._tokens = _TokenInMemory(self._settings)
+        self._received = Telemetry()
+        self._answers: OrderedDict[str, str] = OrderedDict()
+        self._newest_s: float | None = None
+        self._sent = 0
+        self._machine: Machine | None = None
+        self._link: GroundLink | None = None
+
+    @property
+    def telemetry(self) -> Mapping[str, Any]:
+        """Return the newest frame, empty before the first."""
+        return self._received.data
+
+    @property
+    def frames(self) -> int:
+        """Return how many frames have come."""
+        return self._received.frames
+
+    @property
+    def lost_frames(self) -> int:
+        """Return how many frames were sent, by their beacons, and did not come."""
+        return self._received.lost
+
+    @property
+    def newest_s(self) -> float | None:
+        """Return when the newest frame came; None before the first."""
+        return self._newest_s
+
+    @property
+    def is_connected(self) -> bool:
+        """Return whether there is a connection, as far as this end knows."""
+        return self._link is not None and self._link.status.is_open
+
+    def start(self) -> None:
+        """Connect, and connect again after every loss."""
+        if self._link is None:
+            self._machine = self._reactor.machine("ground")
+            backoff = Backoff(Random(self._seed).random)
+            link = GroundLink(self._machine, self._settings, self, self._tokens, backoff)
+            self._link = link
+            link.start()
+
+    def stop(self) -> None:
+        """Hang up for good."""
+        link, self._link = self._link, None
+        if link is not None:
+            Deferred.fromCoroutine(link.stop()).addErrback(lambda _: None)
+
+    def send(self, name: str, **data: Any) -> str:
+        """Send a Command and return its id."""
+        self._sent += 1
+        command_id = f"ground-{self._sent}"
+        if self._link is not None:
+            self._link.send(encode(name, data, command_id, self._received.beacon))
+        return command_id
+
+    def answer(self, command_id: str) -> str | None:
+        """Return None without an answer, an empty text for an ack, a nack's reason."""
+        return self._answers.get(command_id)
+
+    def on_message(self, message: GeneralMessage) -> None:
+        """Take what comes from the aircraft."""
+        now_s = self._reactor.seconds()
+        if self._received.take(message, now_s):
+            self._newest_s = now_s
+        elif message.name in ("up.ack", "up.nack"):
+            refused = message.name == "up.nack"
+            reason = str(message.data.get("reason") or "refused") if refused else ""
+            self._answers[str(message.data.get("id"))] = reason
+            if len(self._answers) > ANSWERS_KEPT:
+                self._answers.popitem(last=False)
+        else:
+            self.others[message.name] = message.data
+            self.others.move_to_end(message.name)
+            if len(self.others) > OTHERS_KEPT:
+                self.others.popitem(last=False)
+
+    def on_link(self) -> None:
+        """Hear that the link has changed: asked for when it is looked at."""
+
+
+class _TokenInMemory(TokenStore):
+    """Keeps the seat's token where no other program looks."""
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__(Path(), settings)
+        self._token: str | None = None
+
+    def hold(self) -> bool:
+        """Nobody else has it."""
+        return True
+
+    def load(self) -> str | None:
+        """Return the token."""
+        return self._token
+
+    def save(self, token: str) -> None:
+        """Keep a token."""
+        self._token = token
+
+    def forget(self) -> None:
+        """Drop it."""
+        self._token = None
+
+    def close(self) -> None:
+        """Keep it for the next connection."""

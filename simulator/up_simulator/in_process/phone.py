@@ -1,0 +1,90 @@
+"""The phone aboard in this process, with the links of the stand-in."""
+
+from __future__ import annotations
+
+from twisted.internet.defer import Deferred
+
+from up_simulator.flight import Flight
+from up_simulator.in_process.network import ADDRESS
+from up_simulator.in_process.reactor import SimulatedReactor
+from up_simulator.link.model import LinkModel, LinkSettings
+from up_simulator.phone import Phone
+from up_simulator.phone_address import RaspberryPi
+from up_simulator.phone_link import OrientationBy, PhoneLink
+
+GENERAL_PORT, ORIENTATION_PORT = 50001, 50000
+TICK_S = 0.01
+CABLE = LinkSettings(delay_ms=1.0)
+SAID_KEPT = 200
+
+
+class InProcessPhone:
+    """A phone at the daemon's ports by a cable, which both links share.
+
+    ``plug`` and ``unplug`` move the cable: a connection without it hangs, as one by USB
+    tethering does, until its own timeouts end it. With ``is_told`` both ends are reset at once,
+    as by ``adb``. ``said`` has what the phone speaks and notes.
+    """
+
+    def __init__(
+        self,
+        reactor: SimulatedReactor,
+        flight: Flight,
+        *,
+        orientation: OrientationBy = "tcp",
+        seed: int = 1,
+        general_port: int = GENERAL_PORT,
+        orientation_port: int = ORIENTATION_PORT,
+        cable: LinkSettings = CABLE,
+    ) -> None:
+        self.said: list[str] = []
+        self.up = LinkModel(cable, seed)
+        self.down = LinkModel(cable, seed + 1)
+        self._reactor = reactor
+        self._ports = (general_port, orientation_port)
+        self._place = RaspberryPi(ADDRESS, general_port, orientation_port)
+        for port in self._ports:
+            reactor.link(port, self.up, self.down)
+        self._machine = reactor.machine("phone")
+        self._phone = Phone(flight, self._machine, seed=seed, say=self._say)
+        self._link = PhoneLink(self._machine, self._phone, self._find, orientation, self._say)
+        self._is_started = False
+
+    @property
+    def is_plugged(self) -> bool:
+        """Return whether the cable is plugged in."""
+        return self._is_started and not self.up.is_black
+
+    def plug(self) -> None:
+        """Plug it in; the first time it also begins to connect."""
+        self.up.restore()
+        self.down.restore()
+        if not self._is_started:
+            self._is_started = True
+            self._link.start()
+            self._tick()
+
+    def unplug(self, is_told: bool = False) -> None:
+        """Pull the cable."""
+        self.up.black_out()
+        self.down.black_out()
+        if is_told:
+            for port in self._ports:
+                self._reactor.network.reset_connections(port)
+
+    def stop(self) -> None:
+        """Switch it off."""
+        self._is_started = False
+        Deferred.fromCoroutine(self._link.stop()).addErrback(lambda _: None)
+
+    async def _find(self) -> RaspberryPi:
+        return self._place
+
+    def _tick(self) -> None:
+        if self._is_started:
+            self._machine.callLater(TICK_S, self._tick)
+            self._phone.tick()
+
+    def _say(self, text: str) -> None:
+        if len(self.said) < SAID_KEPT:
+            self.said.append(f"{self._reactor.seconds():9.3f} {text}")

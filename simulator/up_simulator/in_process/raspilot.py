@@ -1,0 +1,200 @@
+"""The daemon as it is, in this process and in simulated time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from random import Random
+from typing import Any
+
+from twisted.internet.defer import Deferred
+from twisted.logger import Logger
+from twisted.python.failure import Failure
+
+from up.base_module import BaseModule
+from up.commands.system_commands import SystemStopCommand
+from up.config import load_all
+from up.life_cycle import BootStoppedError, LifeCycle
+from up.loading.application import Application
+from up.loading.checking import check_application
+from up.loading.files import config_files
+from up.log.levels import level_named
+from up.mode import Mode
+from up.program import USER_ERRORS, make_context
+from up.protocols.serial_line import SerialLike
+from up.protocols.serial_port import SerialPortError
+from up.up import Up
+from up.up_loader import UpLoader
+from up_simulator.crew.protocols import CrewError
+from up_simulator.firmware.board import FirmwareBoard
+from up_simulator.in_process.daemon_log import DaemonLog
+from up_simulator.in_process.machine import Machine
+from up_simulator.in_process.reactor import SimulatedReactor
+from up_simulator.in_process.serial_wire import SerialWire, SocketLine
+
+ROOT = Path(__file__).resolve().parents[3]
+BYTES_A_STEP = 23
+"""What 115200 baud carry in 2 ms: the rest is lost when the daemon is killed."""
+
+
+class SettableMeter:
+    """The load that the Load Guard sees, percent."""
+
+    def __init__(self) -> None:
+        self.load = 10.0
+        self.memory = 20.0
+
+    def load_percent(self) -> float:
+        """Return the load."""
+        return self.load
+
+    def memory_percent(self) -> float:
+        """Return the part of the memory that is used."""
+        return self.memory
+
+
+class InProcessRaspilot:
+    """Loads, starts, stops and kills the application as its program does.
+
+    The application is found from ``root`` and configured by a folder (``write_config``). Its
+    serial port is a socket in this process, whatever its configuration calls it, which ``pump``
+    connects with a board; ``wire`` and ``line`` can be disturbed. ``boot_s`` passes between the
+    start and the first module's. What it draws at random follows ``seed``. Signals, the process's
+    priority, its watchdogs and its garbage collector are the program's, and not part of this.
+    """
+
+    log_source = Logger()
+
+    def __init__(
+        self,
+        reactor: SimulatedReactor,
+        config_folder: Path,
+        *,
+        seed: int = 1,
+        boot_s: float = 0.0,
+        root: Path = ROOT,
+    ) -> None:
+        self.meter = SettableMeter()
+        self.line = SocketLine()
+        self.wire = SerialWire(self.line, seed)
+        self.up: Up | None = None
+        self.boots = 0
+        self._reactor = reactor
+        self._config_folder = config_folder
+        self._seed = seed
+        self._boot_s = boot_s
+        self._root = root
+        self._log = DaemonLog(reactor.seconds)
+        self._machine: Machine | None = None
+        self._life: LifeCycle | None = None
+        self._is_stopping = False
+
+    @property
+    def is_running(self) -> bool:
+        """Return whether the process would be there: booting, running or stopping."""
+        return self._machine is not None
+
+    @property
+    def log(self) -> Sequence[str]:
+        """Return the newest lines of all starts, with simulated seconds."""
+        return list(self._log.lines)
+
+    @property
+    def ports(self) -> dict[str, int]:
+        """Return the ports that it listens on, by name."""
+        return {} if self.up is None else dict(self.up.ports)
+
+    def start(self) -> None:
+        """Begin to boot; raises CrewError with every sentence that the program would print."""
+        if self.is_running:
+            raise CrewError("Raspilot runs already")
+        machine = self._reactor.machine("raspilot")
+        application = None
+        try:
+            application = Application.find(self._root)
+            context = make_context(application, machine, self._config_folder, {})
+            # A later start draws other numbers, as a later process would.
+            context.random = Random(self._seed + 1_000_003 * self.boots)
+            self._log.open(level_named(context.application.log_level))
+            plan = UpLoader(application, context).plan()
+            load_all(context.config_folder, config_files(plan.modules))
+            up = Up(plan, context)
+            self._hand_in(up)
+            up.initialize()
+        except USER_ERRORS as error:
+            self._log.close()
+            problems = str(error).splitlines()
+            if application is not None:
+                words = {"UP_MODE": Mode.AUTO.value}
+                context = make_context(application, machine, self._config_folder, words)
+                problems += check_application(application, context).problems
+            machine.cut_off()
+            raise CrewError("\n".join(dict.fromkeys(problems))) from error
+        self.boots += 1
+        self._machine, self.up, self._is_stopping = machine, up, False
+        self._life = LifeCycle(up)
+        up.command_executor.adopt_thread()
+        up.command_executor.register_command(SystemStopCommand, lambda _: self.stop())
+        machine.callLater(self._boot_s, self._begin)
+
+    def stop(self) -> None:
+        """Stop every module, as at a SIGTERM: it has ended after 2 s at the latest."""
+        if self._life is None or self._is_stopping:
+            return
+        self._is_stopping = True
+        life, machine = self._life, self._machine
+        done = Deferred.fromCoroutine(life.stop())
+        done.addErrback(self._failed, "stopping failed")
+        done.addBoth(lambda _: self.kill() if self._machine is machine else None)
+
+    def kill(self) -> None:
+        """Cut everything at once: timers, ports, connections, and the serial line in mid-frame."""
+        machine, self._machine = self._machine, None
+        if machine is None:
+            return
+        self._log.close()
+        machine.cut_off()
+        self.line.cut()
+        self.up = self._life = None
+
+    def pump(self, board: FirmwareBoard) -> None:
+        """Move the bytes of 2 ms between the board and the daemon; call it at every step."""
+        data = self.wire.read(0.0, BYTES_A_STEP)
+        if data:
+            board.write(data)
+        self.wire.write(board.read())
+
+    def module(self, class_name: str) -> BaseModule:
+        """Return a module that is loaded now; raises LookupError."""
+        for module in [] if self.up is None else self.up.modules:
+            if module.class_name == class_name:
+                return module
+        raise LookupError(f"no module {class_name} is loaded")
+
+    def _hand_in(self, up: Up) -> None:
+        """Give the modules that would look outside what they find here instead."""
+        for module in up.modules:
+            each: Any = module
+            if module.class_name == "SerialProvider":
+                each.open_port = self._open_port
+            elif module.class_name == "LoadGuard":
+                each.meter = self.meter
+
+    def _open_port(self, path: str, baud: int) -> SerialLike:
+        if not self.line.is_plugged:
+            raise SerialPortError(f"{path} is missing: is the Arduino plugged in?")
+        return self.line.open()
+
+    def _begin(self) -> None:
+        assert self._life is not None
+        Deferred.fromCoroutine(self._life.start()).addErrback(self._boot_failed)
+
+    def _boot_failed(self, failure: Failure) -> None:
+        if failure.check(BootStoppedError):
+            self._log.say(failure.getErrorMessage())
+        else:
+            self._failed(failure, "the boot failed")
+        self.stop()
+
+    def _failed(self, failure: Failure, what: str) -> None:
+        self.log_source.failure(what, failure)
