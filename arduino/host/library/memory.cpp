@@ -14,6 +14,8 @@ constexpr uint16_t SIZE = sizeof view.eeprom;
 constexpr Cycles WRITE = 3400 * PER_US;
 constexpr Cycles MOST_WAIT = 10000 * PER_US;
 constexpr Cycles LOOK = 100 * PER_US;
+/** To read a byte, check it and put it in its place. */
+constexpr Cycles READ = 10 * PER_US;
 
 uint8_t* const contents = view.eeprom;
 uint16_t address;
@@ -65,7 +67,10 @@ using namespace host::memory;
 
 bool eeprom_is_ready() { return done == host::NEVER; }
 
-uint8_t eeprom_read(uint16_t from) { return contents[from % SIZE]; }
+uint8_t eeprom_read(uint16_t from) {
+  host::pass(READ);
+  return contents[from % SIZE];
+}
 
 void eeprom_write(uint16_t to, uint8_t byte) {
   if (contents[to % SIZE] == byte) return;

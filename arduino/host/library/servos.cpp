@@ -10,7 +10,7 @@ namespace {
 using raspilot::OUTPUTS;
 
 /** From the slot's beginning to the pulses: receiver, authority, attitude, control. */
-constexpr Cycles CONTROL = 900 * PER_US;
+constexpr Cycles CONTROL = 780 * PER_US;
 
 struct Output {
   uint16_t width_ticks;

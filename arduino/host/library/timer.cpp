@@ -15,6 +15,8 @@ constexpr Cycles READING = 2 * PER_US;
  * time is next looked at.
  */
 constexpr Cycles WORK = 35 * PER_US;
+/** From there to the first slot, but for what the EEPROM holds. */
+constexpr Cycles SETUP = 796 * PER_US;
 
 Cycles start;
 Cycles overflow_due = NEVER;
@@ -49,6 +51,7 @@ namespace clock {
 void begin() {
   host::start = host::now();
   host::overflow_due = host::start + host::OVERFLOW;
+  host::pass(host::SETUP);
 }
 
 uint32_t now_us() {
