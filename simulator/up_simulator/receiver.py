@@ -31,6 +31,14 @@ class Receiver:
         self.heard_s: float | None = None
         self.pulses_us = tuple(self._sticks.values())
 
+    def set_stick(self, channel: str, width_us: float) -> None:
+        """Move a stick by hand."""
+        self._sticks[channel] = round(width_us)
+
+    def set_receiver(self, is_on: bool) -> None:
+        """Switch the receiver on or off by hand."""
+        self._is_on = is_on
+
     def listen(self, now_s: float) -> bool:
         """Move the sticks up to now; true when a new set of pulses has come."""
         while self._moves and self._moves[0].time_s <= now_s - self._start_s + 1e-9:

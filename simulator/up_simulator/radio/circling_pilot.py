@@ -12,7 +12,7 @@ from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_U
 GRAVITY_M_S2 = 9.80665
 HALF_TRAVEL_US = 500
 ARMS_S, CLIMBS_S = 0.3, 1.5
-"""AUX2 rises, and counts after 300 ms; then the throttle may."""
+"""AUX2 rises, unless the board was armed on the ground, and counts after 300 ms; then the motor."""
 BANK_MOST_DEG = 28.0
 BANK_PER_COURSE = 0.7
 FULL_BANK_DEG, FULL_UP_DEG, FULL_DOWN_DEG = 50.0, 20.0, 25.0
@@ -31,22 +31,29 @@ class Circuit:
 
     radius_m: float = 80.0
     height_m: float | None = None
-    cruise_us: int = 1450
+    cruise_us: int = 1530
 
 
 class CirclingPilot:
     """Moves the sticks of FBW so that the aircraft stays near and high, for as long as it flies.
 
-    The switch stands at ``switch``. AUX2 and the throttle are raised soon after the start; without
-    a ``motor`` the height is what the air leaves of it.
+    The switch stands at ``switch``. Where the board ``is_armed`` already, AUX2 is up from the
+    beginning; else it rises soon, then the throttle. Without a motor the height is what the air
+    leaves of it.
     """
 
     def __init__(
-        self, circuit: Circuit | None = None, *, switch: str = "AUTO", has_motor: bool = True
+        self,
+        circuit: Circuit | None = None,
+        *,
+        switch: str = "AUTO",
+        has_motor: bool = True,
+        is_armed: bool = True,
     ) -> None:
         self._circuit = circuit or Circuit()
         self._switch_us = SWITCH_US[switch]
         self._has_motor = has_motor
+        self._arms_s, self._climbs_s = (0.0, 0.0) if is_armed else (ARMS_S, CLIMBS_S)
         self._home: FlightState | None = None
         self._newest: FlightState | None = None
         self._climb_m_s = 0.0
@@ -61,9 +68,9 @@ class CirclingPilot:
         return Sticks(
             ailerons=_stick(self._bank_deg(self._home, state) / FULL_BANK_DEG),
             elevator=self._elevator_us(low_m),
-            throttle=self._throttle_us(low_m) if time_s >= CLIMBS_S else LOWEST_US,
+            throttle=self._throttle_us(low_m) if time_s >= self._climbs_s else LOWEST_US,
             aux1=self._switch_us,
-            aux2=HIGHEST_US if time_s >= ARMS_S else LOWEST_US,
+            aux2=HIGHEST_US if time_s >= self._arms_s else LOWEST_US,
         )
 
     def close(self) -> None:

@@ -5,11 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
+from up_simulator.firmware.board import Channel
 from up_simulator.flight import FlightState
 
 LOWEST_US, CENTRE_US, HIGHEST_US = 1000, 1500, 2000
 SWITCH_US = {"ACRO": 1000, "FBW": 1500, "AUTO": 2000}
 """Where the mode switch (AUX1) stands for each mode, as a new Arduino has it."""
+
+
+CHANNELS: tuple[Channel, ...] = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 
 
 class RadioError(Exception):
@@ -54,23 +58,20 @@ class Radio(Protocol):
         """Give back what was taken: a terminal, a device, a socket."""
 
 
-class Receiver(Protocol):
+class ReceivingBoard(Protocol):
     """The board's end of the radio."""
 
-    def set_stick(self, channel: str, width_us: float) -> None:
+    def set_stick(self, channel: Channel, width_us: float) -> None:
         """Set the pulse of a channel."""
 
     def set_receiver(self, is_on: bool) -> None:
         """Switch the pulses of all channels on or off."""
 
 
-CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
-
-
 class Transmitter:
     """Hands sticks to a receiver; only what has moved is told."""
 
-    def __init__(self, receiver: Receiver) -> None:
+    def __init__(self, receiver: ReceivingBoard) -> None:
         self._receiver = receiver
         self._sent: Sticks | None = None
 

@@ -1,0 +1,63 @@
+"""Puts something into the air: an airframe in its weather, or a recorded flight."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from typing import Protocol
+
+from up_rig.imu import Motion
+from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather
+from up_simulator.crew.replayed import ReplayedFlight
+from up_simulator.flight import FlightState, FlightUnavailableError, Servos
+from up_simulator.recorded_flight import read_recording
+
+
+class Aloft(Protocol):
+    """What flies, for a board of either kind: a ``Flight`` that a ``World`` can be made of."""
+
+    @property
+    def crash(self) -> str | None:
+        """Return in one sentence how it crashed; None while it flies."""
+
+    @property
+    def state(self) -> FlightState:
+        """Return the newest state."""
+
+    @property
+    def motion(self) -> Motion:
+        """Return what an IMU aboard feels now."""
+
+    @property
+    def servos(self) -> Servos:
+        """Return where the servos stand now, us."""
+
+    def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
+        """Ask the servos to go to these pulses."""
+
+    def advance(self, duration_s: float) -> None:
+        """Fly on."""
+
+    def launch(self, start: Start) -> None:
+        """Put it back into the air."""
+
+
+def put_aloft(options: argparse.Namespace, airframe: Airframe, say: Callable[[str], None]) -> Aloft:
+    """Return what the options ask for, or the recorded flight where nothing else flies.
+
+    ``say`` is told which. Raises ``FlightUnavailableError`` for a recording that is none.
+    """
+    if options.replay is not None:
+        say(f"flying the recorded flight {options.replay}: the servos have no effect")
+        return ReplayedFlight(read_recording(options.replay))
+    weather = Weather(wind_m_s=options.wind, turbulence=options.turbulence)
+    try:
+        flight = FlightDynamics(airframe, Start(), weather, options.seed)
+    except FlightUnavailableError as error:
+        say(f"{error}: flying a recorded flight, the servos have no effect")
+        return ReplayedFlight(read_recording(None))
+    say(
+        f"flying {airframe.title} by JSBSim: wind {options.wind:g} m/s, "
+        f"turbulence {options.turbulence}"
+    )
+    return flight

@@ -1,0 +1,59 @@
+"""The board aboard: its firmware, with the airframe's settings in its EEPROM."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from up_simulator.aircraft import Airframe
+from up_simulator.firmware.board import FirmwareBoard
+from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.firmware.settings_wire import SettingsError
+
+
+def board_aboard(
+    options: argparse.Namespace, airframe: Airframe, say: Callable[[str], None]
+) -> FirmwareBoard | None:
+    """Return the board that the options ask for; None: it is to be the stand-in.
+
+    ``auto`` is the firmware on its chip, the same sources built for this computer where the AVR
+    tools are missing, the stand-in where there is no compiler, each said in one sentence. Raises
+    ``BoardUnavailableError`` for a board that was asked for by name.
+    """
+    if options.board == "stand-in" or options.framing == "thesis":
+        return None
+    try:
+        eeprom = _eeprom(options, airframe, say)
+        board = choose_board(
+            options.board, seed=options.seed, eeprom=eeprom, elf=options.elf, say=say
+        )
+    except BoardUnavailableError as error:
+        if options.board != "auto":
+            raise
+        say(f"no firmware aboard but a stand-in: {error}")
+        return None
+    say(f"aboard: {board.title}")
+    return board
+
+
+def _eeprom(options: argparse.Namespace, airframe: Airframe, say: Callable[[str], None]) -> bytes:
+    gains = airframe.gains
+    if options.gains is not None:
+        try:
+            return prepared_eeprom(options.board, airframe.profile, _read(options.gains))
+        except (OSError, SettingsError, yaml.YAMLError) as error:
+            line = " ".join(str(error).split())
+            say(f"{options.gains}: {line}: the airframe's own gains are aboard")
+    return prepared_eeprom(options.board, airframe.profile, gains)
+
+
+def _read(path: Path) -> Mapping[str, Any]:
+    found = yaml.safe_load(path.read_text(encoding="utf-8"))
+    if not isinstance(found, dict):
+        raise SettingsError("it holds no gains")
+    return found

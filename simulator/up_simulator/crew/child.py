@@ -1,0 +1,130 @@
+"""A program that somebody started, with its output kept in a file, ended whatever happens."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from up_simulator.crew.protocols import CrewError
+
+STOP_LIMIT_S = 5.0
+LAST_LINES = 15
+TAIL_BYTES = 65_536
+LOOK_AGAIN_S = 0.02
+_PR_SET_PDEATHSIG = 1
+
+
+class Child:
+    """One process in a session of its own, so that Ctrl-C reaches it through us alone.
+
+    Its words are appended to ``<name>.log`` in ``folder``. On Linux it is told to end when we die
+    without a word. ``in_foreground`` leaves it the terminal, and its words are not kept.
+    """
+
+    def __init__(
+        self, name: str, command: list[str], folder: Path, *, in_foreground: bool = False
+    ) -> None:
+        self.name = name
+        self.log = folder / f"{name}.log"
+        self._start_at = 0
+        output = None
+        if not in_foreground:
+            output = self.log.open("ab")
+            self._start_at = output.tell()
+        try:
+            self._process = subprocess.Popen(
+                command,
+                stdin=None if in_foreground else subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT if output else None,
+                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+                start_new_session=not in_foreground,
+                preexec_fn=_dying_wish(),
+            )
+        finally:
+            if output is not None:
+                output.close()
+
+    @property
+    def pid(self) -> int:
+        """Return its process number."""
+        return self._process.pid
+
+    def poll(self) -> int | None:
+        """Return the exit status; None while it runs."""
+        return self._process.poll()
+
+    def lines(self) -> list[str]:
+        """Return the newest lines that this process, not one before it, has printed."""
+        if not self.log.exists():
+            return []
+        with self.log.open("rb") as file:
+            size = file.seek(0, os.SEEK_END)
+            file.seek(max(self._start_at, size - TAIL_BYTES))
+            return file.read().decode("utf-8", "replace").splitlines()
+
+    def wait_for(self, is_ready: Callable[[list[str]], bool], what: str, limit_s: float) -> None:
+        """Wait until its lines show that it is ready; raises ``CrewError``."""
+        deadline_s = time.monotonic() + limit_s
+        while not is_ready(self.lines()):
+            status = self.poll()
+            if status is not None:
+                # It may have said it with its last breath.
+                if is_ready(self.lines()):
+                    return
+                raise CrewError(self.last_words(status))
+            if time.monotonic() > deadline_s:
+                raise CrewError(f"{self.name}: no {what} within {limit_s:.0f} s\n{self.tail()}")
+            time.sleep(LOOK_AGAIN_S)
+
+    def wait_for_line(self, text: str, limit_s: float) -> str:
+        """Wait until it printed a line with a text, and return that; raises ``CrewError``."""
+        self.wait_for(lambda lines: any(text in line for line in lines), repr(text), limit_s)
+        return next(line for line in self.lines() if text in line)
+
+    def last_words(self, status: int) -> str:
+        """Return the sentence that says how it ended, and the end of its log."""
+        how = f"signal {-status}" if status < 0 else f"status {status}"
+        return f"{self.name} ended by itself with {how}; its log {self.log} ends:\n{self.tail()}"
+
+    def tail(self) -> str:
+        """Return its last lines, indented."""
+        return "\n".join(f"  {line}" for line in self.lines()[-LAST_LINES:])
+
+    def signal(self, number: int) -> None:
+        """Send a signal, unless it has ended."""
+        if self._process.poll() is None:
+            with contextlib.suppress(ProcessLookupError):
+                self._process.send_signal(number)
+
+    def terminate(self) -> None:
+        """Ask it to end."""
+        self.signal(signal.SIGTERM)
+
+    def wait(self, limit_s: float = STOP_LIMIT_S) -> int:
+        """Wait for its end, force it after a time, and return its status."""
+        try:
+            return self._process.wait(limit_s)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            return self._process.wait()
+
+    def end(self) -> int:
+        """Ask it to end and wait until it has; returns its status."""
+        self.terminate()
+        return self.wait()
+
+
+def _dying_wish() -> Callable[[], object] | None:
+    """Return what a child does before it becomes its program: it asks to go when we go."""
+    if not sys.platform.startswith("linux"):
+        return None
+    ask = ctypes.CDLL(None).prctl
+    return lambda: ask(_PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)

@@ -1,0 +1,62 @@
+"""An aircraft that the firmware flies in real time, and that flies again after a crash."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from up_simulator.aircraft import Start
+from up_simulator.clock import Clock
+from up_simulator.crew.aloft import Aloft
+from up_simulator.crew.real_time import RealTimeWorld, SerialLine
+from up_simulator.firmware.board import FirmwareBoard
+from up_simulator.radio.choice import is_armed_at_first
+from up_simulator.radio.sticks import Radio
+from up_simulator.world import World
+
+LIES_S = 3.0
+
+
+class FirmwareAircraft:
+    """A world with its radio; ``radio_name`` decides whether the pilot arms on the ground.
+
+    A crash is said, and after 3 s the aircraft is in the air again with a board that has just got
+    its power. ``say`` takes one line for the user. Raises ``BoardCrashedError``.
+    """
+
+    def __init__(
+        self,
+        flight: Aloft,
+        board: FirmwareBoard,
+        line: SerialLine,
+        radio: Radio,
+        clock: Clock,
+        radio_name: str,
+        say: Callable[[str], None],
+    ) -> None:
+        self._flight = flight
+        self._clock = clock
+        self._say = say
+        self._arms = is_armed_at_first(radio_name)
+        self._crashed_s: float | None = None
+        world = World(flight, board)
+        world.boot(arms=self._arms)
+        self.real_time = RealTimeWorld(world, line, radio, clock, say)
+
+    def keep(self) -> None:
+        """Fly until now. Raises ``BoardCrashedError``."""
+        self.real_time.keep()
+        if self._flight.crash is None:
+            return
+        now_s = self._clock.seconds()
+        if self._crashed_s is None:
+            self._crashed_s = now_s
+            self._say(f"{self._flight.crash}; in {LIES_S:.0f} s it flies again")
+        elif now_s - self._crashed_s >= LIES_S:
+            self._crashed_s = None
+            self.real_time.begin_again(self._launch)
+            self._say("launched again in the air")
+
+    def _launch(self, world: World) -> None:
+        self._flight.launch(Start())
+        world.board.reset("power")
+        world.boot(arms=self._arms)

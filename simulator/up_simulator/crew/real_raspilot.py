@@ -1,0 +1,87 @@
+"""The daemon as it is started on a Raspberry Pi: ``python main.py --config DIR``."""
+
+from __future__ import annotations
+
+import re
+import signal
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from up_simulator.crew.child import Child
+from up_simulator.crew.protocols import CrewError
+
+ROOT = Path(__file__).resolve().parents[3]
+START_LIMIT_S = 30.0
+_GROUND = re.compile(r"ground listens on port (\d+)")
+
+
+class RealRaspilot:
+    """Satisfies ``protocols.Raspilot`` by a process.
+
+    ``config`` is its configuration folder, ``folder`` gets ``raspilot.log``, one log for all its
+    lives. Nothing here waits for it in flight: ``start`` only makes the process.
+    """
+
+    def __init__(self, config: Path, folder: Path, root: Path = ROOT) -> None:
+        self._command = [sys.executable, str(root / "main.py"), "--config", str(config)]
+        self._folder = folder
+        self._child: Child | None = None
+
+    @property
+    def is_running(self) -> bool:
+        """Return whether it runs now."""
+        return self._child is not None and self._child.poll() is None
+
+    @property
+    def log(self) -> Sequence[str]:
+        """Return the newest lines of its newest life."""
+        return [] if self._child is None else self._child.lines()
+
+    def start(self) -> None:
+        """Make its process; raises ``CrewError`` when it runs already."""
+        if self.is_running:
+            raise CrewError("raspilot runs already")
+        self._child = Child("raspilot", self._command, self._folder)
+
+    def wait_for_line(self, text: str, limit_s: float = START_LIMIT_S) -> str:
+        """Wait until it has logged a line with a text and return that; raises ``CrewError``."""
+        return self._alive().wait_for_line(text, limit_s)
+
+    def ground_port(self, limit_s: float = START_LIMIT_S) -> int:
+        """Wait for the port where a ground station without a proxy connects; or ``CrewError``."""
+        found = _GROUND.search(self.wait_for_line("ground listens on port", limit_s))
+        if found is None:
+            raise CrewError("raspilot names no port for ground stations")
+        return int(found[1])
+
+    def check(self) -> None:
+        """Raise ``CrewError`` with its last words when it has ended by itself."""
+        if self._child is not None and (status := self._child.poll()) is not None:
+            raise CrewError(self._child.last_words(status))
+
+    def stop(self) -> None:
+        """Ask it to end and wait until it has."""
+        if self._child is not None:
+            self._child.end()
+            self._child = None
+
+    def kill(self) -> None:
+        """End it at once, wherever it is, by ``kill -9``."""
+        if self._child is not None:
+            self._child.signal(signal.SIGKILL)
+            self._child.wait()
+            self._child = None
+
+    def freeze(self) -> None:
+        """Stop it in its tracks: it holds its ports and does nothing, as a hung one."""
+        self._alive().signal(signal.SIGSTOP)
+
+    def thaw(self) -> None:
+        """Let a frozen one go on."""
+        self._alive().signal(signal.SIGCONT)
+
+    def _alive(self) -> Child:
+        if self._child is None:
+            raise CrewError("raspilot does not run")
+        return self._child

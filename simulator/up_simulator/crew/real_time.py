@@ -1,0 +1,106 @@
+"""Keeps a world in step with the clock on the wall, with a pty for its serial line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+from up_simulator.clock import Clock
+from up_simulator.radio.sticks import Radio, Sticks, Transmitter
+from up_simulator.world import STEP_S, World
+
+LATEST_S = 0.25
+SAY_AGAIN_S = 5.0
+STEPS_MOST = 25
+"""Steps at a time: a world that has to catch up leaves the sockets their turn."""
+BYTES_A_STEP = 23
+"""What 115200 baud carry in a step: more waits on the pty, as it does on a line."""
+
+
+class SerialLine(Protocol):
+    """What the board's serial line goes through, as ``up_rig.pty_line.PtyLine``."""
+
+    def read(self, timeout_s: float, most: int) -> bytes:
+        """Return what has come, waiting for it up to a time."""
+
+    def write(self, data: bytes) -> None:
+        """Send bytes, or drop them where nobody reads."""
+
+
+class RealTimeWorld:
+    """Flies a world for as long as a clock ran, and never after it.
+
+    What was missed by more than 250 ms is skipped, not flown in a heap: it is counted in
+    ``skipped_s`` and said at most every 5 s. Each step moves the sticks and passes the serial
+    line's bytes, then ``watchers`` are called. ``clock`` only rises; ``say`` takes one line for
+    the user.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        line: SerialLine,
+        radio: Radio,
+        clock: Clock,
+        say: Callable[[str], None] = lambda _text: None,
+    ) -> None:
+        self.world = world
+        self.skipped_s = 0.0
+        self.radio = radio
+        self.watchers: list[Callable[[], None]] = []
+        self.heard: Callable[[bytes], None] | None = None
+        self._line = line
+        self._clock = clock
+        self._say = say
+        self._said_s = -SAY_AGAIN_S
+        self._transmitter = Transmitter(world.board)
+        self._start_s = clock.seconds() - world.time_s
+
+    @property
+    def late_s(self) -> float:
+        """Return how far the world is behind the clock."""
+        return self._clock.seconds() - self._start_s - self.skipped_s - self.world.time_s
+
+    def keep(self) -> None:
+        """Fly until now, or for as many steps as others can bear. Raises ``BoardCrashedError``."""
+        late_s = self.late_s
+        if late_s > LATEST_S:
+            self._skip(late_s)
+        for _ in range(STEPS_MOST):
+            if self.late_s < STEP_S - 1e-9:
+                return
+            self.step()
+
+    def step(self) -> None:
+        """Fly for one step, whatever the clock says. Raises ``BoardCrashedError``."""
+        world = self.world
+        self._transmitter.send(self.radio.sticks(world.time_s, world.state))
+        data = self._line.read(0.0, BYTES_A_STEP)
+        if data:
+            world.board.write(data)
+        world.step()
+        sent = world.board.read()
+        if sent:
+            self._line.write(sent)
+            if self.heard is not None:
+                self.heard(sent)
+        for watch in self.watchers:
+            watch()
+
+    def begin_again(self, boot: Callable[[World], None]) -> None:
+        """Let ``boot`` put the aircraft back into the air; the time that it takes is nobody's.
+
+        Before it the sticks are where a pilot has them who switches a board on.
+        """
+        self._transmitter.send(Sticks())
+        boot(self.world)
+        # Booting may have moved the switches.
+        self._transmitter = Transmitter(self.world.board)
+        self._start_s = self._clock.seconds() - self.world.time_s - self.skipped_s
+
+    def _skip(self, late_s: float) -> None:
+        self.skipped_s += late_s - LATEST_S
+        now_s = self._clock.seconds()
+        if now_s - self._said_s >= SAY_AGAIN_S:
+            self._said_s = now_s
+            self._say(f"late by {late_s:.2f} s: the missed time is skipped, not flown")

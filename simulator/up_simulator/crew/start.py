@@ -1,0 +1,83 @@
+"""``up-sim start``: the virtual aircraft in real time, until Ctrl-C."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+from contextlib import suppress
+from typing import Any
+
+from twisted.internet.defer import Deferred
+
+from up_rig.pty_line import PtyLineError
+from up_simulator.aircraft import AirframeError
+from up_simulator.crew.start_options import read_options
+from up_simulator.crew.virtual_aircraft import VirtualAircraft
+from up_simulator.firmware.board import BoardCrashedError
+from up_simulator.firmware.build import BoardUnavailableError
+from up_simulator.firmware.preparation import PreparationError
+from up_simulator.flight import FlightUnavailableError
+from up_simulator.radio.sticks import RadioError
+
+FOR_THE_USER = (
+    AirframeError,
+    BoardCrashedError,
+    BoardUnavailableError,
+    FlightUnavailableError,
+    OSError,
+    PreparationError,
+    PtyLineError,
+    RadioError,
+)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Fly until SIGINT, SIGTERM or SIGHUP and return the exit status."""
+    options = read_options(arguments)
+    from twisted.internet import reactor as default_reactor
+
+    reactor: Any = default_reactor
+    # The reactor keeps wall-clock time by itself, and a flight must not see that jump.
+    reactor.seconds = time.monotonic
+    failures: list[Any] = []
+
+    def fail(failure: Any) -> None:
+        failures.append(failure)
+        reactor.stop()
+
+    try:
+        aircraft = VirtualAircraft(
+            reactor, options, say, lambda: reactor.callLater(0, reactor.stop)
+        )
+    except FOR_THE_USER as error:
+        sys.stderr.write(f"up-sim: {error}\n")
+        return 1
+    reactor.callWhenRunning(aircraft.start, fail)
+    reactor.callWhenRunning(_hear_hangup, reactor)
+    reactor.addSystemEventTrigger(
+        "before", "shutdown", lambda: Deferred.fromCoroutine(aircraft.stop())
+    )
+    reactor.run()
+    for failure in failures:
+        if failure.check(*FOR_THE_USER):
+            sys.stderr.write(f"up-sim: {failure.getErrorMessage()}\n")
+        else:
+            failure.printTraceback()
+    return 1 if failures else 0
+
+
+def _hear_hangup(reactor: Any) -> None:
+    """End as for SIGTERM when the terminal is closed, so that the link to the pty goes, too."""
+
+    def end(_number: int, _frame: object) -> None:
+        reactor.callFromThread(reactor.stop)
+
+    signal.signal(signal.SIGHUP, end)
+
+
+def say(text: str) -> None:
+    """Write one line for the user; a closed standard output ends no flight."""
+    with suppress(BrokenPipeError):
+        sys.stdout.write(f"{text}\n")
+        sys.stdout.flush()

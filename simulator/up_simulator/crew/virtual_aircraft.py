@@ -1,0 +1,149 @@
+"""The virtual aircraft in real time: flight, board, radio and phone, kept in time together."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from twisted.internet.task import LoopingCall
+
+from up_rig.pty_line import PtyLine
+from up_simulator.aircraft import Airframe, load_airframe
+from up_simulator.crew.aloft import put_aloft
+from up_simulator.crew.board_aboard import board_aboard
+from up_simulator.crew.firmware_aircraft import FirmwareAircraft
+from up_simulator.crew.stand_in import StandInAircraft
+from up_simulator.pace import Pace
+from up_simulator.phone import Phone
+from up_simulator.phone_address import RaspberryPi, Runner, discover, spawn
+from up_simulator.phone_link import PhoneLink
+from up_simulator.radio.choice import choose_radio
+from up_simulator.radio.sticks import Radio
+from up_simulator.state_log import StateLog
+
+TICK_S = 0.004
+
+Say = Callable[[str], None]
+
+
+class VirtualAircraft:
+    """Everything that the options ask for, built at once and started by ``start``.
+
+    ``reactor`` gives time and sockets; its clock must be monotonic. ``say`` takes one line for the
+    user, ``on_leave`` is called when the pilot at the keyboard leaves. Raises
+    ``FlightUnavailableError``, ``AirframeError``, ``BoardUnavailableError``, ``PtyLineError``,
+    ``RadioError`` and ``OSError`` (the state log) with messages for the user.
+    """
+
+    def __init__(
+        self, reactor: Any, options: argparse.Namespace, say: Say, on_leave: Callable[[], None]
+    ) -> None:
+        self._reactor = reactor
+        self._say = say
+        self._line: PtyLine | None = None
+        self._radio: Radio | None = None
+        self._link: PhoneLink | None = None
+        self._log: StateLog | None = None
+        self._ticks: list[Callable[[], None]] = []
+        self._loop = LoopingCall(self._tick)
+        self._loop.clock = reactor
+        airframe = load_airframe(options.airframe)
+        self.flight = put_aloft(options, airframe, say)
+        try:
+            self._put_together(options, airframe, on_leave)
+        except BaseException:
+            self._give_back()
+            raise
+
+    def start(self, on_failure: Callable[[Any], None]) -> None:
+        """Begin to fly; ``on_failure`` gets the failure of a tick, which ends the flight."""
+        if self._line is not None:
+            self._say(f"board on {self._line.path}")
+        if self._link is not None:
+            self._link.start()
+        self._loop.start(TICK_S).addErrback(on_failure)
+
+    async def stop(self) -> None:
+        """Land: close links, pty, log and radio, and remove the symbolic link."""
+        if self._loop.running:
+            self._loop.stop()
+        self._give_back()
+        if self._link is not None:
+            await self._link.stop()
+
+    def _put_together(
+        self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
+    ) -> None:
+        if options.state_log:
+            self._log = StateLog(options.state_log)
+        if options.no_board:
+            self._ticks.append(Pace(self.flight, self._reactor, self._say).keep)
+        else:
+            self._ticks.append(self._board_it(options, airframe, on_leave))
+        if not options.no_phone:
+            self._ticks.append(self._carry_phone(options).tick)
+
+    def _board_it(
+        self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
+    ) -> Callable[[], None]:
+        """Put board, line and radio aboard and return what keeps them flying."""
+        has_motor = airframe.has_motor and options.replay is None
+        self._line = line = PtyLine(options.pty_link)
+        board = board_aboard(options, airframe, self._say)
+        self._radio = radio = choose_radio(
+            options.radio,
+            options.sticks,
+            options.controller,
+            has_motor=has_motor,
+            say=self._say,
+            on_leave=on_leave,
+        )
+        if board is None:
+            stand_in = StandInAircraft(
+                self.flight, line, radio, self._reactor, options, has_motor, self._say
+            )
+            return stand_in.keep
+        aircraft = FirmwareAircraft(
+            self.flight, board, line, radio, self._reactor, options.radio, self._say
+        )
+        return aircraft.keep
+
+    def _carry_phone(self, options: argparse.Namespace) -> Phone:
+        def say(text: str) -> None:
+            self._say(f"phone: {text}")
+
+        phone = Phone(self.flight, self._reactor, seed=options.seed, say=say)
+        find = _make_find(self._reactor, options)
+        self._link = PhoneLink(self._reactor, phone, find, options.orientation, say)
+        return phone
+
+    def _tick(self) -> None:
+        for tick in self._ticks:
+            tick()
+        if self._log is not None:
+            try:
+                self._log.record(self.flight.state, self.flight.servos)
+            except OSError as error:
+                self._say(f"state log: {error}: no more of it is written")
+                self._log = None
+
+    def _give_back(self) -> None:
+        for each in (self._radio, self._line, self._log):
+            if each is not None:
+                each.close()
+        self._radio = self._line = self._log = None
+
+
+def _make_find(reactor: Any, options: argparse.Namespace) -> Callable[[], Awaitable[RaspberryPi]]:
+    async def find() -> RaspberryPi:
+        host = options.phone_host
+        if options.runner:
+            runner_host, runner_port = options.runner
+            runner = Runner(runner_host, runner_port, options.aircraft_name)
+            return await spawn(reactor, runner)
+        if options.discover:
+            host = await discover(reactor, *options.discover)
+        return RaspberryPi(host, options.general_port, options.orientation_port)
+
+    return find
