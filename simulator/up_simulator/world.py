@@ -73,15 +73,16 @@ class World:
             board.set_stick("aux2", 2000.0)
             board.run_us(SETTLE_S * 1e6)
         self._tilt(self.state.roll_deg, self.state.pitch_deg)
-        self._feel()
+        self._feel(board.pulses_us())
 
     def step(self) -> None:
         """Run the board for 2 ms, then the flight. Raises ``BoardCrashedError``."""
         self.board.run_us(STEP_US)
-        self.dynamics.set_servos(self.board.pulses_us())
+        pulses_us = self.board.pulses_us()
+        self.dynamics.set_servos(pulses_us)
         self.dynamics.advance(STEP_S)
         self._steps += 1
-        self._feel()
+        self._feel(pulses_us)
 
     def advance(self, duration_s: float) -> None:
         """Make as many steps as fit into what was asked so far. Raises ``BoardCrashedError``."""
@@ -90,9 +91,8 @@ class World:
             self._owed_s -= STEP_S
             self.step()
 
-    def _feel(self) -> None:
-        throttle_us = self.board.pulses_us()[THROTTLE]
-        part = (throttle_us - THROTTLE_LOW_US) / THROTTLE_RANGE_US
+    def _feel(self, pulses_us: Pulses) -> None:
+        part = (pulses_us[THROTTLE] - THROTTLE_LOW_US) / THROTTLE_RANGE_US
         self.board.imu.throttle = min(1.0, max(0.0, part))
         self.board.set_motion(self.dynamics.motion)
 

@@ -6,6 +6,7 @@ import ctypes
 import enum
 import math
 import random
+import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -14,9 +15,14 @@ from up_rig.library import Handle, SampleFunction
 GRAVITY_M_S2 = 9.80665
 _GYRO_CONFIG, _ACCEL_CONFIG = 27, 28
 _COUNTS_DEG_S, _COUNTS_G = 131.0, 16384.0
-_TEMPERATURE_C = 25.0
+# PS-MPU-6000A-00, 6.2: 340 counts a degree, 0 at 36.53 degrees.
+_TEMPERATURE = round((25.0 - 36.53) * 340)
+_SAMPLE = struct.Struct("=7h")
 NOISE_DEG_S, NOISE_M_S2 = 0.05, 0.03
 """Of the part with its filter at 98 Hz (PS-MPU-6000A-00, 6.1 and 6.2), standard deviations."""
+
+
+_Vector = tuple[float, float, float]
 
 
 class Fault(enum.IntEnum):
@@ -142,7 +148,7 @@ class Imu:
             failure, self._failure = self._failure, None
             raise failure
 
-    def _sample(self, cycle: int, into: object) -> None:
+    def _sample(self, cycle: int, into: ctypes.c_void_p) -> None:
         # An exception cannot pass through C: it is kept and raised after the run.
         try:
             if self.is_garbage:
@@ -151,34 +157,43 @@ class Imu:
                 self._values = self._measure(cycle / 16e6)
         except Exception as failure:  # noqa: BLE001 - whatever the caller's function raises
             self._failure = failure
-        for at, value in enumerate(self._values):
-            into[at] = value  # type: ignore[index]
+        ctypes.memmove(into, _SAMPLE.pack(*self._values), _SAMPLE.size)
 
     def _measure(self, time_s: float) -> list[int]:
         motion = self.motion if isinstance(self.motion, Motion) else self.motion(time_s)
-        rates = (motion.roll_rate_deg_s, -motion.pitch_rate_deg_s, -motion.yaw_rate_deg_s)
-        force = (motion.force_x_m_s2, -motion.force_y_m_s2, -motion.force_z_m_s2)
-        gyro_range = self.register(_GYRO_CONFIG) >> 3 & 3
-        accel_range = self.register(_ACCEL_CONFIG) >> 3 & 3
-        gyro = [
-            _count((rate + bias + self._noise(self.noise_deg_s)) * _COUNTS_DEG_S / 2**gyro_range)
-            for rate, bias in zip(rates, self.bias_deg_s, strict=True)
+        gyro_count = _COUNTS_DEG_S / 2 ** (self.register(_GYRO_CONFIG) >> 3 & 3)
+        accel_count = _COUNTS_G / 2 ** (self.register(_ACCEL_CONFIG) >> 3 & 3)
+        p, q, r = self._spoiled(
+            (motion.roll_rate_deg_s, -motion.pitch_rate_deg_s, -motion.yaw_rate_deg_s),
+            self.bias_deg_s,
+            self.noise_deg_s,
+        )
+        x, y, z = self._spoiled(
+            (motion.force_x_m_s2, -motion.force_y_m_s2, -motion.force_z_m_s2),
+            self.bias_m_s2,
+            self.noise_m_s2,
+        )
+        return [
+            _count(x / GRAVITY_M_S2 * accel_count),
+            _count(y / GRAVITY_M_S2 * accel_count),
+            _count(z / GRAVITY_M_S2 * accel_count),
+            _TEMPERATURE,
+            _count(p * gyro_count),
+            _count(q * gyro_count),
+            _count(r * gyro_count),
         ]
-        accel = [
-            _count(
-                (each + bias + self._noise(self.noise_m_s2))
-                / GRAVITY_M_S2
-                * _COUNTS_G
-                / 2**accel_range
-            )
-            for each, bias in zip(force, self.bias_m_s2, strict=True)
-        ]
-        # PS-MPU-6000A-00, 6.2: 340 counts a degree, 0 at 36.53 degrees.
-        return [*accel, _count((_TEMPERATURE_C - 36.53) * 340), *gyro]
 
-    def _noise(self, deviation: float) -> float:
-        return self._random.gauss(0.0, deviation) if deviation else 0.0
+    def _spoiled(self, values: _Vector, bias: _Vector, noise: float) -> _Vector:
+        if noise:
+            gauss = self._random.gauss
+            values = (
+                values[0] + gauss(0.0, noise),
+                values[1] + gauss(0.0, noise),
+                values[2] + gauss(0.0, noise),
+            )
+        return values[0] + bias[0], values[1] + bias[1], values[2] + bias[2]
 
 
 def _count(value: float) -> int:
-    return max(-32768, min(32767, round(value)))
+    count = round(value)
+    return -32768 if count < -32768 else 32767 if count > 32767 else count

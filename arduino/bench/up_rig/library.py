@@ -35,6 +35,12 @@ class Sent(ctypes.Structure):
     _fields_ = [("cycle", ctypes.c_uint64), ("value", ctypes.c_uint8)]
 
 
+class PinPulse(ctypes.Structure):
+    """The cycles at which a pin's newest whole pulse rose and fell; fell is 0 before the first."""
+
+    _fields_ = [("rise", ctypes.c_uint64), ("fall", ctypes.c_uint64)]
+
+
 class Meter(ctypes.Structure):
     """What the C side measures; ``meter_t`` of rig.h."""
 
@@ -136,6 +142,8 @@ def _declare(library: ctypes.CDLL) -> None:
     declare("pin_level", u8, rig, u8)
     declare("edges", ctypes.POINTER(Edge), rig, count)
     declare("sent", ctypes.POINTER(Sent), rig, count)
+    declare("pulses", ctypes.POINTER(PinPulse), rig)
+    declare("drop_edges", None, rig, ctypes.c_bool)
     declare("forget_edges", None, rig)
     declare("forget_sent", None, rig)
     declare("uart_baud", None, rig, number)

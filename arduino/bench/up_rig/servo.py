@@ -30,6 +30,7 @@ class Servo:
         self._handle = handle
         self._pins = pins
         self._edges: dict[int, list[tuple[int, int]]] = {}
+        self._newest = library.rig_pulses(handle)
 
     def edges(self, channel: str) -> list[tuple[int, int]]:
         """Return (cycle, level) of every edge of a channel since the last ``forget``."""
@@ -53,6 +54,16 @@ class Servo:
         """Return the width of the newest pulse of a channel; None before the first."""
         pulses = self.pulses(channel)
         return pulses[-1].width_us if pulses else None
+
+    def last_pulse(self, channel: str) -> Pulse | None:
+        """Return the newest pulse of a channel that has ended, forgotten or not."""
+        newest = self._newest[self._pins[channel]]
+        fall = newest.fall
+        return Pulse(newest.rise, fall - newest.rise) if fall else None
+
+    def record(self, is_recording: bool) -> None:
+        """Keep edges, or no longer: then only ``last_pulse`` knows what comes."""
+        self._library.rig_drop_edges(self._handle, not is_recording)
 
     def forget(self) -> None:
         """Forget all edges but the ones of pulses that are still high."""

@@ -10,8 +10,6 @@ from up_rig.imu import NOISE_DEG_S, NOISE_M_S2, Motion
 
 Vector = tuple[float, float, float]
 ZERO: Vector = (0.0, 0.0, 0.0)
-_PHASES = (0.0, math.pi / 2, math.pi / 4)
-"""An unbalanced rotor shakes two axes a quarter of a turn apart, and the mount the third."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,37 +43,42 @@ class ImuModel:
     def __init__(self, errors: ImuErrors, seed: int) -> None:
         self.errors = errors
         self.throttle = 0.0
-        self._random = random.Random(f"imu errors {seed}")
+        self._gauss = random.Random(f"imu errors {seed}").gauss
         self._turned = 0.0
         self._measured_s = 0.0
 
     def measure(self, motion: Motion, time_s: float) -> Motion:
         """Return the motion as it is measured at a time since power-on, which never falls."""
         errors = self.errors
-        step_s, self._measured_s = time_s - self._measured_s, time_s
-        self._turned = (self._turned + step_s * errors.vibration_hz * self.throttle) % 1.0
-        warmth = 1.0 - math.exp(-time_s / errors.warm_up_s)
-        shaken = [self._shake(phase) for phase in _PHASES]
-        rates = (motion.roll_rate_deg_s, motion.pitch_rate_deg_s, motion.yaw_rate_deg_s)
-        forces = (motion.force_x_m_s2, motion.force_y_m_s2, motion.force_z_m_s2)
-        gauss = self._random.gauss
+        p, q, r = errors.gyro_bias_deg_s
+        x, y, z = errors.accel_bias_m_s2
+        if errors.gyro_drift_deg_s != ZERO:
+            warmth = 1.0 - math.exp(-time_s / errors.warm_up_s)
+            drift_p, drift_q, drift_r = errors.gyro_drift_deg_s
+            p, q, r = p + warmth * drift_p, q + warmth * drift_q, r + warmth * drift_r
+        if errors.vibration_deg_s or errors.vibration_m_s2:
+            shaken = self._shake(time_s)
+            rate, force = errors.vibration_deg_s, errors.vibration_m_s2
+            p, q, r = p + rate * shaken[0], q + rate * shaken[1], r + rate * shaken[2]
+            x, y, z = x + force * shaken[0], y + force * shaken[1], z + force * shaken[2]
+        self._measured_s = time_s
+        gauss, gyro, accel = self._gauss, errors.gyro_noise_deg_s, errors.accel_noise_m_s2
         return Motion(
-            *(
-                rate
-                + errors.gyro_bias_deg_s[axis]
-                + warmth * errors.gyro_drift_deg_s[axis]
-                + errors.vibration_deg_s * shaken[axis]
-                + gauss(0.0, errors.gyro_noise_deg_s)
-                for axis, rate in enumerate(rates)
-            ),
-            *(
-                force
-                + errors.accel_bias_m_s2[axis]
-                + errors.vibration_m_s2 * shaken[axis]
-                + gauss(0.0, errors.accel_noise_m_s2)
-                for axis, force in enumerate(forces)
-            ),
+            motion.roll_rate_deg_s + p + gauss(0.0, gyro),
+            motion.pitch_rate_deg_s + q + gauss(0.0, gyro),
+            motion.yaw_rate_deg_s + r + gauss(0.0, gyro),
+            motion.force_x_m_s2 + x + gauss(0.0, accel),
+            motion.force_y_m_s2 + y + gauss(0.0, accel),
+            motion.force_z_m_s2 + z + gauss(0.0, accel),
         )
 
-    def _shake(self, phase: float) -> float:
-        return self.throttle**2 * math.sin(2 * math.pi * self._turned + phase)
+    def _shake(self, time_s: float) -> Vector:
+        # An unbalanced rotor shakes two axes a quarter of a turn apart, and its mount the third.
+        turns = (time_s - self._measured_s) * self.errors.vibration_hz * self.throttle
+        self._turned = (self._turned + turns) % 1.0
+        strength, angle = self.throttle**2, 2 * math.pi * self._turned
+        return (
+            strength * math.sin(angle),
+            strength * math.cos(angle),
+            strength * math.sin(angle + math.pi / 4),
+        )

@@ -90,8 +90,7 @@ class RigBoard:
         self._rig = Rig(elf, seed=seed, eeprom=eeprom, is_measuring=False)
         self.imu = RigImu(self._rig, imu_errors, seed)
         self._until_us = 0.0
-        self._pulses_us = list(NEUTRAL_US)
-        self._ended_us = [-math.inf] * len(SERVOS)
+        self._rig.servo.record(False)
         # A receiver has no reason to begin with the board.
         start_us = 100_000 + random.Random(f"receiver start {seed}").uniform(0, 20_000)
         self._rig.receiver.start(at_us=start_us)
@@ -110,7 +109,6 @@ class RigBoard:
         except CrashError as crash:
             raise BoardCrashedError(f"{self.title}: {crash}") from crash
         self._rig.receiver.sent.clear()
-        self._take_pulses()
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
         """Set the receiver's pulse of a channel, from its next frame on."""
@@ -136,13 +134,16 @@ class RigBoard:
 
     def pulses_us(self) -> Pulses:
         """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
-        ailerons, elevator, throttle, rudder = self._pulses_us
+        newest = self._rig.servo.last_pulse
+        ailerons, elevator, throttle, rudder = (
+            neutral_us if (pulse := newest(channel)) is None else pulse.width_us
+            for channel, neutral_us in zip(SERVOS, NEUTRAL_US, strict=True)
+        )
         return ailerons, elevator, throttle, rudder
 
     def pulse_ages_us(self) -> tuple[float, float, float, float]:
         """Return how long ago the newest pulse of each servo ended; infinite before the first."""
-        now_us = self.now_us
-        ailerons, elevator, throttle, rudder = (now_us - each for each in self._ended_us)
+        ailerons, elevator, throttle, rudder = (self._age_us(channel) for channel in SERVOS)
         return ailerons, elevator, throttle, rudder
 
     def read(self) -> bytes:
@@ -170,11 +171,8 @@ class RigBoard:
         """Return what the EEPROM holds."""
         return self._rig.eeprom.read()
 
-    def _take_pulses(self) -> None:
-        for at, channel in enumerate(SERVOS):
-            pulses = self._rig.servo.pulses(channel)
-            if pulses:
-                newest = pulses[-1]
-                self._pulses_us[at] = newest.width_us
-                self._ended_us[at] = (newest.rise_cycle + newest.width_cycles) / CYCLES_PER_US
-        self._rig.servo.forget()
+    def _age_us(self, channel: str) -> float:
+        pulse = self._rig.servo.last_pulse(channel)
+        if pulse is None:
+            return math.inf
+        return self.now_us - (pulse.rise_cycle + pulse.width_cycles) / CYCLES_PER_US

@@ -65,5 +65,8 @@ const sent_t *rig_sent(const rig_t *rig, uint64_t *count) {
     return rig->sent.items;
 }
 
+/* The newest whole pulse of each pin; the pointer holds as long as the rig. */
+const pulse_t *rig_pulses(const rig_t *rig) { return rig->pulses; }
+void rig_drop_edges(rig_t *rig, bool is_dropping) { rig->drops_edges = is_dropping; }
 void rig_forget_edges(rig_t *rig) { rig->edges.count = 0; }
 void rig_forget_sent(rig_t *rig) { rig->sent.count = 0; }

@@ -12,6 +12,13 @@ static uint16_t port_register(uint8_t port) { return (uint16_t)(R_PORTB + 3 * po
 static uint16_t direction_register(uint8_t port) { return (uint16_t)(R_DDRB + 3 * port); }
 static uint8_t port_of(avr_io_addr_t address) { return (uint8_t)((address - R_PINB) / 3); }
 
+static void note_edge(rig_t *rig, cycle_t now, uint8_t pin, uint8_t level) {
+    edge_t edge = {now, pin, level};
+    if (!rig->drops_edges) record_add(&rig->edges, &edge, sizeof edge);
+    if (level) rig->rises[pin] = now;
+    else rig->pulses[pin] = (pulse_t){rig->rises[pin], now};
+}
+
 void port_update(rig_t *rig, uint8_t number, cycle_t now) {
     port_t *port = &rig->ports[number];
     uint8_t out = rig->avr->data[port_register(number)];
@@ -37,10 +44,7 @@ void port_update(rig_t *rig, uint8_t number, cycle_t now) {
     port->level = level;
     port->line = line;
     for (uint8_t bit = 0; moved; bit++, moved >>= 1)
-        if (moved & 1) {
-            edge_t edge = {now, (uint8_t)(number * 8 + bit), line >> bit & 1};
-            record_add(&rig->edges, &edge, sizeof edge);
-        }
+        if (moved & 1) note_edge(rig, now, (uint8_t)(number * 8 + bit), line >> bit & 1);
     if (changed & rig->avr->data[MASKS[number]])
         queue_add(&rig->queue, now + CHANGE_TO_FLAG, EVENT_PIN_FLAG, number, 0);
     if (was_clock_low && !twi_has_pins(rig)) twi_gpio_clock(rig, now);

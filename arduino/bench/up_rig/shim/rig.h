@@ -44,6 +44,7 @@ typedef struct rig rig_t;
 /* ---- what is recorded for the caller ---- */
 typedef struct { cycle_t cycle; uint8_t pin, level; } edge_t;
 typedef struct { cycle_t cycle; uint8_t value; } sent_t;
+typedef struct { cycle_t rise, fall; } pulse_t; /* fall is 0 before the first has ended */
 typedef struct { void *items; size_t count, room, size; } record_t;
 
 void record_add(record_t *record, const void *item, size_t size);
@@ -170,6 +171,9 @@ struct rig {
     watchdog_t watchdog;
     meter_t meter;
     record_t edges, sent;
+    bool drops_edges;        /* nobody asks for them: newest pulses are kept alone */
+    cycle_t rises[8 * PORTS];
+    pulse_t pulses[8 * PORTS];
     uint8_t reset_wanted;    /* its cause, 0 for none */
     cycle_t reset_until;
     cycle_t start_up;        /* length of a reset, the fuses' SUT */
