@@ -1,0 +1,172 @@
+"""Time, threads and descriptors of the simulated reactor."""
+
+import os
+import socket
+import threading
+
+import pytest
+from twisted.internet.main import CONNECTION_LOST
+from twisted.logger import capturedLogs
+
+from up_simulator.in_process.reactor import SimulatedReactor
+
+
+@pytest.fixture
+def reactor():
+    return SimulatedReactor()
+
+
+def test_time_moves_in_steps_and_does_not_drift(reactor):
+    seen_s = []
+    machine = reactor.machine()
+
+    def look():
+        seen_s.append(reactor.seconds())
+        machine.callLater(0.002, look)
+
+    look()
+    for _ in range(20_000):
+        reactor.advance(0.002)
+    assert reactor.seconds() == 40.0
+    assert seen_s == [n / 500 for n in range(20_001)]
+
+
+def test_a_long_advance_is_as_many_short_ones(reactor):
+    seen_s = []
+    for delay_s in (0.5, 0.0101, 0.001):
+        reactor.callLater(delay_s, lambda: seen_s.append(reactor.seconds()))
+    reactor.advance(1.0005)
+    assert seen_s == [0.002, 0.012, 0.5]
+    assert reactor.seconds() == 1.0005
+
+
+def test_of_equal_times_the_earlier_call_is_first(reactor):
+    order = []
+    for name in "abcdef":
+        reactor.callLater(0.01, order.append, name)
+    reactor.advance(0.02)
+    assert "".join(order) == "abcdef"
+
+
+def test_a_call_may_be_moved_and_cancelled(reactor):
+    order = []
+    first = reactor.callLater(0.1, order.append, "first")
+    second = reactor.callLater(0.2, order.append, "second")
+    third = reactor.callLater(0.15, order.append, "third")
+    first.delay(0.2)
+    second.reset(0.05)
+    third.cancel()
+    reactor.advance(0.1)
+    assert order == ["second"]
+    reactor.advance(0.15)
+    assert order == ["second"]
+    reactor.advance(0.1)
+    assert order == ["second", "first"]
+
+
+def test_a_call_that_raises_is_logged_and_ends_nothing(reactor):
+    done = []
+    reactor.callLater(0.01, lambda: 1 / 0)
+    reactor.callLater(0.01, done.append, 1)
+    with capturedLogs() as events:
+        reactor.advance(0.02)
+    assert done == [1]
+    assert [event["log_failure"].type for event in events if "log_failure" in event] == [
+        ZeroDivisionError
+    ]
+
+
+def test_threads_hand_calls_over_which_are_made_in_the_next_step(reactor):
+    machine, made_in = reactor.machine(), []
+    thread = threading.Thread(
+        target=machine.callFromThread, args=(lambda: made_in.append(threading.get_ident()),)
+    )
+    thread.start()
+    thread.join()
+    assert made_in == []
+    reactor.advance(0.002)
+    assert made_in == [threading.get_ident()]
+
+
+class Descriptor:
+    def __init__(self, number):
+        self.number, self.read, self.lost, self.writes = number, b"", [], 0
+        self.answer = None
+
+    def fileno(self):
+        return self.number
+
+    def logPrefix(self):  # noqa: N802
+        return "test"
+
+    def doRead(self):  # noqa: N802
+        data = os.read(self.number, 100)
+        self.read += data
+        return self.answer or (None if data else CONNECTION_LOST)
+
+    def doWrite(self):  # noqa: N802
+        self.writes += 1
+
+    def connectionLost(self, reason):  # noqa: N802
+        self.lost.append(reason.type.__name__)
+
+
+def test_a_descriptor_is_read_in_the_step_after_its_bytes_came(reactor):
+    machine = reactor.machine()
+    own, other = socket.socketpair()
+    with own, other:
+        descriptor = Descriptor(own.fileno())
+        machine.addReader(descriptor)
+        reactor.advance(0.01)
+        assert descriptor.read == b""
+        other.send(b"abc")
+        reactor.advance(0.002)
+        assert descriptor.read == b"abc"
+        machine.addWriter(descriptor)
+        reactor.advance(0.004)
+        machine.removeWriter(descriptor)
+        reactor.advance(0.004)
+        assert descriptor.writes == 2
+        other.close()
+        reactor.advance(0.002)
+        assert descriptor.lost == ["ConnectionLost"]
+        reactor.advance(0.1)
+        assert descriptor.lost == ["ConnectionLost"], "it is told once"
+
+
+def test_a_descriptor_that_raises_loses_its_place_alone(reactor):
+    machine = reactor.machine()
+    own, other = socket.socketpair()
+    with own, other:
+        descriptor = Descriptor(own.fileno())
+        descriptor.doRead = lambda: 1 / 0
+        machine.addReader(descriptor)
+        other.send(b"abc")
+        with capturedLogs():
+            reactor.advance(0.01)
+        assert descriptor.lost == ["ZeroDivisionError"]
+
+
+def test_nothing_of_a_program_that_is_cut_off_is_called_again(reactor):
+    machine, other, called = reactor.machine(), reactor.machine(), []
+    for each in (machine, other):
+        each.callLater(0.01, called.append, each)
+        each.callFromThread(called.append, each)
+    own, theirs = socket.socketpair()
+    with own, theirs:
+        descriptor = Descriptor(own.fileno())
+        machine.addReader(descriptor)
+        theirs.send(b"x")
+        machine.cut_off()
+        reactor.advance(0.1)
+        assert called == [other, other]
+        assert descriptor.read == b""
+
+
+def test_many_timers_are_forgotten_when_they_are_over(reactor):
+    machine = reactor.machine()
+    for _ in range(5000):
+        machine.callLater(0.001, lambda: None)
+        reactor.advance(0.002)
+    assert machine.getDelayedCalls() == []
+    assert len(machine._calls) <= 257

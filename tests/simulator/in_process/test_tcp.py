@@ -1,0 +1,379 @@
+"""TCP in memory behaves as that of a system, with and without a link in between."""
+
+import socket
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from twisted.internet.error import CannotListenError
+from twisted.internet.interfaces import IHalfCloseableProtocol, IPullProducer, IPushProducer
+from twisted.logger import capturedLogs
+from zope.interface import implementer
+
+from tests.simulator.in_process.peers import PORT, Bench, Recorder
+from up.protocols.tcp_options import watch_peer
+from up_simulator.link.model import LinkSettings
+
+SLOW = LinkSettings(delay_ms=50)
+LINKS = st.builds(
+    LinkSettings,
+    delay_ms=st.floats(0, 300),
+    jitter_ms=st.floats(0, 50),
+    loss_percent=st.floats(0, 20),
+    rate_bytes_s=st.one_of(st.just(0.0), st.floats(2e4, 1e6)),
+)
+
+
+def test_bytes_pass_both_ways_after_the_delay():
+    bench = Bench(SLOW)
+    bench.connect()
+    sent_s = bench.reactor.seconds()
+    bench.here.transport.write(b"up")
+    bench.there.transport.writeSequence([b"do", b"wn"])
+    bench.reactor.advance(1.0)
+    assert (bench.there.received, bench.here.received) == (b"up", b"down")
+    (arrived_s,) = bench.there.arrivals_s
+    assert 0.05 <= arrived_s - sent_s <= 0.056
+
+
+def test_without_a_link_bytes_pass_within_two_steps():
+    bench = Bench()
+    bench.connect()
+    sent_s = bench.reactor.seconds()
+    bench.here.transport.write(b"up")
+    bench.reactor.advance(0.1)
+    assert bench.there.arrivals_s[0] - sent_s <= 0.0041
+
+
+@settings(max_examples=30, deadline=None)
+@given(LINKS, st.integers(0, 99), st.lists(st.binary(min_size=1, max_size=20_000), max_size=8))
+def test_a_stream_arrives_whole_and_in_order_over_any_link(link, seed, pieces):
+    bench = Bench(link, seed=seed)
+    bench.connect(wait_s=20.0)
+    for piece in pieces:
+        bench.here.transport.write(piece)
+        bench.there.transport.write(piece[::-1])
+        bench.reactor.advance(0.05)
+    bench.here.transport.loseConnection()
+    bench.reactor.advance(300.0)
+    assert bench.there.received == b"".join(pieces)
+    assert (bench.here.lost, bench.there.lost) == ("ConnectionDone", "ConnectionDone")
+    assert not bench.pi.opened.keys() - {bench.port}
+    assert not bench.phone.opened
+
+
+def test_a_closed_port_refuses():
+    bench = Bench(SLOW)
+    bench.connect(port=PORT + 1)
+    assert bench.client.failed == "ConnectionRefusedError"
+
+
+def test_nobody_answers_in_a_blackout_until_the_attempt_times_out():
+    bench = Bench(SLOW)
+    bench.black_out()
+    bench.connect(timeout=5, wait_s=4.9)
+    assert bench.client.failed is None
+    bench.reactor.advance(0.2)
+    assert bench.client.failed == "TimeoutError"
+
+
+def test_a_handshake_that_was_lost_is_begun_again():
+    bench = Bench(SLOW)
+    bench.black_out()
+    bench.connect(wait_s=0.5)
+    bench.restore()
+    bench.reactor.advance(1.0)
+    assert bench.here.transport.connected
+
+
+def test_an_attempt_may_be_given_up():
+    bench = Bench(SLOW)
+    connector = bench.connect(wait_s=0.01)
+    connector.stopConnecting()
+    bench.reactor.advance(1.0)
+    assert bench.client.failed == "UserError"
+    assert bench.client.built == []
+
+
+def test_a_port_in_use_is_refused_and_0_is_a_free_one():
+    bench = Bench()
+    with pytest.raises(CannotListenError, match=str(PORT)):
+        bench.phone.listenTCP(PORT, bench.server)
+    first, second = (bench.pi.listenTCP(0, bench.server).getHost().port for _ in range(2))
+    assert len({first, second, PORT}) == 3
+    bench.port.stopListening()
+    assert bench.phone.listenTCP(PORT, bench.server).getHost().port == PORT
+
+
+def test_a_factory_that_builds_nothing_turns_the_caller_away():
+    bench = Bench(there=lambda: None)
+    bench.connect()
+    assert bench.here.lost == "ConnectionLost"
+    assert bench.client.lost == "ConnectionLost"
+
+
+def test_what_waits_is_sent_before_the_connection_closes():
+    bench = Bench(LinkSettings(delay_ms=20, rate_bytes_s=50_000))
+    bench.connect()
+    bench.here.transport.write(b"x" * 100_000)
+    bench.here.transport.loseConnection()
+    bench.reactor.advance(0.5)
+    assert bench.here.lost is None
+    bench.reactor.advance(5.0)
+    assert len(bench.there.received) == 100_000
+    assert (bench.here.lost, bench.there.lost) == ("ConnectionDone", "ConnectionDone")
+
+
+def test_an_aborted_connection_is_reset_at_the_other_side():
+    bench = Bench(SLOW)
+    bench.connect()
+    bench.here.transport.abortConnection()
+    bench.reactor.advance(0.02)
+    assert (bench.here.lost, bench.there.lost) == ("ConnectionAborted", None)
+    bench.reactor.advance(0.1)
+    assert bench.there.lost == "ConnectionLost"
+
+
+@implementer(IHalfCloseableProtocol)
+class HalfCloseable(Recorder):
+    halves = ""
+
+    def readConnectionLost(self):  # noqa: N802
+        self.halves += "r"
+        self.transport.write(b"all read")
+        self.transport.loseConnection()
+
+    def writeConnectionLost(self):  # noqa: N802
+        self.halves += "w"
+
+
+def test_one_half_may_be_closed():
+    bench = Bench(SLOW)
+    bench.server.build = lambda: HalfCloseable(bench.reactor.seconds)
+    bench.client.build = bench.server.build
+    bench.connect()
+    bench.here.transport.write(b"question")
+    bench.here.transport.loseWriteConnection()
+    bench.reactor.advance(1.0)
+    assert bench.there.received == b"question"
+    assert bench.here.received == b"all read"
+    assert bench.here.halves == "wr"
+    assert bench.there.lost == "ConnectionDone"
+
+
+@implementer(IPullProducer)
+class Pull:
+    def __init__(self, transport, piece):
+        self.transport, self.piece, self.asked, self.stopped = transport, piece, 0, False
+
+    def resumeProducing(self):  # noqa: N802
+        self.asked += 1
+        self.transport.write(self.piece)
+
+    def stopProducing(self):  # noqa: N802
+        self.stopped = True
+
+
+def test_a_pull_producer_is_asked_again_when_all_before_has_left():
+    bench = Bench(LinkSettings(delay_ms=20, rate_bytes_s=100_000))
+    bench.connect()
+    producer = Pull(bench.here.transport, b"x" * 10_000)
+    began_s = bench.reactor.seconds()
+    bench.here.transport.registerProducer(producer, False)
+    bench.reactor.advance(2.0)
+    # The link's rate decides, beyond what is on its way.
+    passed = (bench.reactor.seconds() - began_s) * 100_000
+    assert 0.7 * passed <= len(bench.there.received) <= passed
+    assert producer.asked <= len(bench.there.received) / 10_000 + 4
+    bench.here.transport.abortConnection()
+    bench.reactor.advance(0.1)
+    assert producer.stopped
+
+
+@implementer(IPushProducer)
+class Push:
+    def __init__(self):
+        self.said = ""
+
+    def pauseProducing(self):  # noqa: N802
+        self.said += "p"
+
+    def resumeProducing(self):  # noqa: N802
+        self.said += "r"
+
+    def stopProducing(self):  # noqa: N802
+        self.said += "s"
+
+
+def test_a_push_producer_is_paused_while_too_much_waits():
+    bench = Bench(SLOW)
+    bench.connect()
+    producer = Push()
+    bench.here.transport.registerProducer(producer, True)
+    bench.here.transport.write(b"x" * 65_536)
+    assert producer.said == ""
+    bench.here.transport.write(b"x")
+    assert producer.said == "p"
+    bench.reactor.advance(5.0)
+    assert producer.said == "pr"
+    assert len(bench.there.received) == 65_537
+
+
+def test_a_reader_that_pauses_holds_the_writer_up():
+    bench = Bench(SLOW)
+    bench.connect()
+    bench.there.transport.pauseProducing()
+    bench.here.transport.write(b"x" * 500_000)
+    bench.reactor.advance(20.0)
+    assert bench.there.received == b""
+    assert len(bench.here.transport._waiting) > 400_000
+    bench.there.transport.resumeProducing()
+    bench.reactor.advance(400.0)
+    assert len(bench.there.received) == 500_000
+
+
+def test_bytes_that_nobody_acknowledges_end_the_connection_after_the_user_timeout():
+    bench = Bench(SLOW)
+    bench.connect()
+    watch_peer(bench.there.transport, 1500)
+    bench.reactor.advance(1.0)
+    bench.black_out()
+    began_s = bench.reactor.seconds()
+    bench.there.transport.write(b"telemetry")
+    bench.reactor.advance(3.0)
+    assert bench.there.lost == "ConnectionLost"
+    assert bench.there.lost_s - began_s == pytest.approx(1.5, abs=0.01)
+    # Nobody told the other side: it finds out when it speaks.
+    bench.restore()
+    bench.reactor.advance(20.0)
+    assert bench.here.lost is None
+    bench.here.transport.write(b"anybody there?")
+    bench.reactor.advance(0.5)
+    assert bench.here.lost == "ConnectionLost"
+    assert bench.here.received == b""
+
+
+def test_a_short_blackout_loses_nothing_and_what_waited_comes_late():
+    bench = Bench(SLOW)
+    bench.connect()
+    watch_peer(bench.there.transport, 1500)
+    bench.there.transport.write(b"1")
+    bench.reactor.advance(1.0)
+    bench.black_out()
+    bench.there.transport.write(b"2")
+    bench.reactor.advance(0.5)
+    bench.restore()
+    bench.reactor.advance(1.5)
+    assert bench.here.received == b"12"
+    assert bench.there.lost is None
+
+
+def test_a_blackout_of_acknowledgements_alone_ends_it_too():
+    bench = Bench(SLOW)
+    bench.connect()
+    watch_peer(bench.there.transport, 1500)
+    bench.up.black_out()
+    bench.there.transport.write(b"telemetry")
+    bench.reactor.advance(2.0)
+    assert bench.here.received == b"telemetry"
+    assert bench.there.lost == "ConnectionLost"
+
+
+def test_a_stall_is_a_burst_for_a_patient_connection_and_the_end_of_another():
+    for limit_ms, lost in ((0, None), (1500, "ConnectionLost")):
+        bench = Bench(SLOW)
+        bench.connect()
+        watch_peer(bench.there.transport, limit_ms)
+        bench.down.stall(bench.reactor.seconds())
+        for number in range(10):
+            bench.there.transport.write(b"%d" % number)
+            bench.reactor.advance(0.5)
+        assert bench.here.received == b""
+        bench.down.resume(bench.reactor.seconds())
+        bench.reactor.advance(3.0)
+        assert bench.there.lost == lost
+        if lost is None:
+            assert bench.here.received == b"0123456789"
+
+
+def test_keepalive_finds_a_peer_that_has_gone_silently():
+    bench = Bench(SLOW)
+    bench.connect()
+    watch_peer(bench.here.transport, 0)
+    bench.reactor.advance(60.0)
+    assert bench.here.lost is None, "a living peer answers every probe"
+    bench.black_out()
+    bench.reactor.advance(10.0)
+    assert bench.here.lost == "ConnectionLost"
+
+
+def test_a_connection_without_options_survives_a_long_blackout():
+    bench = Bench(SLOW)
+    bench.connect()
+    bench.black_out()
+    bench.here.transport.write(b"late")
+    bench.reactor.advance(30.0)
+    bench.restore()
+    bench.reactor.advance(40.0)
+    assert bench.there.received == b"late"
+
+
+def test_a_killed_program_leaves_its_peers_with_a_closed_connection():
+    bench = Bench(SLOW)
+    bench.connect()
+    bench.here.transport.write(b"sent")
+    bench.reactor.advance(0.002)
+    bench.here.transport.write(b"not sent any more")
+    bench.phone.cut_off()
+    bench.reactor.advance(1.0)
+    assert bench.there.received == b"sent"
+    assert bench.there.lost == "ConnectionDone"
+    assert bench.here.lost is None, "the killed program hears nothing"
+
+
+def test_a_killed_program_gives_its_port_back():
+    bench = Bench()
+    bench.connect()
+    bench.pi.cut_off()
+    bench.connect()
+    assert bench.client.failed == "ConnectionRefusedError"
+    bench.phone.listenTCP(PORT, bench.server)
+
+
+def test_a_protocol_that_raises_loses_its_own_connection_alone():
+    bench = Bench(SLOW)
+    first, second = Bench.recorder(bench), Bench.recorder(bench)
+    built = iter((first, second))
+    bench.server.build = lambda: next(built)
+    bench.connect()
+    bench.connect()
+    first.dataReceived = lambda data: 1 / 0
+    with capturedLogs() as events:
+        for client in bench.client.built:
+            client.transport.write(b"x")
+        bench.reactor.advance(1.0)
+    assert first.lost == "ZeroDivisionError"
+    assert second.received == b"x"
+    assert second.lost is None
+    assert bench.client.built[0].lost == "ConnectionLost"
+    assert len(events) == 1
+
+
+def test_addresses_and_the_round_trip_are_told():
+    bench = Bench(SLOW)
+    bench.connect()
+    here, there = bench.here.transport, bench.there.transport
+    assert here.getPeer().port == PORT == there.getHost().port
+    assert here.getHost() == there.getPeer() == bench.server.peers[0]
+    here.write(b"x")
+    bench.reactor.advance(0.5)
+    info = here.getHandle().getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, 104)
+    assert int.from_bytes(info[68:72], "little") == pytest.approx(100_000, abs=5000)
+
+
+@pytest.mark.parametrize("bad", ["text", 3, None])
+def test_only_bytes_can_be_written(bad):
+    bench = Bench()
+    bench.connect()
+    with pytest.raises(TypeError):
+        bench.here.transport.write(bad)
