@@ -12,11 +12,13 @@ MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . $(COGS)))
 SETUPS := setup.py pyproject.toml $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
 TEST ?=
 BENCH ?=
+SCENARIO ?=
 
-.PHONY: help run test check bench format schemas clean
+.PHONY: help run scenarios test check bench format schemas clean
 
 help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
+	@echo 'make scenarios  fly every scenario that is shipped and count (SCENARIO=receiver-lost for some)'
 	@echo 'make test     set up everything and run every test (TEST=tests/up for some)'
 	@echo 'make check    lint, types, import contracts'
 	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
@@ -40,6 +42,9 @@ $(VENV)/.dev-ready: $(SETUPS) | $(PY)
 
 run: $(VENV)/.run-ready
 	@$(PY) -m up_simulator.showcase
+
+scenarios: $(VENV)/.run-ready
+	@$(PY) -m up_simulator.cli $(if $(SCENARIO),fly $(SCENARIO),all)
 
 test: $(VENV)/.dev-ready
 	$(PY) -m pytest -n 2 --dist loadfile $(TEST)

@@ -92,6 +92,7 @@ setup(
             "up-runner = up_runner.main:main",
             "up-proxy = up_proxy.main:main",
             "up-ground = up_ground.main:main",
+            "up-sim = up_simulator.cli:main",
         ],
         "up.config_files": [
             "runner = up_runner.config:RUNNER",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ from up.config.reading import decode, read_text
 from up.config.shape import shape_of
 from up.config.validator import Validator
 from up_simulator.scenario.event import Event
+from up_simulator.scenario.override import OverriddenProblems, Override, apply
 from up_simulator.scenario.plain import plain_of
 from up_simulator.scenario.scenario import Scenario
 
@@ -21,31 +22,37 @@ SHAPE = shape_of(Scenario)
 _FREE_TEXT = ("is", "is_not", "becomes")
 
 
-def read_scenario(path: Path | str) -> Scenario:
-    """Return the scenario in a file; raises ConfigErrors with every mistake and its place."""
+def read_scenario(path: Path | str, overrides: Sequence[Override] = ()) -> Scenario:
+    """Return the scenario in a file, with other values for some of its keys.
+
+    Raises ConfigErrors with every mistake and its place.
+    """
     path = Path(path)
-    problems = Problems(path)
+    problems = OverriddenProblems(path, overrides)
     text = read_text(path, problems.report)
     if text is None and not problems.found:
         problems.report(1, 1, "there is no such file")
-    return _parse(text or "", problems)
+    return _parse(text or "", problems, overrides)
 
 
-def parse_scenario(text: str | bytes, path: Path | str = "scenario") -> Scenario:
+def parse_scenario(
+    text: str | bytes, path: Path | str = "scenario", overrides: Sequence[Override] = ()
+) -> Scenario:
     """Return the scenario in a text; ``path`` is only named. Raises ConfigErrors."""
-    problems = Problems(Path(path))
+    problems = OverriddenProblems(Path(path), overrides)
     if isinstance(text, bytes):
         text = decode(text, problems.report) or ""
-    return _parse(text, problems)
+    return _parse(text, problems, overrides)
 
 
-def _parse(text: str, problems: Problems) -> Scenario:
+def _parse(text: str, problems: Problems, overrides: Sequence[Override]) -> Scenario:
     root = compose(text, problems.report) if not problems.found else None
     if root is None or not isinstance(root, MapNode):
         if not problems.found:
             problems.report(1, 1, "must be a map of keys that begins with 'title: ...'")
         problems.raise_if_any()
         raise AssertionError("a problem has been reported")
+    apply(overrides, root, problems.report)
     free = _Free(root, problems.report)
     scenario: Scenario = Validator(problems.report, {}).read(SHAPE, root)
     problems.raise_if_any()

@@ -104,13 +104,13 @@ def _settles(expectation: Expectation, window: Window) -> Verdict:
 
 def _rms(expectation: Expectation, window: Window) -> Verdict:
     rms = math.sqrt(fmean(value * value for value in window.numbers))
-    return _verdict(expectation, rms <= _float(expectation.rms_below), f"{_n(rms)} rms", window)
+    return _verdict(expectation, rms <= _float(expectation.rms_below), _n(rms), window)
 
 
 def _mean(expectation: Expectation, window: Window) -> Verdict:
     low, high = expectation.mean_between
     mean = fmean(window.numbers)
-    return _verdict(expectation, low <= mean <= high, f"{_n(mean)} mean", window)
+    return _verdict(expectation, low <= mean <= high, _n(mean), window)
 
 
 def _max_step(expectation: Expectation, window: Window) -> Verdict:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from up_simulator.scenario.flight import FlightRecord
@@ -50,6 +51,29 @@ def verdicts_of(record: FlightRecord) -> list[Verdict]:
     if not scenario.may_crash:
         verdicts.append(_whole(record))
     return verdicts
+
+
+@dataclass(frozen=True, slots=True)
+class FailedPart:
+    """Where in the flight an expectation was not held, for a picture."""
+
+    signal: str
+    begin_s: float
+    end_s: float
+    text: str
+
+
+def failed_parts(result: Result) -> Iterator[FailedPart]:
+    """Yield signal and window of every expectation that did not hold."""
+    record = result.record
+    for expectation, verdict in zip(record.scenario.expect, result.verdicts, strict=False):
+        offset_s = record.event_times.get(expectation.after, 0.0)
+        if verdict.is_held or (expectation.after and expectation.after not in record.event_times):
+            continue
+        end_s = record.flown_s if expectation.to_s is None else offset_s + expectation.to_s
+        text = f"{expectation.name}: {verdict.figure} ({verdict.limit})"
+        begin_s = min(offset_s + expectation.from_s, record.flown_s)
+        yield FailedPart(expectation.signal, begin_s, max(begin_s, end_s), text)
 
 
 def facts_of(record: FlightRecord) -> FlightFacts:

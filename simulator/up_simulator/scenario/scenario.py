@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 from up.config import items, key, mapping, section
@@ -164,16 +163,3 @@ class Scenario:
     def has_raspilot(self) -> bool:
         """Return whether there is a Raspberry Pi aboard."""
         return self.raspilot.runs != "no"
-
-
-@dataclass(frozen=True, slots=True)
-class ScenarioFile:
-    """A scenario that has been read, with the name that its folder of results gets."""
-
-    path: Path
-    scenario: Scenario
-
-    @property
-    def name(self) -> str:
-        """Return the file's name without its ending."""
-        return self.path.stem

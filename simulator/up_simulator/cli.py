@@ -1,0 +1,107 @@
+"""The program ``up-sim``: which verbs there are, and what comes of their errors."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import importlib
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from up.config import ConfigErrors
+from up.version import VERSION
+from up_simulator.verbs.outcome import INTERRUPTED, NOT_HELD, WRONG_INPUT, UsageError
+
+DESCRIPTION = """\
+The virtual aircraft: the firmware that goes on the Arduino and the daemon that goes on the
+Raspberry Pi, flown by a flight dynamics model, in flights that are written down and judged."""
+EPILOG = """\
+A first flight in three commands:
+  up-sim list                        what is there to fly
+  up-sim fly level-flight-in-gusts   flies it; the picture is in run/flights/
+  up-sim new first-flight            a scenario of your own, with a comment at every key
+
+  up-sim start                       the aircraft in real time, for Raspilot and a ground station
+'up-sim VERB --help' explains a verb; docs/scenarios.md explains scenarios."""
+VERBS = {
+    "fly": ("fly scenarios and report what held", "up_simulator.verbs.fly"),
+    "list": ("list the scenarios", "up_simulator.verbs.listing"),
+    "new": ("write a commented scenario of your own", "up_simulator.verbs.new"),
+    "check": ("look for mistakes in scenario files without flying", "up_simulator.verbs.check"),
+    "signals": ("list what can be expected and logged", "up_simulator.verbs.signals"),
+    "all": ("fly every scenario that is shipped, and count", "up_simulator.verbs.all"),
+    "tune": ("step tests over gains; proposes a set", "up_simulator.tuning.cli"),
+    "start": ("the virtual aircraft in real time", "up_simulator.crew.start"),
+}
+"""A verb's module has ``main(arguments) -> exit status``."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Carry out one verb; return the exit status.
+
+    0: held; 1: not held, or it could not be flown; 2: wrong input; 130: interrupted.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    parser = _parser()
+    if not words:
+        parser.print_help()
+        return WRONG_INPUT
+    verb = words[0]
+    if verb.startswith("-"):
+        parser.parse_args(words)
+        return _fail("which verb? 'up-sim --help' lists them", WRONG_INPUT)
+    if verb not in VERBS:
+        near = difflib.get_close_matches(verb[:60], VERBS, n=1)
+        hint = f", did you mean '{near[0]}'?" if near else " ('up-sim --help' lists them)"
+        return _fail(f"there is no verb {verb[:60]!r}{hint}", WRONG_INPUT)
+    try:
+        carry_out: Callable[[list[str]], int] = _module(verb).main
+        return carry_out(words[1:])
+    except ConfigErrors as errors:
+        sys.stderr.write(f"{errors}\n")
+        return WRONG_INPUT
+    except UsageError as error:
+        return _fail(str(error), WRONG_INPUT)
+    except BrokenPipeError:
+        # The reader, such as 'head', has seen enough; nothing more can be written.
+        sys.stderr.close()
+        return NOT_HELD
+    except OSError as error:
+        return _fail(str(error), NOT_HELD)
+    except KeyboardInterrupt:
+        return _fail("interrupted", INTERRUPTED)
+
+
+def _module(verb: str) -> Any:
+    try:
+        return importlib.import_module(VERBS[verb][1])
+    except ModuleNotFoundError as error:
+        if error.name is not None and error.name.startswith("up_simulator"):
+            raise UsageError(f"'{verb}' is not built in here ({error.name})") from error
+        raise UsageError(
+            f"'{verb}' needs {error.name}, which is not installed: pip install 'raspilot[sim]'"
+        ) from error
+
+
+def _parser() -> argparse.ArgumentParser:
+    verbs = "\n".join(f"  {name:<9}{about}" for name, (about, _) in VERBS.items())
+    parser = argparse.ArgumentParser(
+        prog="up-sim",
+        usage="up-sim VERB ...",
+        description=f"{DESCRIPTION}\n\nverbs:\n{verbs}",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action="version", version=f"up-sim {VERSION}")
+    return parser
+
+
+def _fail(text: str, status: int) -> int:
+    sys.stderr.write(f"up-sim: {text}\n")
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

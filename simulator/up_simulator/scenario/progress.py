@@ -1,0 +1,56 @@
+"""One line on a terminal that tells how far a flight is."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TextIO
+
+SHOWN_S = 0.2
+
+
+class ProgressLine:
+    """Rewrites one line of a terminal; on anything else it is silent."""
+
+    def __init__(
+        self, stream: TextIO, is_shown: bool, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._stream = stream
+        self._is_shown = is_shown and stream.isatty()
+        self._clock = clock
+        self._what = ""
+        self._duration_s = 0.0
+        self._began_s = 0.0
+        self._shown_s = -SHOWN_S
+        self._width = 0
+
+    def begin(self, what: str, duration_s: float) -> None:
+        """Begin with a flight of that name and length."""
+        self._what, self._duration_s = what, duration_s
+        self._began_s = self._clock()
+        self._shown_s = self._began_s - SHOWN_S
+        self._write(f"{what}: the board boots")
+
+    def show(self, time_s: float) -> None:
+        """Tell the time of the flight, five times a second at most."""
+        now_s = self._clock()
+        if not self._is_shown or now_s - self._shown_s < SHOWN_S:
+            return
+        self._shown_s = now_s
+        speed = time_s / max(1e-3, now_s - self._began_s)
+        of = f"{time_s:.1f} of {self._duration_s:g} s"
+        self._write(f"{self._what}: {of}, {speed:.1f} x real time")
+
+    def end(self) -> None:
+        """Take the line away."""
+        if self._is_shown and self._width:
+            self._stream.write("\r" + " " * self._width + "\r")
+            self._stream.flush()
+            self._width = 0
+
+    def _write(self, text: str) -> None:
+        if self._is_shown:
+            padded = text.ljust(self._width)
+            self._width = len(text)
+            self._stream.write("\r" + padded)
+            self._stream.flush()

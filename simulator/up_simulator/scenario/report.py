@@ -1,0 +1,90 @@
+"""The report of a flight, in plain words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.result import Result
+from up_simulator.scenario.verdict import Verdict
+
+_HELD, _NOT_HELD = "held", "NOT HELD"
+_NAME_WIDTH = 58
+
+
+def report_lines(name: str, result: Result, files: Iterable[Path] = ()) -> Iterator[str]:
+    """Yield the report: what flew, every expectation with figure and limit, what went wrong."""
+    record = result.record
+    scenario = record.scenario
+    yield f"{scenario.title} ({name})"
+    yield from _flown("flight", record)
+    if result.control is not None:
+        yield from _flown("control run", result.control)
+    if scenario.is_real:
+        yield "  real programs and sockets: real time, not repeatable to the digit"
+    yield ""
+    for verdict in result.verdicts:
+        yield from _verdict_lines(verdict)
+    yield from _troubles(result)
+    shown = [str(path) for path in files]
+    if shown:
+        yield ""
+        yield "  " + "  ".join(shown)
+    yield ""
+    count = len(result.verdicts)
+    held = sum(verdict.is_held for verdict in result.verdicts)
+    word = "held" if result.is_held else "NOT held"
+    yield f"{name}: {word} ({held} of {count} expectations)"
+
+
+def speed_text(record: FlightRecord) -> str:
+    """Return how long it flew and how fast that was."""
+    return (
+        f"{record.flown_s:.1f} s in {record.took_s:.1f} s,"
+        f" {record.speed:.1f} times as fast as real time"
+    )
+
+
+def _flown(what: str, record: FlightRecord) -> Iterator[str]:
+    scenario = record.scenario
+    yield (
+        f"  {what}: {speed_text(record)}; {scenario.airframe}, seed {scenario.seed},"
+        f" {record.board_title}"
+    )
+    for note in record.notes:
+        yield f"  {what}: {note}"
+
+
+def _verdict_lines(verdict: Verdict) -> Iterator[str]:
+    mark = _HELD if verdict.is_held else _NOT_HELD
+    limit = f"({verdict.limit})" if verdict.limit else ""
+    yield f"  {mark:<9}{verdict.name:<{_NAME_WIDTH}} {verdict.figure} {limit}".rstrip()
+    if verdict.why:
+        yield f"           {verdict.why}"
+
+
+def _troubles(result: Result) -> Iterator[str]:
+    for what, record in (("the flight", result.record), ("the control run", result.control)):
+        if record is None:
+            continue
+        if record.is_interrupted:
+            yield f"  {what} was interrupted at {record.flown_s:.2f} s"
+        if record.failure is not None:
+            yield f"  {what} could not go on at {record.flown_s:.2f} s: {record.failure}"
+            for line in record.failure_log:
+                yield f"    | {line}"
+        if record.crash is not None:
+            yield f"  {what} ended at {record.crash_s:.2f} s: {record.crash}{_place(record)}"
+
+
+def _place(record: FlightRecord) -> str:
+    log = record.log
+    if not log.rows:
+        return ""
+    north_m, east_m = log.numbers("truth.north_m")[-1], log.numbers("truth.east_m")[-1]
+    return f", {_way(north_m, 'north', 'south')} and {_way(east_m, 'east', 'west')} of the start"
+
+
+def _way(metres: float, positive: str, negative: str) -> str:
+    return f"{abs(metres):.0f} m {positive if metres >= 0 else negative}"

@@ -1,0 +1,176 @@
+"""Flies a scenario and its control run, and writes what came of it into a folder."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from up_simulator.aircraft import AirframeError
+from up_simulator.crew.protocols import CrewError
+from up_simulator.firmware.board import BoardCrashedError
+from up_simulator.firmware.build import BoardUnavailableError
+from up_simulator.firmware.preparation import PreparationError
+from up_simulator.firmware.settings_wire import SettingsError
+from up_simulator.flight import FlightUnavailableError
+from up_simulator.picture.flight_picture import Failure, PictureError, Wind, draw_flight
+from up_simulator.scenario.build import build_flight
+from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.progress import ProgressLine
+from up_simulator.scenario.report import report_lines, speed_text
+from up_simulator.scenario.result import (
+    Result,
+    control_scenario,
+    control_verdicts,
+    failed_parts,
+    verdicts_of,
+)
+from up_simulator.scenario.scenario import Scenario
+
+FLIGHTS = Path("run") / "flights"
+LOG, CONTROL_LOG, REPORT, PICTURE, SUMMARY = (
+    "log.csv",
+    "control.csv",
+    "report.txt",
+    "picture.png",
+    "summary.json",
+)
+_CANNOT_FLY = (
+    AirframeError,
+    BoardCrashedError,
+    BoardUnavailableError,
+    CrewError,
+    FlightUnavailableError,
+    PreparationError,
+    SettingsError,
+)
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """Where the files go; None: nowhere. A picture is drawn only where it is wanted."""
+
+    folder: Path | None
+    has_picture: bool = True
+
+
+class CannotFlyError(Exception):
+    """What a scenario needs is not here: the message is one sentence for the user."""
+
+
+def fly_scenario(
+    name: str,
+    scenario: Scenario,
+    progress: ProgressLine,
+    say: Say = lambda _text: None,
+    *,
+    is_paced: bool = False,
+) -> Result:
+    """Fly it, and its control run unless it was interrupted, and judge both.
+
+    With ``is_paced`` it is no faster than real time. Raises CannotFlyError.
+    """
+    record = _fly(name, scenario, progress, say, is_paced)
+    result = Result(record, verdicts_of(record))
+    if scenario.control is not None and not record.is_interrupted and record.failure is None:
+        control = _fly(f"{name}, control run", control_scenario(scenario), progress, say, is_paced)
+        result.control = control
+        result.verdicts += control_verdicts(scenario, control)
+    return result
+
+
+def _fly(
+    name: str, scenario: Scenario, progress: ProgressLine, say: Say, is_paced: bool
+) -> FlightRecord:
+    progress.begin(name, scenario.duration_s)
+    try:
+        flight = build_flight(scenario, say)
+    except _CANNOT_FLY as error:
+        raise CannotFlyError(str(error)) from error
+    else:
+        return flight.fly(_Paced(progress.show) if is_paced else progress.show)
+    finally:
+        progress.end()
+
+
+class _Paced:
+    """Passes the progress on, and waits where the flight is ahead of the clock."""
+
+    def __init__(self, show: Callable[[float], None]) -> None:
+        self._show = show
+        self._began_s: float | None = None
+
+    def __call__(self, time_s: float) -> None:
+        now_s = time.monotonic()
+        if self._began_s is None:
+            self._began_s = now_s - time_s
+        self._show(time_s)
+        ahead_s = self._began_s + time_s - now_s
+        if ahead_s > 0:
+            time.sleep(ahead_s)
+
+
+def write_files(name: str, result: Result, output: Output, say: Say) -> list[Path]:
+    """Write logs, picture and summary and return their paths; raises OSError."""
+    folder = output.folder
+    if folder is None:
+        return []
+    folder.mkdir(parents=True, exist_ok=True)
+    written = [folder / LOG]
+    result.record.log.write(folder / LOG)
+    if result.control is not None:
+        written.append(folder / CONTROL_LOG)
+        result.control.log.write(folder / CONTROL_LOG)
+    if output.has_picture and result.record.log.rows:
+        written += _draw(result, folder / PICTURE, say)
+    (folder / SUMMARY).write_text(json.dumps(_summary(name, result), indent=1), encoding="utf-8")
+    report = "\n".join(report_lines(name, result, written)) + "\n"
+    (folder / REPORT).write_text(report, encoding="utf-8")
+    return written
+
+
+def _draw(result: Result, path: Path, say: Say) -> list[Path]:
+    record = result.record
+    weather = record.scenario.weather
+    failures = [
+        Failure(part.signal, part.begin_s, part.end_s, part.text) for part in failed_parts(result)
+    ]
+    try:
+        draw_flight(
+            record.log,
+            path,
+            title=record.scenario.title,
+            subtitle=speed_text(record),
+            failures=failures,
+            wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
+        )
+    except PictureError as error:
+        say(str(error))
+        return []
+    return [path]
+
+
+def _summary(name: str, result: Result) -> dict[str, object]:
+    record = result.record
+    return {
+        "name": name,
+        "title": record.scenario.title,
+        "held": result.is_held,
+        "flown_s": round(record.flown_s, 3),
+        "speed": round(record.speed, 2),
+        "crash_s": record.crash_s,
+        "failure": record.failure,
+        "expectations": [
+            {
+                "name": verdict.name,
+                "held": verdict.is_held,
+                "figure": verdict.figure,
+                "limit": verdict.limit,
+                "why": verdict.why,
+            }
+            for verdict in result.verdicts
+        ],
+    }

@@ -1,0 +1,1 @@
+"""The verbs of ``up-sim``: each module has ``main(arguments) -> exit status``."""

@@ -1,0 +1,45 @@
+"""``up-sim check``: look for mistakes in scenario files without flying."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+from up.config import ConfigErrors
+from up_simulator.scenario.file import read_scenario
+from up_simulator.verbs.outcome import HELD, WRONG_INPUT
+from up_simulator.verbs.shelf import find
+
+EPILOG = """\
+Every mistake is told with file, line, column and, where there is one, what was probably meant.
+Exit status: 0 no mistake, 2 mistakes.
+
+examples:
+  up-sim check my-flight.yml
+  up-sim check flights/*.yml"""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Check files; return the exit status."""
+    parser = argparse.ArgumentParser(
+        prog="up-sim check",
+        description="Reads scenario files and tells all their mistakes at once.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("files", nargs="+", metavar="FILE", help="a file, or a shipped one's name")
+    options = parser.parse_args(arguments)
+    status = HELD
+    for path in [find(name) for name in options.files]:
+        try:
+            scenario = read_scenario(path)
+        except ConfigErrors as errors:
+            sys.stderr.write(f"{errors}\n")
+            status = WRONG_INPUT
+            continue
+        count = len(scenario.expect)
+        what = f"{scenario.title}: {scenario.duration_s:g} s, {count} expectations, no mistake"
+        sys.stdout.write(f"{path}: {what}\n")
+    return status

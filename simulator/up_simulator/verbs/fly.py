@@ -1,0 +1,137 @@
+"""``up-sim fly``: fly scenarios and report what held."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from up_simulator.scenario.file import read_scenario
+from up_simulator.scenario.override import Override
+from up_simulator.scenario.progress import ProgressLine
+from up_simulator.scenario.report import report_lines
+from up_simulator.scenario.result import Result
+from up_simulator.scenario.run import FLIGHTS, CannotFlyError, Output, fly_scenario, write_files
+from up_simulator.scenario.scenario import BOARDS, Scenario
+from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, UsageError
+from up_simulator.verbs.shelf import find, name_of
+
+EPILOG = """\
+examples:
+  up-sim fly level-flight-in-gusts
+      a scenario that is shipped; 'up-sim list' names them all
+  up-sim fly my-flight.yml --seed 7 --duration 20
+      a file of your own, in other turbulence, for 20 s
+  up-sim fly level-flight-in-gusts --set weather.turbulence=severe --set airframe=wing
+      what would happen if: any key of the file, by its dotted name
+  up-sim fly receiver-lost fbw-roll-step --no-picture --output /tmp/flights
+
+Log, picture and report of each are written into run/flights/NAME/. Ctrl-C ends a flight; what has
+been flown until then is reported. Exit status: 0 all held, 1 something did not, 2 wrong input."""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Fly what is named; return the exit status."""
+    options = _parser().parse_args(arguments)
+    flights = [(path, _read(path, options)) for path in map(find, options.scenarios)]
+    results: list[tuple[str, Result]] = []
+    for path, scenario in flights:
+        result = _fly(name_of(path), scenario, options)
+        results.append((name_of(path), result))
+        if result.record.is_interrupted or (result.control and result.control.is_interrupted):
+            break
+    if len(flights) > 1:
+        _say_table(results, len(flights))
+    if any(result.record.is_interrupted for _, result in results):
+        return INTERRUPTED
+    return HELD if all(result.is_held for _, result in results) else NOT_HELD
+
+
+def _read(path: Path, options: argparse.Namespace) -> Scenario:
+    overrides = [
+        Override(f"{key}={value}", key, value)
+        for key, value in (
+            ("seed", options.seed),
+            ("duration_s", options.duration),
+            ("board", options.board),
+        )
+        if value is not None
+    ]
+    overrides += [_override(text) for text in options.set]
+    scenario = read_scenario(path, overrides)
+    if options.speed == "real" and not scenario.is_real:
+        return scenario
+    if options.speed == "fast" and scenario.is_real:
+        raise UsageError(f"{path}: real programs fly in real time only")
+    return scenario
+
+
+def _override(text: str) -> Override:
+    key, equals, value = text.partition("=")
+    if not equals or not key:
+        raise UsageError(f"--set {text[:80]}: is not of the form key=value")
+    return Override(f"--set {text}", key, value)
+
+
+def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> Result:
+    progress = ProgressLine(sys.stderr, is_shown=not options.quiet)
+    try:
+        result = fly_scenario(name, scenario, progress, _note, is_paced=options.speed == "real")
+    except CannotFlyError as error:
+        raise UsageError(f"{name}: {error}") from error
+    output = Output(options.output / name, has_picture=not options.no_picture)
+    files = write_files(name, result, output, _note)
+    if not options.quiet:
+        for line in report_lines(name, result, files):
+            sys.stdout.write(f"{line}\n")
+        sys.stdout.flush()
+    return result
+
+
+def _note(text: str) -> None:
+    sys.stderr.write(f"up-sim: {text}\n")
+
+
+def _say_table(results: list[tuple[str, Result]], count: int) -> None:
+    sys.stdout.write("\n")
+    for name, result in results:
+        held = sum(verdict.is_held for verdict in result.verdicts)
+        word = "held" if result.is_held else "NOT held"
+        sys.stdout.write(f"{name:<40} {word:<9} {held} of {len(result.verdicts)}\n")
+    held = sum(result.is_held for _, result in results)
+    sys.stdout.write(f"{held} of {count} scenarios held\n")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="up-sim fly",
+        description="Flies scenarios and reports whether what they expect is true.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument(
+        "scenarios", nargs="+", metavar="SCENARIO", help="a shipped one's name, or a file"
+    )
+    parser.add_argument("--seed", metavar="N", help="of turbulence and all noise")
+    parser.add_argument("--duration", metavar="SECONDS", help="how long to fly")
+    parser.add_argument(
+        "--speed",
+        choices=("fast", "real"),
+        help="fast: as fast as it goes (default); real: no faster than real time",
+    )
+    parser.add_argument("--board", choices=BOARDS, help="what flies (default: the scenario's)")
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="another value for a key of the file, as weather.wind_m_s=8",
+    )
+    parser.add_argument("--no-picture", action="store_true", help="draw no picture")
+    parser.add_argument(
+        "--output", type=Path, default=FLIGHTS, metavar="DIR", help=f"default {FLIGHTS}"
+    )
+    parser.add_argument("--quiet", action="store_true", help="no report: the files and the status")
+    return parser

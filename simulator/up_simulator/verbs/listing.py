@@ -1,0 +1,55 @@
+"""``up-sim list``: what is there to fly."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from up.config import ConfigErrors
+from up_simulator.scenario.file import read_scenario
+from up_simulator.verbs.outcome import HELD, WRONG_INPUT
+from up_simulator.verbs.shelf import name_of, shipped_paths
+
+EPILOG = """\
+examples:
+  up-sim list                 every scenario that is shipped
+  up-sim list --tag faults    those that have this tag
+  up-sim list my-flights/     those of a folder of your own"""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """List scenarios; return the exit status."""
+    parser = argparse.ArgumentParser(
+        prog="up-sim list",
+        description="Lists scenarios: name, how long, title, tags.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("folder", nargs="?", type=Path, help="another folder than the shipped one")
+    parser.add_argument("--tag", action="append", default=[], help="only those with this tag")
+    options = parser.parse_args(arguments)
+    if options.folder is None:
+        paths = shipped_paths()
+    elif options.folder.is_dir():
+        paths = sorted(options.folder.glob("*.yml"))
+    else:
+        parser.error(f"{options.folder} is no folder")
+    width = max((len(name_of(path)) for path in paths), default=0)
+    status = HELD
+    for path in paths:
+        try:
+            scenario = read_scenario(path)
+        except ConfigErrors as errors:
+            sys.stderr.write(f"{errors}\n")
+            status = WRONG_INPUT
+            continue
+        if set(options.tag) <= set(scenario.tags):
+            pace = "real time" if scenario.is_real else ""
+            tags = ", ".join(scenario.tags)
+            line = f"{name_of(path):<{width}}  {scenario.duration_s:>5g} s  {scenario.title}"
+            more = "; ".join(part for part in (tags, pace) if part)
+            sys.stdout.write(f"{line}  [{more}]\n" if more else f"{line}\n")
+    return status

@@ -1,0 +1,58 @@
+"""``up-sim new``: write a commented scenario of your own."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.resources
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from up_simulator.verbs.outcome import HELD, UsageError
+
+TEMPLATE = "template.yml"
+EPILOG = """\
+The file flies and passes as it is: change it from there.
+
+examples:
+  up-sim new first-flight             writes first-flight.yml
+  up-sim new flights/steep-turns.yml  into a folder that is there"""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Write the file; return the exit status."""
+    parser = argparse.ArgumentParser(
+        prog="up-sim new",
+        description="Writes a scenario with a comment at every key that it uses.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("name", metavar="NAME", help="of the scenario, or the path of its file")
+    path = _path(parser.parse_args(arguments).name)
+    template = importlib.resources.files("up_simulator.scenario").joinpath(TEMPLATE)
+    text = template.read_text(encoding="utf-8").replace("TITLE", _title(path))
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise UsageError(f"{path} is there already: choose another name") from None
+    except FileNotFoundError:
+        raise UsageError(f"there is no folder {path.parent}") from None
+    sys.stdout.write(f"{path} is written. Fly it:\n  up-sim fly {path}\n")
+    return HELD
+
+
+def _path(name: str) -> Path:
+    path = Path(name)
+    if path.suffix not in (".yml", ".yaml"):
+        path = path.with_name(f"{path.name}.yml") if path.name else path
+    if not path.stem.replace("-", "").replace("_", "").isalnum():
+        raise UsageError(f"{name[:80]!r} is no name for a file: use letters, digits, - and _")
+    return path
+
+
+def _title(path: Path) -> str:
+    words = path.stem.replace("-", " ").replace("_", " ")
+    title = words[:1].upper() + words[1:]
+    return f'"{title}"' if not title[0].isalpha() else title

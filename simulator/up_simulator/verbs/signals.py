@@ -1,0 +1,40 @@
+"""``up-sim signals``: list what can be expected and logged."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+from up_simulator.scenario.signals import SIGNALS, Kind
+from up_simulator.verbs.outcome import HELD, UsageError
+
+EPILOG = """\
+examples:
+  up-sim signals              all
+  up-sim signals board truth  those of the Arduino, and the truth about the aircraft"""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """List signals; return the exit status."""
+    parser = argparse.ArgumentParser(
+        prog="up-sim signals",
+        description="Lists the names of everything that can be expected and logged.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("groups", nargs="*", metavar="GROUP", help="what stands before the dot")
+    options = parser.parse_args(arguments)
+    groups = {signal.source for signal in SIGNALS.values()}
+    for group in options.groups:
+        if group not in groups:
+            raise UsageError(
+                f"there is no group {group[:40]!r}: there are {', '.join(sorted(groups))}"
+            )
+    width = max(map(len, SIGNALS))
+    for signal in SIGNALS.values():
+        if not options.groups or signal.source in options.groups:
+            kind = signal.unit or ("" if signal.kind is Kind.NUMBER else signal.kind.value)
+            sys.stdout.write(f"{signal.name:<{width}}  {kind:<6}  {signal.about}\n")
+    return HELD
