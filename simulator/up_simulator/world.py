@@ -28,6 +28,10 @@ class Dynamics(Protocol):
     def motion(self) -> Motion:
         """Return what the IMU feels now."""
 
+    @property
+    def crash(self) -> str | None:
+        """Return what ended the flight; from then on the aircraft lies still."""
+
     def set_servos(self, pulses_us: Pulses) -> None:
         """Ask the servos to go to these pulses."""
 
@@ -94,7 +98,14 @@ class World:
     def _feel(self, pulses_us: Pulses) -> None:
         part = (pulses_us[THROTTLE] - THROTTLE_LOW_US) / THROTTLE_RANGE_US
         self.board.imu.throttle = min(1.0, max(0.0, part))
-        self.board.set_motion(self.dynamics.motion)
+        is_flying = self.dynamics.crash is None
+        self.board.set_motion(self.dynamics.motion if is_flying else self._lying())
+
+    def _lying(self) -> Motion:
+        state = self.state
+        if not math.isfinite(state.roll_deg + state.pitch_deg):
+            return motion_at(0.0, 0.0)
+        return motion_at(state.roll_deg, state.pitch_deg)
 
     def _tilt(self, roll_deg: float, pitch_deg: float) -> None:
         """Pitch, then roll, within a second each; the rates are those of the body's axes."""
