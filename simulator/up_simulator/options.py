@@ -5,7 +5,14 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from up_simulator.airframe import AIRFRAMES, DEFAULT_AIRFRAME
+from up_simulator.aircraft import (
+    DEFAULT_AIRFRAME,
+    TURBULENCE,
+    Airframe,
+    AirframeError,
+    airframe_names,
+    load_airframe,
+)
 from up_simulator.receiver import StickMove, SticksError, read_sticks
 
 DESCRIPTION = """\
@@ -59,15 +66,16 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
 def _add_flight(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--aircraft",
-        choices=sorted(AIRFRAMES),
+        type=_airframe,
         default=DEFAULT_AIRFRAME,
-        help="default %(default)s",
+        metavar="NAME",
+        help=f"{', '.join(airframe_names())}, or a folder with an airframe.yml; default glider",
     )
     group.add_argument(
         "--wind", type=_wind_m_s, default=3.0, metavar="M_S", help="from the south, default 3"
     )
     group.add_argument(
-        "--turbulence", type=int, choices=range(8), default=3, metavar="0..7", help="default 3"
+        "--turbulence", choices=TURBULENCE, default="light", help="default %(default)s"
     )
     group.add_argument("--seed", type=int, default=1, metavar="N", help="of wind and all noise")
     group.add_argument(
@@ -129,6 +137,13 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--aircraft-name", default="default", metavar="NAME", help="what to ask the runner for"
     )
+
+
+def _airframe(text: str) -> Airframe:
+    try:
+        return load_airframe(text)
+    except AirframeError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _wind_m_s(text: str) -> float:

@@ -11,7 +11,7 @@ __all__ = ["POWERED", "SOARING", "Receiver", "StickMove", "SticksError", "read_s
 
 PERIOD_S = 0.02
 SOARING = "t=0 throttle=1000 aux1=2000 aux2=1000 t=1 aux2=2000"
-POWERED = SOARING + " t=3 throttle=1700"
+POWERED = SOARING + " t=3 throttle=1450"
 
 
 class Receiver:

@@ -7,17 +7,17 @@ from dataclasses import astuple, dataclass
 from pathlib import Path
 
 _TRIES = 20
-# Gains for the model of the small glider: deg/s per deg, and 1.25 us per deg/s.
+# Gains of the virtual glider (aircraft/airframes/glider/airframe.yml).
 PIDS = """\
 # Gains for the virtual glider; the ground's tuning is saved here.
 units: degrees per second
 rate:
-  ailerons: {p: 6.0, i: 0.0, d: 0.0}
-  elevator: {p: 3.0, i: 0.0, d: 0.0}
-  rudder: {p: 1.0, i: 0.0, d: 0.0}
+  ailerons: {p: 2.1, i: 0.0, d: 0.0}
+  elevator: {p: 1.0, i: 0.0, d: 0.0}
+  rudder: {p: 0.5, i: 0.0, d: 0.0}
 stabilize:
-  ailerons: {p: 8.0, i: 0.0, d: 0.0}
-  elevator: {p: 6.0, i: 0.0, d: 0.0}
+  ailerons: {p: 2.0, i: 0.0, d: 0.0}
+  elevator: {p: 4.1, i: 0.0, d: 0.0}
   rudder: {p: 0.0, i: 0.0, d: 0.0}
 """
 

@@ -9,10 +9,9 @@ from typing import Any
 from twisted.internet.task import LoopingCall
 
 from up_rig.pty_line import PtyLine
-from up_simulator.airframe import AIRFRAMES
+from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather
 from up_simulator.board import Board, OldFirmware
 from up_simulator.flight import Flight, FlightUnavailableError
-from up_simulator.flight_model import FlightModel
 from up_simulator.pace import Pace
 from up_simulator.phone import Phone
 from up_simulator.phone_address import RaspberryPi, Runner, discover, spawn
@@ -22,6 +21,7 @@ from up_simulator.recorded_flight import read_recording
 from up_simulator.state_log import StateLog
 
 TICK_S = 0.005
+START = Start(height_m=400.0)
 READ_SIZE = 4096
 
 Say = Callable[[str], None]
@@ -89,6 +89,9 @@ class Simulation:
     def _tick(self) -> None:
         for tick in self._ticks:
             tick()
+        if isinstance(self._flight, FlightDynamics) and self._flight.crash is not None:
+            self._say(f"{self._flight.crash}: launched again in the air")
+            self._flight.launch(START)
         if self._log is not None:
             try:
                 self._log.record(self._flight.state, self._flight.servos)
@@ -102,20 +105,15 @@ def make_flight(options: argparse.Namespace, say: Say) -> Flight:
     if options.replay is not None:
         say(f"flying the recorded flight {options.replay}: the servos have no effect")
         return read_recording(options.replay)
-    airframe = AIRFRAMES[options.aircraft]
+    airframe: Airframe = options.aircraft
+    weather = Weather(wind_m_s=options.wind, turbulence=options.turbulence)
     try:
-        flight = FlightModel(
-            airframe,
-            wind_m_s=options.wind,
-            turbulence=options.turbulence,
-            seed=options.seed,
-            say=say,
-        )
+        flight = FlightDynamics(airframe, START, weather, options.seed)
     except FlightUnavailableError as error:
         say(f"{error}: flying a recorded flight, the servos have no effect")
         return read_recording(None)
     say(
-        f"flying {airframe.model} by JSBSim: wind {options.wind:g} m/s, "
+        f"flying {airframe.name} by JSBSim: wind {options.wind:g} m/s, "
         f"turbulence {options.turbulence}"
     )
     return flight
@@ -124,7 +122,7 @@ def make_flight(options: argparse.Namespace, say: Say) -> Flight:
 def _make_board(
     flight: Flight, reactor: Any, port: PtyLine, options: argparse.Namespace, say: Say
 ) -> Board:
-    has_motor = AIRFRAMES[options.aircraft].has_motor and options.replay is None
+    has_motor = options.aircraft.has_motor and options.replay is None
     moves = read_sticks(POWERED if has_motor else SOARING) + options.sticks
     old = OldFirmware(options.old_confirms, options.boot_text)
     board = Board(

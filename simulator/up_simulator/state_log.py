@@ -15,8 +15,8 @@ DECIMALS = {"latitude_deg": 8, "longitude_deg": 8, "time_s": 3}
 class StateLog:
     """A CSV line for every 20 ms of flight, written through at once.
 
-    Columns are what a recorded flight has (``recorded_flight.COLUMNS``), then the four servo positions (us). The file can
-    be flown again with ``--replay``. Raises ``OSError`` when it cannot be written.
+    Columns are what a recorded flight has (``recorded_flight.COLUMNS``), then the four servo
+    positions (us). The file can be flown again with ``--replay``. Raises ``OSError`` when it cannot be written.
     """
 
     def __init__(self, path: Path) -> None:

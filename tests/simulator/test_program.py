@@ -81,7 +81,7 @@ def test_streams_come_in_real_time(tmp_path):
 def test_outputs_fly_the_aircraft_and_the_log_is_the_truth(tmp_path):
     """Stabilise over the wire: the board's own words must be the model's, and it stays level."""
     log = tmp_path / "truth.csv"
-    with board(tmp_path, "--state-log", log, "--sticks", "t=0 aux2=1000") as program:
+    with board(tmp_path, "--state-log", log) as program:
         program.wait_for("board on")
         said = []
         with Line(tmp_path / "board") as line:
@@ -156,7 +156,7 @@ def test_thesis_framing_over_the_line(tmp_path):
         (("--general-port", "65536"), "a port is 1 to 65535"),
         (("--runner", "nowhere"), "is not HOST:PORT"),
         (("--turbulence", "9"), "invalid choice"),
-        (("--aircraft", "airbus"), "invalid choice"),
+        (("--aircraft", "airbus"), "airbus: is no airframe (glider"),
     ],
 )
 def test_wrong_options_are_one_sentence(arguments, sentence):

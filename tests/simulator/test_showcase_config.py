@@ -43,9 +43,8 @@ def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
     import sys
 
     code = (
-        "from up_simulator.flight_model import FlightModel;"
-        "from up_simulator.airframe import AIRFRAMES;"
-        "[FlightModel(each) for each in AIRFRAMES.values()]"
+        "from up_simulator.aircraft import FlightDynamics, airframe_names, load_airframe;"
+        "[FlightDynamics(load_airframe(each)) for each in airframe_names()]"
     )
     subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True, timeout=60)
     assert list(tmp_path.iterdir()) == []

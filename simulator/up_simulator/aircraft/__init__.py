@@ -8,10 +8,11 @@ from up_simulator.aircraft.airframe import (
     load_airframe,
 )
 from up_simulator.aircraft.dynamics import FlightDynamics, Start
-from up_simulator.aircraft.weather import Gust, Turbulence, Weather
+from up_simulator.aircraft.weather import TURBULENCE, Gust, Turbulence, Weather
 
 __all__ = [
     "DEFAULT_AIRFRAME",
+    "TURBULENCE",
     "Airframe",
     "AirframeError",
     "FlightDynamics",

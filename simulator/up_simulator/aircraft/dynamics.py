@@ -31,6 +31,9 @@ _READ = {
     "p": "velocities/p-rad_sec",
     "q": "velocities/q-rad_sec",
     "r": "velocities/r-rad_sec",
+    "p_dot": "accelerations/pdot-rad_sec2",
+    "q_dot": "accelerations/qdot-rad_sec2",
+    "r_dot": "accelerations/rdot-rad_sec2",
     "latitude": "position/lat-geod-deg",
     "longitude": "position/long-gc-deg",
     "altitude": "position/h-sl-ft",
@@ -116,15 +119,7 @@ class FlightDynamics:
     def motion(self) -> Motion:
         """Return what an IMU at the airframe's place for it feels."""
         if self._motion is None:
-            read = self._read
-            self._motion = Motion(
-                math.degrees(read["p"]()),
-                math.degrees(read["q"]()),
-                math.degrees(read["r"]()),
-                read["force_x"]() * FOOT_M,
-                read["force_y"]() * FOOT_M,
-                read["force_z"]() * FOOT_M,
-            )
+            self._motion = self._feel()
         return self._motion
 
     @property
@@ -184,6 +179,7 @@ class FlightDynamics:
         self._read = {name: reader(self._fdm, node) for name, node in _READ.items()}
         self._read_airspeed = self._read["airspeed"]
         self._read_height, self._read_load = self._read["height"], self._read["load"]
+        self._imu_m = self._imu_from_pilot()
         self._moves = list(self._find_moves())
         self._battery = Battery(airframe.battery)
         self._motor = Motor(airframe.motor, self._battery) if airframe.has_motor else None
@@ -203,7 +199,6 @@ class FlightDynamics:
         if start.climb_m_s is not None:
             share = max(-1.0, min(1.0, start.climb_m_s / max(0.1, airspeed_m_s)))
             alpha_deg = pitch_deg - math.degrees(math.asin(share))
-        self._place_imu()
         fdm["ic/terrain-elevation-ft"] = GROUND_M / FOOT_M
         fdm["ic/lat-geod-deg"] = START_LATITUDE_DEG
         fdm["ic/long-gc-deg"] = START_LONGITUDE_DEG
@@ -225,11 +220,32 @@ class FlightDynamics:
         fdm["simulation/randomseed"] = self._seed + self._launches
         fdm.run_ic()
 
-    def _place_imu(self) -> None:
-        """Put JSBSim's pilot, whose acceleration it computes, at the IMU."""
+    def _imu_from_pilot(self) -> tuple[float, float, float]:
+        """Return where the IMU is from JSBSim's pilot, whose acceleration it computes; body, m."""
         fdm, imu = self._fdm, self.airframe.imu
-        for axis, offset_m in (("x", -imu.x_m), ("y", imu.y_m), ("z", -imu.z_m)):
-            fdm[f"metrics/eyepoint-{axis}-in"] = fdm[f"inertia/cg-{axis}-in"] + offset_m / _INCH_M
+        pilot = (
+            (fdm[f"metrics/eyepoint-{axis}-in"] - fdm[f"inertia/cg-{axis}-in"]) * _INCH_M
+            for axis in "xyz"
+        )
+        aft_m, right_m, up_m = pilot
+        return imu.x_m + aft_m, imu.y_m - right_m, imu.z_m + up_m
+
+    def _feel(self) -> Motion:
+        read = self._read
+        p, q, r = read["p"](), read["q"](), read["r"]()
+        p_dot, q_dot, r_dot = read["p_dot"](), read["q_dot"](), read["r_dot"]()
+        x, y, z = self._imu_m
+        return Motion(
+            math.degrees(p),
+            math.degrees(q),
+            math.degrees(r),
+            read["force_x"]() * FOOT_M
+            + q_dot * z - r_dot * y + p * (q * y + r * z) - x * (q * q + r * r),
+            read["force_y"]() * FOOT_M
+            + r_dot * x - p_dot * z + q * (p * x + r * z) - y * (p * p + r * r),
+            read["force_z"]() * FOOT_M
+            + p_dot * y - q_dot * x + r * (p * x + q * y) - z * (p * p + q * q),
+        )  # fmt: skip
 
     def _find_moves(self) -> Iterator[_Move]:
         for name, channel in _CHANNELS.items():

@@ -36,8 +36,8 @@ def _header(name: str, derivation: Derivation) -> str:
     lines = [
         f"Written by 'python -m up_simulator.aircraft.model_file {name}' from geometry.yml.",
         "Lengths x aft, y right, z up from the leading edge of the wing's root; the reference",
-        "point of the forces is the centre of gravity. Surfaces: trailing edge down positive, rudder",
-        "trailing edge left; left and right ailerons have an angle of their own.",
+        "point of the forces is the centre of gravity. Surfaces: trailing edge down positive,",
+        "rudder trailing edge left; left and right ailerons have an angle of their own.",
         "Attached flow: vortex lattice; separated: flat plate; drag: build-up of the sections.",
         *derivation.geometry.notes,
         "Derivatives at 0 degrees of alpha, per rad and per p b/2V, q c/2V, r b/2V:",

@@ -9,9 +9,15 @@ from typing import Any, Literal
 from up_simulator.aircraft.model import FOOT_M, writer
 
 Turbulence = Literal["none", "light", "moderate", "severe"]
-# Wind at 6 m above the ground, m/s, that MIL-F-8785C takes the turbulence from: its vertical part
-# is a tenth of it at every height that a model flies at.
-WIND_NEAR_GROUND_M_S: dict[str, float] = {"light": 4.0, "moderate": 8.0, "severe": 13.0}
+TURBULENCE: tuple[Turbulence, ...] = ("none", "light", "moderate", "severe")
+# What MIL-F-8785C takes turbulence from: wind at 6 m above the ground (m/s), and a severity (1 to
+# 7) that JSBSim blends in towards 600 m. Measured at 60 to 250 m, rms m/s along and vertical: light
+# 0.4 to 1.0 and 0.3 to 0.7, moderate 0.9 to 1.7 and 0.7 to 0.8, severe 1.5 to 3.2 and 1.0 to 1.4.
+_LEVELS: dict[str, tuple[float, int]] = {
+    "light": (4.0, 1),
+    "moderate": (8.0, 2),
+    "severe": (13.0, 3),
+}
 _TUSTIN = 4
 
 
@@ -52,12 +58,11 @@ class Air:
         self._set = [writer(fdm, f"atmosphere/gust-{way}-fps") for way in ("north", "east", "down")]
         if weather.turbulence != "none":
             fdm["atmosphere/turb-type"] = _TUSTIN
-            near_ground_m_s = WIND_NEAR_GROUND_M_S[weather.turbulence]
+            near_ground_m_s, severity = _LEVELS[weather.turbulence]
             fdm["atmosphere/turbulence/milspec/windspeed_at_20ft_AGL-fps"] = (
                 near_ground_m_s / FOOT_M
             )
-            # Above 600 m only the severity counts.
-            fdm["atmosphere/turbulence/milspec/severity"] = 3
+            fdm["atmosphere/turbulence/milspec/severity"] = severity
 
     def blow(self, time_s: float) -> None:
         """Set the gusts of this moment."""

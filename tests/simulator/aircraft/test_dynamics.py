@@ -1,0 +1,323 @@
+"""The flight dynamics: conventions, determinism, weather, crashes; JSBSim itself flies."""
+
+import math
+
+import pytest
+
+from up_simulator.aircraft import (
+    FlightDynamics,
+    Gust,
+    Start,
+    Weather,
+    airframe_names,
+    load_airframe,
+)
+from up_simulator.flight import NEUTRAL
+
+NAMES = airframe_names()
+HANDS_OFF = tuple(float(each) for each in NEUTRAL)
+
+
+def flying(name="glider", start=None, **weather):
+    return FlightDynamics(load_airframe(name), start, Weather(**weather))
+
+
+def pushed(name, channel, pulse_us):
+    """Ask for what the sticks mean: the firmware of an aircraft with elevons mixes."""
+    sticks = list(NEUTRAL)
+    sticks[channel] = pulse_us
+    if load_airframe(name).profile.get("mix") == "elevon":
+        ailerons, elevator = sticks[0] - 1500, sticks[1] - 1500
+        sticks[:2] = 1500 + elevator - ailerons, 1500 + elevator + ailerons
+    return tuple(sticks)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_starts_gliding_at_its_cruise_where_it_should(name):
+    flight = flying(name)
+    state, launch = flight.state, flight.airframe.launch
+    assert state.height_m == pytest.approx(120.0, abs=0.1)
+    assert state.altitude_m == pytest.approx(370.0, abs=0.1)
+    assert (state.latitude_deg, state.longitude_deg) == pytest.approx((50.0, 14.5), abs=1e-6)
+    assert (state.north_m, state.east_m) == pytest.approx((0.0, 0.0), abs=0.01)
+    assert state.airspeed_m_s == pytest.approx(launch.airspeed_m_s)
+    assert state.roll_deg == pytest.approx(0.0, abs=1e-6)
+    assert state.battery_percent == 100.0
+
+
+@pytest.mark.parametrize("from_deg", [0.0, 90.0, 200.0, 315.0])
+@pytest.mark.parametrize(("heading_deg", "roll_deg"), [(0.0, 0.0), (130.0, 40.0)])
+def test_wind_carries_it_over_the_ground_and_leaves_the_airspeed(from_deg, heading_deg, roll_deg):
+    start = Start(heading_deg=heading_deg, roll_deg=roll_deg)
+    state = flying(start=start, wind_m_s=6.0, wind_from_deg=from_deg).state
+    assert state.airspeed_m_s == pytest.approx(11.0, abs=0.01)
+    assert state.sideslip_deg == pytest.approx(0.0, abs=0.01)
+    along, to = math.radians(heading_deg), math.radians(from_deg + 180)
+    through = 11.0 * math.cos(math.radians(5.6))
+    north = through * math.cos(along) + 6.0 * math.cos(to)
+    east = through * math.sin(along) + 6.0 * math.sin(to)
+    assert state.speed_m_s == pytest.approx(math.hypot(north, east), abs=0.2)
+    off_deg = (state.track_deg - math.degrees(math.atan2(east, north)) + 180) % 360 - 180
+    assert abs(off_deg) < 1.5
+
+
+SURFACES = [(0, "roll"), (1, "pitch"), (3, "yaw")]
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("pulse_us", [1600, 1400])
+@pytest.mark.parametrize(("channel", "axis"), SURFACES)
+def test_a_stick_above_1500_rolls_right_pitches_up_and_yaws_right(name, channel, axis, pulse_us):
+    model, neutral = flying(name), flying(name)
+    if channel == 3 and not model.airframe.servos.rudder.moves:
+        pytest.skip("it has no rudder")
+    model.set_servos(pushed(name, channel, pulse_us))
+    for each in (model, neutral):
+        each.advance(0.3)
+    turned = getattr(model.state, f"{axis}_rate_deg_s") - getattr(
+        neutral.state, f"{axis}_rate_deg_s"
+    )
+    assert math.copysign(1.0, pulse_us - 1500) * turned > 5.0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_throttle_makes_thrust_and_empties_the_battery(name):
+    idle, full = flying(name), flying(name)
+    full.set_servos((1500, 1500, 2000, 1500))
+    for each in (idle, full):
+        each.advance(4.0)
+    energy = [each.state.airspeed_m_s**2 / 2 + 9.81 * each.state.height_m for each in (idle, full)]
+    assert energy[1] > energy[0] + 100
+    assert full.state.battery_percent < idle.state.battery_percent
+    assert full.state.battery_v < idle.state.battery_v - 0.2
+    assert full.state.motor_rpm > 5000 and full.state.motor_w > 80
+    assert idle.state.motor_rpm == 0.0
+
+
+def test_the_imu_feels_its_weight_in_a_steady_glide():
+    flight = flying()
+    flight.advance(20.0)
+    motion, state = flight.motion, flight.state
+    assert motion.force_z_m_s2 == pytest.approx(-9.81, abs=0.15)
+    assert motion.force_x_m_s2 == pytest.approx(
+        9.81 * math.sin(math.radians(state.pitch_deg)), abs=0.1
+    )
+    assert motion.force_y_m_s2 == pytest.approx(0.0, abs=0.05)
+    assert motion.pitch_rate_deg_s == state.pitch_rate_deg_s
+    assert state.load_factor_g == pytest.approx(-motion.force_z_m_s2 / 9.80665, abs=0.01)
+
+
+def test_the_imu_ahead_of_the_centre_feels_the_turn(tmp_path):
+    """On a long nose a pitch rate q pulls with q^2 x, and its beginning lifts."""
+    text = (load_airframe("glider").model_path.parent / "airframe.yml").read_text()
+    folder = tmp_path / "long"
+    folder.mkdir()
+    (folder / "airframe.yml").write_text(text.replace("x_m: 0.05", "x_m: 4.0"))
+    (folder / "glider.xml").write_text(load_airframe("glider").model_path.read_text())
+    ahead, near = FlightDynamics(load_airframe(folder)), flying()
+    for each in (ahead, near):
+        each.set_servos((1500, 1800, 1000, 1500))
+        each.advance(0.25)
+    q = math.radians(near.motion.pitch_rate_deg_s)
+    assert q > 0.5
+    before = near.motion.pitch_rate_deg_s
+    near.advance(0.002)
+    q_dot = math.radians(near.motion.pitch_rate_deg_s - before) / 0.002
+    lifted = ahead.motion.force_z_m_s2 - near.motion.force_z_m_s2
+    assert lifted == pytest.approx(-q_dot * (4.0 - 0.05), rel=0.1)
+    felt = ahead.motion.force_x_m_s2 - near.motion.force_x_m_s2
+    assert felt == pytest.approx(-(q**2) * (4.0 - 0.05), rel=0.05)
+
+
+@pytest.mark.parametrize("heading_deg", [0.0, 90.0, 225.0])
+def test_the_track_is_counted_in_metres(heading_deg):
+    flight = flying(start=Start(heading_deg=heading_deg))
+    flight.advance(10.0)
+    state = flight.state
+    flown_m = 10 * 11.0
+    along = math.radians(heading_deg)
+    assert state.north_m == pytest.approx(flown_m * math.cos(along), abs=4.0)
+    assert state.east_m == pytest.approx(flown_m * math.sin(along), abs=4.0)
+
+
+def test_rates_are_the_change_of_the_angles():
+    model = flying()
+    model.set_servos((1650, 1500, 1000, 1500))
+    model.advance(0.3)
+    before = model.state
+    model.advance(0.02)
+    after = model.state
+    seen = (after.roll_deg - before.roll_deg) / 0.02
+    assert seen == pytest.approx((before.roll_rate_deg_s + after.roll_rate_deg_s) / 2, rel=0.05)
+
+
+def flown(seed, name="glider"):
+    weather = Weather(wind_m_s=4.0, turbulence="moderate", gusts=(Gust(1.0, 0.5, down_m_s=3.0),))
+    flight = FlightDynamics(load_airframe(name), Start(height_m=100.0), weather, seed)
+    for tick in range(250):
+        flight.set_servos((1500 + tick % 7, 1500 - tick % 5, 1000 + tick, 1500))
+        flight.advance(0.02)
+    return flight.state, flight.motion
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_same_seed_flies_the_same_flight_to_the_last_digit(name):
+    assert flown(7, name) == flown(7, name)
+
+
+def test_another_seed_flies_another():
+    assert flown(7)[0].roll_deg != flown(8)[0].roll_deg
+
+
+def test_two_flights_at_once_do_not_disturb_each_other():
+    both = [FlightDynamics(load_airframe("glider"), weather=Weather(turbulence="light"), seed=seed)
+            for seed in (3, 4)]  # fmt: skip
+    for _ in range(100):
+        for each in both:
+            each.advance(0.02)
+    alone = FlightDynamics(load_airframe("glider"), weather=Weather(turbulence="light"), seed=3)
+    alone.advance(2.0)
+    assert both[0].state == alone.state
+
+
+def test_how_the_time_is_cut_does_not_matter():
+    whole, cut = flying(), flying()
+    whole.advance(1.0)
+    for _ in range(1000):
+        cut.advance(0.001)
+    assert whole.state == cut.state
+    assert whole.state.time_s == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("level", "least", "most"),
+    [("light", 0.2, 0.8), ("moderate", 0.5, 1.2), ("severe", 0.8, 2.0)],
+)
+def test_turbulence_has_the_strength_of_its_level(level, least, most):
+    """Vertical gusts, rms in m/s, at the heights that a model flies at."""
+    flight = flying(start=Start(height_m=300.0), turbulence=level)
+    squares = []
+    for _ in range(1500):
+        flight.advance(0.04)
+        if flight.crash:
+            break
+        squares.append((flight._fdm["atmosphere/total-wind-down-fps"] * 0.3048) ** 2)
+    assert len(squares) > 200
+    assert least < math.sqrt(sum(squares) / len(squares)) < most
+
+
+def test_a_gust_comes_and_goes_as_one_minus_cosine():
+    flight = flying(gusts=(Gust(0.5, 1.0, north_m_s=2.0, down_m_s=-4.0),))
+    seen = {}
+    for step in range(1000):
+        flight.step()
+        fdm = flight._fdm
+        seen[step + 1] = (
+            fdm["atmosphere/total-wind-north-fps"] * 0.3048,
+            fdm["atmosphere/total-wind-down-fps"] * 0.3048,
+        )
+    assert seen[240] == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert seen[375] == pytest.approx((1.0, -2.0), abs=0.05)
+    assert seen[500] == pytest.approx((2.0, -4.0), abs=0.05)
+    assert seen[625] == pytest.approx((1.0, -2.0), abs=0.05)
+    assert seen[760] == pytest.approx((0.0, 0.0), abs=1e-9)
+
+
+def test_a_vertical_gust_loads_the_wing():
+    calm, struck = flying(), flying(gusts=(Gust(0.1, 0.4, down_m_s=-5.0),))
+    greatest = 0.0
+    for _ in range(300):
+        calm.step()
+        struck.step()
+        greatest = max(greatest, struck.state.load_factor_g - calm.state.load_factor_g)
+    # Half the gust's angle of 24 degrees in lift would be 2 g; the wing stalls and the nose yields.
+    assert 0.7 < greatest < 3.5
+
+
+def test_the_ground_ends_the_flight_in_one_sentence_and_it_stands_still():
+    flight = flying(start=Start(height_m=20.0, pitch_deg=-70.0))
+    flight.advance(5.0)
+    assert flight.crash.startswith("hit the ground after ")
+    state = flight.state
+    flight.advance(1.0)
+    after = flight.state
+    assert after.time_s == pytest.approx(state.time_s + 1.0)
+    assert (after.height_m, after.north_m) == (state.height_m, state.north_m)
+
+
+def test_a_load_beyond_what_it_bears_breaks_it():
+    flight = flying(start=Start(height_m=300.0, airspeed_m_s=45.0, pitch_deg=-60.0))
+    flight.set_servos((1500, 2000, 1000, 1500))
+    flight.advance(3.0)
+    assert flight.crash.startswith("broke in the air after ")
+
+
+def test_a_model_that_lost_itself_is_a_crash_too():
+    flight = flying()
+    flight._fdm["fcs/elevator-pos-rad"] = math.nan
+    flight._moves.clear()
+    flight.advance(1.0)
+    assert flight.crash is not None
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_may_be_launched_again(name):
+    flight = flying(name, Start(height_m=5.0, pitch_deg=-60.0))
+    flight.advance(3.0)
+    assert flight.crash
+    flight.launch(Start(height_m=80.0))
+    assert flight.crash is None
+    assert flight.state.height_m == pytest.approx(80.0, abs=0.1)
+    assert flight.state.time_s == pytest.approx(3.0)
+    flight.advance(1.0)
+    assert flight.state.north_m > 5.0
+    assert flight.state.roll_deg == pytest.approx(0.0, abs=1.0)
+
+
+def test_a_launch_under_power_has_its_thrust_at_once():
+    gliding, driven = flying(), flying(start=Start(throttle=0.8))
+    assert driven.state.motor_rpm > 5000
+    assert driven.servos[2] == 1800
+    driven.set_servos((1500, 1500, 1800, 1500))
+    for each in (gliding, driven):
+        each.advance(0.5)
+    assert driven.state.airspeed_m_s > gliding.state.airspeed_m_s + 0.5
+
+
+ATTITUDES = [
+    (roll, pitch, alpha, airspeed)
+    for roll in (0.0, 90.0, 180.0)
+    for pitch in (-89.0, -30.0, 45.0, 89.0)
+    for alpha in (0.0, 30.0)
+    for airspeed in (0.5, 12.0, 30.0)
+]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_from_any_attitude_the_state_stays_finite_and_the_nose_comes_down(name):
+    """Spins, tail slides, inverted flight: nothing diverges, and the drag bounds the speed."""
+    for roll, pitch, alpha, airspeed in ATTITUDES:
+        climb = airspeed * math.sin(math.radians(pitch - alpha))
+        start = Start(
+            height_m=400.0, roll_deg=roll, pitch_deg=pitch, airspeed_m_s=airspeed, climb_m_s=climb
+        )
+        flight = flying(name, start)
+        flight.set_servos((1700, 1900, 1000, 1900))
+        flight.advance(4.0)
+        state = flight.state
+        assert all(math.isfinite(getattr(state, each)) for each in state.__slots__)
+        assert flight.crash is None or flight.crash.startswith("broke")
+        assert state.airspeed_m_s < 55.0
+
+
+@pytest.mark.parametrize("pulses_us", [(1500, 1500, 1000, 1500)])
+def test_servos_go_no_faster_than_they_can_and_arrive(pulses_us):
+    flight = flying()
+    flight.set_servos((2000, 1500, 1000, 1490))
+    flight.step()
+    assert flight.servos == (1512, 1500, 1000, 1499)
+    flight.advance(0.2)
+    assert flight.servos == (2000, 1500, 1000, 1490)
+    flight.set_servos(pulses_us)
+    flight.advance(0.5)
+    assert flight.servos == pulses_us
