@@ -1,0 +1,147 @@
+"""An airframe's settings get into the board as the Pi puts them there, or it is said why not."""
+
+import struct
+
+import pytest
+
+from tests.support.firmware import build_firmware
+from up_simulator.firmware import preparation
+from up_simulator.firmware.build import BoardUnavailableError, aboard
+from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.preparation import PreparationError, prepare_eeprom, prepared_eeprom
+from up_simulator.firmware.rig_board import RigBoard
+from up_simulator.firmware.settings_wire import SettingsError, gains_bytes, profile_bytes
+from up_simulator.firmware.tap import BoardTap
+from up_simulator.memory import GAINS, default_profile
+
+HELD = default_profile(has_motor=True).wire
+HELD_GAINS = struct.pack(">18f", *GAINS)
+PROFILE = {
+    "ailerons": {"reversed": True, "trim_us": -12, "lowest_us": 950, "highest_us": None},
+    "mix": "elevon",
+    "motor": False,
+    "switch": {"low": "FBW", "high": None},
+    "fly_by_wire": {"roll_deg": 45.5},
+    "receiver_lost": {"below_us": 880, "circle_bank_deg": -15, "return_with_motor": True},
+}
+GAINS_SET = {
+    "units": "degrees per second",
+    "rate": {"ailerons": {"p": 2.5, "i": 0.25}},
+    "stabilize": {"elevator": {"p": 3.5}},
+}
+
+
+@pytest.fixture(scope="module")
+def elf():
+    return build_firmware()
+
+
+def board(elf, **options):
+    return RigBoard(elf, imu_errors=ImuErrors(), **options)
+
+
+def asked(aboard_now, letter):
+    tap = BoardTap()
+    aboard_now.write(tap.command_bytes(letter))
+    aboard_now.run_us(60_000)
+    tap.feed(aboard_now.read(), 0.0)
+    return tap.take_answers()[-1].payload
+
+
+def test_named_settings_change_their_fields_and_no_others():
+    wire = profile_bytes(PROFILE, HELD)
+    assert wire[:7] == struct.pack(">BhHH", 1, -12, 950, 2000)
+    assert wire[7:28] == HELD[7:28]
+    assert wire[28:33] == b"\1\0ffA"
+    assert wire[33:43] == struct.pack(">3h2h", 4550, 2000, 2500, -300, -1500)
+    assert wire[43:] == struct.pack(">2H3HB", 1000, 880, 1500, 1500, 1500, 1)
+    assert profile_bytes({}, HELD) == HELD
+
+
+def test_named_gains_change_their_places_and_no_others():
+    values = list(struct.unpack(">18f", gains_bytes(GAINS_SET, HELD_GAINS)))
+    assert (values[0], values[1], values[12]) == (2.5, 0.25, 3.5)
+    values[0], values[1], values[12] = GAINS[0], GAINS[1], GAINS[12]
+    assert tuple(values) == GAINS
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"flaps": 1}, "a profile has no flaps"),
+        ({"ailerons": {"trim": 1}}, "a profile has no ailerons.trim"),
+        ({"mix": "delta"}, "mix is one of none, elevon, V-tail, not delta"),
+        ({"switch": {"low": "RTH"}}, "switch.low is one of ACRO, RATE, FBW, AUTO, not RTH"),
+        ({"rudder": {"trim_us": "much"}}, "rudder.trim_us is a number, not 'much'"),
+        ({"rudder": {"trim_us": 201}}, "a value of the profile is out of range"),
+        ({"fly_by_wire": {"roll_deg": 1e9}}, "a value of the profile is out of range"),
+    ],
+)
+def test_a_wrong_profile_is_a_sentence(settings, said):
+    with pytest.raises(SettingsError, match=said):
+        profile_bytes(settings, HELD)
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"rate": {"flaps": {"p": 1}}}, "there is no gain rate.flaps.p"),
+        ({"rate": {"ailerons": {"q": 1}}}, "there is no gain rate.ailerons.q"),
+        ({"rate": {"ailerons": {"p": 50.5}}}, "a gain is not within 0 to 50"),
+        ({"rate": {"ailerons": {"p": float("nan")}}}, "a gain is not within 0 to 50"),
+    ],
+)
+def test_a_wrong_gain_is_a_sentence(settings, said):
+    with pytest.raises(SettingsError, match=said):
+        gains_bytes(settings, HELD_GAINS)
+
+
+def test_a_board_with_the_prepared_eeprom_boots_with_the_settings(elf):
+    prepared = prepare_eeprom(board(elf), PROFILE, GAINS_SET)
+    fresh = board(elf, eeprom=prepared)
+    fresh.run_us(1_500_000)
+    assert asked(fresh, "c") == profile_bytes(PROFILE, HELD)
+    values = struct.unpack(">18f", asked(fresh, "G"))
+    assert (values[0], values[1], values[12]) == (2.5, 0.25, 3.5)
+
+
+def test_the_work_is_done_once_for_each_firmware_and_each_set(tmp_path, monkeypatch, elf):
+    monkeypatch.setattr(preparation, "library_path", lambda: tmp_path / "librig.so")
+    made = []
+
+    def counted(*arguments):
+        made.append(arguments)
+        return prepare_eeprom(*arguments)
+
+    monkeypatch.setattr(preparation, "prepare_eeprom", counted)
+    try:
+        first = prepared_eeprom("firmware", {"motor": False}, {})
+    except BoardUnavailableError as error:
+        pytest.skip(str(error))
+    assert prepared_eeprom("firmware", {"motor": False}, {}) == first
+    assert len(made) == 1
+    assert prepared_eeprom("firmware", {"motor": True}, {}) != first
+    assert len(made) == 2
+
+
+def test_no_flight_computer_needs_no_eeprom():
+    assert prepared_eeprom("direct", {}, {}) == b""
+
+
+def test_a_refusal_says_what_and_why(elf):
+    armed = board(elf)
+    armed.set_stick("aux2", 1000)
+    armed.run_us(2_000_000)
+    armed.set_stick("aux2", 2000)
+    armed.run_us(500_000)
+    with pytest.raises(
+        PreparationError, match="refuses the profile of the airframe: only disarmed"
+    ):
+        prepare_eeprom(armed, {"motor": False}, {})
+
+
+def test_a_board_that_does_not_answer_is_a_sentence():
+    silent = aboard("firmware").board()
+    silent.write = lambda _data: None
+    with pytest.raises(PreparationError, match="the board does not answer to c"):
+        prepare_eeprom(silent, {}, {})
