@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import select
-from bisect import insort
+from bisect import bisect_right, insort
 from collections.abc import Callable
 from queue import Empty, SimpleQueue
 from typing import Any
@@ -60,7 +60,7 @@ class SimulatedReactor(Clock):
     ) -> DelayedCall:
         """Call ``what`` when the time has come; of equal times the earlier call is first."""
         call = DelayedCall(
-            self.rightNow + when, what, a, kw, self.calls.remove, self._moved, self.seconds
+            self.rightNow + when, what, a, kw, self._forget, self._moved, self.seconds
         )
         insort(self.calls, call, key=DelayedCall.getTime)
         return call
@@ -113,14 +113,28 @@ class SimulatedReactor(Clock):
         self.rightNow = now_s = self._now_ns / 1e9
         if not self._handed_over.empty():
             self._take_calls()
-        calls, due_s = self.calls, now_s + _TINY_S
-        while calls and calls[0].getTime() <= due_s:
-            call = calls.pop(0)
-            call.called = 1
-            self.guarded(call.func, *call.args, **call.kw)
+        if self.calls and self.calls[0].getTime() <= now_s + _TINY_S:
+            self._make_calls(now_s + _TINY_S)
         if self._readers or self._writers:
             self._serve_descriptors()
         self.network.move(now_s)
+
+    def _make_calls(self, due_s: float) -> None:
+        """Make what is due; what is asked for meanwhile waits for the next step, however soon."""
+        count = bisect_right(self.calls, due_s, key=DelayedCall.getTime)
+        due, self.calls[:count] = self.calls[:count], []
+        for call in due:
+            if not call.active():
+                continue
+            if call.getTime() > due_s:
+                insort(self.calls, call, key=DelayedCall.getTime)
+                continue
+            call.called = 1
+            self.guarded(call.func, *call.args, **call.kw)
+
+    def _forget(self, call: DelayedCall) -> None:
+        if call in self.calls:
+            self.calls.remove(call)
 
     def _moved(self, call: DelayedCall) -> None:
         self.calls.sort(key=DelayedCall.getTime)

@@ -64,6 +64,35 @@ def test_a_call_may_be_moved_and_cancelled(reactor):
     assert order == ["second", "first"]
 
 
+def test_what_a_call_asks_for_waits_for_the_next_step(reactor):
+    made_s = []
+
+    def again():
+        made_s.append(reactor.seconds())
+        reactor.callLater(1e-18, again)
+
+    reactor.callLater(0, again)
+    reactor.advance(0.01)
+    assert made_s == [0.002, 0.004, 0.006, 0.008, 0.01]
+
+
+def test_a_due_call_may_be_cancelled_and_moved_by_one_before_it(reactor):
+    order = []
+
+    def first():
+        order.append("first")
+        second.cancel()
+        third.reset(0.1)
+
+    reactor.callLater(0.01, first)
+    second = reactor.callLater(0.01, order.append, "second")
+    third = reactor.callLater(0.01, order.append, "third")
+    reactor.advance(0.05)
+    assert order == ["first"]
+    reactor.advance(0.1)
+    assert order == ["first", "third"]
+
+
 def test_a_call_that_raises_is_logged_and_ends_nothing(reactor):
     done = []
     reactor.callLater(0.01, lambda: 1 / 0)
