@@ -43,7 +43,7 @@ TEST_CASE("a servo is reversed about 1500, trimmed and kept within its end point
   CHECK(us(servos(profile, 1500, 1500, 1000, 1000), RUDDER) == 1900);
 }
 
-TEST_CASE("elevons add on the left and subtract on the right") {
+TEST_CASE("elevons subtract on the left and add on the right") {
   Profile profile = DEFAULT_PROFILE;
   profile.mix = Mix::ELEVON;
   const Outputs pulled = servos(profile, 1500, 1700, 1000, 1550);
@@ -51,10 +51,10 @@ TEST_CASE("elevons add on the left and subtract on the right") {
   CHECK(us(pulled, ELEVATOR) == 1700);
   CHECK(us(pulled, RUDDER) == 1550);
   const Outputs rolled = servos(profile, 1600, 1700, 1000, 1500);
-  CHECK(us(rolled, AILERONS) == 1800);
-  CHECK(us(rolled, ELEVATOR) == 1600);
+  CHECK(us(rolled, AILERONS) == 1600);
+  CHECK(us(rolled, ELEVATOR) == 1800);
   profile.servos[ELEVATOR].is_reversed = true;
-  CHECK(us(servos(profile, 1600, 1700, 1000, 1500), ELEVATOR) == 1400);
+  CHECK(us(servos(profile, 1600, 1700, 1000, 1500), ELEVATOR) == 1200);
 }
 
 TEST_CASE("a V-tail adds on the elevator's output and subtracts on the rudder's") {

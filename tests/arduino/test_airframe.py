@@ -66,14 +66,15 @@ def test_no_servo_goes_beyond_its_ends(flight):
 
 def test_elevons_mix_ailerons_and_elevator(flight):
     fit(flight, mix=1)
+    # To the right: the left elevon (first) down, the right one up; nose up: both up.
     flight.sticks(ailerons=1600)
-    assert servos_us(flight) == pytest.approx([1600, 1400, 1000, 1500], abs=1)
+    assert servos_us(flight) == pytest.approx([1400, 1600, 1000, 1500], abs=1)
     flight.sticks(ailerons=1500, elevator=1600)
     assert servos_us(flight) == pytest.approx([1600, 1600, 1000, 1500], abs=1)
     flight.sticks(ailerons=1700, elevator=1400)
-    assert servos_us(flight) == pytest.approx([1600, 1200, 1000, 1500], abs=1)
+    assert servos_us(flight) == pytest.approx([1200, 1600, 1000, 1500], abs=1)
     flight.sticks(ailerons=2000, elevator=2000, rudder=1800)
-    assert servos_us(flight) == pytest.approx([2000, 1500, 1000, 1800], abs=1)
+    assert servos_us(flight) == pytest.approx([1500, 2000, 1000, 1800], abs=1)
 
 
 def test_a_v_tail_mixes_elevator_and_rudder(flight):
@@ -87,7 +88,7 @@ def test_a_v_tail_mixes_elevator_and_rudder(flight):
 def test_a_mix_is_turned_and_trimmed_for_each_servo(flight):
     fit(flight, {"elevator": {"reversed": 1, "trim_us": -30}}, mix=1)
     flight.sticks(ailerons=1600, elevator=1550)
-    assert servos_us(flight) == pytest.approx([1650, 1520, 1000, 1500], abs=1)
+    assert servos_us(flight) == pytest.approx([1450, 1320, 1000, 1500], abs=1)
 
 
 def test_stabilisation_passes_the_mix_and_the_directions(flight):
@@ -96,7 +97,7 @@ def test_stabilisation_passes_the_mix_and_the_directions(flight):
     flight.tilt(20)
     # To level, the right elevon goes one way and the left the other; the first one is reversed.
     left, right, *_ = servos_us(flight)
-    assert left > 1600 and right > 1600
+    assert left < 1400 and right < 1400
     flight.tilt(0)
 
 
@@ -126,7 +127,7 @@ def test_a_profile_is_kept_over_a_power_cycle(flight):
     flight.run_ms(700)
     again = Flight(eeprom=flight.rig.eeprom.read())
     again.sticks(ailerons=1600, rudder=1700)
-    assert servos_us(again) == pytest.approx([1600, 1400, 1000, 1340], abs=1)
+    assert servos_us(again) == pytest.approx([1400, 1600, 1000, 1340], abs=1)
 
 
 @pytest.mark.parametrize(

@@ -33,8 +33,8 @@ OUT_OF_LINE void to_servos(const Profile& profile, const Ticks* demands, Outputs
   const int16_t elevator = deflections[ELEVATOR];
   const int16_t rudder = deflections[RUDDER];
   if (profile.mix == Mix::ELEVON) {
-    deflections[AILERONS] = static_cast<int16_t>(elevator + ailerons);
-    deflections[ELEVATOR] = static_cast<int16_t>(elevator - ailerons);
+    deflections[AILERONS] = static_cast<int16_t>(elevator - ailerons);
+    deflections[ELEVATOR] = static_cast<int16_t>(elevator + ailerons);
   } else if (profile.mix == Mix::V_TAIL) {
     deflections[ELEVATOR] = static_cast<int16_t>(elevator + rudder);
     deflections[RUDDER] = static_cast<int16_t>(elevator - rudder);
