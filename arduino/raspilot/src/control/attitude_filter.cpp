@@ -8,7 +8,7 @@ namespace raspilot {
 namespace {
 
 constexpr uint16_t STALE_SLOTS = 25;   // 50 ms
-constexpr uint16_t LOST_SLOTS = 125;   // a quarter of a second
+constexpr uint16_t LOST_SLOTS = 250;   // half a second
 constexpr uint16_t OLDEST_SLOTS = 32767;
 constexpr uint16_t SEARCH_SLOTS = 5000;
 constexpr uint8_t FROZEN_COPIES = 24;  // with the one they copy 25 samples, 50 ms
