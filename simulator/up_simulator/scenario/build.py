@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft import Gust as AirGust
@@ -33,7 +34,7 @@ def build_flight(scenario: Scenario, say: Say = lambda _text: None) -> ScenarioF
     )
     board = _board(scenario, airframe, say)
     world = World(dynamics, board)
-    companions = _companions(scenario, airframe, world, board, say)
+    companions = _companions(scenario, airframe, dynamics, board)
     demand = DemandModel(profile_of(scenario, airframe.profile))
     return ScenarioFlight(scenario, world, board, companions, demand)
 
@@ -56,9 +57,20 @@ def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
 
 
 def _companions(
-    scenario: Scenario, airframe: Airframe, world: World, board: LineBoard, say: Say
+    scenario: Scenario, airframe: Airframe, dynamics: FlightDynamics, board: LineBoard
 ) -> Companions:
-    return Nobody(board)
+    if not scenario.has_raspilot:
+        return Nobody(board)
+    settings: dict[str, dict[str, Any]] = {
+        "airframe.yml": profile_of(scenario, airframe.profile),
+        "pids.yml": gains_of(scenario, airframe.gains),
+    }
+    if scenario.ground is not None:
+        settings["mission_control.yml"] = {"role": scenario.ground.role}
+    # Twisted and the whole daemon: only for those who fly with it.
+    from up_simulator.scenario.in_process_companions import InProcessCompanions
+
+    return InProcessCompanions(scenario, dynamics, board, settings)
 
 
 def _start(scenario: Scenario) -> Start:

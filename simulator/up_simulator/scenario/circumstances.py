@@ -10,6 +10,7 @@ from up.config import items, key, section
 from up.fields import Constraint
 from up_rig.imu import NOISE_DEG_S, NOISE_M_S2
 from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.link.settings import LinkSettings
 
 _RATE = Constraint(float, minimum=-500, maximum=500, unit="deg/s")
 _ZERO = (0.0, 0.0, 0.0)
@@ -141,6 +142,10 @@ class LinkSettingsPart:
     rate_bytes_s: float = key(
         0.0, "How many bytes pass in a second; 0: any.", unit="B/s", minimum=0, maximum=1e9
     )
+
+    def settings(self) -> LinkSettings:
+        """Return what the link's model is to be set to."""
+        return LinkSettings(self.delay_ms, self.jitter_ms, self.loss_percent, self.rate_bytes_s)
 
 
 @dataclass(frozen=True, slots=True)

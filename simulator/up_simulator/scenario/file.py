@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode, compose
+from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
 from up.config.problems import Problems
 from up.config.reading import decode, read_text
+from up.config.scalars import is_null
 from up.config.shape import shape_of
 from up.config.validator import Validator
+from up_simulator.scenario.config_files import daemon_files
+from up_simulator.scenario.crosscheck import cross_problems, guess
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.override import OverriddenProblems, Override, apply
 from up_simulator.scenario.plain import plain_of
 from up_simulator.scenario.scenario import Scenario
+from up_simulator.scenario.tree import child, items_of
 
 SHAPE = shape_of(Scenario)
 _FREE_TEXT = ("is", "is_not", "becomes")
@@ -57,7 +60,7 @@ def _parse(text: str, problems: Problems, overrides: Sequence[Override]) -> Scen
     scenario: Scenario = Validator(problems.report, {}).read(SHAPE, root)
     problems.raise_if_any()
     scenario = free.fill(scenario)
-    for node, what in _cross_problems(scenario, root):
+    for node, what in cross_problems(scenario, root):
         problems.report(node.line, node.column, what)
     problems.raise_if_any()
     return scenario
@@ -71,15 +74,22 @@ class _Free:
 
     def __init__(self, root: MapNode, report: Report) -> None:
         self._report = report
+        self._check_config(child(root, "profile"), "airframe.yml")
+        self._check_config(child(root, "gains"), "pids.yml")
+        config = child(child(root, "raspilot"), "config")
+        for name, node in config.pairs if isinstance(config, MapNode) else ():
+            if isinstance(name, ScalarNode):
+                self._check_file_name(name)
+                self._check_config(node, name.text)
         self.profile = self._take(root, "profile")
         self.gains = self._take(root, "gains")
-        self.config = self._take(_child(root, "raspilot"), "config")
+        self.config = self._take(child(root, "raspilot"), "config")
         self.commands = [
-            self._take(_child(event, "command"), "data") for event in _items(root, "events")
+            self._take(child(event, "command"), "data") for event in items_of(root, "events")
         ]
-        for expectation in _items(root, "expect"):
-            for name in _FREE_TEXT:
-                value = _child(expectation, name)
+        for expectation in items_of(root, "expect"):
+            for key in _FREE_TEXT:
+                value = child(expectation, key)
                 if isinstance(value, ScalarNode):
                     value.plain = False
 
@@ -91,8 +101,20 @@ class _Free:
             scenario, raspilot=raspilot, events=events, profile=self.profile, gains=self.gains
         )
 
+    def _check_file_name(self, name: ScalarNode) -> None:
+        known = daemon_files()
+        if known and name.text not in known:
+            what = f"the daemon reads no file {name.text[:60]!r}{guess(name.text, known)}"
+            self._report(name.line, name.column, what)
+
+    def _check_config(self, node: Node | None, filename: str) -> None:
+        """Judge part of a configuration file as the daemon would."""
+        file = daemon_files().get(filename) if node is not None else None
+        if file is not None and node is not None and not is_null(node):
+            Validator(self._report, dict(file.removed)).read(file.shape, node)
+
     def _take(self, parent: Node | None, name: str) -> dict[str, Any]:
-        node = _child(parent, name)
+        node = child(parent, name)
         if node is None:
             return {}
         value = plain_of(node, self._report)
@@ -109,48 +131,3 @@ def _with_data(event: Event, data: dict[str, Any]) -> Event:
         if event.command is None
         else replace(event, command=replace(event.command, data=data))
     )
-
-
-def _cross_problems(scenario: Scenario, root: MapNode) -> Iterator[tuple[Node, str]]:
-    """Yield what does not fit together although each part is right by itself."""
-    events = {event.title for event in scenario.events}
-    for at, expectation in enumerate(scenario.expect):
-        node = _items(root, "expect")[at]
-        if expectation.after and expectation.after not in events:
-            what = f"no event is called {expectation.after!r}{_guess(expectation.after, events)}"
-            yield _child(node, "after") or node, what
-    yield from _same_names(scenario, root)
-    if scenario.control is not None:
-        names = {expectation.name for expectation in scenario.expect}
-        fails = _items(_child(root, "control"), "fails")
-        for at, name in enumerate(scenario.control.fails):
-            if name not in names:
-                yield fails[at], f"no expectation is called {name!r}{_guess(name, names)}"
-
-
-def _same_names(scenario: Scenario, root: MapNode) -> Iterator[tuple[Node, str]]:
-    seen: set[str] = set()
-    for at, expectation in enumerate(scenario.expect):
-        if expectation.name in seen:
-            node = _items(root, "expect")[at]
-            yield _child(node, "name") or node, "two expectations have this name"
-        seen.add(expectation.name)
-
-
-def _guess(name: str, known: set[str]) -> str:
-    near = difflib.get_close_matches(name[:100], sorted(known), n=1, cutoff=0.5)
-    return f", did you mean {near[0]!r}?" if near else ""
-
-
-def _child(node: Node | None, name: str) -> Node | None:
-    """Return the first value of a key, where there is a map that has it."""
-    if isinstance(node, MapNode):
-        for key, value in node.pairs:
-            if isinstance(key, ScalarNode) and key.text == name:
-                return value
-    return None
-
-
-def _items(node: Node | None, name: str) -> list[Node]:
-    found = _child(node, name)
-    return found.items if isinstance(found, ListNode) else []

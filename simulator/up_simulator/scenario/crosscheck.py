@@ -1,0 +1,135 @@
+"""What does not fit together in a scenario although each part is right by itself."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator
+
+from up.config.nodes import MapNode, Node
+from up_simulator.aircraft import airframe_names
+from up_simulator.scenario.sampler import sources_of
+from up_simulator.scenario.scenario import Scenario
+from up_simulator.scenario.signals import signal_of
+from up_simulator.scenario.tree import place
+
+Problem = tuple[Node, str]
+_PATH_LIKE = ("/", ".")
+_NEEDS_BOARD = ("imu", "imu_errors", "reset")
+_NEEDS_RASPILOT = ("serial", "serial_noise", "raspilot", "cpu_load_percent")
+_NEEDS_PHONE = ("phone",)
+_NEEDS_GROUND = ("link", "link_settings", "command")
+_NEEDS_REAL = ("proxy",)
+_PARTS = {
+    "board": "a flight computer ('board: direct' has none)",
+    "demand": "a flight computer ('board: direct' has none)",
+    "error": "a flight computer ('board: direct' has none)",
+    "estimate_error": "a flight computer ('board: direct' has none)",
+    "raspilot": "a Raspberry Pi: add 'raspilot: {runs: in process}'",
+    "phone": "a phone: add 'phone: {}' with its keys",
+    "ground": "a ground station: add 'ground: {role: pilot}'",
+}
+
+
+def cross_problems(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
+    """Yield each mistake with the node where it stands."""
+    yield from _airframe(scenario, root)
+    yield from _sticks(scenario, root)
+    yield from _crew(scenario, root)
+    yield from _events(scenario, root)
+    yield from _expectations(scenario, root)
+    yield from _control(scenario, root)
+
+
+def _airframe(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
+    name = scenario.airframe
+    names = airframe_names()
+    if name not in names and not any(each in name for each in _PATH_LIKE):
+        known = ", ".join(names)
+        yield (
+            place(root, "airframe"),
+            f"there is no airframe {name!r}{guess(name, names)} ({known})",
+        )
+
+
+def _sticks(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
+    modes = set(scenario.switch.positions().values())
+    for at, point in enumerate(scenario.sticks):
+        if point.mode is not None and point.mode not in modes:
+            yield place(root, "sticks", at, "mode"), _no_position(point.mode)
+    if scenario.control is not None and scenario.control.mode not in {None, *modes}:
+        yield place(root, "control", "mode"), _no_position(str(scenario.control.mode))
+
+
+def _no_position(mode: str) -> str:
+    return f"no position of the switch selects {mode}: add 'switch: {{middle: {mode}}}'"
+
+
+def _crew(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
+    if not scenario.has_raspilot:
+        for name in ("phone", "ground"):
+            if getattr(scenario, name) is not None:
+                what = "needs 'raspilot: {runs: in process}', or real: nobody else speaks with it"
+                yield place(root, name), what
+    ground = scenario.ground
+    if ground is not None and ground.through != "listener" and not scenario.is_real:
+        what = f"{ground.through} is a real program: it needs 'raspilot: {{runs: real}}'"
+        yield place(root, "ground", "through"), what
+
+
+def _events(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
+    for at, event in enumerate(scenario.events):
+        kind = event.kinds[0]
+        node = place(root, "events", at, kind)
+        if kind in _NEEDS_BOARD and scenario.board == "direct":
+            yield node, "there is no flight computer: 'board: direct'"
+        if kind in _NEEDS_RASPILOT and not scenario.has_raspilot:
+            yield node, "needs a Raspberry Pi: add 'raspilot: {runs: in process}'"
+        if kind in _NEEDS_PHONE and scenario.phone is None:
+            yield node, "needs a phone: add 'phone: {plugged: true}'"
+        if kind in _NEEDS_GROUND and scenario.ground is None:
+            yield node, "needs a ground station: add 'ground: {role: pilot}'"
+        is_hung = event.raspilot in ("hung", "awake")
+        if (kind in _NEEDS_REAL or is_hung) and not scenario.is_real:
+            yield node, "needs real programs: 'raspilot: {runs: real}'"
+        if event.at_s > scenario.duration_s:
+            what = f"is after the flight's end at {scenario.duration_s:g} s"
+            yield place(root, "events", at, "at_s"), what
+
+
+def _expectations(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
+    titles = [event.title for event in scenario.events]
+    sources = sources_of(scenario)
+    seen: set[str] = set()
+    for at, expectation in enumerate(scenario.expect):
+        if expectation.after and expectation.after not in titles:
+            what = f"no event is called {expectation.after!r}{guess(expectation.after, titles)}"
+            yield place(root, "expect", at, "after"), what
+        if expectation.name in seen:
+            yield place(root, "expect", at, "name"), "two expectations have this name"
+        seen.add(expectation.name)
+        source = signal_of(expectation.signal).source
+        if source not in sources:
+            yield place(root, "expect", at, "signal"), f"needs {_PARTS[source]}"
+        begins_s = expectation.from_s + max(
+            (event.at_s for event in scenario.events if event.title == expectation.after),
+            default=0.0,
+        )
+        if begins_s >= scenario.duration_s:
+            what = f"the flight ends at {scenario.duration_s:g} s, before this window begins"
+            yield place(root, "expect", at, "from_s"), what
+
+
+def _control(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
+    if scenario.control is None:
+        return
+    names = [expectation.name for expectation in scenario.expect]
+    for at, name in enumerate(scenario.control.fails):
+        if name not in names:
+            what = f"no expectation is called {name!r}{guess(name, names)}"
+            yield place(root, "control", "fails", at), what
+
+
+def guess(name: str, known: Iterable[str]) -> str:
+    """Return ', did you mean ...?' where something known is near."""
+    near = difflib.get_close_matches(name[:100], sorted(set(known)), n=1, cutoff=0.5)
+    return f", did you mean {near[0]!r}?" if near else ""
