@@ -1,0 +1,55 @@
+"""Flies for some seconds and prints one digest of everything that passed and of where it ended.
+
+python -m tests.simulator.in_process.determinism SEED
+"""
+
+import hashlib
+import sys
+import tempfile
+from pathlib import Path
+
+from tests.simulator.in_process.flying import CELLULAR, Flying
+from up_simulator.in_process.serial_wire import SerialNoise
+from up_simulator.in_process.tcp_end import TcpEnd
+from up_simulator.link.model import LinkSettings
+
+LOSSY = LinkSettings(CELLULAR.delay_ms, CELLULAR.jitter_ms, loss_percent=5, rate_bytes_s=60_000)
+
+
+def digests(folder, seed, duration_s=3.0):
+    """Return the digests of the serial line, of all connections, and of the flight."""
+    passed = hashlib.sha256()
+    write = TcpEnd.write
+
+    def write_and_note(end, data):
+        passed.update(b"%r %r\n" % (end._clock.seconds(), data))
+        write(end, data)
+
+    TcpEnd.write = write_and_note
+    try:
+        flying = Flying(folder, seed=seed, link=LOSSY, orientation="udp")
+        flying.raspilot.wire.noise = SerialNoise(flips=0.002, inserts=0.001, drops=0.001)
+        flying.start()
+        flying.fly(duration_s / 3)
+        flying.ask("up.telemetry.frequency", limit_s=5.0, frequency=50)
+        flying.raspilot.kill()
+        flying.raspilot.start()
+        flying.fly(duration_s / 3)
+        flying.phone.unplug()
+        flying.fly(duration_s / 3)
+        assert flying.ground.frames > 5
+        log = "\n".join([*flying.raspilot.log, *flying.phone.said])
+        ended = repr((flying.state, flying.ground.telemetry, log))
+        flying.raspilot.kill()
+    finally:
+        TcpEnd.write = write
+    return (
+        flying.board.digest.hexdigest(),
+        passed.hexdigest(),
+        hashlib.sha256(ended.encode()).hexdigest(),
+    )
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as name:
+        print(*digests(Path(name), int(sys.argv[1])))
