@@ -86,7 +86,7 @@ class Flight:
         """Run on, moving what is to move and reading what comes."""
         end_us = self.rig.now_us + duration_us
         while self.rig.now_us < end_us:
-            for channel in self.moving:
+            for channel in sorted(self.moving):
                 self.rig.receiver.set(channel, self._random.randint(2200, 3800) / 2)
             if self._is_loud and self.rig.serial.waiting < 32:
                 self.say("v", b"\0")
