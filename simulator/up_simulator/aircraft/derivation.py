@@ -160,16 +160,15 @@ class Derivation:
         return -2 * 0.9 * volume_m3 / (self.area_m2 * self.span_m)
 
     @cached_property
-    def pitch_damping(self) -> float:
-        """Return the pitch damping, that of the lagging downwash included.
+    def downwash_lag(self) -> float:
+        """Return the pitching moment by the rate of the angle of attack, per pure rate.
 
-        In the short period the angle of attack changes about as the nose does: the tail's share
-        grows by the slope of the downwash, 2 CL_alpha / (pi A).
+        The tail feels the downwash that left the wing a moment ago: the share of the pitch damping
+        that the slope of the downwash, 2 CL_alpha / (pi A), is of 1.
         """
-        quasi_steady = self.by("pitch").pitch
         if not self._tail_volume:
-            return quasi_steady
-        return quasi_steady * (1 + 2 * 4.5 / (math.pi * self.aspect))
+            return 0.0
+        return self.by("pitch").pitch * 2 * self.by("alpha_rad").lift / (math.pi * self.aspect)
 
     def side(self, beta_deg: float) -> float:
         """Return the side force coefficient of a sideslip; a fuselage goes on as a body."""

@@ -149,7 +149,15 @@ def _aerodynamics(derivation: Derivation) -> str:
         "  </axis>",
         '  <axis name="PITCH">',
         _moment("pitch", "cbarw", alpha(derivation.pitch)),
-        _moment("pitch-pitching", "cbarw", *pitch, _value(derivation.pitch_damping)),
+        _moment("pitch-pitching", "cbarw", *pitch, _value(derivation.by("pitch").pitch)),
+        _moment(
+            "pitch-downwash",
+            "cbarw",
+            _property("aero/alphadot-rad_sec"),
+            _property("aero/ci2vel"),
+            _value(derivation.downwash_lag),
+            alpha(derivation.attached),
+        ),
         _moment(
             "pitch-elevator", "cbarw", elevator, alpha(lambda at: derivation.elevator(at)[1])
         ),

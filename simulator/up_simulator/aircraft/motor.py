@@ -45,6 +45,10 @@ class Battery:
         """Return what was drawn since it was full, mAh."""
         return (self._capacity_c - self._left_c) / 3.6
 
+    def charge(self) -> None:
+        """Be as it was at the launch, as another one of the same kind is."""
+        self._left_c = self._capacity_c * self._config.charge_percent / 100
+
     def draw(self, current_a: float, duration_s: float) -> None:
         """Give a current for a while."""
         self.current_a = current_a + self._config.idle_a
