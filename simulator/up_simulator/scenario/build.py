@@ -36,7 +36,7 @@ def build_flight(scenario: Scenario, say: Say = lambda _text: None) -> ScenarioF
     world = World(dynamics, board)
     companions = _companions(scenario, airframe, dynamics, board)
     demand = DemandModel(profile_of(scenario, airframe.profile))
-    return ScenarioFlight(scenario, world, board, companions, demand)
+    return ScenarioFlight(scenario, world, board, companions, demand, airframe.imu)
 
 
 def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
@@ -49,7 +49,7 @@ def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
     board = choose_board(
         scenario.board,
         seed=scenario.seed,
-        imu_errors=scenario.imu.errors(),
+        imu_errors=scenario.imu.errors(airframe.imu),
         eeprom=eeprom,
         say=say,
     )

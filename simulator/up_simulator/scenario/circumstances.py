@@ -9,6 +9,7 @@ from typing import Literal
 from up.config import items, key, section
 from up.fields import Constraint
 from up_rig.imu import NOISE_DEG_S, NOISE_M_S2
+from up_simulator.aircraft.airframe_file import ImuConfig
 from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.link.settings import LinkSettings
 
@@ -99,15 +100,20 @@ class ImuPart:
     warm_up_s: float = key(
         60.0, "Time constant of the warming, from power-on.", unit="s", minimum=0.1, maximum=3600
     )
-    vibration_deg_s: float = key(
-        0.0,
-        "Amplitude in the rates at full throttle; it goes with the square of the throttle.",
+    vibration_deg_s: float | None = key(
+        None,
+        "Amplitude in the rates at full throttle; it goes with the square of the throttle. null:"
+        " the airframe's own.",
         unit="deg/s",
         minimum=0,
         maximum=500,
     )
-    vibration_m_s2: float = key(
-        0.0, "Amplitude in the forces at full throttle.", unit="m/s^2", minimum=0, maximum=100
+    vibration_m_s2: float | None = key(
+        None,
+        "Amplitude in the forces at full throttle. null: the airframe's own.",
+        unit="m/s^2",
+        minimum=0,
+        maximum=100,
     )
     vibration_hz: float = key(
         150.0, "How fast it shakes at full throttle.", unit="Hz", minimum=1, maximum=1000
@@ -119,9 +125,13 @@ class ImuPart:
             if len(getattr(self, name)) != 3:
                 yield name, "must have three numbers, one for each axis"
 
-    def errors(self) -> ImuErrors:
-        """Return what the board's IMU is to be set to."""
-        return ImuErrors(**{name: getattr(self, name) for name in self.__slots__})
+    def errors(self, imu: ImuConfig) -> ImuErrors:
+        """Return what the board's IMU is to be set to in an airframe that shakes it so."""
+        values = {name: getattr(self, name) for name in self.__slots__}
+        for name in ("vibration_deg_s", "vibration_m_s2"):
+            if values[name] is None:
+                values[name] = getattr(imu, name)
+        return ImuErrors(**values)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from up_rig.imu import motion_at
+from up_simulator.aircraft.airframe_file import ImuConfig
 from up_simulator.crew.protocols import CrewError
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.scenario.companions import Companions
@@ -72,12 +73,14 @@ class ScenarioFlight:
         board: LineBoard,
         companions: Companions,
         demand: DemandModel,
+        imu: ImuConfig,
     ) -> None:
         self._scenario = scenario
         self._world = world
         self._board = board
         self._companions = companions
         self._demand = demand
+        self._imu = imu
         self._timeline = StickTimeline(scenario.sticks, scenario.switch.positions())
         self._events = sorted(scenario.events, key=lambda event: event.at_s)
         self._happened: list[str] = []
@@ -210,7 +213,7 @@ class ScenarioFlight:
                 if event.command is not None:
                     self._ask(event, time_s)
                 else:
-                    happen(event, self._board, self._companions)
+                    happen(event, self._board, self._companions, self._imu)
             except CrewError as error:
                 self._fail(str(error))
 

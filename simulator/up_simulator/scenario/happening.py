@@ -4,20 +4,24 @@ from __future__ import annotations
 
 from typing import cast
 
+from up_simulator.aircraft.airframe_file import ImuConfig
 from up_simulator.firmware.board import Channel, ImuFault, ResetCause
 from up_simulator.scenario.companions import Companions
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
 
 
-def happen(event: Event, board: LineBoard, companions: Companions) -> None:
-    """Let one event happen now: to the board and its wires, or to the crew. Raises CrewError."""
+def happen(event: Event, board: LineBoard, companions: Companions, imu: ImuConfig) -> None:
+    """Let one event happen now: to the board and its wires, or to the crew.
+
+    ``imu`` is how the airframe carries its IMU. Raises CrewError.
+    """
     match event.kinds[0]:
         case "imu":
             board.imu.set_fault(cast(ImuFault, event.imu))
         case "imu_errors":
             assert event.imu_errors is not None
-            board.imu.errors = event.imu_errors.errors()
+            board.imu.errors = event.imu_errors.errors(imu)
         case "receiver":
             board.set_receiver(event.receiver == "back")
         case "channel_lost":

@@ -60,6 +60,7 @@ def _truth() -> Iterator[Signal]:
         ("battery_v", "V", "the flight battery under its load"),
         ("battery_percent", "%", "what is left in the flight battery"),
         ("motor_rpm", "1/min", "the propeller"),
+        ("motor_w", "W", "what the motor takes"),
     ):
         yield Signal(f"truth.{name}", about, unit)
     yield Signal("truth.crashed", "it has hit the ground or broken", kind=_FLAG)

@@ -1,0 +1,233 @@
+"""``up-sim all``: fly every scenario that is shipped, two at a time, and count."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+from up.config import ConfigErrors
+from up_simulator.scenario.file import read_scenario
+from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
+from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, WRONG_INPUT
+from up_simulator.verbs.shelf import name_of, shipped_paths
+
+WAIT_S = 0.05
+SHOWN_S = 0.5
+_MIB = 1024.0
+EPILOG = """\
+Fast scenarios fly two at a time, each in a process of its own; those with real programs after them
+and one at a time, because they keep real time.
+
+examples:
+  up-sim all
+  up-sim all --picture --tag faults
+  make scenarios"""
+
+
+@dataclass(slots=True)
+class Job:
+    """One scenario in a process of its own; ``memory_mib`` is the most that it took."""
+
+    path: Path
+    is_real: bool
+    folder: Path
+    process: subprocess.Popen[bytes] | None = None
+    began_s: float = 0.0
+    took_s: float = 0.0
+    memory_mib: float = 0.0
+    status: int | None = None
+
+    @property
+    def name(self) -> str:
+        """Return the scenario's name."""
+        return name_of(self.path)
+
+    def start(self, options: argparse.Namespace) -> None:
+        """Begin to fly."""
+        # A summary of an earlier run must not be taken for this one's.
+        (self.folder / SUMMARY).unlink(missing_ok=True)
+        command = [sys.executable, "-m", "up_simulator.cli", "fly", str(self.path), "--quiet"]
+        command += ["--output", str(options.output)]
+        command += [] if options.picture else ["--no-picture"]
+        self.began_s = time.monotonic()
+        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL)
+
+    def is_over(self) -> bool:
+        """Return whether it has ended, and note how."""
+        assert self.process is not None
+        found, status, usage = os.wait4(self.process.pid, os.WNOHANG)
+        if not found:
+            return False
+        self.status = self.process.returncode = os.waitstatus_to_exitcode(status)
+        self.took_s = time.monotonic() - self.began_s
+        self.memory_mib = usage.ru_maxrss / _MIB
+        return True
+
+    def summary(self) -> dict[str, object]:
+        """Return what it wrote about itself; empty where it did not get so far."""
+        try:
+            found = json.loads((self.folder / SUMMARY).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+        return found if isinstance(found, dict) else {}
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Fly all; return the exit status."""
+    options = _parser().parse_args(arguments)
+    jobs = _jobs(options)
+    if jobs is None:
+        return WRONG_INPUT
+    began_s = time.monotonic()
+    fleet = Fleet(jobs, options, sys.stderr)
+    is_interrupted = False
+    try:
+        fleet.fly()
+    except KeyboardInterrupt:
+        is_interrupted = True
+        fleet.end()
+    _say_table(fleet.done, time.monotonic() - began_s, len(jobs))
+    if is_interrupted:
+        return INTERRUPTED
+    return HELD if all(job.status == HELD for job in jobs) else NOT_HELD
+
+
+def _jobs(options: argparse.Namespace) -> list[Job] | None:
+    """Return what is to be flown, the longest first; None: a file has mistakes, which are told."""
+    jobs: list[tuple[float, Job]] = []
+    has_mistakes = False
+    for path in shipped_paths():
+        try:
+            scenario = read_scenario(path)
+        except ConfigErrors as errors:
+            sys.stderr.write(f"{errors}\n")
+            has_mistakes = True
+            continue
+        if set(options.tag) <= set(scenario.tags):
+            flights = 1 if scenario.control is None else 2
+            job = Job(path, scenario.is_real, options.output / name_of(path))
+            jobs.append((-scenario.duration_s * flights, job))
+    jobs.sort(key=lambda each: (each[1].is_real, each[0], each[1].name))
+    return None if has_mistakes else [job for _, job in jobs]
+
+
+class Fleet:
+    """Flies jobs, ``options.processes`` at a time; real programs have the machine to themselves."""
+
+    def __init__(self, jobs: list[Job], options: argparse.Namespace, stream: TextIO) -> None:
+        self.done: list[Job] = []
+        self._waiting = list(jobs)
+        self._flying: list[Job] = []
+        self._count = len(jobs)
+        self._options = options
+        self._stream = stream
+        self._shown_s = 0.0
+
+    def fly(self) -> None:
+        """Fly until all have ended."""
+        while self._waiting or self._flying:
+            while self._waiting and self._has_room_for(self._waiting[0]):
+                job = self._waiting.pop(0)
+                job.start(self._options)
+                self._flying.append(job)
+            for job in [each for each in self._flying if each.is_over()]:
+                self._flying.remove(job)
+                self.done.append(job)
+            self._show()
+            time.sleep(WAIT_S)
+        self._clear()
+
+    def end(self) -> None:
+        """End what flies; a terminal's Ctrl-C has reached it already."""
+        self._clear()
+        for job in self._flying:
+            if job.process is not None and not job.is_over():
+                job.process.send_signal(signal.SIGINT)
+        for job in self._flying:
+            while job.status is None and not job.is_over():
+                time.sleep(WAIT_S)
+
+    def _has_room_for(self, job: Job) -> bool:
+        if job.is_real:
+            return not self._flying
+        return len(self._flying) < int(self._options.processes)
+
+    def _show(self) -> None:
+        now_s = time.monotonic()
+        if self._stream.isatty() and now_s - self._shown_s >= SHOWN_S:
+            self._shown_s = now_s
+            names = ", ".join(job.name for job in self._flying)
+            self._stream.write(f"\r\x1b[K{len(self.done)} of {self._count}: {names}"[:200])
+            self._stream.flush()
+
+    def _clear(self) -> None:
+        if self._stream.isatty():
+            self._stream.write("\r\x1b[K")
+            self._stream.flush()
+
+
+def _say_table(jobs: list[Job], took_s: float, count: int) -> None:
+    width = max((len(job.name) for job in jobs), default=4)
+    write = sys.stdout.write
+    write(
+        f"{'scenario':<{width}}  {'':<8}  {'flown':>8}  {'took':>7}  {'speed':>7}  {'memory':>8}\n"
+    )
+    for job in sorted(jobs, key=lambda each: each.name):
+        summary = job.summary()
+        word = "held" if job.status == HELD else "NOT held"
+        flown_s, speed = summary.get("flown_s"), summary.get("speed")
+        flown = "" if flown_s is None else f"{flown_s:g} s"
+        times = "" if speed is None else f"{speed:.1f} x"
+        write(
+            f"{job.name:<{width}}  {word:<8}  {flown:>8}  {job.took_s:>5.1f} s"
+            f"  {times:>7}  {job.memory_mib:>4.0f} MiB\n"
+        )
+    for job in jobs:
+        if job.status != HELD:
+            _say_failure(job)
+    held = sum(job.status == HELD for job in jobs)
+    most = max((job.memory_mib for job in jobs), default=0.0)
+    write(f"{took_s:.0f} s, at most {most:.0f} MiB in one process\n")
+    write(f"{held} of {count} scenarios held\n")
+
+
+def _say_failure(job: Job) -> None:
+    summary = job.summary()
+    expectations = summary.get("expectations", [])
+    for verdict in expectations if isinstance(expectations, list) else []:
+        if not verdict["held"]:
+            limit = f" ({verdict['limit']})" if verdict["limit"] else ""
+            why = f": {verdict['why']}" if verdict["why"] else ""
+            sys.stdout.write(f"  {job.name}: {verdict['name']}: {verdict['figure']}{limit}{why}\n")
+    if summary.get("failure"):
+        sys.stdout.write(f"  {job.name}: {summary['failure']}\n")
+    if summary:
+        sys.stdout.write(f"  {job.name}: {job.folder / REPORT}\n")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="up-sim all",
+        description="Flies every scenario that is shipped and closes with how many held.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("--tag", action="append", default=[], help="only those with this tag")
+    parser.add_argument("--picture", action="store_true", help="draw pictures, too")
+    parser.add_argument(
+        "--processes", type=int, choices=range(1, 9), default=2, metavar="N", help="default 2"
+    )
+    parser.add_argument(
+        "--output", type=Path, default=FLIGHTS, metavar="DIR", help=f"default {FLIGHTS}"
+    )
+    return parser
