@@ -69,6 +69,11 @@ class InProcessGround:
         return self._newest_s
 
     @property
+    def beacon(self) -> int | None:
+        """Return the number of the newest frame, which the next Command will echo."""
+        return self._received.beacon
+
+    @property
     def is_connected(self) -> bool:
         """Return whether there is a connection, as far as this end knows."""
         return self._link is not None and self._link.status.is_open
