@@ -1,0 +1,64 @@
+"""Flies many trials in a few processes, and says how far it has come."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from types import TracebackType
+from typing import Any, TypeVar
+
+T = TypeVar("T")
+MOST_PROCESSES = 2
+
+
+class Workers:
+    """A place for trials to be flown; one process is this one. Use it with ``with``.
+
+    ``on_flown`` hears after each how many are flown of all that were asked for so far.
+    """
+
+    def __init__(
+        self, processes: int = 1, on_flown: Callable[[int, int], None] = lambda _done, _of: None
+    ) -> None:
+        self._on_flown = on_flown
+        self._flown = self._asked = 0
+        self._pool: ProcessPoolExecutor | None = None
+        if processes > 1:
+            # A fresh interpreter: a copy of this one would share what JSBSim and simavr hold.
+            context = multiprocessing.get_context("spawn")
+            self._pool = ProcessPoolExecutor(min(processes, MOST_PROCESSES), mp_context=context)
+
+    def __enter__(self) -> Workers:
+        """Return itself."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End the processes; after an error what has not begun is not flown."""
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=kind is not None)
+
+    def fly(self, trial: Callable[..., T], arguments: Sequence[tuple[Any, ...]]) -> list[T]:
+        """Return what ``trial`` returns for each of the arguments, in their order."""
+        self._asked += len(arguments)
+        if self._pool is None:
+            results = []
+            for each in arguments:
+                results.append(trial(*each))
+                self._count()
+            return results
+        futures = [self._pool.submit(trial, *each) for each in arguments]
+        results = []
+        for future in futures:
+            results.append(future.result())
+            self._count()
+        return results
+
+    def _count(self) -> None:
+        self._flown += 1
+        self._on_flown(self._flown, self._asked)
