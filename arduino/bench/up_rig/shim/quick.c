@@ -1,8 +1,8 @@
 /* Instructions that concern nothing but registers, RAM and flash, run without simavr.
  *
  * Most of what a program does is of that kind, and simavr takes long for it, as it must look after
- * every address. Here the flash is decoded once. What touches a peripheral, lets interrupts in or
- * leaves the RAM is left to simavr, which the rig asks alone while it measures: both must come to
+ * every address. Here the flash is decoded once. What touches a peripheral, lets an interrupt in
+ * or leaves the RAM is left to simavr, which the rig asks alone while it measures: both must come to
  * the same cycles (tests/arduino/rig/test_quick.py). From the instruction set manual
  * (DS40002198), times of the ATmega328P.
  */
@@ -19,7 +19,7 @@ enum { XL = 26, YL = 28, ZL = 30 };
     DO(ASK) DO(NOP) DO(MOVW) DO(MULS) DO(MULSU) DO(MUL) DO(CPC) DO(SBC) DO(ADD) DO(CPSE) DO(CP) \
     DO(SUB) DO(ADC) DO(AND) DO(EOR) DO(OR) DO(MOV) DO(CPI) DO(SBCI) DO(SUBI) DO(ORI) DO(ANDI) \
     DO(LDD) DO(STD) DO(LD_PLUS) DO(LD_MINUS) DO(ST_PLUS) DO(ST_MINUS) DO(LDS) DO(STS) DO(LPM) \
-    DO(LPM_PLUS) DO(PUSH) DO(POP) DO(COM) DO(NEG) DO(SWAP) DO(INC) DO(ASR) DO(LSR) DO(ROR) \
+    DO(LDS_COUNT) DO(LDS_TEMP) DO(LPM_PLUS) DO(PUSH) DO(POP) DO(COM) DO(NEG) DO(SWAP) DO(INC) DO(ASR) DO(LSR) DO(ROR) \
     DO(DEC) DO(CLI) DO(SET_T) DO(CLEAR_T) DO(RET) DO(IJMP) DO(ICALL) DO(JMP) DO(RJMP) DO(CALL) \
     DO(RCALL) DO(ADIW) DO(SBIW) DO(IN) DO(IN_SREG) DO(OUT) DO(OUT_SREG) DO(LDI) DO(BLD) DO(BST) \
     DO(SBRC) DO(SBRS) DO(BR_C) DO(BR_Z) DO(BR_N) DO(BR_V) DO(BR_S) DO(BR_H) DO(BR_T) DO(BR_I) \
@@ -69,6 +69,8 @@ static quick_op_t decode_load_or_store(uint16_t code, uint16_t next) {
     bool is_store = code & 0x0200;
     switch (code & 15) {
         case 0:
+            if (!is_store && next == R_TCNT1L) return op(OP_LDS_COUNT, d, 0, next);
+            if (!is_store && next == R_TCNT1H) return op(OP_LDS_TEMP, d, 0, next);
             if (next < RAM_FIRST || next > RAM_LAST) return ASK;
             return op(is_store ? OP_STS : OP_LDS, d, 0, next);
         case 1: return op(is_store ? OP_ST_PLUS : OP_LD_PLUS, d, ZL, 0);
@@ -336,6 +338,13 @@ DO_ST_MINUS:
     NEXT(1, 2);
 DO_LDS: D = data[K]; NEXT(2, 2);
 DO_STS: data[K] = D; NEXT(2, 2);
+/* Programs that wait look at Timer1 all the time; to look changes nothing but TEMP. */
+DO_LDS_COUNT: {
+    cycle_t now = avr->cycle + (cycle_t)(all - left);
+    D = timers_read_count(rig, R_TCNT1L, now + 1);
+    NEXT(2, 2);
+}
+DO_LDS_TEMP: D = rig->temp; NEXT(2, 2);
 DO_LPM: D = flash[pair_at(data, ZL)]; NEXT(1, 3);
 DO_LPM_PLUS:
     address = pair_at(data, ZL);
@@ -399,10 +408,12 @@ DO_IN_SREG:
     NEXT(1, 1);
 DO_OUT_SREG: {
     unsigned value = D;
-    /* What lets interrupts in ends the run, and one more instruction runs before they come. */
-    NEED(i || !(value & 0x80));
+    bool lets_in = !i && value & 0x80;
+    NEED(!lets_in || !rig->pending);
     c = value & 1, zero = !(value & 2), minus = value << 5, over = value << 4, sign = value << 3;
     half = value >> 1, t = value >> 6 & 1, i = value >> 7;
+    /* One more instruction runs before an interrupt comes, also one that is due now. */
+    if (lets_in && left <= 1) avr->interrupt_state = -1;
     NEXT(1, 1);
 }
 DO_BR_C: BRANCH(c);

@@ -222,6 +222,7 @@ void timers_hook(rig_t *rig);
 void timers_reset(rig_t *rig, cycle_t now);
 cycle_t timers_due(const rig_t *rig);
 void timers_run(rig_t *rig, cycle_t now);
+uint8_t timers_read_count(rig_t *rig, uint16_t address, cycle_t when);
 
 void uart_hook(rig_t *rig);
 void uart_reset(rig_t *rig, cycle_t now);

@@ -157,12 +157,15 @@ static void on_prescaler(avr_t *avr, avr_io_addr_t address, uint8_t value, void 
     for (int i = 0; i < TIMERS; i++) set_clock(rig, &rig->timers[i], now);
 }
 
-static uint8_t on_count_read(avr_t *avr, avr_io_addr_t address, void *param) {
-    rig_t *rig = param;
-    (void)avr;
-    uint16_t value = count(timer_of(rig, address), read_time(rig));
+uint8_t timers_read_count(rig_t *rig, uint16_t address, cycle_t when) {
+    uint16_t value = count(timer_of(rig, address), when);
     if (address == R_TCNT1L) rig->temp = (uint8_t)(value >> 8);
     return (uint8_t)value;
+}
+
+static uint8_t on_count_read(avr_t *avr, avr_io_addr_t address, void *param) {
+    (void)avr;
+    return timers_read_count(param, address, read_time(param));
 }
 
 static uint8_t on_temp_read(avr_t *avr, avr_io_addr_t address, void *param) {
