@@ -1,0 +1,75 @@
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from up_simulator.scenario.log import FlightLog, LogError, read_log
+
+COLUMNS = ["time_s", "truth.roll_deg", "board.mode", "board.armed", "event"]
+WORDS = st.text(st.characters(exclude_characters="\r\n\0", exclude_categories=["Cs"]), max_size=12)
+
+
+@given(st.lists(st.tuples(st.floats(), st.one_of(st.none(), WORDS), st.booleans(), WORDS)))
+def test_what_is_written_is_read_again(tmp_path_factory, rows):
+    log = FlightLog(COLUMNS)
+    for at, (roll, mode, is_armed, event) in enumerate(rows):
+        log.append(
+            {
+                "time_s": at * 0.02,
+                "truth.roll_deg": None if math.isinf(roll) else roll,
+                "board.mode": mode,
+                "board.armed": is_armed,
+                "event": event,
+            }
+        )
+    path = tmp_path_factory.mktemp("log") / "log.csv"
+    log.write(path)
+    read = read_log(path)
+    assert read.columns == log.columns
+    # NaN is not itself: the text is.
+    assert read.text() == log.text()
+    assert len(read) == len(rows)
+
+
+def test_columns_are_numbers_flags_and_words():
+    log = FlightLog(COLUMNS)
+    log.append({"time_s": 0, "board.mode": "FBW", "board.armed": True, "event": "a; b"})
+    assert log.column("board.mode") == ["FBW"] and log.has_words("board.mode")
+    assert log.numbers("board.armed") == [1.0]
+    assert math.isnan(log.numbers("truth.roll_deg")[0])
+    assert log.events == [(0.0, "a"), (0.0, "b")]
+    with pytest.raises(TypeError):
+        log.numbers("board.mode")
+    with pytest.raises(KeyError):
+        log.column("board.mod")
+
+
+def test_a_text_where_a_number_belongs_is_not_known():
+    log = FlightLog(COLUMNS)
+    log.append({"time_s": 0, "truth.roll_deg": "far"})
+    assert math.isnan(log.numbers("truth.roll_deg")[0])
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("", ":1: is no log of a flight"),
+        ("a,b\n1,2\n", ":1: is no log of a flight"),
+        ("time_s,a,a\n", ":1: has two columns of one name"),
+        ("time_s,truth.roll_deg\n0,1\n0.02\n", ":3: has 1 values, not 2"),
+        ("time_s,truth.roll_deg\n0,x\n", ":2: truth.roll_deg is no number: 'x'"),
+        ("time_s\n0\n\xff\xfe", "is no log of a flight"),
+    ],
+)
+def test_what_is_no_log_is_one_sentence(tmp_path, text, what):
+    path = tmp_path / "log.csv"
+    path.write_bytes(text.encode("latin-1"))
+    with pytest.raises(LogError) as caught:
+        read_log(path)
+    assert what in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_a_missing_log_is_one_sentence(tmp_path):
+    with pytest.raises(LogError, match="cannot be read: No such file"):
+        read_log(tmp_path / "log.csv")
