@@ -7,7 +7,8 @@ from up_simulator.aircraft.airframe import (
     airframe_names,
     load_airframe,
 )
-from up_simulator.aircraft.dynamics import FlightDynamics, Start
+from up_simulator.aircraft.dynamics import FlightDynamics
+from up_simulator.aircraft.start import Start
 from up_simulator.aircraft.weather import TURBULENCE, Gust, Turbulence, Weather
 
 __all__ = [

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-import subprocess
-import sys
+import difflib
+import math
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from up.config import ConfigErrors
-from up.config.problems import ConfigProblem
+from up.config.nodes import MapNode, ScalarNode, compose
 from up_simulator.aircraft.airframe_file import (
     FILENAME,
     AirframeFile,
@@ -23,11 +23,12 @@ from up_simulator.aircraft.airframe_file import (
     ServosConfig,
     file_named,
 )
+from up_simulator.aircraft.model_check import MOTOR, ModelRefusedError, check_model
 
+_OUTPUTS = ("ailerons", "elevator", "rudder")
 SHIPPED = Path(__file__).parent / "airframes"
 DEFAULT_AIRFRAME = "glider"
 _LB_KG, _SLUG_KG = 0.45359237, 14.593903
-_CHECK_LIMIT_S = 60.0
 
 
 class AirframeError(Exception):
@@ -78,10 +79,12 @@ def load_airframe(name_or_path: str | Path) -> Airframe:
         file: AirframeFile = file_named(path.name).load(path.parent)
     except ConfigErrors as errors:
         raise AirframeError(str(errors)) from None
+    if not file.model:
+        raise AirframeError(f'{path}:1:1: the key "model" is missing')
     model_path = path.parent / file.model
     mass_kg = _mass_of(model_path)
     if SHIPPED not in path.resolve().parents:
-        _check_model(model_path)
+        _check(path, file, model_path)
     return Airframe(
         name=path.parent.resolve().name,
         title=file.title,
@@ -108,7 +111,11 @@ def _path_of(name_or_path: str | Path) -> Path:
         path = path / FILENAME
     if not path.is_file():
         names = ", ".join(airframe_names())
-        raise AirframeError(f"{text}: is no airframe ({names}), and no folder with an {FILENAME}")
+        near = difflib.get_close_matches(text, airframe_names(), n=1)
+        guess = f", did you mean '{near[0]}'?" if near else ""
+        raise AirframeError(
+            f"{text}: is no airframe ({names}) and no folder with an {FILENAME}{guess}"
+        )
     return path
 
 
@@ -135,36 +142,43 @@ def _mass_of(model_path: Path) -> float:
         raise AirframeError(f"{model_path}:1:1: is no JSBSim model with a mass_balance/emptywt")
     unit = {"KG": 1.0, "SLUG": _SLUG_KG}.get(weight.get("unit", "LBS").upper(), _LB_KG)
     try:
-        return float(weight.text or "") * unit
+        mass_kg = float(weight.text or "") * unit
     except ValueError:
-        raise AirframeError(f"{model_path}: emptywt is not a number: {weight.text}") from None
+        mass_kg = 0.0
+    if not 0.0 < mass_kg < math.inf:
+        raise AirframeError(f"{model_path}: emptywt is no mass: {weight.text}")
+    return mass_kg
 
 
-def _check_model(model_path: Path) -> None:
-    """Let JSBSim read a model that is not ours in a process of its own: it may end there.
+def _check(path: Path, file: AirframeFile, model_path: Path) -> None:
+    """Let JSBSim fly a model that is not ours. Raises ``AirframeError`` with what it says."""
+    moved = {node: output for output in _OUTPUTS for node in getattr(file.servos, output).moves}
+    wanted = [*moved, *([MOTOR] if file.motor.diameter_m else [])]
+    try:
+        unknown = check_model(model_path, wanted, file.launch.airspeed_m_s)
+    except ModelRefusedError as error:
+        raise AirframeError(f"{model_path}: JSBSim does not fly it: {error}") from None
+    problems = []
+    for node, near in unknown.items():
+        if node == MOTOR:
+            place = _place_of(path, "motor")
+            what = "motor: the model has no force 'motor' in its external_reactions"
+        else:
+            place = _place_of(path, "servos", moved[node], "moves", node)
+            what = f'servos.{moved[node]}.moves: the model has no property "{node}"'
+            what += f", did you mean '{near}'?" if near else ""
+        problems.append(f"{path}:{place[0]}:{place[1]}: {what}")
+    if problems:
+        raise AirframeError("\n".join(problems))
 
-    Raises ``AirframeError`` with what JSBSim has to say.
-    """
-    done = subprocess.run(
-        [sys.executable, "-m", "up_simulator.aircraft.model", str(model_path)],
-        capture_output=True,
-        text=True,
-        errors="replace",
-        timeout=_CHECK_LIMIT_S,
-        check=False,
-    )
-    if done.returncode == 0:
-        return
-    said = [line.strip() for line in (done.stderr + "\n" + done.stdout).splitlines()]
-    reason = " ".join(line for line in said if line) or f"it ended with {done.returncode}"
-    raise AirframeError(f"{model_path}: JSBSim does not load it: {reason[:500]}")
 
-
-__all__ = [
-    "DEFAULT_AIRFRAME",
-    "Airframe",
-    "AirframeError",
-    "ConfigProblem",
-    "airframe_names",
-    "load_airframe",
-]
+def _place_of(path: Path, *keys: str) -> tuple[int, int]:
+    """Return line and column of a key in a file that is known to be well."""
+    node = compose(path.read_text(encoding="utf-8-sig"), lambda *_problem: None)
+    place = (1, 1)
+    for name in keys:
+        pairs = node.pairs if isinstance(node, MapNode) else []
+        for key, value in pairs:
+            if isinstance(key, ScalarNode) and key.text == name:
+                place, node = (key.line, key.column), value
+    return place

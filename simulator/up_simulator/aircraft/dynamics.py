@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
 from up_rig.imu import Motion
 from up_simulator.aircraft.airframe import Airframe
 from up_simulator.aircraft.model import FOOT_M, load_model, reader, writer
+from up_simulator.aircraft.model_check import MOTOR
 from up_simulator.aircraft.motor import Battery, Motor
 from up_simulator.aircraft.servos import ServoRack
+from up_simulator.aircraft.start import (
+    START_LATITUDE_DEG,
+    START_LONGITUDE_DEG,
+    Start,
+    set_initial,
+)
 from up_simulator.aircraft.weather import Air, Weather
 from up_simulator.flight import FlightState, Servos
 
-GROUND_M = 250.0
-START_LATITUDE_DEG = 50.0
-START_LONGITUDE_DEG = 14.5
 _Move = tuple[Callable[[float], None], int, float, float]
 _NEWTON_LBS = 1 / 4.4482216
 # Radii of the Earth (WGS 84) at the start, along the meridian and about the axis.
@@ -49,26 +52,6 @@ _READ = {
     "force_y": "accelerations/a-pilot-y-ft_sec2",
     "force_z": "accelerations/a-pilot-z-ft_sec2",
 }
-
-
-@dataclass(frozen=True, slots=True)
-class Start:
-    """How a flight begins; what is None is the airframe's own.
-
-    ``climb_m_s`` is through the air, up positive. ``throttle`` (0 to 1) is what the motor has run
-    at until now.
-    """
-
-    height_m: float = 120.0
-    airspeed_m_s: float | None = None
-    roll_deg: float = 0.0
-    pitch_deg: float | None = None
-    heading_deg: float = 0.0
-    climb_m_s: float | None = None
-    throttle: float = 0.0
-    roll_rate_deg_s: float = 0.0
-    pitch_rate_deg_s: float = 0.0
-    yaw_rate_deg_s: float = 0.0
 
 
 class FlightDynamics:
@@ -179,7 +162,8 @@ class FlightDynamics:
         self._motion = None
         # A state that is no number survives new initial conditions: build the model anew.
         self._fdm: Any = load_model(airframe.model_path, self.STEP_S)
-        self._set_initial(start)
+        seed = self._seed + self._launches
+        set_initial(self._fdm, start, airframe.launch, self.weather, seed)
         self._read = {name: reader(self._fdm, node) for name, node in _READ.items()}
         self._read_airspeed = self._read["airspeed"]
         self._read_height, self._read_load = self._read["height"], self._read["load"]
@@ -189,40 +173,11 @@ class FlightDynamics:
         self._motor = Motor(airframe.motor, self._battery) if airframe.has_motor else None
         self._servos.jump((1500, 1500, 1000 + 1000 * start.throttle, 1500))
         if self._motor is not None:
-            self._set_thrust = writer(self._fdm, "external_reactions/motor/magnitude")
+            self._set_thrust = writer(self._fdm, MOTOR)
             self._motor.spin_up(start.throttle, self._read_airspeed() * FOOT_M)
             self._set_thrust(self._motor.thrust_n * _NEWTON_LBS)
         self._air = Air(self._fdm, self.weather)
         self._launches += 1
-
-    def _set_initial(self, start: Start) -> None:
-        fdm, launch = self._fdm, self.airframe.launch
-        airspeed_m_s = launch.airspeed_m_s if start.airspeed_m_s is None else start.airspeed_m_s
-        pitch_deg = launch.pitch_deg if start.pitch_deg is None else start.pitch_deg
-        alpha_deg = launch.alpha_deg
-        if start.climb_m_s is not None:
-            share = max(-1.0, min(1.0, start.climb_m_s / max(0.1, airspeed_m_s)))
-            alpha_deg = pitch_deg - math.degrees(math.asin(share))
-        fdm["ic/terrain-elevation-ft"] = GROUND_M / FOOT_M
-        fdm["ic/lat-geod-deg"] = START_LATITUDE_DEG
-        fdm["ic/long-gc-deg"] = START_LONGITUDE_DEG
-        fdm["ic/h-sl-ft"] = (GROUND_M + start.height_m) / FOOT_M
-        fdm["ic/phi-deg"] = start.roll_deg
-        fdm["ic/theta-deg"] = pitch_deg
-        fdm["ic/psi-true-deg"] = start.heading_deg
-        # Over the ground, and before the wind, which leaves the speed over the ground as it is.
-        alpha = math.radians(alpha_deg)
-        air = (airspeed_m_s * math.cos(alpha), 0.0, airspeed_m_s * math.sin(alpha))
-        wind = _to_body((*self.weather.wind_ned_m_s, 0.0), start, pitch_deg)
-        for name, through, carried in zip("uvw", air, wind, strict=True):
-            fdm[f"ic/{name}-fps"] = (through + carried) / FOOT_M
-        fdm["ic/vw-mag-fps"] = self.weather.wind_m_s / FOOT_M
-        fdm["ic/vw-dir-deg"] = (self.weather.wind_from_deg + 180.0) % 360.0
-        fdm["ic/p-rad_sec"] = math.radians(start.roll_rate_deg_s)
-        fdm["ic/q-rad_sec"] = math.radians(start.pitch_rate_deg_s)
-        fdm["ic/r-rad_sec"] = math.radians(start.yaw_rate_deg_s)
-        fdm["simulation/randomseed"] = self._seed + self._launches
-        fdm.run_ic()
 
     def _imu_from_pilot(self) -> tuple[float, float, float]:
         """Return where the IMU is from JSBSim's pilot, whose acceleration it computes; body, m."""
@@ -304,21 +259,3 @@ class FlightDynamics:
             motor_rpm=self._motor.rpm if self._motor else 0.0,
             motor_w=self._motor.power_w if self._motor else 0.0,
         )
-
-
-def _to_body(
-    ned: tuple[float, float, float], start: Start, pitch_deg: float
-) -> tuple[float, float, float]:
-    """Return a vector of the ground's axes in those of the body at the start."""
-    roll, pitch = math.radians(start.roll_deg), math.radians(pitch_deg)
-    yaw = math.radians(start.heading_deg)
-    north, east, down = ned
-    ahead = north * math.cos(yaw) + east * math.sin(yaw)
-    right = east * math.cos(yaw) - north * math.sin(yaw)
-    x = ahead * math.cos(pitch) - down * math.sin(pitch)
-    below = ahead * math.sin(pitch) + down * math.cos(pitch)
-    return (
-        x,
-        right * math.cos(roll) + below * math.sin(roll),
-        below * math.cos(roll) - right * math.sin(roll),
-    )

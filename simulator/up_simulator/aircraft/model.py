@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import os
 import platform
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -52,17 +51,14 @@ def reader(fdm: Any, name: str) -> Callable[[], float]:
     return found
 
 
+def has_property(fdm: Any, name: str) -> bool:
+    """Tell whether JSBSim or the model knows a property."""
+    return bool(fdm.get_property_manager().hasNode(name))
+
+
 def writer(fdm: Any, name: str) -> Callable[[float], None]:
     """Return what sets a property fast. Raises ``FlightUnavailableError`` where there is none."""
-    manager = fdm.get_property_manager()
-    if not manager.hasNode(name):
+    if not has_property(fdm, name):
         raise FlightUnavailableError(f"the model has no property {name}")
-    found: Callable[[float], None] = manager.get_node(name).set_double_value
+    found: Callable[[float], None] = fdm.get_property_manager().get_node(name).set_double_value
     return found
-
-
-if __name__ == "__main__":
-    try:
-        load_model(Path(sys.argv[1]), 0.002)
-    except FlightUnavailableError as failure:
-        sys.exit(str(failure))

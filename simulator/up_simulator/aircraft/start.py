@@ -1,0 +1,83 @@
+"""How a flight begins."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from up_simulator.aircraft.airframe_file import LaunchConfig
+from up_simulator.aircraft.model import FOOT_M
+from up_simulator.aircraft.weather import Weather
+
+GROUND_M = 250.0
+START_LATITUDE_DEG = 50.0
+START_LONGITUDE_DEG = 14.5
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """How a flight begins; what is None is the airframe's own.
+
+    ``climb_m_s`` is through the air, up positive. ``throttle`` (0 to 1) is what the motor has run
+    at until now.
+    """
+
+    height_m: float = 120.0
+    airspeed_m_s: float | None = None
+    roll_deg: float = 0.0
+    pitch_deg: float | None = None
+    heading_deg: float = 0.0
+    climb_m_s: float | None = None
+    throttle: float = 0.0
+    roll_rate_deg_s: float = 0.0
+    pitch_rate_deg_s: float = 0.0
+    yaw_rate_deg_s: float = 0.0
+
+
+def set_initial(fdm: Any, start: Start, launch: LaunchConfig, weather: Weather, seed: int) -> None:
+    """Put JSBSim where a flight begins; ``fdm`` has its model and has not run yet."""
+    airspeed_m_s = launch.airspeed_m_s if start.airspeed_m_s is None else start.airspeed_m_s
+    pitch_deg = launch.pitch_deg if start.pitch_deg is None else start.pitch_deg
+    alpha_deg = launch.alpha_deg
+    if start.climb_m_s is not None:
+        share = max(-1.0, min(1.0, start.climb_m_s / max(0.1, airspeed_m_s)))
+        alpha_deg = pitch_deg - math.degrees(math.asin(share))
+    fdm["ic/terrain-elevation-ft"] = GROUND_M / FOOT_M
+    fdm["ic/lat-geod-deg"] = START_LATITUDE_DEG
+    fdm["ic/long-gc-deg"] = START_LONGITUDE_DEG
+    fdm["ic/h-sl-ft"] = (GROUND_M + start.height_m) / FOOT_M
+    fdm["ic/phi-deg"] = start.roll_deg
+    fdm["ic/theta-deg"] = pitch_deg
+    fdm["ic/psi-true-deg"] = start.heading_deg
+    # Over the ground, and before the wind, which leaves the speed over the ground as it is.
+    alpha = math.radians(alpha_deg)
+    air = (airspeed_m_s * math.cos(alpha), 0.0, airspeed_m_s * math.sin(alpha))
+    wind = _to_body((*weather.wind_ned_m_s, 0.0), start, pitch_deg)
+    for name, through, carried in zip("uvw", air, wind, strict=True):
+        fdm[f"ic/{name}-fps"] = (through + carried) / FOOT_M
+    fdm["ic/vw-mag-fps"] = weather.wind_m_s / FOOT_M
+    fdm["ic/vw-dir-deg"] = (weather.wind_from_deg + 180.0) % 360.0
+    fdm["ic/p-rad_sec"] = math.radians(start.roll_rate_deg_s)
+    fdm["ic/q-rad_sec"] = math.radians(start.pitch_rate_deg_s)
+    fdm["ic/r-rad_sec"] = math.radians(start.yaw_rate_deg_s)
+    fdm["simulation/randomseed"] = seed
+    fdm.run_ic()
+
+
+def _to_body(
+    ned: tuple[float, float, float], start: Start, pitch_deg: float
+) -> tuple[float, float, float]:
+    """Return a vector of the ground's axes in those of the body at the start."""
+    roll, pitch = math.radians(start.roll_deg), math.radians(pitch_deg)
+    yaw = math.radians(start.heading_deg)
+    north, east, down = ned
+    ahead = north * math.cos(yaw) + east * math.sin(yaw)
+    right = east * math.cos(yaw) - north * math.sin(yaw)
+    x = ahead * math.cos(pitch) - down * math.sin(pitch)
+    below = ahead * math.sin(pitch) + down * math.cos(pitch)
+    return (
+        x,
+        right * math.cos(roll) + below * math.sin(roll),
+        below * math.cos(roll) - right * math.sin(roll),
+    )
