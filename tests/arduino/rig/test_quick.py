@@ -35,7 +35,7 @@ class Writer:
         self.random = random.Random(seed)
         self.words = []
         kinds = [self.plain] * 12 + [self.skip, self.branch, self.memory, self.memory, self.stack]
-        kinds += [self.direct, self.jump, self.call, self.back]
+        kinds += [self.direct, self.jump, self.call, self.back, *[self.witness] * 6]
         while len(self.words) < WORDS:
             self.random.choice(kinds)()
         # in r16,SREG; sts SREG_AT,r16; rjmp .
@@ -58,6 +58,10 @@ class Writer:
     def set_pair(self, register, value):
         self.set_register(register, value & 0xFF)
         self.set_register(register + 1, value >> 8)
+
+    def witness(self):
+        """Keep the flags of now in a place of their own: in r16,SREG; sts ..,r16."""
+        self.words += [0xB70F, 0x9300, SREG_AT + self.random.randrange(1, 0x200)]
 
     def skip(self):
         self.some(SKIPS)
@@ -157,6 +161,16 @@ def flown(is_measuring):
 
 def test_the_firmware_flies_alike_to_the_cycle():
     assert flown(is_measuring=False) == flown(is_measuring=True)
+
+
+def test_an_interrupt_is_let_in_at_the_same_cycle(tmp_path):
+    came = []
+    for is_measuring in (False, True):
+        rig = rig_with("let_in", tmp_path, is_measuring=is_measuring, start_up_us=1)
+        rig.run_us(1000)
+        came.append((rig.cycle, memory(rig)))
+        assert rig.measures().interrupts["TIMER1_COMPA"] > 100
+    assert came[0] == came[1]
 
 
 def test_a_stack_that_leaves_the_ram_is_still_a_crash(tmp_path):
