@@ -34,7 +34,7 @@ class Mix:
             sign * (pulse - NEUTRAL_US) for sign, pulse in zip(self._signs, pulses_us, strict=True)
         )
         if self._mix == "elevon":
-            return {"roll": (first - second) / 2, "pitch": (first + second) / 2, "yaw": fourth}
+            return {"roll": (second - first) / 2, "pitch": (first + second) / 2, "yaw": fourth}
         if self._mix == "V-tail":
             return {"roll": first, "pitch": (second + fourth) / 2, "yaw": (second - fourth) / 2}
         return {"roll": first, "pitch": second, "yaw": fourth}
@@ -43,7 +43,7 @@ class Mix:
         """Return the pulses for deflections."""
         roll, pitch, yaw = axes["roll"], axes["pitch"], axes["yaw"]
         if self._mix == "elevon":
-            moves = (pitch + roll, pitch - roll, yaw)
+            moves = (pitch - roll, pitch + roll, yaw)
         elif self._mix == "V-tail":
             moves = (roll, pitch + yaw, pitch - yaw)
         else:
