@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from ipaddress import ip_address
 from typing import TYPE_CHECKING, Any
 
@@ -27,29 +28,42 @@ if TYPE_CHECKING:
 _FORGET_AT = 256
 
 
+class TimedCall(DelayedCall):
+    """A call later that knows whose it is."""
+
+    machine: Machine | None = None
+
+
 @implementer(IReactorTime, IReactorTCP, IReactorUDP, IReactorFDSet, IReactorPluggableNameResolver)
 class Machine:
     """What a program takes for its reactor; sockets stay in this process, at 127.0.0.1.
 
-    ``cut_off`` is its end without a word: no timer, descriptor or port of it is left.
+    ``cut_off`` is its end without a word: no timer, descriptor or port of it is left. Between
+    ``freeze`` and ``thaw`` it stands still as a stopped process: its system still acknowledges
+    what comes, and it finds everything when it goes on.
     """
 
     def __init__(self, reactor: SimulatedReactor, name: str) -> None:
         self.name = name
         self.running = True
+        self.is_frozen = False
         self.reactor = reactor
         self.network = reactor.network
         self.nameResolver = _LiteralResolver()
         self.opened: dict[Any, None] = {}
         self.seconds = reactor.seconds
-        self._calls: list[DelayedCall] = []
+        self._calls: list[TimedCall] = []
+        self._late_calls: list[TimedCall] = []
+        self._missed: list[tuple[Callable[..., Any], tuple[Any, ...]]] = []
+        self._taken_descriptors: list[Callable[[], None]] = []
         self._descriptors: dict[Any, None] = {}
 
     def callLater(  # noqa: N802 - Twisted's name
         self, delay: float, callable: Callable[..., object], *args: object, **kw: object
-    ) -> DelayedCall:
+    ) -> TimedCall:
         """Call later; after the end of this program nothing is called."""
         call = self.reactor.callLater(delay, callable, *args, **kw)
+        call.machine = self
         self._calls.append(call)
         if len(self._calls) > _FORGET_AT:
             self._calls = [each for each in self._calls if each.active()]
@@ -57,13 +71,13 @@ class Machine:
 
     def callFromThread(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
         """Make a call at the next step, from whatever thread it was asked for."""
-        self.reactor.call_from_thread(lambda: callable(*args, **kw) if self.running else None)
+        self.reactor.call_from_thread(partial(self.do, partial(callable, *args, **kw)))
 
     def callWhenRunning(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
         """Make a call at once: time is always running here."""
         callable(*args, **kw)
 
-    def getDelayedCalls(self) -> list[DelayedCall]:  # noqa: N802 - Twisted's name
+    def getDelayedCalls(self) -> list[TimedCall]:  # noqa: N802 - Twisted's name
         """Return what is still to be called."""
         return [each for each in self._calls if each.active()]
 
@@ -146,13 +160,51 @@ class Machine:
         before, self.nameResolver = self.nameResolver, resolver
         return before
 
+    def do(self, call: Callable[..., Any], *arguments: Any) -> None:
+        """Let something happen to the program now, or when it goes on."""
+        if self.is_frozen:
+            self._missed.append((call, arguments))
+        elif self.running:
+            call(*arguments)
+
+    def freeze(self) -> None:
+        """Let the program stand still."""
+        if not self.is_frozen and self.running:
+            self.is_frozen = True
+            self._taken_descriptors = self.reactor.take_descriptors(self._descriptors)
+
+    def keep_call(self, call: TimedCall) -> None:
+        """Keep a call whose time came meanwhile."""
+        self._late_calls.append(call)
+
+    def thaw(self) -> None:
+        """Let the program go on: late timers first, then what has come in the meantime."""
+        if not self.is_frozen:
+            return
+        self.is_frozen = False
+        calls, self._late_calls = self._late_calls, []
+        for call in calls:
+            if call.active():
+                self.reactor.put_back(call)
+        descriptors, self._taken_descriptors = self._taken_descriptors, []
+        for give_back in descriptors:
+            give_back()
+        self.callLater(0, self._catch_up)
+
+    def _catch_up(self) -> None:
+        missed, self._missed = self._missed, []
+        for call, arguments in missed:
+            self.reactor.guarded(call, *arguments)
+
     def cut_off(self) -> None:
         """End at once, as a killed process: its system closes what it leaves behind."""
         self.running = False
         for call in self._calls:
             if call.active():
                 call.cancel()
-        self._calls.clear()
+        for calls in (self._calls, self._late_calls, self._missed, self._taken_descriptors):
+            calls.clear()
+        self.is_frozen = False
         self.removeAll()
         opened, self.opened = self.opened, {}
         for each in opened:

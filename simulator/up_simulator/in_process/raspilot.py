@@ -157,6 +157,16 @@ class InProcessRaspilot:
         self.line.cut()
         self.up = self._life = None
 
+    def freeze(self) -> None:
+        """Stop it in its tracks: it holds its ports and does nothing, as a hung one."""
+        if self._machine is not None:
+            self._machine.freeze()
+
+    def thaw(self) -> None:
+        """Let a frozen one go on."""
+        if self._machine is not None:
+            self._machine.thaw()
+
     def pump(self, board: FirmwareBoard) -> None:
         """Move the bytes of 2 ms between the board and the daemon; call it at every step."""
         data = self.wire.read(0.0, BYTES_A_STEP)

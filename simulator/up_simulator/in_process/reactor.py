@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import select
 from bisect import bisect_right, insort
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from queue import Empty, SimpleQueue
 from typing import Any
 
@@ -14,7 +15,7 @@ from twisted.internet.task import Clock
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
-from up_simulator.in_process.machine import Machine
+from up_simulator.in_process.machine import Machine, TimedCall
 from up_simulator.in_process.network import Network
 from up_simulator.link.model import LinkModel
 
@@ -34,6 +35,7 @@ class SimulatedReactor(Clock):
     """
 
     log = Logger()
+    calls: list[TimedCall]  # type: ignore[assignment]
 
     def __init__(self) -> None:
         super().__init__()
@@ -57,13 +59,15 @@ class SimulatedReactor(Clock):
 
     def callLater(  # type: ignore[override]  # noqa: N802 - Twisted's name
         self, when: float, what: Callable[..., object], *a: object, **kw: object
-    ) -> DelayedCall:
+    ) -> TimedCall:
         """Call ``what`` when the time has come; of equal times the earlier call is first."""
-        call = DelayedCall(
-            self.rightNow + when, what, a, kw, self._forget, self._moved, self.seconds
-        )
-        insort(self.calls, call, key=DelayedCall.getTime)
+        call = TimedCall(self.rightNow + when, what, a, kw, self._forget, self._moved, self.seconds)
+        self.put_back(call)
         return call
+
+    def put_back(self, call: TimedCall) -> None:
+        """Let a call wait for its time again."""
+        insort(self.calls, call, key=DelayedCall.getTime)
 
     def call_from_thread(self, call: Callable[[], Any]) -> None:
         """Keep a call for the next step; safe from any thread."""
@@ -99,6 +103,18 @@ class SimulatedReactor(Clock):
         if number is not None:
             self._watch(number)
 
+    def take_descriptors(self, of: Iterable[Any]) -> list[Callable[[], None]]:
+        """Watch descriptors no longer; return what each is to be watched by again."""
+        give_back: list[Callable[[], None]] = []
+        for each in of:
+            if each in self._readers:
+                give_back.append(partial(self.add_reader, each))
+            if each in self._writers:
+                give_back.append(partial(self.add_writer, each))
+            self.remove_reader(each)
+            self.remove_writer(each)
+        return give_back
+
     def guarded(self, call: Callable[..., Any], *arguments: Any, **more: Any) -> Any:
         """Make a call of somebody else's; what it raises is logged and ends nothing."""
         try:
@@ -126,8 +142,11 @@ class SimulatedReactor(Clock):
         for call in due:
             if not call.active():
                 continue
+            if call.machine is not None and call.machine.is_frozen:
+                call.machine.keep_call(call)
+                continue
             if call.getTime() > due_s:
-                insort(self.calls, call, key=DelayedCall.getTime)
+                self.put_back(call)
                 continue
             call.called = 1
             self.guarded(call.func, *call.args, **call.kw)

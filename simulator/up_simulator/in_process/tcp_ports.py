@@ -61,7 +61,9 @@ class TcpPort:
     def accept(self, end: TcpEnd, from_port: int) -> None:
         """Take a new connection; a factory that builds nothing for it refuses it."""
         transport = TcpTransport(self.machine, end, self._number, from_port)
-        address = IPv4Address("TCP", ADDRESS, from_port)
+        self.machine.do(self._build, transport, IPv4Address("TCP", ADDRESS, from_port))
+
+    def _build(self, transport: TcpTransport, address: IPv4Address) -> None:
         protocol = self.machine.reactor.guarded(self.factory.buildProtocol, address)
         if protocol is None:
             transport.refuse()
@@ -115,13 +117,14 @@ class _Attempt:
 
     def _refused(self) -> None:
         if not self.is_over:
-            self._connector.fail(Refused())
+            self._clock.do(self._connector.fail, Refused())
 
     def _answered(self) -> None:
         here = self._here
         if here is None or self.is_over:
             return
-        self._connector.succeed(here)
+        self.end()
+        self._clock.do(self._connector.succeed, here)
         self._up.carry(HEADER, here.peer.establish)
 
 

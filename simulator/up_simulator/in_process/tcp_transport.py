@@ -149,6 +149,9 @@ class TcpTransport:
 
     def flush(self) -> None:
         """Let as much leave as the connection takes, and ask the producer for more."""
+        if self._machine.is_frozen:
+            self._machine.do(self._want_to_write)
+            return
         if self.disconnected or not self.connected:
             return
         room = self._end.room
@@ -185,37 +188,49 @@ class TcpTransport:
 
     def on_established(self) -> None:
         """Tell the protocol that it is connected."""
-        self.connected = True
-        self._guarded(self.protocol.makeConnection, self)
+        self._machine.do(self._made)
 
     def on_bytes(self, data: bytes) -> None:
         """Hand bytes to the protocol."""
-        if self.connected and not self.disconnecting and not self._read_is_closed:
-            self._guarded(self.protocol.dataReceived, data)
+        self._machine.do(self._received, data)
 
     def on_eof(self) -> None:
-        """Close, unless the protocol can do without the reading half."""
-        if IHalfCloseableProtocol.providedBy(self.protocol):
-            self._read_is_closed = True
-            self._guarded(self.protocol.readConnectionLost)
-            if self._write_is_closed:
-                self.on_finished()
-        else:
-            self.on_finished()
-
-    def on_finished(self) -> None:
-        """Close after the other side did."""
-        self._end.close()
-        self._lost(ConnectionDone())
+        """Tell that the other side sends no more."""
+        self._machine.do(self._ended)
 
     def on_lost(self, error: Exception) -> None:
         """Tell the protocol that the connection broke."""
-        self._lost(error)
+        self._machine.do(self._lost, error)
 
     def on_room(self) -> None:
         """Go on writing."""
         if self._waiting or self.disconnecting or self._producer is not None:
             self._want_to_write()
+
+    def _made(self) -> None:
+        if self.protocol is not None:
+            self.connected = True
+            self._guarded(self.protocol.makeConnection, self)
+
+    def _received(self, data: bytes) -> None:
+        if self.connected and not self.disconnecting and not self._read_is_closed:
+            self._guarded(self.protocol.dataReceived, data)
+
+    def _ended(self) -> None:
+        """Close, unless the protocol can do without the reading half."""
+        if self.disconnected:
+            return
+        if IHalfCloseableProtocol.providedBy(self.protocol):
+            self._read_is_closed = True
+            self._guarded(self.protocol.readConnectionLost)
+            if self._write_is_closed:
+                self._close()
+        else:
+            self._close()
+
+    def _close(self) -> None:
+        self._end.close()
+        self._lost(ConnectionDone())
 
     def _want_to_write(self) -> None:
         self._machine.network.to_write[self] = None

@@ -81,7 +81,11 @@ class UdpPort:
 
     def take(self, packet: bytes, source: tuple[str, int]) -> None:
         """Hand a datagram to the protocol."""
-        self._machine.reactor.guarded(self.protocol.datagramReceived, packet, source)
+        self._machine.do(self._machine.reactor.guarded, self._hear, packet, source)
+
+    def _hear(self, packet: bytes, source: tuple[str, int]) -> None:
+        if self._is_open:
+            self.protocol.datagramReceived(packet, source)
 
 
 def _arrive(network: Any, port: int, packet: bytes, source: tuple[str, int]) -> None:

@@ -128,6 +128,31 @@ def test_a_killed_daemon_leaves_level_flight_to_the_board_within_250_ms(fly):
     assert flying.until(lambda: flying.status.mode == "u", 3.0) < 2.0
 
 
+def test_a_frozen_daemon_loses_the_aircraft_and_takes_it_again(fly):
+    flying = fly(OF_THE_PI, arms=True, link=CELLULAR)
+    flying.start()
+    flying.board.set_stick("aux1", AUTO_US)
+    flying.until(lambda: flying.status.mode == "u", 3.0)
+    flying.fly(1.5)
+    flying.raspilot.freeze()
+    assert flying.until(lambda: mode_of(flying) == "f", 1.0) <= 0.25
+    flying.fly(3.0)
+    assert flying.now_s - flying.ground.newest_s > 2.9
+    flying.raspilot.thaw()
+    frames, ages_s = flying.ground.frames, []
+
+    def look():
+        nonlocal frames
+        if flying.ground.frames != frames:
+            frames = flying.ground.frames
+            ages_s.append(flying.raspilot.up.beacons.age_s(flying.ground.beacon))
+
+    flying.fly(2.0, look)
+    assert flying.status.mode == "u"
+    assert len(ages_s) > 10
+    assert max(ages_s) < 0.3
+
+
 def test_leaving_auto_takes_the_aircraft_from_the_daemon_at_once(fly):
     flying = fly(OF_THE_PI, arms=True)
     flying.start()

@@ -377,3 +377,35 @@ def test_only_bytes_can_be_written(bad):
     bench.connect()
     with pytest.raises(TypeError):
         bench.here.transport.write(bad)
+
+
+def test_a_frozen_program_finds_everything_when_it_goes_on():
+    bench = Bench(SLOW)
+    bench.connect()
+    watch_peer(bench.here.transport, 1500)
+    due = []
+    bench.pi.callLater(0.5, due.append, "timer")
+    bench.pi.freeze()
+    bench.here.transport.write(b"its system takes this")
+    bench.phone.connectTCP("127.0.0.1", PORT, bench.client)
+    bench.reactor.advance(5.0)
+    assert (bench.there.received, due, len(bench.server.built)) == (b"", [], 1)
+    assert bench.client.built[0].lost is None, "whoever writes to it does not notice"
+    bench.pi.thaw()
+    bench.reactor.advance(0.2)
+    assert due == ["timer"]
+    assert bench.server.built[0].received == b"its system takes this"
+    assert len(bench.server.built) == 2
+    bench.server.built[1].transport.write(b"late")
+    bench.reactor.advance(0.2)
+    assert bench.here.received == b"late"
+
+
+def test_a_frozen_program_may_be_killed():
+    bench = Bench(SLOW)
+    bench.connect()
+    bench.pi.freeze()
+    bench.reactor.advance(1.0)
+    bench.pi.cut_off()
+    bench.reactor.advance(1.0)
+    assert bench.here.lost == "ConnectionDone"
