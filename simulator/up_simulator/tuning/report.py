@@ -1,0 +1,112 @@
+"""What tuning says: tables and sentences for a terminal."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+
+from up_simulator.tuning.evaluation import Rules
+from up_simulator.tuning.log_steps import LogStep, advice
+from up_simulator.tuning.margins import Margins
+from up_simulator.tuning.tune import AxisTuning, Candidate, YawTuning
+
+MOST_ROWS = 12
+WIDTH = 98
+
+
+def tuning_lines(tuning: AxisTuning) -> list[str]:
+    """Return the best of what was tried as a table, the proposal marked."""
+    cruise_m_s, dive_m_s = tuning.cruise.airspeed_m_s, tuning.dive.airspeed_m_s
+    lines = [
+        f"{tuning.axis} in FBW, steps at cruise ({cruise_m_s:.0f} m/s); margins there and in a"
+        f" dive ({dive_m_s:.0f} m/s)",
+        f"    {'gains':<32} {'rise':>6} {'over':>5} {'settled':>8} {'lacks':>6}"
+        f" | {'cruise':^19} | {'dive':^19}",
+        f"    {'':<32} {'s':>6} {'%':>5} {'s':>8} {'%':>6}"
+        f" | {'dB':>5} {'ms':>6} {'peak':>6} | {'dB':>5} {'ms':>6} {'peak':>6}",
+    ]
+    best = sorted(tuning.candidates, key=lambda each: (len(each.broken), each.score))
+    shown = best[:MOST_ROWS]
+    if tuning.proposal not in shown:
+        shown[-1] = tuning.proposal
+    lines.append(_row("was ", tuning.now))
+    lines += [_row("->  " if each is tuning.proposal else "    ", each) for each in shown]
+    if len(best) > len(shown):
+        lines.append(f"    and {len(best) - len(shown)} more that are slower or break a rule")
+    if tuning.proposal.broken:
+        lines.append(
+            f"No set keeps every rule on this axis; the one proposed breaks:"
+            f" {', '.join(tuning.proposal.broken)}."
+        )
+    return lines
+
+
+def yaw_lines(tuning: YawTuning | None) -> list[str]:
+    """Return what the yaw damper was found to do."""
+    if tuning is None:
+        return ["yaw: the rudder does nothing here that a damper could use; its gain is 0"]
+    swings = ", ".join(f"{gain:g}: {swing:.1f}" for gain, swing in tuning.swings)
+    return [
+        f"yaw damper, rate P and the swing left of a kick, deg/s rms: {swings}",
+        f"    the weakest that halves it: {tuning.proposal:g}",
+    ]
+
+
+def rules_lines(rules: Rules) -> list[str]:
+    """Return what a proposal keeps."""
+    text = (
+        f"A proposal keeps, at cruise and in the dive, {rules.gain_margin_db:g} dB of gain,"
+        f" {rules.phase_margin_deg:g} deg of phase, {rules.delay_margin_ms:g} ms of delay and a"
+        f" peak of the sensitivity of {rules.peak_sensitivity:g}; it overshoots"
+        f" {rules.overshoot_percent:g} % and lacks {rules.steady_error_percent:g} % at most. Of"
+        " those that do, the fastest; of nearly equals, the calmest."
+    )
+    return textwrap.wrap(text, WIDTH)
+
+
+def log_lines(steps: Sequence[LogStep]) -> list[str]:
+    """Return the steps of a log as a table, and what to change."""
+    lines = [
+        f"{'at':>8}  {'axis':<6} {'mode':<5} {'from':>6} {'to':>6} {'':<6} {'rise':>6} {'over':>5}"
+        f" {'settled':>8} {'lacks':>6}",
+        f"{'s':>8}  {'':<6} {'':<5} {'':>6} {'':>6} {'':<6} {'s':>6} {'%':>5} {'s':>8} {'%':>6}",
+    ]
+    for step in steps:
+        head = (
+            f"{step.at_s:>8.2f}  {step.axis:<6} {step.mode:<5} {step.start:>6.0f} {step.end:>6.0f}"
+            f" {step.unit:<6}"
+        )
+        response = step.response
+        if response is None:
+            lines.append(f"{head} {step.problem}")
+            continue
+        lines.append(
+            f"{head} {_number(response.rise_time_s, 2):>6} {response.overshoot_percent:>5.0f}"
+            f" {_number(response.settling_time_s, 2):>8} {response.steady_error_percent:>6.0f}"
+        )
+    lines.append("")
+    for sentence in advice(steps):
+        lines += textwrap.wrap(sentence, WIDTH, subsequent_indent="  ")
+    return lines
+
+
+def _row(mark: str, candidate: Candidate) -> str:
+    steps = candidate.steps
+    line = (
+        f"{mark}{candidate.gains!s:<32} {_number(steps.rise_time_s, 2):>6}"
+        f" {steps.overshoot_percent:>5.0f} {_number(steps.settling_time_s, 2):>8}"
+        f" {steps.steady_error_percent:>6.0f} | {_margins(candidate.cruise)}"
+        f" | {_margins(candidate.dive)}"
+    )
+    return f"{line}  {candidate.broken[0]}" if candidate.broken else line
+
+
+def _margins(margins: Margins) -> str:
+    return (
+        f"{_number(margins.gain_margin_db, 1):>5} {_number(margins.delay_margin_ms, 0):>6}"
+        f" {margins.peak_sensitivity:>6.2f}"
+    )
+
+
+def _number(value: float | None, digits: int) -> str:
+    return "-" if value is None else f"{value:.{digits}f}"
