@@ -33,6 +33,7 @@ VERBS = {
     "all": ("fly every scenario that is shipped, and count", "up_simulator.verbs.all"),
     "tune": ("step tests over gains; proposes a set", "up_simulator.tuning.cli"),
     "start": ("the virtual aircraft in real time", "up_simulator.crew.start"),
+    "radio": ("take the sticks of an aircraft that flies", "up_simulator.radio.take_over"),
 }
 """A verb's module has ``main(arguments) -> exit status``."""
 

@@ -1,4 +1,4 @@
-"""The configuration that the showcase writes: everything on this machine, the Pi controls."""
+"""The configuration that the showcase writes: everything on this machine."""
 
 from __future__ import annotations
 
@@ -6,20 +6,11 @@ import socket
 from dataclasses import astuple, dataclass
 from pathlib import Path
 
+import yaml
+
+from up_simulator.aircraft import Airframe
+
 _TRIES = 20
-# Gains of the virtual glider (aircraft/airframes/glider/airframe.yml).
-PIDS = """\
-# Gains for the virtual glider; the ground's tuning is saved here.
-units: degrees per second
-rate:
-  ailerons: {p: 2.1, i: 0.0, d: 0.0}
-  elevator: {p: 1.0, i: 0.0, d: 0.0}
-  rudder: {p: 0.5, i: 0.0, d: 0.0}
-stabilize:
-  ailerons: {p: 2.0, i: 0.0, d: 0.0}
-  elevator: {p: 4.1, i: 0.0, d: 0.0}
-  rudder: {p: 0.0, i: 0.0, d: 0.0}
-"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +23,8 @@ class Ports:
     general: int = 50001
     discovery: int = 3001
     metrics: int = 9303
+    uplink: int = 0
+    """Where the aircraft finds the proxy behind a bad link; 0: it has no such link."""
 
 
 def choose_ports(any_ports: bool = False) -> Ports:
@@ -60,18 +53,23 @@ def _free_port(wanted: int, any_port: bool, held: list[socket.socket]) -> int:
     raise OSError("no port is free")
 
 
-def write_config(folder: Path, board: Path, ports: Ports) -> None:
-    """Write the files of a run; gains that an earlier run saved stay."""
+def write_config(
+    folder: Path, board: Path, ports: Ports, *, controller: str, airframe: Airframe
+) -> None:
+    """Write the files of a run; gains that an earlier run of the same airframe saved stay.
+
+    ``controller`` (arduino or raspberry) is who holds the attitude: nothing else differs.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     files = {
-        "config.yml": "flight controller: raspberry\n",
+        "config.yml": f"flight controller: {controller}\n",
         "arduino.yml": f"port: {board}\n",
         "android.yml": f"general port: {ports.general}\norientation port: {ports.orientation}\n",
         "discovery.yml": f"port: {ports.discovery}\n",
         "mission_control.yml": (
             "remote_server:\n"
             "  url: 127.0.0.1\n"
-            f"  port: {ports.airborne}\n"
+            f"  port: {ports.uplink or ports.airborne}\n"
             "# On loopback nobody else listens: the ground may arm and tune.\n"
             "role: pilot\n"
             "tune_in_flight: true\n"
@@ -82,8 +80,18 @@ def write_config(folder: Path, board: Path, ports: Ports) -> None:
             f"metrics port: {ports.metrics}\n"
         ),
     }
-    if not (folder / "pids.yml").exists():
-        (folder / "pids.yml").write_text(PIDS, encoding="utf-8")
     for name, text in files.items():
         head = "# Written by 'make run', at every start.\n"
         (folder / name).write_text(head + text, encoding="utf-8")
+    _keep_gains(folder, airframe)
+
+
+def _keep_gains(folder: Path, airframe: Airframe) -> None:
+    """Leave the gains of an earlier run, unless another airframe flew it."""
+    gains, flew = folder / "pids.yml", folder / "airframe.txt"
+    if gains.exists() and flew.exists() and flew.read_text(encoding="utf-8") == airframe.name:
+        return
+    head = f"# Gains of the virtual {airframe.name}; the ground's tuning is saved here.\n"
+    text = yaml.safe_dump(airframe.gains, sort_keys=False)
+    gains.write_text(head + text, encoding="utf-8")
+    flew.write_text(airframe.name, encoding="utf-8")

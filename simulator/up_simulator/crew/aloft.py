@@ -38,6 +38,9 @@ class Aloft(Protocol):
     def advance(self, duration_s: float) -> None:
         """Fly on."""
 
+    def change_battery(self) -> None:
+        """Put a full battery in."""
+
     def launch(self, start: Start) -> None:
         """Put it back into the air."""
 

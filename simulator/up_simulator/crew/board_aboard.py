@@ -27,6 +27,7 @@ def board_aboard(
     """
     if options.board == "stand-in" or options.framing == "thesis":
         return None
+    say("building the firmware where it is not built yet; the first time takes a minute")
     try:
         eeprom = _eeprom(options, airframe, say)
         board = choose_board(

@@ -38,6 +38,7 @@ class Child:
         if not in_foreground:
             output = self.log.open("ab")
             self._start_at = output.tell()
+        self._told_at = self._start_at
         try:
             self._process = subprocess.Popen(
                 command,
@@ -69,6 +70,17 @@ class Child:
             size = file.seek(0, os.SEEK_END)
             file.seek(max(self._start_at, size - TAIL_BYTES))
             return file.read().decode("utf-8", "replace").splitlines()
+
+    def new_lines(self) -> list[str]:
+        """Return the whole lines that were printed since the last call."""
+        if not self.log.exists():
+            return []
+        with self.log.open("rb") as file:
+            file.seek(self._told_at)
+            data = file.read(TAIL_BYTES)
+        whole = data.rfind(b"\n") + 1
+        self._told_at += whole
+        return data[:whole].decode("utf-8", "replace").splitlines()
 
     def wait_for(self, is_ready: Callable[[list[str]], bool], what: str, limit_s: float) -> None:
         """Wait until its lines show that it is ready; raises ``CrewError``."""

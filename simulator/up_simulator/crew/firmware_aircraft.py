@@ -14,13 +14,16 @@ from up_simulator.radio.sticks import Radio
 from up_simulator.world import World
 
 LIES_S = 3.0
+BATTERY_LEAST_PERCENT = 12.0
 
 
 class FirmwareAircraft:
     """A world with its radio; ``radio_name`` decides whether the pilot arms on the ground.
 
     A crash is said, and after 3 s the aircraft is in the air again with a board that has just got
-    its power. ``say`` takes one line for the user. Raises ``BoardCrashedError``.
+    its power. A battery that is almost empty is changed in flight, and that is said, too: it would
+    end every long look at the aircraft. ``say`` takes one line for the user. Raises
+    ``BoardCrashedError``.
     """
 
     def __init__(
@@ -46,6 +49,7 @@ class FirmwareAircraft:
         """Fly until now. Raises ``BoardCrashedError``."""
         self.real_time.keep()
         if self._flight.crash is None:
+            self._watch_battery()
             return
         now_s = self._clock.seconds()
         if self._crashed_s is None:
@@ -55,6 +59,13 @@ class FirmwareAircraft:
             self._crashed_s = None
             self.real_time.begin_again(self._launch)
             self._say("launched again in the air")
+
+    def _watch_battery(self) -> None:
+        state = self._flight.state
+        if state.battery_percent < BATTERY_LEAST_PERCENT:
+            self._flight.change_battery()
+            minutes = self.real_time.world.time_s / 60
+            self._say(f"the battery is empty after {minutes:.0f} min: changed in flight")
 
     def _launch(self, world: World) -> None:
         self._flight.launch(Start())

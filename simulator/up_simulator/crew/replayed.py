@@ -49,3 +49,6 @@ class ReplayedFlight:
 
     def launch(self, start: object) -> None:
         """Play on: it flies anyway."""
+
+    def change_battery(self) -> None:
+        """Play on: it has none."""

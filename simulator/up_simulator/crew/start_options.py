@@ -122,7 +122,11 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
 
 def _add_pilot(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
-        "--radio", type=_radio, default="circle", metavar="WHO", help="circle, script, keyboard or js0"
+        "--radio",
+        type=_radio,
+        default="circle",
+        metavar="WHO",
+        help="circle, script, keyboard or js0",
     )
     group.add_argument(
         "--sticks", type=_sticks, default=[], metavar="SCRIPT", help="what happens to the sticks"

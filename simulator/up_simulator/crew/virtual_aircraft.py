@@ -14,15 +14,18 @@ from up_simulator.crew.aloft import put_aloft
 from up_simulator.crew.board_aboard import board_aboard
 from up_simulator.crew.firmware_aircraft import FirmwareAircraft
 from up_simulator.crew.stand_in import StandInAircraft
+from up_simulator.firmware.tap import BoardTap
 from up_simulator.pace import Pace
 from up_simulator.phone import Phone
 from up_simulator.phone_address import RaspberryPi, Runner, discover, spawn
 from up_simulator.phone_link import PhoneLink
 from up_simulator.radio.choice import choose_radio
+from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.sticks import Radio
 from up_simulator.state_log import StateLog
 
 TICK_S = 0.004
+MODE_NAMES = {"a": "ACRO", "r": "RATE", "f": "FBW", "s": "SETPOINT", "u": "OUTPUT"}
 
 Say = Callable[[str], None]
 
@@ -91,7 +94,8 @@ class VirtualAircraft:
         has_motor = airframe.has_motor and options.replay is None
         self._line = line = PtyLine(options.pty_link)
         board = board_aboard(options, airframe, self._say)
-        self._radio = radio = choose_radio(
+        tap = BoardTap()
+        radio = choose_radio(
             options.radio,
             options.sticks,
             options.controller,
@@ -99,6 +103,13 @@ class VirtualAircraft:
             say=self._say,
             on_leave=on_leave,
         )
+        self._radio = radio
+        if options.radio_socket is not None:
+
+            def mode() -> str:
+                return MODE_NAMES.get(tap.mode or "", "")
+
+            self._radio = radio = RemoteRadio(options.radio_socket, radio, self._say, mode)
         if board is None:
             stand_in = StandInAircraft(
                 self.flight, line, radio, self._reactor, options, has_motor, self._say
@@ -107,6 +118,12 @@ class VirtualAircraft:
         aircraft = FirmwareAircraft(
             self.flight, board, line, radio, self._reactor, options.radio, self._say
         )
+
+        def hear(data: bytes) -> None:
+            tap.feed(data, self._reactor.seconds())
+            tap.answers.clear()
+
+        aircraft.real_time.heard = hear
         return aircraft.keep
 
     def _carry_phone(self, options: argparse.Namespace) -> Phone:

@@ -1,0 +1,89 @@
+"""What a remote radio and its aircraft say to each other: one JSON object a datagram."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass, fields
+from typing import Any
+
+from up_simulator.flight import FlightState
+from up_simulator.radio.sticks import CHANNELS, Sticks
+
+LONGEST = 2048
+LOWEST_US, HIGHEST_US = 800, 2200
+SEEN = ("roll_deg", "pitch_deg", "height_m", "airspeed_m_s")
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What the aircraft answers: what a pilot on the ground sees, and where its sticks stand."""
+
+    state: FlightState
+    sticks: Sticks
+    mode: str = ""
+
+
+def write_sticks(sticks: Sticks | None) -> bytes:
+    """Return what the radio sends; None gives the sticks back and asks what is to be seen."""
+    return json.dumps({"sticks": None if sticks is None else _sticks(sticks)}).encode("ascii")
+
+
+def read_sticks_of(datagram: bytes) -> Sticks | None:
+    """Return the sticks in a datagram, None for none; raises ``ValueError`` for anything else."""
+    found = _object(datagram)["sticks"]
+    return None if found is None else _read_sticks(found)
+
+
+def write_seen(seen: Seen) -> bytes:
+    """Return what the aircraft answers."""
+    values = {name: round(getattr(seen.state, name), 3) for name in SEEN}
+    return json.dumps({**values, "sticks": _sticks(seen.sticks), "mode": seen.mode}).encode("ascii")
+
+
+def read_seen(datagram: bytes) -> Seen:
+    """Return an answer; raises ``ValueError`` for anything else."""
+    found = _object(datagram)
+    values: dict[str, Any] = {each.name: 0.0 for each in fields(FlightState)}
+    for name in SEEN:
+        value = found[name]
+        if type(value) not in (int, float) or not math.isfinite(value):
+            raise ValueError(f"{name} is no number")
+        values[name] = float(value)
+    mode = found["mode"]
+    if not isinstance(mode, str) or not (mode.isascii() and mode.isprintable()):
+        raise ValueError("mode is no word")
+    return Seen(FlightState(**values), _read_sticks(found["sticks"]), mode[:20])
+
+
+def _sticks(sticks: Sticks) -> dict[str, Any]:
+    return {**{each: getattr(sticks, each) for each in CHANNELS}, "is_on": sticks.is_on}
+
+
+def _read_sticks(found: Any) -> Sticks:
+    if not isinstance(found, dict) or type(found.get("is_on")) is not bool:
+        raise ValueError("these are no sticks")
+    pulses: dict[str, int] = {}
+    for channel in CHANNELS:
+        pulse_us = found.get(channel)
+        if type(pulse_us) is not int or not LOWEST_US <= pulse_us <= HIGHEST_US:
+            raise ValueError(f"{channel} is no pulse")
+        pulses[channel] = pulse_us
+    return Sticks(**pulses, is_on=found["is_on"])
+
+
+def _object(datagram: bytes) -> dict[str, Any]:
+    try:
+        found = json.loads(datagram)
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
+    if not isinstance(found, dict):
+        raise ValueError("it is no object")
+    return _Complete(found)
+
+
+class _Complete(dict[str, Any]):
+    """A mapping in which what is missing is a wrong value, not a bug."""
+
+    def __missing__(self, key: str) -> Any:
+        raise ValueError(f"{key} is missing")

@@ -1,0 +1,203 @@
+"""The parts of ``make run``: started in order, watched, ended together."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import select
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from up_simulator.aircraft import load_airframe
+from up_simulator.crew.child import Child
+from up_simulator.crew.protocols import CrewError
+from up_simulator.showcase_config import Ports, choose_ports, write_config
+
+START_LIMIT_S = 60.0
+BUILD_LIMIT_S = 900.0
+READING_S = 8
+LOOK_S = 0.1
+NEWS = ("hit the ground", "broke in the air", "lost itself", "given up", "launched again",
+        "battery", "late by")  # fmt: skip
+"""What the aircraft says that its user wants to know at once."""
+
+
+WHO_HOLDS = {
+    "arduino": "The Arduino holds the attitude (FBW); a pilot's sticks circle around the launch.",
+    "raspberry": "Raspilot's controller on the Raspberry Pi holds the attitude (OUTPUT); a pilot's"
+    " sticks circle around the launch.",
+}
+
+
+class ShowcaseFlight:
+    """One run: ``start`` says what flies what, ``stay`` watches it, ``stop`` ends everything.
+
+    ``say`` takes one line for the user. Raises ``AirframeError``, and ``CrewError`` with the last
+    words of a part that failed.
+    """
+
+    def __init__(
+        self, options: argparse.Namespace, folder: Path, root: Path, say: Callable[[str], None]
+    ) -> None:
+        self._options = options
+        self._folder = folder
+        self._root = root
+        self._say = say
+        self._children: list[Child] = []
+        self._holder = options.controller
+        self._airframe = load_airframe(options.airframe)
+        self._ports = Ports()
+
+    def start(self) -> None:
+        """Bring everything into the air."""
+        say, options, folder = self._say, self._options, self._folder
+        say("Raspilot's virtual aircraft: the real firmware, daemon, proxy and ground station,")
+        say(f"all on this machine. Configuration and logs: {folder}")
+        self._ports = ports = choose_ports(options.any_ports)
+        self._write_config(options.controller)
+        aircraft = self._start_aircraft()
+        proxy = self._add("proxy", "-m", "up_proxy.main", "--config", folder / "config")
+        proxy.wait_for_line("ground side listens", START_LIMIT_S)
+        say(f"  proxy      aircraft on port {ports.airborne}, ground on port {ports.ground}")
+        aircraft.wait_for(_has_board, "board", BUILD_LIMIT_S)
+        for line in aircraft.lines():
+            if line.startswith(("flying", "aboard", "no firmware")) or "JSBSim" in line:
+                say(f"  aircraft   {line}")
+        self._holder = self._choose_holder(aircraft.lines())
+        daemon = self._add("raspilot", self._root / "main.py", "--config", folder / "config")
+        aircraft.wait_for_line("board on", START_LIMIT_S)
+        daemon.wait_for_line("modules run", START_LIMIT_S)
+        say(f"  raspilot   the daemon; the phone on ports {ports.general}, {ports.orientation}")
+        ready = "Controller: flies" if self._holder == "raspberry" else "orientation comes from"
+        daemon.wait_for_line(ready, START_LIMIT_S)
+        say(f"It flies. {WHO_HOLDS[self._holder]}")
+        for line in hints(ports, folder):
+            say(line)
+
+    def stay(self) -> None:
+        """Show the ground station, tell what happens, until the time is over."""
+        options = self._options
+        end_s = None if options.seconds is None else time.monotonic() + options.seconds
+        watch: Child | None = None
+        wants_watch = not options.no_watch
+        if wants_watch and sys.stdin.isatty():
+            self._say(f"The ground station opens in {READING_S} s, or with Enter; q leaves it.")
+            if select.select([sys.stdin], [], [], READING_S)[0]:
+                sys.stdin.readline()
+        while end_s is None or time.monotonic() < end_s:
+            if wants_watch and watch is None:
+                watch = self._open_watch()
+            for child in list(self._children):
+                status = child.poll()
+                if status == 0 and child is watch:
+                    self._children.remove(child)
+                    watch, wants_watch = None, False
+                    self._say("It flies on. Enter: the ground station again; Ctrl-C: stop all.")
+                elif status is not None:
+                    raise CrewError(child.last_words(status))
+            if watch is None:
+                self._tell_news(self._children[0])
+                wants_watch = _enter_was_pressed()
+            time.sleep(LOOK_S)
+
+    def stop(self) -> None:
+        """End every part, the newest first."""
+        for child in reversed(self._children):
+            child.terminate()
+        for child in reversed(self._children):
+            child.wait()
+        # An aircraft that was killed leaves a link to a pty that will be another program's.
+        (self._folder / "board").unlink(missing_ok=True)
+        if self._children:
+            self._say("Everything is stopped.")
+        self._children.clear()
+
+    def _write_config(self, holder: str) -> None:
+        folder = self._folder
+        write_config(
+            folder / "config",
+            folder / "board",
+            self._ports,
+            controller=holder,
+            airframe=self._airframe,
+        )
+
+    def _start_aircraft(self) -> Child:
+        options, ports, folder = self._options, self._ports, self._folder
+        who = options.radio if options.radio.startswith(("js", "/")) else "circle"
+        words: list[str | Path] = [
+            "-m", "up_simulator", "start",
+            "--airframe", options.airframe, "--wind", options.wind,
+            "--turbulence", options.turbulence, "--board", options.board, "--radio", who,
+            "--radio-socket", folder / "radio", "--gains", folder / "config" / "pids.yml",
+            "--pty-link", folder / "board", "--general-port", str(ports.general),
+            "--orientation-port", str(ports.orientation),
+        ]  # fmt: skip
+        if options.replay:
+            words += ["--replay", options.replay]
+        if options.state_log:
+            words += ["--state-log", options.state_log]
+        return self._add("aircraft", *words)
+
+    def _choose_holder(self, said: list[str]) -> str:
+        """Return who holds the attitude: a stand-in for the Arduino cannot."""
+        holder: str = self._options.controller
+        if any(line.startswith("no firmware") for line in said) and holder == "arduino":
+            holder = "raspberry"
+            self._say("             so the attitude is held by Raspilot instead")
+            self._write_config(holder)
+        return holder
+
+    def _add(self, name: str, *words: str | Path) -> Child:
+        (self._folder / f"{name}.log").unlink(missing_ok=True)
+        child = Child(name, [sys.executable, *map(str, words)], self._folder)
+        self._children.append(child)
+        return child
+
+    def _open_watch(self) -> Child:
+        port = str(self._ports.ground)
+        words = ["-m", "up_ground.main", "watch", "--port", port]
+        if self._options.radio == "keyboard":
+            words = ["-m", "up_simulator", "radio", "keyboard", "--socket"]
+            words.append(str(self._folder / "radio"))
+        child = Child("ground", [sys.executable, *words], self._folder, in_foreground=True)
+        self._children.append(child)
+        return child
+
+    def _tell_news(self, aircraft: Child) -> None:
+        """Say what the aircraft has said since the last time, if its user wants to know."""
+        lines = aircraft.new_lines()
+        for line in lines:
+            if any(words in line for words in NEWS):
+                self._say(f"aircraft: {line}")
+
+
+def _has_board(lines: list[str]) -> bool:
+    return any(line.startswith(("aboard", "no firmware", "board on")) for line in lines)
+
+
+def hints(ports: Ports, folder: Path) -> list[str]:
+    """Return what there is to try, as somebody types it in another terminal."""
+    programs = Path(sys.executable).parent
+    ground, sim = (os.path.relpath(programs / name) for name in ("up-ground", "up-sim"))
+    port = "" if ports.ground == 3004 else f" --port {ports.ground}"
+    socket = "" if folder == Path.cwd() / "run/showcase" else f" --socket {folder / 'radio'}"
+    return [
+        "Try, in another terminal:",
+        f"  {ground} watch{port}",
+        f"  {ground} send{port} up.telemetry.frequency frequency=50",
+        f"  {ground} send{port} arduino.pids.tunings request=true   the gains; see the guide",
+        f"  {ground} send{port} up.flight_mode.set mode=RATE        and mode=FBW",
+        f"  {ground} send{port} android.speak text=hello",
+        f"  {sim} radio{socket}          the sticks on your keyboard: take them, q gives back",
+        f"  {sim} fly save       a scenario: the pilot's last resort",
+        "Ctrl-C stops everything.",
+    ]
+
+
+def _enter_was_pressed() -> bool:
+    if not sys.stdin.isatty() or not select.select([sys.stdin], [], [], 0)[0]:
+        return False
+    return bool(sys.stdin.readline())
