@@ -58,7 +58,7 @@ class Phone:
         self.send: Callable[[bytes], None] | None = None
         self.send_orientation: Callable[[bytes], None] | None = None
         self.panic_s = 0.0
-        sensors = PhoneSensors(seed)
+        self._sensors = sensors = PhoneSensors(seed)
         self._streams = [
             _Stream("up.location.update", 0.5, sensors.location),
             _Stream("up.altitude.change", 0.2, sensors.altitude),
@@ -66,6 +66,14 @@ class Phone:
             _Stream("android.battery", 10.0, sensors.battery),
         ]
         self._orientation_due_s = 0.0
+
+    def set_battery(self, percent: float) -> None:
+        """Let the battery have this level now, and say so at once."""
+        self._sensors.battery_percent = percent
+        self._sensors.battery_time_s = self._flight.state.time_s
+        for stream in self._streams:
+            if stream.name == "android.battery":
+                stream.due_s = 0.0
 
     def connected(self, send: Callable[[bytes], None]) -> None:
         """Begin to send on a new link: everything at once, then each in its period."""

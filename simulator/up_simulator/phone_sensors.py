@@ -23,12 +23,15 @@ class PhoneSensors:
     """Turns the true state into the data of the Commands that a phone sends.
 
     GPS errors wander slowly about the truth (some metres) and jitter a little, as real ones do;
-    a seed makes them repeatable.
+    a seed makes them repeatable. The battery falls from ``battery_percent``, which it had at
+    ``battery_time_s`` of the flight.
     """
 
     def __init__(self, seed: int = 1) -> None:
         self._noise = random.Random(seed)
         self._wander_m = [0.0, 0.0, 0.0]
+        self.battery_percent = BATTERY_FULL
+        self.battery_time_s = 0.0
 
     def location(self, state: FlightState) -> dict[str, Any]:
         """Return the data of ``up.location.update``."""
@@ -61,6 +64,7 @@ class PhoneSensors:
         return {"heading": round(heading_deg, 1) % 360.0, "mode": "actual"}
 
     def battery(self, state: FlightState) -> dict[str, Any]:
-        """Return the data of ``android.battery``: full at the start, falling with time."""
-        level = BATTERY_FULL - BATTERY_PERCENT_PER_S * state.time_s
+        """Return the data of ``android.battery``: falling with time."""
+        used_s = state.time_s - self.battery_time_s
+        level = self.battery_percent - BATTERY_PERCENT_PER_S * used_s
         return {"level": max(0, round(level))}

@@ -72,6 +72,10 @@ class InProcessPhone:
             for port in self._ports:
                 self._reactor.network.reset_connections(port)
 
+    def set_battery(self, percent: float) -> None:
+        """Let its battery have this level from now on."""
+        self._phone.set_battery(percent)
+
     def stop(self) -> None:
         """Switch it off."""
         self._is_started = False

@@ -193,6 +193,14 @@ def test_a_cable_that_tells_ends_the_phones_links_at_once(fly):
     flying.until(lambda: not flying.ground.telemetry["android"]["connected"], 0.3)
 
 
+def test_the_phones_battery_is_what_was_set_and_told_at_once(fly):
+    flying = fly()
+    flying.start()
+    flying.phone.set_battery(12)
+    flying.until(lambda: flying.ground.telemetry["android"]["batteryLevel"] == 12, 0.5)
+    assert any("battery is low: 12 percent" in line for line in flying.raspilot.log)
+
+
 def test_the_phones_orientation_steps_in_for_a_board_that_is_gone(fly):
     flying = fly()
     flying.start()
