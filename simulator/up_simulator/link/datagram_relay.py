@@ -1,0 +1,187 @@
+"""A link between real UDP sockets: datagrams to it reach the target over the link."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from twisted.internet.error import CannotListenError
+from twisted.internet.protocol import DatagramProtocol
+
+from up.system.udp import listen_udp
+from up_simulator.link.model import LinkModel
+from up_simulator.link.pipe import LinkPipe
+from up_simulator.link.relay import LinkRelayError
+from up_simulator.link.stream import LOOK_S, Clock
+
+HEADER = 28
+"""Bytes of an IPv4 and a UDP header, which a link carries too."""
+MOST_WAITING = 256
+"""Datagrams on their way at most, as a queue in the network has an end."""
+MOST_CLIENTS = 64
+LARGEST = 65536
+_TINY_S = 1e-9
+
+Address = tuple[str, int]
+
+
+class _Way:
+    """One direction: datagrams by the model, each handed over when it arrives."""
+
+    def __init__(self, clock: Clock, model: LinkModel) -> None:
+        self._clock = clock
+        self._pipe: LinkPipe[tuple[Callable[[bytes], object], bytes]] = LinkPipe(
+            model, is_datagram=True
+        )
+        self._timer: Any = None
+        self.lost = 0
+
+    def send(self, data: bytes, deliver: Callable[[bytes], object]) -> None:
+        """Put a datagram on the way."""
+        if len(self._pipe) >= MOST_WAITING:
+            self.lost += 1
+            return
+        self._pipe.send((deliver, data), len(data) + HEADER, self._clock.seconds())
+        self._run()
+
+    def stop(self) -> None:
+        """Forget what is on its way."""
+        self._pipe.clear()
+        self._cancel()
+
+    @property
+    def all_lost(self) -> int:
+        """Return how many datagrams vanished."""
+        return self.lost + self._pipe.lost
+
+    def _run(self) -> None:
+        self._cancel()
+        for deliver, data in self._pipe.take(self._clock.seconds() + _TINY_S):
+            deliver(data)
+        if len(self._pipe):
+            next_s = self._pipe.next_s()
+            wait_s = LOOK_S if next_s == math.inf else next_s - self._clock.seconds()
+            self._timer = self._clock.callLater(max(0.0, wait_s), self._on_timer)
+
+    def _on_timer(self) -> None:
+        self._timer = None
+        self._run()
+
+    def _cancel(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+
+
+class _Socket(DatagramProtocol):
+    """A socket that hands its datagrams on, with the sender's address."""
+
+    def __init__(self, on_datagram: Callable[[bytes, Address], object]) -> None:
+        self._on_datagram = on_datagram
+
+    def datagramReceived(self, datagram: bytes, addr: Address) -> None:  # noqa: N802
+        self._on_datagram(datagram, addr)
+
+    def connectionRefused(self) -> None:  # noqa: N802
+        # Nobody is told what a link does with a datagram.
+        pass
+
+    def write(self, data: bytes, address: Address) -> None:
+        """Send a datagram, if the socket is still there."""
+        transport: Any = self.transport
+        if transport is not None:
+            transport.write(data, address)
+
+
+class DatagramRelay:
+    """Takes datagrams and carries them to the target, and its answers back to who sent them.
+
+    Each client has a socket of its own towards the target; of more than 64 the one that came first
+    loses its. ``target_host`` is an address, not a name. Otherwise as ``LinkRelay``.
+    """
+
+    def __init__(
+        self,
+        reactor: Any,
+        listen_port: int,
+        target_host: str,
+        target_port: int,
+        up: LinkModel,
+        down: LinkModel,
+        *,
+        interface: str = "127.0.0.1",
+        clock: Clock | None = None,
+    ) -> None:
+        self._reactor = reactor
+        self._interface = interface
+        self._target = (target_host, target_port)
+        self._listen_port = listen_port
+        self._up = _Way(clock if clock is not None else reactor, up)
+        self._down = _Way(clock if clock is not None else reactor, down)
+        self._listener: Any = None
+        self._near = _Socket(self._on_client)
+        self._clients: dict[Address, tuple[_Socket, Any]] = {}
+
+    @property
+    def port(self) -> int:
+        """Return where it listens."""
+        return self._listen_port if self._listener is None else self._listener.getHost().port
+
+    @property
+    def lost(self) -> int:
+        """Return how many datagrams vanished, both ways."""
+        return self._up.all_lost + self._down.all_lost
+
+    def start(self) -> int:
+        """Listen and return the port; raises ``LinkRelayError``."""
+        try:
+            self._listener = self._open(self._listen_port, self._near)
+        except CannotListenError as error:
+            raise LinkRelayError(
+                f"the link cannot listen on {self._interface}:{self._listen_port}: "
+                f"{error.socketError}"
+            ) from error
+        return self.port
+
+    async def stop(self) -> None:
+        """Take no more and forget what is on its way."""
+        self._up.stop()
+        self._down.stop()
+        listener, self._listener = self._listener, None
+        ports = [port for _socket, port in self._clients.values()]
+        self._clients.clear()
+        for port in [listener, *ports]:
+            if port is not None:
+                await port.stopListening()
+
+    def _open(self, number: int, protocol: DatagramProtocol) -> Any:
+        port = listen_udp(self._reactor, number, protocol, self._interface)
+        # Twisted would cut what is longer than 8 KiB.
+        port.maxPacketSize = LARGEST
+        return port
+
+    def _on_client(self, data: bytes, address: Address) -> None:
+        # The socket that sends is looked for on arrival: it may be gone by then.
+        self._socket_of(address)
+        self._up.send(data, lambda arrived: self._to_target(arrived, address))
+
+    def _to_target(self, data: bytes, address: Address) -> None:
+        client = self._clients.get(address)
+        if client is not None:
+            client[0].write(data, self._target)
+
+    def _socket_of(self, address: Address) -> None:
+        if address in self._clients:
+            return
+        while len(self._clients) >= MOST_CLIENTS:
+            _socket, port = self._clients.pop(next(iter(self._clients)))
+            port.stopListening()
+
+        def back(data: bytes, sender: Address) -> None:
+            if sender == self._target:
+                self._down.send(data, lambda arrived: self._near.write(arrived, address))
+
+        fresh = _Socket(back)
+        port = self._open(0, fresh)
+        self._clients[address] = (fresh, port)

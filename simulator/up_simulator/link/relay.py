@@ -1,0 +1,129 @@
+"""A link between real TCP sockets: whoever connects to it reaches the target over the link."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from twisted.internet.defer import Deferred
+from twisted.internet.error import CannotListenError
+from twisted.internet.protocol import ClientFactory, Factory, Protocol
+
+from up_simulator.link.model import LinkModel
+from up_simulator.link.relay_connection import RelayedConnection
+from up_simulator.link.stream import Clock
+
+WINDOW = 16 * 1024
+"""Bytes on their way at most, each way of each connection; more is not read from its sender."""
+CONNECT_S = 30.0
+
+
+class LinkRelayError(Exception):
+    """The relay cannot listen: the message is one sentence for the user."""
+
+
+class _ClientFactory(Factory):
+    noisy = False
+
+    def __init__(self, accept: Callable[[], Protocol]) -> None:
+        self._accept = accept
+
+    def buildProtocol(self, _address: Any) -> Protocol:  # noqa: N802
+        return self._accept()
+
+
+class LinkRelay:
+    """Listens, and carries each connection to the target and back by two models.
+
+    ``up`` is the way to the target, ``down`` the way back; all connections share them. What the
+    models do may be changed at any time. In a blackout nothing passes and nobody is told: both
+    ends stay open, and connections that arrive are taken and hang. When it is over, what is still
+    wanted goes on as TCP's retransmissions do, and the peers of those who gave up are closed.
+
+    Port 0 is any free port, which ``port`` tells after ``start``. ``user_timeout_s`` closes a
+    connection whose bytes have not arrived for so long, as TCP_USER_TIMEOUT does for a peer that
+    has set it: the relay's own sockets hide the link from it. ``clock`` gives the time, of the
+    reactor if there is no other.
+    """
+
+    def __init__(
+        self,
+        reactor: Any,
+        listen_port: int,
+        target_host: str,
+        target_port: int,
+        up: LinkModel,
+        down: LinkModel,
+        *,
+        interface: str = "127.0.0.1",
+        window: int = WINDOW,
+        user_timeout_s: float | None = None,
+        clock: Clock | None = None,
+    ) -> None:
+        self.up = up
+        self.down = down
+        self.window = window
+        self.user_timeout_s = user_timeout_s
+        self.clock: Clock = clock if clock is not None else reactor
+        self._reactor = reactor
+        self._interface = interface
+        self._target = (target_host, target_port)
+        self._listen_port = listen_port
+        self._listener: Any = None
+        self._connections: set[RelayedConnection] = set()
+        self._idle: Deferred[None] | None = None
+
+    @property
+    def port(self) -> int:
+        """Return where it listens."""
+        return self._listen_port if self._listener is None else self._listener.getHost().port
+
+    @property
+    def connections(self) -> int:
+        """Return how many connections it carries, those included that hang."""
+        return len(self._connections)
+
+    @property
+    def waiting(self) -> int:
+        """Return how many bytes are on their way."""
+        return sum(each.waiting for each in self._connections)
+
+    def start(self) -> int:
+        """Listen and return the port; raises ``LinkRelayError``."""
+        try:
+            self._listener = self._reactor.listenTCP(
+                self._listen_port, _ClientFactory(self._accept), interface=self._interface
+            )
+        except CannotListenError as error:
+            raise LinkRelayError(
+                f"the link cannot listen on {self._interface}:{self._listen_port}: "
+                f"{error.socketError}"
+            ) from error
+        return self.port
+
+    async def stop(self) -> None:
+        """Listen no more and end all connections."""
+        listener, self._listener = self._listener, None
+        if listener is not None:
+            await listener.stopListening()
+        for connection in list(self._connections):
+            connection.abort()
+        if self._connections:
+            self._idle = Deferred()
+            await self._idle
+
+    def connect(self, factory: ClientFactory) -> Any:
+        """Connect to the target."""
+        return self._reactor.connectTCP(*self._target, factory, timeout=CONNECT_S)
+
+    def forget(self, connection: RelayedConnection) -> None:
+        """Let a connection go that is over."""
+        self._connections.discard(connection)
+        if self._idle is not None and not self._connections:
+            idle, self._idle = self._idle, None
+            idle.callback(None)
+
+    def _accept(self) -> Protocol:
+        connection = RelayedConnection(self)
+        self._connections.add(connection)
+        return connection.near

@@ -1,0 +1,242 @@
+"""One connection through a relay: two sockets, and a link between them."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Callable
+from typing import Any
+from typing import Protocol as Interface
+
+from twisted.internet.error import ConnectionDone
+from twisted.internet.interfaces import IHalfCloseableProtocol, IPushProducer
+from twisted.internet.protocol import ClientFactory, Protocol, connectionDone
+from twisted.python.failure import Failure
+from zope.interface import implementer
+
+from up_simulator.link.model import LinkModel
+from up_simulator.link.stream import Clock, LinkStream, Signal
+
+SYSTEM_BUFFER = 32 * 1024
+"""What the system may keep for a socket of the relay, so that it is no part of the link."""
+
+
+class Road(Interface):
+    """What a connection needs of its relay."""
+
+    up: LinkModel
+    down: LinkModel
+    window: int
+    user_timeout_s: float | None
+    clock: Clock
+
+    def connect(self, factory: ClientFactory) -> Any:
+        """Connect to the target."""
+
+    def forget(self, connection: RelayedConnection) -> None:
+        """Let a connection go that is over."""
+
+
+@implementer(IHalfCloseableProtocol, IPushProducer)
+class _End(Protocol):
+    """One end of a connection: the client's or the target's."""
+
+    outgoing: LinkStream
+    incoming: LinkStream
+
+    def __init__(self, connection: RelayedConnection) -> None:
+        self._connection = connection
+        self._has_finished = False
+        self._is_held = False
+        self.is_open = False
+        self.is_gone = False
+
+    @property
+    def is_connected(self) -> bool:
+        """Return whether it has a socket."""
+        return self.transport is not None and not self.is_gone
+
+    def connectionMade(self) -> None:  # noqa: N802
+        transport: Any = self.transport
+        transport.setTcpNoDelay(True)
+        for option in (socket.SO_RCVBUF, socket.SO_SNDBUF):
+            transport.getHandle().setsockopt(socket.SOL_SOCKET, option, SYSTEM_BUFFER)
+        transport.registerProducer(self, True)
+        self._connection.on_made(self)
+
+    def dataReceived(self, data: bytes) -> None:  # noqa: N802
+        self.outgoing.send(data)
+        self.look_at_window()
+
+    def look_at_window(self) -> None:
+        """Read on, or no more, by how much is on its way; nothing before it is open."""
+        if not self.is_connected or self._has_finished:
+            return
+        transport: Any = self.transport
+        waiting, window = self.outgoing.waiting, self._connection.window
+        if self._is_held and self.is_open and waiting <= window // 2:
+            self._is_held = False
+            transport.resumeProducing()
+        elif not self._is_held and (waiting >= window or not self.is_open):
+            self._is_held = True
+            transport.pauseProducing()
+
+    def take(self, content: bytes | Signal) -> None:
+        """Do what arrives from the other end."""
+        transport: Any = self.transport
+        if not self.is_connected:
+            return
+        if content is Signal.FINISHED:
+            transport.loseWriteConnection()
+            self._connection.on_finished()
+        elif content is Signal.RESET:
+            transport.abortConnection()
+        elif isinstance(content, bytes):
+            transport.write(content)
+
+    def close(self) -> None:
+        """Close: both ends have finished."""
+        if self.is_connected:
+            transport: Any = self.transport
+            transport.unregisterProducer()
+            transport.loseConnection()
+
+    def abort(self) -> None:
+        """Close at once."""
+        if self.is_connected:
+            transport: Any = self.transport
+            transport.abortConnection()
+
+    def readConnectionLost(self) -> None:  # noqa: N802
+        self._has_finished = True
+        self.outgoing.send(Signal.FINISHED)
+
+    def writeConnectionLost(self) -> None:  # noqa: N802
+        pass
+
+    def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
+        self.is_gone = True
+        self.incoming.stop()
+        if not reason.check(ConnectionDone):
+            self.outgoing.send(Signal.RESET)
+        self._connection.on_gone()
+
+    def pauseProducing(self) -> None:  # noqa: N802
+        self.incoming.is_blocked = True
+
+    def resumeProducing(self) -> None:  # noqa: N802
+        self.incoming.is_blocked = False
+
+    def stopProducing(self) -> None:  # noqa: N802
+        pass
+
+
+class _TargetFactory(ClientFactory):
+    noisy = False
+
+    def __init__(self, end: _End, on_failed: Callable[[], object]) -> None:
+        self._end = end
+        self._on_failed = on_failed
+
+    def buildProtocol(self, _address: Any) -> Protocol:  # noqa: N802
+        return self._end
+
+    def clientConnectionFailed(self, _connector: Any, _reason: Failure) -> None:  # noqa: N802
+        self._on_failed()
+
+
+class RelayedConnection:
+    """A client's connection and the relay's own to the target, with a stream each way.
+
+    The target is called when the opening has come through, the client is read when the answer has.
+    """
+
+    def __init__(self, road: Road) -> None:
+        self._road = road
+        self._finished = 0
+        self._connector: Any = None
+        self.window = road.window
+        self.near, self.far = _End(self), _End(self)
+        self.near.outgoing = self.far.incoming = self._stream(road.up, self._on_up, self.near)
+        self.far.outgoing = self.near.incoming = self._stream(road.down, self._on_down, self.far)
+
+    @property
+    def waiting(self) -> int:
+        """Return how many bytes are on their way."""
+        return self.near.outgoing.waiting + self.far.outgoing.waiting
+
+    def on_made(self, end: _End) -> None:
+        """One of the two has its socket."""
+        if end is self.near:
+            end.look_at_window()
+            end.outgoing.send(Signal.OPEN)
+        else:
+            end.is_open = True
+            end.outgoing.send(Signal.OPENED)
+            end.incoming.is_blocked = False
+
+    def on_finished(self) -> None:
+        """One end was told that the other sends no more."""
+        self._finished += 1
+        if self._finished == 2:
+            self.near.close()
+            self.far.close()
+
+    def on_gone(self) -> None:
+        """One end has lost its socket, or will never have one."""
+        if self.near.is_gone and self.far.is_gone:
+            self.near.outgoing.stop()
+            self.far.outgoing.stop()
+            self._road.forget(self)
+
+    def abort(self) -> None:
+        """End it here and now."""
+        self.near.outgoing.stop()
+        self.far.outgoing.stop()
+        self._give_up_far()
+        self.near.abort()
+        self.far.abort()
+
+    def _stream(
+        self, model: LinkModel, deliver: Callable[[bytes | Signal], object], sender: _End
+    ) -> LinkStream:
+        return LinkStream(
+            self._road.clock,
+            model,
+            deliver,
+            user_timeout_s=self._road.user_timeout_s,
+            on_silence=sender.abort,
+        )
+
+    def _on_up(self, content: bytes | Signal) -> None:
+        if content is Signal.OPEN:
+            # Nothing arrives at a target that is not connected yet.
+            self.near.outgoing.is_blocked = True
+            self._connector = self._road.connect(_TargetFactory(self.far, self._on_refused))
+        elif content is Signal.RESET and self.far.transport is None:
+            self._give_up_far()
+        else:
+            self.far.take(content)
+        self.near.look_at_window()
+
+    def _on_down(self, content: bytes | Signal) -> None:
+        if content is Signal.OPENED:
+            self.near.is_open = True
+            self.near.look_at_window()
+        else:
+            self.near.take(content)
+        self.far.look_at_window()
+
+    def _give_up_far(self) -> None:
+        if self.far.transport is not None or self.far.is_gone:
+            return
+        if self._connector is not None:
+            self._connector.stopConnecting()
+        else:
+            self.far.is_gone = True
+            self.on_gone()
+
+    def _on_refused(self) -> None:
+        self.far.is_gone = True
+        self.near.outgoing.stop()
+        self.far.outgoing.send(Signal.RESET)
+        self.on_gone()

@@ -1,0 +1,218 @@
+"""One direction of a connection over a link: in order, without loss, when the link lets it."""
+
+from __future__ import annotations
+
+import enum
+import math
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from up_simulator.link.model import LinkModel
+
+SEGMENT = 1448
+HEADER = 40
+"""Bytes of an IPv4 and a TCP header, which a link carries too."""
+LEAST_RETRY_S, FIRST_RETRY_S, LONGEST_RETRY_S = 0.2, 1.0, 120.0
+LONGEST_RESET_RETRY_S = 1.0
+"""A peer that is gone answers the next packet of the other side with a reset."""
+LOOK_S = 0.01
+"""How often a stalled link is asked whether it goes on."""
+_TINY_S = 1e-9
+
+
+class Signal(enum.Enum):
+    """What a connection carries beside its bytes."""
+
+    OPEN = "open"
+    OPENED = "opened"
+    FINISHED = "finished"
+    RESET = "reset"
+
+
+class Clock(Protocol):
+    """Where the time comes from: a reactor, or ``task.Clock``."""
+
+    def seconds(self) -> float:
+        """Return the time, which never falls."""
+
+    def callLater(self, delay: float, function: Callable[..., object]) -> Any:  # noqa: N802
+        """Call a function later; the result can be cancelled."""
+
+
+@dataclass(slots=True)
+class _Packet:
+    """What is on its way, when it arrives (None: it is lost), and how many blackouts ago."""
+
+    content: bytes | Signal
+    size: int
+    sent_s: float
+    due_s: float | None
+    blackouts: int
+
+
+class LinkStream:
+    """Carries packets by a model and hands each to ``deliver`` when it has arrived.
+
+    What the model loses is sent again, as TCP does: first after 0.2 s or two round trips, then
+    each time after twice as long, up to 120 s. ``is_blocked`` is the receiver that takes no more.
+    With ``user_timeout_s``, ``on_silence`` is called when nothing has arrived for so long although
+    something is on its way.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        model: LinkModel,
+        deliver: Callable[[bytes | Signal], object],
+        *,
+        user_timeout_s: float | None = None,
+        on_silence: Callable[[], object] = lambda: None,
+    ) -> None:
+        self._clock = clock
+        self._model = model
+        self._deliver = deliver
+        self._user_timeout_s = user_timeout_s or math.inf
+        self._on_silence = on_silence
+        self._packets: deque[_Packet] = deque()
+        self._timer: Any = None
+        self._is_blocked = False
+        self._is_stopped = False
+        self._is_busy = False
+        self._retry_s = FIRST_RETRY_S
+        self._retry_at_s = math.inf
+        self._progress_s = clock.seconds()
+        self.waiting = 0
+        """Bytes on their way."""
+
+    @property
+    def is_blocked(self) -> bool:
+        """Return whether the receiver takes nothing now."""
+        return self._is_blocked
+
+    @is_blocked.setter
+    def is_blocked(self, is_blocked: bool) -> None:
+        self._is_blocked = is_blocked
+        self._progress_s = self._clock.seconds()
+        self._run()
+
+    def send(self, content: bytes | Signal) -> None:
+        """Put bytes or a signal on the way; a reset overtakes what has not arrived."""
+        if self._is_stopped:
+            return
+        if not self._packets:
+            self._progress_s = self._clock.seconds()
+        if isinstance(content, Signal):
+            if content is Signal.RESET:
+                self._forget()
+            self._append(content, 0)
+        else:
+            for at in range(0, len(content), SEGMENT):
+                segment = content[at : at + SEGMENT]
+                self._append(segment, len(segment))
+        self._run()
+
+    def stop(self) -> None:
+        """Forget everything and carry nothing more."""
+        self._is_stopped = True
+        self._forget()
+        self._cancel()
+
+    def _append(self, content: bytes | Signal, size: int) -> None:
+        packet = _Packet(content, size, 0.0, None, 0)
+        self._launch(packet, self._clock.seconds())
+        self._packets.append(packet)
+        self.waiting += size
+
+    def _launch(self, packet: _Packet, now_s: float) -> None:
+        packet.sent_s = now_s
+        packet.due_s = self._model.send(packet.size + HEADER, now_s)
+        packet.blackouts = self._model.blackouts
+
+    def _forget(self) -> None:
+        self._packets.clear()
+        self.waiting = 0
+        self._retry_at_s = math.inf
+
+    def _has_vanished(self, packet: _Packet) -> bool:
+        model = self._model
+        return packet.due_s is None or model.is_black or packet.blackouts != model.blackouts
+
+    def _run(self) -> None:
+        """Deliver what has arrived; what a delivery causes comes after it."""
+        if self._is_busy:
+            return
+        self._is_busy = True
+        try:
+            while self._packets and not self._is_blocked and self._take_first():
+                pass
+        finally:
+            self._is_busy = False
+        self._schedule()
+
+    def _take_first(self) -> bool:
+        """Deliver the first packet; False: it has not arrived."""
+        now_s = self._clock.seconds()
+        first = self._packets[0]
+        if self._has_vanished(first):
+            return self._is_sent_again(first, now_s)
+        if first.due_s is None or self._model.arrival_s(first.due_s) > now_s + _TINY_S:
+            return False
+        self._packets.popleft()
+        self.waiting -= first.size
+        self._progress_s = now_s
+        self._retry_s = self._least_retry_s()
+        self._retry_at_s = math.inf
+        self._deliver(first.content)
+        return True
+
+    def _is_sent_again(self, first: _Packet, now_s: float) -> bool:
+        if self._retry_at_s == math.inf:
+            self._retry_at_s = max(now_s, first.sent_s + self._retry_s)
+        if now_s < self._retry_at_s - _TINY_S:
+            return False
+        # The receiver keeps nothing that comes before what is missing: all of it goes again.
+        for packet in self._packets:
+            self._launch(packet, now_s)
+        if not self._has_vanished(first):
+            self._retry_at_s = math.inf
+            return True
+        is_reset = first.content is Signal.RESET
+        self._retry_s = min(
+            2 * self._retry_s, LONGEST_RESET_RETRY_S if is_reset else LONGEST_RETRY_S
+        )
+        self._retry_at_s = now_s + self._retry_s
+        return False
+
+    def _least_retry_s(self) -> float:
+        return max(LEAST_RETRY_S, 4 * self._model.settings.delay_ms / 1000)
+
+    def _schedule(self) -> None:
+        self._cancel()
+        if not self._packets or self._is_blocked or self._is_stopped:
+            return
+        now_s = self._clock.seconds()
+        first = self._packets[0]
+        if self._has_vanished(first) or first.due_s is None:
+            next_s = self._retry_at_s
+        else:
+            next_s = self._model.arrival_s(first.due_s)
+            if next_s == math.inf:
+                next_s = now_s + LOOK_S
+        next_s = min(next_s, self._progress_s + self._user_timeout_s)
+        self._timer = self._clock.callLater(max(0.0, next_s - now_s), self._on_timer)
+
+    def _on_timer(self) -> None:
+        self._timer = None
+        self._run()
+        silent_s = self._clock.seconds() - self._progress_s
+        if self._packets and not self._is_blocked and silent_s >= self._user_timeout_s - _TINY_S:
+            # Who has given up says so once; only a reset is still on its way then.
+            self._user_timeout_s = math.inf
+            self._on_silence()
+
+    def _cancel(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None

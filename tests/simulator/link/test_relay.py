@@ -1,0 +1,404 @@
+"""The relay between real sockets: every byte, in order, when the link says; and its faults."""
+
+import time
+from socket import SO_RCVBUF, SO_SNDBUF, SOL_SOCKET
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.simulator.link.peers import Bench, flown, turn
+from tests.support.reactor import reactor, until
+from up_simulator.link.model import LinkModel, LinkSettings
+from up_simulator.link.relay import WINDOW, LinkRelay, LinkRelayError
+
+LINKS = st.builds(
+    LinkSettings,
+    delay_ms=st.sampled_from([0.0, 1.0, 80.0, 700.0]),
+    jitter_ms=st.sampled_from([0.0, 30.0, 300.0]),
+    loss_percent=st.sampled_from([0.0, 5.0, 60.0]),
+    rate_bytes_s=st.sampled_from([0.0, 3000.0, 250000.0]),
+)
+FAULTS = st.lists(
+    st.tuples(
+        st.floats(0.0, 3.0),
+        st.sampled_from(["stall", "resume", "black_out", "restore"]),
+        st.booleans(),
+    ),
+    max_size=6,
+)
+MESSAGES = st.lists(
+    st.tuples(st.booleans(), st.integers(1, 40_000), st.floats(0.0, 0.4)), min_size=1, max_size=8
+)
+
+
+def pattern(size, key):
+    """Return bytes of which no part looks like another."""
+    return b"".join((key * 1_000_003 + at).to_bytes(4) for at in range(size // 4 + 1))[:size]
+
+
+@settings(max_examples=100, deadline=None)
+@given(LINKS, LINKS, MESSAGES, FAULTS)
+def test_every_byte_arrives_in_order_whatever_the_link_does(up, down, messages, faults):
+    async def fly():
+        async with Bench(up, down) as bench:
+            client, target = await bench.pair()
+            wanted = {id(client): bytearray(), id(target): bytearray()}
+            actions = [(at_s, "fault", name, is_up) for at_s, name, is_up in faults]
+            at_s = 0.0
+            for key, (is_up, size, pause_s) in enumerate(messages):
+                at_s += pause_s
+                actions.append((at_s, "send", pattern(size, key), is_up))
+            start_s = bench.clock.seconds()
+            for at_s, what, detail, is_up in sorted(actions, key=lambda each: each[0]):
+                await bench.pass_s(max(0.0, start_s + at_s - bench.clock.seconds()))
+                model = bench.up if is_up else bench.down
+                if what == "send":
+                    (client if is_up else target).send(detail)
+                    wanted[id(target if is_up else client)] += detail
+                elif detail in ("stall", "resume"):
+                    getattr(model, detail)(bench.clock.seconds())
+                else:
+                    getattr(model, detail)()
+                for end in (client, target):
+                    assert wanted[id(end)].startswith(end.data)
+            for model in (bench.up, bench.down):
+                model.restore()
+                model.resume(bench.clock.seconds())
+            client.transport.loseWriteConnection()
+            target.transport.loseWriteConnection()
+            await bench.wait_for(lambda: client.is_finished and target.is_finished, 4000)
+            assert client.data == wanted[id(client)]
+            assert target.data == wanted[id(target)]
+            await until(lambda: bench.relay.connections == 0)
+
+    flown(fly)
+
+
+def test_bytes_are_as_old_as_the_link_makes_them():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=100), LinkSettings(delay_ms=40)) as bench:
+            client = await bench.client()
+            await bench.pass_s(0.0995)
+            assert bench.targets == []
+            await bench.pass_s(0.001)
+            [target] = bench.targets
+            # The target may speak at once; its answer and the opening's come together.
+            target.send(b"hello")
+            await bench.pass_s(0.039)
+            assert not client.data
+            await bench.pass_s(0.002)
+            assert client.data == b"hello"
+            client.send(b"first")
+            await bench.pass_s(0.05)
+            client.send(b"second")
+            await bench.pass_s(0.0499)
+            assert not target.data
+            await bench.pass_s(0.0002)
+            assert target.data == b"first"
+            await bench.pass_s(0.05)
+            assert target.data == b"firstsecond"
+
+    flown(fly)
+
+
+def test_a_narrow_link_takes_its_time_and_reads_no_more_than_it_carries():
+    async def fly():
+        async with Bench(LinkSettings(rate_bytes_s=10_000)) as bench:
+            client, target = await bench.pair()
+            data = pattern(50_000, 1)
+            client.send(data)
+            await bench.pass_s(2.0)
+            assert 18_000 <= len(target.data) <= 20_000
+            await bench.pass_s(2.9)
+            assert len(target.data) < 50_000
+            await bench.pass_s(0.4)
+            assert target.data == data
+
+    flown(fly)
+
+
+def test_what_waits_in_a_stall_comes_in_one_burst():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=30)) as bench:
+            client, target = await bench.pair()
+            bench.up.stall(bench.clock.seconds())
+            for at in range(10):
+                client.send(b"%d" % at)
+                await bench.pass_s(0.5)
+            assert not target.data
+            target.send(b"the other way is free")
+            await bench.pass_s(0.01)
+            assert client.data == b"the other way is free"
+            bench.up.resume(bench.clock.seconds())
+            await bench.pass_s(0.02)
+            assert target.data == b"0123456789"
+
+    flown(fly)
+
+
+def test_settings_change_in_flight():
+    async def fly():
+        async with Bench() as bench:
+            client, target = await bench.pair()
+            client.send(b"now")
+            await bench.pass_s(0)
+            assert target.data == b"now"
+            bench.up.settings = LinkSettings(delay_ms=500)
+            client.send(b"later")
+            await bench.pass_s(0.49)
+            assert target.data == b"now"
+            await bench.pass_s(0.02)
+            assert target.data == b"nowlater"
+
+    flown(fly)
+
+
+def black_out(bench):
+    bench.up.black_out()
+    bench.down.black_out()
+
+
+def restore(bench):
+    bench.up.restore()
+    bench.down.restore()
+
+
+def test_in_a_blackout_nothing_passes_and_nobody_is_told():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=50), LinkSettings(delay_ms=50)) as bench:
+            client, target = await bench.pair()
+            client.send(b"on its way")
+            await bench.pass_s(0.02)
+            black_out(bench)
+            target.send(b"into the dark")
+            await bench.pass_s(30)
+            late = await bench.client()
+            late.send(b"hanging")
+            await bench.pass_s(10)
+            assert not client.data and not target.data
+            assert not (client.is_lost or target.is_lost or late.is_lost)
+            assert not (client.is_finished or target.is_finished or late.is_finished)
+            assert len(bench.targets) == 1
+            assert bench.relay.connections == 2
+            restore(bench)
+            # As TCP does: the pause between two retries has doubled until it was as long as that.
+            await bench.pass_s(45)
+            assert target.data == b"on its way"
+            assert client.data == b"into the dark"
+            assert bench.targets[1].data == b"hanging"
+
+    flown(fly)
+
+
+def test_recovery_takes_as_long_as_the_pause_of_the_retries():
+    async def fly():
+        async with Bench() as bench:
+            client, target = await bench.pair()
+            black_out(bench)
+            client.send(b"data")
+            # Retries 0.2, 0.6, 1.4, 3.0, 6.2 s after it was sent.
+            await bench.pass_s(3.5)
+            restore(bench)
+            await bench.pass_s(2.6)
+            assert not target.data
+            await bench.pass_s(0.2)
+            assert target.data == b"data"
+
+    flown(fly)
+
+
+@pytest.mark.parametrize("who", ["client", "target"])
+def test_who_gave_up_in_a_blackout_has_its_peer_closed_after_it(who):
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=20), LinkSettings(delay_ms=20)) as bench:
+            ends = dict(zip(("client", "target"), await bench.pair(), strict=True))
+            gone, left = ends.pop(who), next(iter(ends.values()))
+            black_out(bench)
+            gone.send(b"never acknowledged")
+            await bench.pass_s(5)
+            gone.transport.abortConnection()
+            await bench.pass_s(60)
+            assert gone.is_lost
+            assert not left.is_lost and not left.is_finished
+            restore(bench)
+            await bench.pass_s(1.1)
+            await until(lambda: left.is_lost)
+            assert left.was_aborted
+            assert not left.data
+            assert bench.relay.connections == 0
+
+    flown(fly)
+
+
+def test_who_hung_and_gave_up_leaves_nothing_behind():
+    async def fly():
+        async with Bench() as bench:
+            black_out(bench)
+            client = await bench.client()
+            await bench.pass_s(3)
+            client.transport.loseConnection()
+            await bench.pass_s(1)
+            assert bench.targets == []
+            restore(bench)
+            await bench.wait_for(lambda: bench.targets)
+            await bench.wait_for(lambda: bench.targets[0].is_finished)
+            bench.targets[0].transport.loseConnection()
+            await bench.wait_for(lambda: bench.relay.connections == 0)
+
+    flown(fly)
+
+
+def test_bytes_that_arrive_nowhere_for_the_user_timeout_close_their_sender_alone():
+    async def fly():
+        async with Bench(user_timeout_s=1.5) as bench:
+            client, target = await bench.pair()
+            idle, _ = await bench.pair()
+            black_out(bench)
+            client.send(b"beat")
+            await bench.pass_s(1.4)
+            assert not client.is_lost
+            await bench.pass_s(0.2)
+            await until(lambda: client.is_lost)
+            await bench.pass_s(20)
+            assert not target.is_lost
+            assert not idle.is_lost, "who sends nothing has nothing to wait for"
+            restore(bench)
+            await bench.pass_s(1.1)
+            await until(lambda: target.is_lost)
+
+    flown(fly)
+
+
+def test_a_reader_that_reads_nothing_fills_a_bounded_memory_and_stops_the_sender():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=5)) as bench:
+            client, target = await bench.pair()
+            # What the two systems keep by themselves is not the relay's.
+            client.transport.getHandle().setsockopt(SOL_SOCKET, SO_SNDBUF, 32768)
+            target.transport.getHandle().setsockopt(SOL_SOCKET, SO_RCVBUF, 32768)
+            target.transport.pauseProducing()
+            data = pattern(4_000_000, 1)
+            client.send(data)
+            left = None
+            while left != (left := len(data) - unsent(client)):
+                await bench.pass_s(1.0)
+                assert bench.relay.waiting <= WINDOW + 65536
+            assert left < 600_000, "the relay went on reading"
+            target.transport.resumeProducing()
+            await bench.wait_for(lambda: len(target.data) == len(data))
+            assert target.data == data
+
+    flown(fly)
+
+
+def unsent(peer):
+    """Return how many bytes still wait in a peer's own program."""
+    transport = peer.transport
+    waiting = len(transport.dataBuffer) - transport.offset
+    return waiting + sum(map(len, transport._tempDataBuffer))
+
+
+def test_one_way_may_end_before_the_other():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=10), LinkSettings(delay_ms=10)) as bench:
+            client, target = await bench.pair()
+            client.send(b"question")
+            client.transport.loseWriteConnection()
+            await bench.pass_s(0.05)
+            assert (target.data, target.is_finished) == (b"question", True)
+            target.send(b"answer")
+            await bench.pass_s(0.05)
+            assert (client.data, client.is_finished) == (b"answer", False)
+            target.transport.loseConnection()
+            await bench.pass_s(0.05)
+            assert client.is_finished
+            await until(lambda: bench.relay.connections == 0)
+
+    flown(fly)
+
+
+def test_a_reset_is_passed_on():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=10), LinkSettings(delay_ms=10)) as bench:
+            client, target = await bench.pair()
+            target.transport.abortConnection()
+            await bench.pass_s(0.05)
+            await until(lambda: client.is_lost)
+            assert client.was_aborted
+
+    flown(fly)
+
+
+def test_a_target_that_refuses_is_told_by_closing():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=10), LinkSettings(delay_ms=10)) as bench:
+            await bench.listener.stopListening()
+            client = await bench.client()
+            client.send(b"anybody?")
+            await bench.pass_s(0.005)
+            assert not client.is_lost
+            await bench.wait_for(lambda: client.is_lost)
+            assert bench.relay.connections == 0
+
+    flown(fly)
+
+
+def test_connections_share_the_link_and_nothing_else():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=15), LinkSettings(delay_ms=15)) as bench:
+            pairs = [await bench.pair() for _ in range(4)]
+            assert bench.relay.connections == 4
+            for at, (client, target) in enumerate(pairs):
+                client.send(pattern(5000, at))
+                target.send(pattern(6000, -at - 1 + 10))
+            await bench.pass_s(0.1)
+            for at, (client, target) in enumerate(pairs):
+                assert target.data == pattern(5000, at)
+                assert client.data == pattern(6000, -at - 1 + 10)
+
+    flown(fly)
+
+
+def test_stopping_ends_everything_whatever_is_on_its_way():
+    async def fly():
+        bench = Bench(LinkSettings(delay_ms=10))
+        async with bench:
+            client, target = await bench.pair()
+            client.send(pattern(100_000, 1))
+            await bench.pass_s(0.001)
+            black_out(bench)
+            await bench.client()
+            bench.up.stall(bench.clock.seconds())
+            await turn()
+        assert bench.relay.connections == bench.relay.waiting == 0
+        assert client.is_lost and target.is_lost
+
+    flown(fly)
+
+
+def test_a_taken_port_is_said_in_one_sentence():
+    async def fly():
+        async with Bench() as bench:
+            taken = bench.relay.port
+            assert taken > 0
+            second = LinkRelay(reactor, taken, "127.0.0.1", 1, LinkModel(), LinkModel())
+            with pytest.raises(LinkRelayError, match=f"cannot listen on 127.0.0.1:{taken}") as said:
+                second.start()
+            assert "\n" not in str(said.value)
+
+    flown(fly)
+
+
+def test_by_the_reactors_own_clock():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=30), clock=reactor) as bench:
+            client = await bench.client()
+            await until(lambda: bench.targets)
+            client.send(b"real")
+            sent_s = time.monotonic()
+            await until(lambda: bench.targets[0].data)
+            assert time.monotonic() - sent_s >= 0.0299
+            assert bench.targets[0].data == b"real"
+
+    flown(fly)
