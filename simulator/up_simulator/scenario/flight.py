@@ -78,7 +78,7 @@ class ScenarioFlight:
         self._scenario = scenario
         self._world = world
         self._board = board
-        self._companions = companions
+        self.companions = companions
         self._demand = demand
         self._imu = imu
         self._timeline = StickTimeline(scenario.sticks, scenario.switch.positions())
@@ -129,7 +129,7 @@ class ScenarioFlight:
         finally:
             self.record.flown_s = self.time_s
             self.record.took_s = time.perf_counter() - began_s
-            self._companions.stop()
+            self.companions.stop()
         return self.record
 
     def boot(self) -> None:
@@ -140,7 +140,7 @@ class ScenarioFlight:
             at_rest = channel in ("throttle", "aux2")
             self._set_stick(channel, AT_FIRST_US[channel] if at_rest else wanted_us[channel])
         try:
-            self._companions.start()
+            self.companions.start()
             self._wait_until_ready()
             self._world.boot(arms=is_armed)
         except (BoardCrashedError, CrewError) as error:
@@ -170,7 +170,7 @@ class ScenarioFlight:
             self._take_row()
 
     def _wait_until_ready(self) -> None:
-        companions, board = self._companions, self._board
+        companions, board = self.companions, self._board
         board.set_motion(motion_at(0.0, 0.0))
         waited_s = 0.0
         while not companions.is_ready():
@@ -188,7 +188,7 @@ class ScenarioFlight:
             )
 
     def _exchange(self) -> None:
-        self._companions.exchange(STEP_S)
+        self.companions.exchange(STEP_S)
 
     def _hear_command(self, command: Command) -> None:
         if command.type == "S":
@@ -213,21 +213,21 @@ class ScenarioFlight:
                 if event.command is not None:
                     self._ask(event, time_s)
                 else:
-                    happen(event, self._board, self._companions, self._imu)
+                    happen(event, self._board, self.companions, self._imu)
             except CrewError as error:
                 self._fail(str(error))
 
     def _ask(self, event: Event, time_s: float) -> None:
-        ground = self._companions.ground
+        ground = self.companions.ground
         assert ground is not None and event.command is not None
         command = event.command
         command_id = ground.send(command.name, **command.data)
         self.record.questions.append(Question(event, command, command_id, time_s))
 
     def _look_for_answers(self, time_s: float) -> None:
-        if self.record.questions and self._companions.ground is not None:
+        if self.record.questions and self.companions.ground is not None:
             for question in self.record.questions:
-                question.look(self._companions.ground, time_s)
+                question.look(self.companions.ground, time_s)
 
     def _look_for_crash(self, time_s: float) -> None:
         crash: str | None = getattr(self._world.dynamics, "crash", None)
@@ -238,8 +238,8 @@ class ScenarioFlight:
 
     def _fail(self, sentence: str) -> None:
         self.record.failure = sentence
-        if self._companions.raspilot is not None:
-            self.record.failure_log = list(self._companions.raspilot.log)[-LOG_TAIL:]
+        if self.companions.raspilot is not None:
+            self.record.failure_log = list(self.companions.raspilot.log)[-LOG_TAIL:]
 
     def _take_row(self) -> None:
         row = self._sampler.row(self.time_s, self._sticks_us)

@@ -6,6 +6,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from up_simulator.crew.protocols import CrewError
 from up_simulator.flight import Flight
 from up_simulator.in_process.config_folder import GROUND_PORT, write_config
 from up_simulator.in_process.ground import InProcessGround
@@ -55,10 +56,12 @@ class InProcessCompanions:
                 self._reactor, flight, orientation=scenario.phone.orientation, seed=scenario.seed
             )
         self._ready_s: float | None = None
+        self._is_wanted = False
 
     def start(self) -> None:
         """Start the daemon, the ground station and, where it is plugged in, the phone."""
         self.raspilot.start()
+        self._is_wanted = True
         if self.ground is not None:
             self.ground.start()
         if self.phone is not None and self._scenario.phone and self._scenario.phone.plugged:
@@ -78,6 +81,9 @@ class InProcessCompanions:
         """Let bytes pass and this time go by."""
         self.raspilot.pump(self._board)
         self._reactor.advance(step_s)
+        if self._is_wanted and not self.raspilot.is_running:
+            self._is_wanted = False
+            raise CrewError("the daemon has ended by itself")
 
     def seconds(self) -> float:
         """Return the simulated time."""
@@ -110,6 +116,7 @@ class InProcessCompanions:
             self.ground.stop()
         if self.phone is not None:
             self.phone.stop()
+        self._is_wanted = False
         self.raspilot.kill()
         self._folder.cleanup()
 
@@ -143,6 +150,7 @@ class InProcessCompanions:
                 model.resume(self.seconds())
 
     def _command_raspilot(self, what: str) -> None:
+        self._is_wanted = what == "started"
         if what == "killed":
             self.raspilot.kill()
         elif what == "stopped":

@@ -1,0 +1,87 @@
+"""Writes the tables of docs/scenarios.md: ``python -m tests.docs.scenarios_page``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from tests.docs.configuration_page import BEGIN, END, _bounds, _default
+from up.config.shape import Entry, ListOf, Shape
+from up_simulator.scenario.file import SHAPE
+from up_simulator.scenario.signals import SIGNALS, Kind
+
+PAGE = Path(__file__).parents[2] / "docs" / "scenarios.md"
+GROUPS = {
+    "time_s": "time",
+    "truth": "truth: the aircraft itself, which nobody aboard knows",
+    "stick": "stick: what the pilot gives",
+    "servo": "servo: what is measured at the outputs",
+    "board": "board: what the Arduino says (its status every 200 ms, its attitude every 20 ms)",
+    "demand": "demand: what is asked in the mode that flies",
+    "error": "error: the truth less what is asked",
+    "estimate_error": "estimate_error: what the Arduino says less the truth",
+    "raspilot": "raspilot: the daemon",
+    "phone": "phone: the phone aboard",
+    "ground": "ground: what the ground station sees, by the telemetry's own names",
+}
+
+
+def tables() -> str:
+    """Return the generated part of the page."""
+    return "\n".join([*_key_tables(), *_signal_tables()])
+
+
+def _key_tables() -> Iterator[str]:
+    yield "## Keys\n"
+    yield "| key | default | unit, range | |"
+    yield "|---|---|---|---|"
+    lists: list[tuple[str, Shape]] = []
+    yield from _rows(SHAPE.entries, "", lists)
+    yield ""
+    for name, shape in lists:
+        yield f"### An item of `{name}`\n"
+        if shape.comment:
+            yield f"{' '.join(shape.comment.split())}\n"
+        yield "| key | default | unit, range | |"
+        yield "|---|---|---|---|"
+        yield from _rows(shape.entries, "", [])
+        yield ""
+
+
+def _rows(entries: Iterable[Entry], above: str, lists: list[tuple[str, Shape]]) -> Iterator[str]:
+    for entry in entries:
+        comment = " ".join(entry.comment.split()).replace("|", "\\|")
+        name = f"`{above}{entry.name}`"
+        if isinstance(entry.spec, Shape):
+            absent = "" if entry.default is not None else "absent"
+            yield f"| {name} | {absent} | | {comment} |"
+            yield from _rows(entry.spec.entries, f"{above}{entry.name}.", lists)
+            continue
+        if isinstance(entry.spec, ListOf) and isinstance(entry.spec.item, Shape):
+            lists.append((above + entry.name, entry.spec.item))
+        yield f"| {name} | {_default(entry)} | {_bounds(entry)} | {comment} |"
+
+
+def _signal_tables() -> Iterator[str]:
+    yield "## Signals\n"
+    yield "`ground.counters.<part>.<name>` is besides whatever the modules count.\n"
+    for source, title in GROUPS.items():
+        yield f"### {title}\n"
+        yield "| signal | unit | |"
+        yield "|---|---|---|"
+        for signal in SIGNALS.values():
+            if signal.source == source:
+                unit = signal.unit if signal.kind is Kind.NUMBER else signal.kind.value
+                yield f"| `{signal.name}` | {unit} | {signal.about} |"
+        yield ""
+
+
+def main() -> None:
+    """Write the page's tables anew."""
+    head, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
+    _, _, tail = rest.partition(END)
+    PAGE.write_text(f"{head}{BEGIN}\n{tables()}\n{END}{tail}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,176 @@
+"""Real flights of the compiled firmware and of the daemon, short ones."""
+
+import dataclasses
+
+import pytest
+
+from tests.simulator.scenario.minimal import HEAD
+from tests.support.firmware import build_firmware
+from up_simulator.scenario.build import build_flight
+from up_simulator.scenario.file import parse_scenario, read_scenario
+from up_simulator.scenario.result import Result, control_scenario, control_verdicts, verdicts_of
+from up_simulator.verbs.shelf import SHIPPED
+
+LEVEL = "sticks: [{at_s: 0, mode: FBW, arm: true, throttle: 0.5}]\n"
+HELD = "expect: [{name: It is held, signal: error.roll_deg, rms_below: 3}]\n"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def firmware():
+    build_firmware()
+
+
+def fly(text):
+    return build_flight(parse_scenario(text)).fly()
+
+
+def broken(record):
+    return [verdict for verdict in verdicts_of(record) if not verdict.is_held]
+
+
+def test_the_same_seed_is_the_same_flight_to_the_last_byte():
+    text = HEAD + "weather: {turbulence: severe}\n" + LEVEL + HELD
+    one, two = fly(text), fly(text)
+    other = fly(text.replace("title", "seed: 2\ntitle"))
+    assert one.log.text() == two.log.text()
+    assert one.log.text() != other.log.text()
+    assert not broken(one)
+
+
+def test_the_same_seed_with_the_daemon_is_the_same_flight_to_the_last_byte():
+    text = HEAD + (
+        "duration_s: 3\nraspilot: {runs: in process}\nground: {}\nphone: {}\n"
+        "weather: {turbulence: light}\n"
+        "link: {up: {delay_ms: 30, jitter_ms: 20, loss_percent: 5}}\n"
+        "events:\n"
+        "  - {at_s: 1, serial_noise: {for_s: 1, flipped_percent: 1, lost_percent: 1}}\n"
+        "  - {at_s: 1.5, command: {name: up.telemetry.frequency, data: {frequency: 50}}}\n"
+    ).replace("duration_s: 3\n", "")
+    one, two = fly(text + LEVEL + HELD), fly(text + LEVEL + HELD)
+    assert one.log.text() == two.log.text()
+    assert one.questions[0].answer == ""
+    assert max(one.log.numbers("ground.frames")) > 10
+
+
+def test_a_row_is_logged_every_20_ms_from_the_first_moment_on():
+    record = fly(HEAD + LEVEL + HELD)
+    times_s = record.log.numbers("time_s")
+    assert times_s == [round(at * 0.02, 6) for at in range(201)]
+    assert record.log.column("board.mode")[0] == "FBW"
+    assert record.log.numbers("board.armed")[0] == 1.0
+    assert record.flown_s == 4.0 and record.notes == []
+
+
+def test_events_happen_at_their_time_and_stand_in_the_log():
+    text = (
+        HEAD
+        + LEVEL
+        + (
+            "events:\n"
+            "  - {at_s: 1, name: frozen, imu: frozen}\n"
+            "  - {at_s: 2, name: well, imu: well}\n"
+            "expect:\n"
+            "  - {name: a, signal: board.imu_valid, after: frozen, becomes: false, within_s: 0.5}\n"
+            "  - {name: b, signal: board.imu_valid, after: well, becomes: true, within_s: 1.5}\n"
+            "  - {name: c, signal: servo.stale_ms, below: 30}\n"
+        )
+    )
+    record = fly(text)
+    assert broken(record) == []
+    assert record.log.events == [(1.0, "frozen"), (2.0, "well")]
+
+
+def test_the_receiver_one_channel_and_a_reset():
+    text = (
+        HEAD
+        + LEVEL
+        + (
+            "events:\n"
+            "  - {at_s: 0.5, name: wire breaks, channel_lost: aux1}\n"
+            "  - {at_s: 1, name: lost, receiver: lost}\n"
+            "  - {at_s: 2, name: back, receiver: back}\n"
+            "  - {at_s: 2.5, name: mended, channel_back: aux1}\n"
+            "  - {at_s: 3, name: reset, reset: watchdog}\n"
+            "expect:\n"
+            "  - {name: a, signal: board.failsafe, after: lost, becomes: true, within_s: 0.9}\n"
+            "  - {name: b, signal: board.failsafe, after: back, becomes: false, within_s: 0.4}\n"
+            "  - name: c\n    signal: board.reset_cause\n    after: reset\n    becomes: watchdog\n"
+            "    within_s: 0.9\n"
+            "  - {name: d, signal: board.restored, after: reset, becomes: true, within_s: 0.9}\n"
+            "  - {name: e, signal: servo.stale_ms, after: reset, below: 300}\n"
+        )
+    )
+    assert broken(fly(text)) == []
+
+
+def test_a_crash_is_a_result_with_its_place():
+    text = HEAD + "start: {height_m: 10, pitch_deg: -60, airspeed_m_s: 15}\n"
+    record = fly(text + "sticks: [{at_s: 0, mode: ACRO}]\n" + HELD.replace("error", "truth"))
+    assert record.crash and record.crash_s is not None and record.crash_s < 3.0
+    assert [verdict.name for verdict in broken(record)] == ["It is held", "It does not crash"]
+    assert record.log.numbers("truth.crashed")[-1] == 1.0
+    # The log ends with the flight.
+    assert abs(record.log.numbers("time_s")[-1] - record.crash_s) < 0.021
+
+
+def test_a_daemon_that_cannot_start_is_told_with_its_own_words():
+    record = fly(
+        HEAD
+        + "raspilot:\n  runs: in process\n  config:\n    disabled_modules.yml:\n"
+        + "      disabled modules: [serial_cog.modules.serial_provider.SerialProvider]\n"
+        + LEVEL
+        + HELD
+    )
+    assert "SerialProvider" in record.failure
+    assert record.flown_s == 0.0 and not Result(record, verdicts_of(record)).is_held
+
+
+def test_a_daemon_that_ends_by_itself_ends_the_flight_with_the_tail_of_its_log():
+    flight = build_flight(parse_scenario(HEAD + "raspilot: {runs: in process}\n" + LEVEL + HELD))
+    raspilot = flight.companions.raspilot
+
+    def end_it(time_s):
+        if time_s >= 1.0 and raspilot.is_running:
+            raspilot.kill()
+
+    record = flight.fly(end_it)
+    assert record.failure == "the daemon has ended by itself"
+    assert 1.0 <= record.flown_s < 1.1
+    assert record.failure_log == list(raspilot.log)[-20:] != []
+    assert not Result(record, verdicts_of(record)).is_held
+
+
+def test_without_a_flight_computer_the_sticks_move_the_servos():
+    text = HEAD + "board: direct\nsticks: [{at_s: 0, ailerons: 0.2}, {at_s: 1, ailerons: -0.2}]\n"
+    record = fly(text + HELD.replace("error", "truth").replace("3", "360"))
+    servo = record.log.numbers("servo.ailerons_us")
+    assert abs(servo[40] - 1600) < 2 and abs(servo[-1] - 1400) < 2
+    assert not any(name.startswith("board.") for name in record.log.columns)
+
+
+def test_ctrl_c_ends_a_flight_with_what_there_is():
+    def interrupt(time_s):
+        if time_s >= 1.0:
+            raise KeyboardInterrupt
+
+    record = build_flight(parse_scenario(HEAD + LEVEL + HELD)).fly(interrupt)
+    assert record.is_interrupted and record.flown_s == 1.0
+    assert not Result(record, verdicts_of(record)).is_held
+
+
+def test_the_control_run_of_the_gusts_visibly_fails():
+    shipped = read_scenario(SHIPPED / "level-flight-in-gusts.yml")
+    record = build_flight(control_scenario(shipped)).fly()
+    verdicts = control_verdicts(shipped, record)
+    assert len(verdicts) == len(shipped.control.fails)
+    assert all(verdict.is_held and verdict.has_figure for verdict in verdicts)
+
+
+def test_a_control_run_that_does_not_fail_is_no_control_run():
+    shipped = read_scenario(SHIPPED / "level-flight-in-gusts.yml")
+    calm = dataclasses.replace(
+        shipped, weather=dataclasses.replace(shipped.weather, turbulence="none", gusts=()),
+        duration_s=3.0,
+    )  # fmt: skip
+    verdicts = control_verdicts(calm, build_flight(control_scenario(calm)).fly())
+    assert any(not verdict.is_held and "shows nothing" in verdict.why for verdict in verdicts)

@@ -1,0 +1,34 @@
+import io
+
+from up_simulator.scenario.progress import ProgressLine
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_one_line_tells_time_and_speed_and_goes_away():
+    terminal, now_s = Terminal(), [100.0]
+    line = ProgressLine(terminal, True, lambda: now_s[0])
+    line.begin("roll-step", 10.0)
+    line.show(0.5)
+    now_s[0] = 102.0
+    line.show(8.0)
+    line.show(8.1)
+    line.end()
+    shown = terminal.getvalue()
+    assert "\n" not in shown
+    assert "roll-step: 8.0 of 10 s, 4.0 x real time" in shown
+    # Twice within a fifth of a second is once.
+    assert "8.1" not in shown
+    assert shown.endswith("\r") and shown.rstrip("\r").endswith(" ")
+
+
+def test_without_a_terminal_it_is_silent():
+    file = io.StringIO()
+    line = ProgressLine(file, True)
+    line.begin("a", 1.0)
+    line.show(0.5)
+    line.end()
+    assert file.getvalue() == ""
