@@ -60,7 +60,8 @@ class InProcessRaspilot:
     serial port is a socket in this process, whatever its configuration calls it, which ``pump``
     connects with a board; ``wire`` and ``line`` can be disturbed. ``boot_s`` passes between the
     start and the first module's. What it draws at random follows ``seed``. Signals, the process's
-    priority, its watchdogs and its garbage collector are the program's, and not part of this.
+    priority, its watchdogs and its garbage collector are the program's, and not part of this. A
+    proxy is to be configured by its address: a name would be looked up by a thread.
     """
 
     log_source = Logger()

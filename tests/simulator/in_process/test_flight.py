@@ -251,4 +251,5 @@ def test_noise_on_the_serial_line_is_dropped_and_counted_and_the_flight_goes_on(
     assert flying.raspilot.wire.spoilt > 20
     counters = flying.ground.telemetry["counters"]["serial"]
     assert counters["crc_errors"] + counters["format_errors"] > 5
+    assert not any("CRITICAL" in line for line in flying.raspilot.log)
     assert abs(flying.state.roll_deg) < 6

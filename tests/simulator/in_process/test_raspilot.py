@@ -3,6 +3,7 @@
 import gc
 import os
 import threading
+from random import Random
 
 import pytest
 from twisted.internet.protocol import Factory
@@ -275,3 +276,41 @@ def test_a_role_that_may_not_is_refused_with_a_reason(tmp_path):
     assert bench.ground.answer(command_id) is None
     bench.run(0.5)
     assert "mission_control.yml: role" in bench.ground.answer(command_id)
+
+
+def test_a_black_box_has_the_phone_alone(tmp_path):
+    files = {
+        "config.yml": {"mode": "black box"},
+        "mission_control.yml": {"remote_server": {"url": "127.0.0.1"}},
+    }
+    bench = Bench(tmp_path, files)
+    phone = InProcessPhone(bench.reactor, StillFlight())
+    bench.raspilot.start()
+    bench.ground.start()
+    phone.plug()
+    bench.run(2.0)
+    telemetry = bench.ground.telemetry
+    assert telemetry["mode"] == "black box"
+    assert telemetry["source"]["orientation"] == "android"
+    assert telemetry["orientation"]["roll"] == pytest.approx(3.25)
+    assert bench.board.heard == b""
+    with pytest.raises(LookupError, match="SerialProvider"):
+        bench.raspilot.module("SerialProvider")
+    # Nobody is at the proxy's port: it goes on trying and does no harm.
+    assert "127.0.0.1" in bench.log()
+    assert "CRITICAL" not in bench.log()
+
+
+def test_any_bytes_on_the_serial_line_are_dropped_and_counted(tmp_path):
+    bench = Bench(tmp_path)
+    bench.raspilot.start()
+    bench.ground.start()
+    bench.run(1.0)
+    random = Random(3)
+    for _ in range(500):
+        bench.raspilot.line.write(random.randbytes(40))
+        bench.run(0.002)
+    assert "CRITICAL" not in bench.log()
+    assert bench.ground.telemetry["counters"]["serial"]["format_errors"] > 20
+    bench.run(2.0)
+    assert bench.ground.telemetry["arduino"]["connected"] is True
