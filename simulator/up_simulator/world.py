@@ -65,8 +65,8 @@ class World:
     def boot(self, *, arms: bool = False) -> None:
         """Switch the board on at rest and level, then tilt it to how the flight begins.
 
-        The aircraft lies still until the gyro is calibrated; ``arms`` then raises AUX2 with the
-        throttle low, as a pilot does. Raises ``BoardCrashedError``.
+        The aircraft lies still until the gyro is calibrated; ``arms`` then moves AUX2 from low to
+        high, for which the throttle's stick must be low. Raises ``BoardCrashedError``.
         """
         board = self.board
         board.set_motion(motion_at(0.0, 0.0))

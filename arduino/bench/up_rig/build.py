@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import shutil
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 
 from up_rig.library import SOURCES, RigUnavailableError
@@ -14,16 +16,22 @@ CORE = Path("/usr/share/arduino/hardware/arduino/avr/cores/arduino/Arduino.h")
 AVR_LIBC = Path("/usr/lib/avr/include/avr/io.h")
 PACKAGES = "make gcc-avr avr-libc arduino-core-avr"
 LONGEST_S = 900.0
+NO_SOURCES = f"the firmware's sources are not here: there is no {ARDUINO / 'raspilot'}"
 
 
 class BuildError(Exception):
     """The firmware does not compile: the message is what make said."""
 
 
+def has_sources() -> bool:
+    """Return whether this is a source tree: an installed rig has no firmware with it."""
+    return (ARDUINO / "raspilot" / "raspilot.ino").is_file()
+
+
 def missing_toolchain() -> str | None:
     """Return one sentence when the firmware cannot be built here; None when it can."""
-    if not (ARDUINO / "raspilot" / "raspilot.ino").is_file():
-        return f"the firmware's sources are not here ({ARDUINO})"
+    if not has_sources():
+        return NO_SOURCES
     programs = [name for name in ("make", "avr-g++", "avr-gcc") if shutil.which(name) is None]
     files = [str(path) for path in (CORE, AVR_LIBC) if not path.exists()]
     if not programs and not files:
@@ -36,26 +44,41 @@ def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
     """Run make in ``arduino/`` and return what it printed.
 
     Of several processes one builds, the others wait. Raises ``BuildError``, and
-    ``RigUnavailableError`` without make.
+    ``RigUnavailableError`` without make, without the sources, and where nothing can be written.
     """
     program = shutil.which("make")
     if program is None:
         raise RigUnavailableError("building needs make (Debian package make)")
-    build = ARDUINO / "build"
-    build.mkdir(exist_ok=True)
-    with (build / ".lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        done = subprocess.run(
-            [program, "-C", str(ARDUINO), *arguments],
-            capture_output=True,
-            text=True,
-            timeout=timeout_s,
-            check=False,
-        )
+    if not has_sources():
+        raise RigUnavailableError(NO_SOURCES)
+    with _lock():
+        try:
+            done = subprocess.run(
+                [program, "-C", str(ARDUINO), *arguments],
+                capture_output=True,
+                text=True,
+                timeout=timeout_s,
+                check=False,
+            )
+        except subprocess.TimeoutExpired as error:
+            raise BuildError(f"make needs more than {timeout_s:g} s") from error
     said = done.stdout + done.stderr
     if done.returncode:
         raise BuildError(said)
     return said
+
+
+@contextlib.contextmanager
+def _lock() -> Iterator[None]:
+    build = ARDUINO / "build"
+    try:
+        build.mkdir(exist_ok=True)
+        lock = (build / ".lock").open("w")
+    except OSError as error:
+        raise RigUnavailableError(f"{build} cannot be written: {error.strerror}") from error
+    with lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def build_firmware(*options: str) -> Path:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
@@ -51,7 +52,9 @@ def prepared_eeprom(
     if kept.is_file():
         return kept.read_bytes()
     eeprom = prepare_eeprom(program.board(), profile, gains)
-    _keep(kept, eeprom)
+    # Where nothing can be written the work is done again the next time.
+    with contextlib.suppress(OSError):
+        _keep(kept, eeprom)
     return eeprom
 
 

@@ -77,3 +77,11 @@ def test_another_elf_flies_in_the_place_of_the_projects_own(tmp_path):
 
 def test_nothing_aboard_needs_no_tools(no_avr):
     assert isinstance(choose_board("direct"), DirectBoard)
+
+
+def test_an_installed_rig_without_sources_is_a_sentence_and_writes_nothing(monkeypatch, tmp_path):
+    monkeypatch.setattr(rig_build, "ARDUINO", tmp_path)
+    for kind in ("auto", "firmware", "host"):
+        with pytest.raises(BoardUnavailableError, match="the firmware's sources are not here"):
+            choose_board(kind)
+    assert list(tmp_path.iterdir()) == []
