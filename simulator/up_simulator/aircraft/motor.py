@@ -36,6 +36,11 @@ class Battery:
         return self._config.cells * _CELL_V[-1][1]
 
     @property
+    def is_empty(self) -> bool:
+        """Tell whether the speed controller has to cut the motor off."""
+        return self._left_c <= 0.0
+
+    @property
     def percent(self) -> float:
         """Return what is left, percent."""
         return 100 * self._left_c / self._capacity_c
@@ -101,7 +106,7 @@ class Motor:
     def _advance(self, throttle: float, airspeed_m_s: float, duration_s: float) -> float:
         """Return the current that the battery gives, A."""
         turns = self._turns
-        if throttle < _IDLE and turns * 60 < _OFF_RPM:
+        if turns * 60 < _OFF_RPM and (throttle < _IDLE or self._battery.is_empty):
             self._turns = self.thrust_n = 0.0
             return 0.0
         advance = airspeed_m_s / (turns * self._diameter_m) if turns > 1.0 else 0.0
@@ -113,8 +118,9 @@ class Motor:
         torque = self._torque * square * (0.5 + 0.5 * share)
         omega = turns * 2 * math.pi
         back_v = omega / self._kv_rad
-        # The speed controller chops the volts; at its idle it brakes.
-        drive_v = throttle * self._battery.voltage_v if throttle >= _IDLE else 0.0
+        # The speed controller chops the volts; idle, and with an empty battery, it brakes.
+        is_driven = throttle >= _IDLE and not self._battery.is_empty
+        drive_v = throttle * self._battery.voltage_v if is_driven else 0.0
         motor_a = (drive_v - back_v) / self._resistance
         if motor_a < 0.0:
             motor_a *= 0.3

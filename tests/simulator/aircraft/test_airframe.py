@@ -4,10 +4,10 @@ import re
 import shutil
 
 import pytest
+from arduino_cog.airframe import AIRFRAME
 from hypothesis import given
 from hypothesis import strategies as st
 
-from arduino_cog.airframe import AIRFRAME
 from up.config import ConfigFile
 from up.flight_controller.pids_file import PIDS
 from up_simulator.aircraft import (
