@@ -21,7 +21,7 @@ ARROWS: dict[str, set[str]] = {
     "up_runner": {"up"},
     "up_ground": {"up"},
     "up_proxy": {"up"},
-    # It flies the whole system: daemon and ground station in its own process, the compiled firmware.
+    # It flies daemon, ground station and the compiled firmware in its own process.
     # Raspilot and its cogs are loaded as any application is, never imported.
     "up_simulator": {"up", "up_ground", "up_rig"},
     "up_rig": set(),
