@@ -41,6 +41,7 @@ $(VENV)/.dev-ready: $(SETUPS) | $(PY)
 	@touch $@ $(VENV)/.run-ready
 
 run: $(VENV)/.run-ready
+	@tools/toolchain
 	@$(PY) -m up_simulator.showcase
 
 scenarios: $(VENV)/.run-ready
