@@ -1,0 +1,64 @@
+"""Every shipped airframe with its own profile and gains, the compiled firmware in the loop.
+
+A sign that is wrong anywhere between stick, mix, pulse, surface, IMU and PID shows here.
+"""
+
+import pytest
+
+from tests.support.firmware import build_firmware
+from up_simulator.aircraft import FlightDynamics, Start, airframe_names, load_airframe
+from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.world import World
+
+NAMES = airframe_names()
+LOW, MIDDLE = 1000.0, 1500.0
+
+
+def aloft(name, aux1, **start):
+    build_firmware()
+    airframe = load_airframe(name)
+    try:
+        eeprom = prepared_eeprom("firmware", airframe.profile, airframe.gains)
+        board = choose_board("firmware", eeprom=eeprom)
+    except BoardUnavailableError as error:
+        pytest.skip(str(error))
+    board.set_stick("aux1", aux1)
+    world = World(FlightDynamics(airframe, Start(height_m=200.0, **start)), board)
+    world.boot(arms=True)
+    return world
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("roll_deg", "pitch_deg"), [(50.0, -20.0), (-50.0, 15.0)])
+def test_fbw_levels_it(name, roll_deg, pitch_deg):
+    world = aloft(name, MIDDLE, roll_deg=roll_deg, pitch_deg=pitch_deg)
+    world.advance(2.5)
+    assert abs(world.state.roll_deg) < 5.0
+    world.advance(2.5)
+    assert abs(world.state.roll_deg) < 3.0
+    assert abs(world.state.pitch_deg) < 5.0
+    assert world.dynamics.crash is None
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("aux1", [LOW, MIDDLE])
+@pytest.mark.parametrize(("channel", "axis"), [("ailerons", "roll"), ("elevator", "pitch")])
+def test_the_stick_banks_and_pitches_it_as_the_pilot_means(name, aux1, channel, axis):
+    world, let_go = aloft(name, aux1), aloft(name, aux1)
+    world.board.set_stick(channel, 1700.0)
+    for each in (world, let_go):
+        each.advance(0.6)
+    turned = getattr(world.state, f"{axis}_deg") - getattr(let_go.state, f"{axis}_deg")
+    assert turned > 3.0
+
+
+def test_the_wings_elevons_move_as_the_wiring_page_says():
+    """Right: the left one (D9) down, the right one (D10) up; the nose up: both up."""
+    world = aloft("wing", LOW)
+    for sticks, left_sign, right_sign in (((1700.0, 1500.0), -1, 1), ((1500.0, 1700.0), 1, 1)):
+        world.board.set_stick("ailerons", sticks[0])
+        world.board.set_stick("elevator", sticks[1])
+        world.advance(0.2)
+        left, right, *_ = world.board.pulses_us()
+        assert left_sign * (left - 1500) > 150 and right_sign * (right - 1500) > 150
