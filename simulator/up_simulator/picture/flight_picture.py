@@ -144,8 +144,9 @@ def _draw_panels(
         draw_background(axes, spans, placed)
         draw_panel(axes, panel, known, times_s)
         for failure in failures:
-            if panel.shows(failure.signal) or failure in homeless:
-                shade_failure(axes, failure.begin_s, failure.end_s)
+            is_shown = panel.shows(failure.signal)
+            if is_shown or failure in homeless:
+                shade_failure(axes, failure.begin_s, failure.end_s, is_shown=is_shown)
         axes.tick_params(labelbottom=False)
         top_in += height_in
     if axes is not None:

@@ -18,6 +18,8 @@ BLACK = "#000000"
 TRUTH, ESTIMATE, DEMAND = BLUE, ORANGE, BLACK
 CHANNELS = {"ailerons": BLUE, "elevator": VERMILION, "throttle": GREEN, "rudder": PURPLE}
 FAULT = VERMILION
+SHADE, SHADE_EDGE = "#fdeae0", "#eeb091"
+"""Where an expectation was not held."""
 
 BANDS = {
     "ACRO": "#eceef0",
@@ -27,7 +29,7 @@ BANDS = {
     "OUTPUT": "#e7e1f3",
     "AUTO": "#dbeaf6",
     "RTH": "#f6e3ee",
-    "FAILSAFE": "#fbdccb",
+    "FAILSAFE": "#f3d0e2",
 }
 OTHER_BAND = "#f2f2f2"
 """A mode that has no colour of its own; its name stands in the strip above the panels."""

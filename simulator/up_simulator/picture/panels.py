@@ -12,10 +12,11 @@ from up_simulator.picture.palette import (
     CHANNELS,
     DEMAND,
     ESTIMATE,
-    FAULT,
     GREEN,
     ORANGE,
     PURPLE,
+    SHADE,
+    SHADE_EDGE,
     TRUTH,
     VERMILION,
 )
@@ -193,10 +194,17 @@ def draw_panel(
     )
 
 
-def shade_failure(axes: Axes, begin_s: float, end_s: float) -> None:
-    """Shade where an expectation was not held."""
+def shade_failure(axes: Axes, begin_s: float, end_s: float, *, is_shown: bool) -> None:
+    """Shade where an expectation was not held; only the foot where its signal is not shown."""
     axes.axvspan(
-        begin_s, end_s, facecolor=FAULT, edgecolor=FAULT, alpha=0.16, hatch="///", lw=0, zorder=2
+        begin_s,
+        end_s,
+        ymax=1.0 if is_shown else 0.07,
+        facecolor=SHADE,
+        edgecolor=SHADE_EDGE,
+        hatch="////",
+        lw=0,
+        zorder=0.5,
     )
 
 

@@ -12,7 +12,7 @@ from up.flight_controller.gains import GainSet
 from up_simulator.aircraft import Airframe, Weather
 from up_simulator.firmware.board import BoardKind
 from up_simulator.tuning.gain_set import CHANNELS, Axis
-from up_simulator.tuning.margins import LoopPoint, Multisine, loop_response
+from up_simulator.tuning.margins import LoopPoint, MarginsError, Multisine, loop_response
 from up_simulator.tuning.step_response import StepError, StepResponse, analyse_step
 from up_simulator.tuning.trial import RATE_US, Recording, StickMove, Trial
 from up_simulator.world import STEP_S
@@ -182,6 +182,8 @@ def measure_loop(
 
     actuators.on_step = on_step
     recording = trial.fly(multisine.period_s * periods, sample_s=0.1)
+    if trial.dynamics.crash is not None:
+        raise MarginsError(f"the aircraft {trial.dynamics.crash}")
     speed_m_s = fmean(recording["truth.airspeed_m_s"])
     return loop_response(given, moved, multisine, STEP_S), speed_m_s
 

@@ -9,6 +9,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 WIDEST_SPREAD = 0.35
+"""The periods of a measurement agree within this part, or the frequency is left out."""
+MOST_OF_ITS_OWN = 0.7
+"""A servo that moves more than this part at frequencies that nobody excited rings by itself."""
 
 
 class MarginsError(ValueError):
@@ -67,6 +70,8 @@ def loop_response(
     periods = len(moved) // period
     if periods < 3 or len(given) != len(moved):
         raise MarginsError("three whole periods of excitation are needed to measure a loop")
+    if _own_share(moved[-period:], multisine) > MOST_OF_ITS_OWN:
+        raise MarginsError("the loop rings by itself, or the air is rough")
     points = []
     for cycle, frequency_hz in zip(multisine.cycles, multisine.frequencies_hz, strict=True):
         turns = [cmath.exp(-2j * math.pi * cycle * at / period) for at in range(period)]
@@ -88,14 +93,35 @@ def loop_response(
     return points
 
 
-def _at(values: Sequence[float], turns: Sequence[complex]) -> complex:
-    # A straight line through both ends, taken out, keeps a drift from looking like every sine.
+def _own_share(values: Sequence[float], multisine: Multisine) -> float:
+    """Return which part of a period's movement is at frequencies that the excitation has not."""
+    straight = _level(values)
+    whole = sum(value * value for value in straight) / len(straight)
+    asked = 0.0
+    for cycle in multisine.cycles:
+        turn = -2j * math.pi * cycle / len(straight)
+        asked += (
+            2
+            * abs(
+                sum(value * cmath.exp(turn * at) for at, value in enumerate(straight))
+                / len(straight)
+            )
+            ** 2
+        )
+    return 1 - asked / max(whole, 1e-12)
+
+
+def _level(values: Sequence[float]) -> list[float]:
+    """Return values less the straight line through both ends."""
     slope = (values[-1] - values[0]) / max(1, len(values) - 1)
-    first = values[0]
-    return sum(
-        (value - first - slope * at) * turn
-        for at, (value, turn) in enumerate(zip(values, turns, strict=True))
-    ) / len(values)
+    return [value - values[0] - slope * at for at, value in enumerate(values)]
+
+
+def _at(values: Sequence[float], turns: Sequence[complex]) -> complex:
+    # Without the straight line a drift would look like every sine.
+    return sum(value * turn for value, turn in zip(_level(values), turns, strict=True)) / len(
+        values
+    )
 
 
 @dataclass(frozen=True, slots=True)

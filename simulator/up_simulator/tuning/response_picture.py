@@ -51,7 +51,7 @@ def draw_tuning(tuning: AxisTuning, path: Path, *, title: str) -> None:
     ]
     rows = math.ceil(len(shown) / COLUMNS)
     with sheet_for(path) as sheet:
-        grid_top = HEAD_IN + BIG_IN + 1.1
+        grid_top = HEAD_IN + BIG_IN + 1.45
         sheet.resize(WIDTH_IN, grid_top + rows * (CELL_HEIGHT_IN + GAP_HEIGHT_IN) + 0.2)
         sheet.text(MARGIN_IN, 0.2, title, size=15, weight="bold")
         sheet.text(
@@ -61,9 +61,9 @@ def draw_tuning(tuning: AxisTuning, path: Path, *, title: str) -> None:
             size=9.5,
             color=MUTED,
         )
-        width = (WIDTH_IN - 2 * MARGIN_IN - 1.3) / 3
+        width = (WIDTH_IN - 2 * MARGIN_IN - 1.6) / 3
         axes = [
-            sheet.axes(MARGIN_IN + number * (width + 0.65), HEAD_IN + 0.15, width, BIG_IN)
+            sheet.axes(MARGIN_IN + number * (width + 0.8), HEAD_IN + 0.15, width, BIG_IN)
             for number in range(3)
         ]
         _draw_comparison(axes[0], tuning)
@@ -71,7 +71,7 @@ def draw_tuning(tuning: AxisTuning, path: Path, *, title: str) -> None:
         if shown:
             sheet.text(
                 MARGIN_IN,
-                grid_top - 0.5,
+                grid_top - 0.6,
                 "All that were tried (green: proposed, blue: keeps the rules, grey: does not):"
                 " rise and settling in s, overshoot",
                 size=9.5,
@@ -152,7 +152,10 @@ def _draw_loop(size_axes: Axes, phase_axes: Axes, tuning: AxisTuning) -> None:
             at_hz = margins.gain_margin_hz
             size_axes.plot([at_hz, at_hz], [0, -gain], color=colour, lw=2.5, alpha=0.5)
         if margins.crossover_hz is not None:
-            phase_axes.axvline(margins.crossover_hz, color=colour, lw=0.8, ls=style)
+            at_hz, phase_deg = margins.crossover_hz, margins.phase_margin_deg or 0.0
+            phase_axes.plot(
+                [at_hz, at_hz], [-180, phase_deg - 180], color=colour, lw=2.5, alpha=0.5
+            )
     for axes, level, words, unit in (
         (size_axes, 0.0, "Open loop: what comes round of what goes in", "dB"),
         (phase_axes, -180.0, "Its phase", "deg"),

@@ -25,7 +25,7 @@ MOST_RATE_P = 20.0
 GENTLE_SENSITIVITY = 3.5
 """A loop that is measured with a peak beyond this is measured again with half the gains."""
 NEARLY_AS_GOOD = 1.1
-WORTH_AN_INTEGRAL = 0.85
+WORTH_AN_INTEGRAL = 0.75
 HALF = 0.5
 
 

@@ -1,0 +1,154 @@
+"""The picture of a flight: what is on it, that it is the same each time, what happens without."""
+
+import builtins
+import re
+import sys
+
+import pytest
+
+from tests.simulator.picture.flights import COLUMNS, made_up
+from up_simulator.picture.flight_picture import Failure, Mark, PictureError, Wind, draw_flight
+from up_simulator.scenario.log import FlightLog
+
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+@pytest.fixture(scope="module")
+def flight():
+    return made_up(20.0)
+
+
+def svg(log, tmp_path, **options):
+    """Return the picture as SVG in which words are words."""
+    path = tmp_path / "flight.svg"
+    draw_flight(log, path, **options)
+    return path.read_text(encoding="utf-8")
+
+
+def words(text):
+    """Return what is written on a picture: matplotlib notes each text beside its outlines."""
+    return "\n".join(re.findall(r"<!-- (.*?) -->", text))
+
+
+def test_the_same_flight_gives_the_same_bytes(flight, tmp_path):
+    pictures = []
+    for name in ("a", "b"):
+        for suffix in (".png", ".svg"):
+            path = tmp_path / f"{name}{suffix}"
+            draw_flight(flight, path, title="twice", wind=Wind(4, 90))
+            pictures.append(path.read_bytes())
+    assert pictures[0] == pictures[2]
+    assert pictures[1] == pictures[3]
+    assert pictures[0].startswith(PNG)
+    assert b"tEXt" not in pictures[0]
+    assert b"<dc:date>" not in pictures[1]
+
+
+def test_all_that_the_log_tells_is_on_it(flight, tmp_path):
+    written = words(svg(flight, tmp_path, title="A title", subtitle="a subtitle"))
+    for each in ("A title", "a subtitle", "Roll", "Pitch", "Roll rate", "Sticks", "Servo pulses"):
+        assert each in written
+    for each in ("Height and airspeed", "Load factor", "Track from above", "start", "end"):
+        assert each in written
+    for each in ("ACRO", "RATE", "FBW", "gust from the left", "phone unplugged"):
+        assert each in written
+    assert "deg rms" in written
+
+
+def test_what_the_log_does_not_tell_is_left_out(tmp_path):
+    log = FlightLog(["time_s", "truth.roll_deg", "truth.pitch_deg", "demand.roll_deg"])
+    for row in range(50):
+        log.append({"time_s": row * 0.02, "truth.roll_deg": row})
+    written = words(svg(log, tmp_path))
+    assert "Roll" in written
+    for missing in ("Pitch", "Sticks", "Servo pulses", "Load factor", "estimate", "demand"):
+        assert missing not in written
+    assert "the log has no positions" in written
+
+
+def test_marks_given_take_the_place_of_the_events(flight, tmp_path):
+    written = words(svg(flight, tmp_path, marks=[Mark(3, "IMU unplugged", is_fault=True)]))
+    assert "IMU unplugged" in written
+    assert "gust from the left" not in written
+
+
+def test_what_was_not_held_is_shaded_where_its_signal_is(flight, tmp_path):
+    plain = svg(flight, tmp_path)
+    one = svg(flight, tmp_path, failures=[Failure("error.roll_deg", 5, 9, "roll: 8 deg, not 3")])
+    homeless = Failure("ground.age_s", 5, 9, "telemetry: 5 s, not 1")
+    everywhere = svg(flight, tmp_path, failures=[homeless])
+    assert "roll: 8 deg, not 3" in words(one)
+    shaded = [text.count("fill: url(#") for text in (plain, one, everywhere)]
+    assert shaded[0] == 0
+    assert shaded[1] == 1
+    panels = 7
+    assert shaded[2] == panels
+
+
+def test_a_crash_is_marked_and_told(tmp_path):
+    log = made_up(60.0, crashes=True)
+    assert log.numbers("truth.crashed")[-1] == 1
+    written = words(svg(log, tmp_path))
+    assert "crash" in written
+    assert "crashed at" in written
+    assert "end" not in written.split("\n")
+
+
+def test_wind_is_drawn_where_it_blows(flight, tmp_path):
+    assert "wind 5 m/s" in words(svg(flight, tmp_path, wind=Wind(5, 240)))
+    assert "wind" not in words(svg(flight, tmp_path, wind=Wind(0, 240)))
+
+
+def test_a_long_flight_keeps_its_peaks_and_stays_small(tmp_path):
+    log = FlightLog(["time_s", "truth.roll_deg"])
+    for row in range(60_000):
+        log.append({"time_s": row * 0.02, "truth.roll_deg": 80.0 if row == 31_234 else 0.0})
+    path = tmp_path / "long.svg"
+    draw_flight(log, path)
+    assert path.stat().st_size < 1_000_000
+    assert "bank 0 to 80 deg" in words(path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("name", ["flight.jpg", "flight", "flight.pdf"])
+def test_another_ending_is_refused(flight, tmp_path, name):
+    with pytest.raises(PictureError, match=r"ends in .png or .svg"):
+        draw_flight(flight, tmp_path / name)
+
+
+def test_a_place_that_cannot_be_written_is_one_sentence(flight, tmp_path):
+    with pytest.raises(PictureError, match="cannot be written: No such file") as raised:
+        draw_flight(flight, tmp_path / "nowhere" / "flight.png")
+    assert "\n" not in str(raised.value)
+
+
+def test_a_log_with_nothing_to_draw_is_one_sentence(tmp_path):
+    empty = FlightLog(COLUMNS)
+    with pytest.raises(PictureError, match="a log with 0 rows"):
+        draw_flight(empty, tmp_path / "flight.png")
+    other = FlightLog(["time_s", "board.loop_us"])
+    for row in range(3):
+        other.append({"time_s": row, "board.loop_us": 2000})
+    with pytest.raises(PictureError, match="none of the signals"):
+        draw_flight(other, tmp_path / "flight.png")
+
+
+def test_without_matplotlib_one_sentence_says_how_to_get_it(flight, tmp_path, monkeypatch):
+    for name in [each for each in sys.modules if each.partition(".")[0] == "matplotlib"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(PictureError, match=r"pip install 'raspilot\[sim\]'") as raised:
+        draw_flight(flight, tmp_path / "flight.png")
+    assert "\n" not in str(raised.value)
+    assert not (tmp_path / "flight.png").exists()
+
+
+def test_nothing_of_it_imports_matplotlib_before_something_is_drawn(monkeypatch):
+    def refuse(name, *rest, **options):
+        assert not name.startswith("matplotlib"), "imported too early"
+        return real(name, *rest, **options)
+
+    real = builtins.__import__
+    for name in [each for each in sys.modules if each.startswith("up_simulator.picture")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setattr(builtins, "__import__", refuse)
+    import up_simulator.picture.flight_picture  # noqa: F401
