@@ -16,6 +16,7 @@ SUBJECTS = {
     "load": "CPU of the daemon in flight and idle",
     "relay": "the proxy beside HAProxy and socat",
     "firmware": "the compiled firmware in the AVR simulator",
+    "simulator": "the virtual aircraft against the clock",
 }
 FAILED = "failed"
 

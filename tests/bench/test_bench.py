@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from bench import __main__ as program
-from bench import bus, cascade, codecs, firmware, latency, load, startup
+from bench import bus, cascade, codecs, firmware, latency, load, simulator, startup
 from bench.board import Board, terminal
 from bench.processes import running
 from bench.table import Row
@@ -34,7 +34,7 @@ def check(rows, least):
 
 
 def test_every_subject_is_tested():
-    assert set(program.SUBJECTS) == {*SUBJECTS, "relay", "firmware"}
+    assert set(program.SUBJECTS) == {*SUBJECTS, "relay", "firmware", "simulator"}
 
 
 @pytest.mark.parametrize("name", SUBJECTS)
@@ -60,6 +60,12 @@ def test_rows_of_the_firmware():
     check(rows, 10)
     missed = {each.what for each in rows if each.met is False}
     assert missed <= SIZES
+
+
+def test_rows_of_the_simulator():
+    build_firmware()
+    need_tool("g++")
+    check(list(simulator.rows(quick=True)), 3)
 
 
 def test_no_output_is_lost_and_the_figures_are_ordered():
