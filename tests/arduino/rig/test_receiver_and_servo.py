@@ -52,6 +52,24 @@ def test_a_stick_that_moves_is_seen_in_the_next_frame(rig):
     assert rig.servo.newest_us("ailerons") == 1723.5
 
 
+def test_the_last_pulse_is_known_whether_edges_are_recorded_or_not(rig):
+    assert rig.servo.last_pulse("ailerons") is None
+    rig.receiver.sticks(ailerons=1600)
+    rig.receiver.start(at_us=100_000)
+    rig.run_until_us(300_000)
+    last = rig.servo.pulses("ailerons")[-1]
+    rig.servo.forget()
+    assert rig.servo.last_pulse("ailerons") == last
+    rig.servo.record(False)
+    rig.receiver.set("ailerons", 1723.5)
+    rig.run_us(100_000)
+    assert rig.servo.edges("ailerons") == []
+    newer = rig.servo.last_pulse("ailerons")
+    assert newer.width_us == 1723.5
+    assert 60_000 < (newer.rise_cycle - last.rise_cycle) / 16 < 140_000
+    assert rig.servo.last_pulse("throttle") is None
+
+
 def levels(rig):
     return {channel: rig.receiver.level(channel) for channel in CHANNELS}
 
