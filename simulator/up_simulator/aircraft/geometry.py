@@ -122,5 +122,14 @@ class Geometry:
     other_drag: float = _share("Gaps, wires, linkages, by the wing's area.", 0.004, 0.2)
     span_efficiency: float = _share("Oswald's factor of the wing alone.", 0.9, 1.2)
 
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what does not fit together."""
+        if self.wing.half_span_m < 0.05:
+            yield "wing", "must have a half_span_m of at least 0.05 m"
+        if self.span_efficiency < 0.3:
+            yield "span_efficiency", "must be at least 0.3"
+        if self.elevons and self.tail.half_span_m:
+            yield "elevons", "must be false where a tail has the elevator"
+
 
 GEOMETRY = ConfigFile("geometry.yml", Geometry)

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import sys
+import textwrap
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from xml.sax.saxutils import escape
 
+import numpy as np
+
 from up.config import ConfigErrors
 from up_simulator.aircraft.derivation import ALPHAS_DEG, BETAS_DEG, Derivation
 from up_simulator.aircraft.geometry import GEOMETRY
+from up_simulator.aircraft.glide import describe
 
+# What a wing that is one has by the radian.
+_LEAST_SLOPE, _GREATEST_SLOPE = 0.3, 9.0
 _QBAR_AREA = ("aero/qbar-psf", "metrics/Sw-sqft")
 
 
@@ -39,7 +45,7 @@ def _header(name: str, derivation: Derivation) -> str:
         "point of the forces is the centre of gravity. Surfaces: trailing edge down positive,",
         "rudder trailing edge left; left and right ailerons have an angle of their own.",
         "Attached flow: vortex lattice; separated: flat plate; drag: build-up of the sections.",
-        *derivation.geometry.notes,
+        *(line for note in derivation.geometry.notes for line in textwrap.wrap(note, 94)),
         "Derivatives at 0 degrees of alpha, per rad and per p b/2V, q c/2V, r b/2V:",
         *_derivative_lines(derivation),
     ]
@@ -248,7 +254,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
             sys.stderr.write(f"{errors}\n")
             return 2
         name = folder.resolve().name
-        (folder / f"{name}.xml").write_text(model_text(name, Derivation(geometry)), "utf-8")
+        derivation = Derivation(geometry)
+        try:
+            slope = derivation.by("alpha_rad").lift
+        except np.linalg.LinAlgError:
+            slope = 0.0
+        if not _LEAST_SLOPE < slope < _GREATEST_SLOPE:
+            sys.stderr.write(
+                f"{folder / GEOMETRY.filename}: surfaces lie in each other's vortices "
+                f"(a lift slope of {slope:.3g}): move the tail up, down or aft\n"
+            )
+            return 2
+        text, line = model_text(name, derivation), describe(derivation)
+        try:
+            (folder / f"{name}.xml").write_text(text, "utf-8")
+        except OSError as error:
+            sys.stderr.write(f"{folder / f'{name}.xml'}: {error.strerror or error}\n")
+            return 1
+        sys.stdout.write(f"{folder / f'{name}.xml'}: {line}\n")
     return 0
 
 

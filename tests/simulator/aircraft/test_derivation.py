@@ -37,11 +37,35 @@ def test_the_program_writes_it(tmp_path):
     folder.mkdir()
     (folder / "geometry.yml").write_text((SHIPPED / "glider" / "geometry.yml").read_text())
     assert main([str(folder)]) == 0
-    glider = (SHIPPED / "glider" / "glider.xml").read_text()
-    assert (folder / "mine.xml").read_text() == glider.replace("glider", "mine")
+    assert (folder / "mine.xml").read_text() == model_text("mine", derived("glider"))
 
 
-@pytest.mark.parametrize("text", ["wing: {half_span: 1}", "masses: {mass_kg: -1}", "- 1"])
+def test_the_program_says_what_the_aircraft_will_do(tmp_path, capsys):
+    (tmp_path / "geometry.yml").write_text((SHIPPED / "glider" / "geometry.yml").read_text())
+    assert main([str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "stalls at 6.4 m/s" in said
+    assert "airspeed_m_s: 11.1, pitch_deg: -5.2, alpha_deg: 0.4, static margin 14 %" in said
+
+
+def test_the_program_says_when_nothing_holds_the_nose(tmp_path, capsys):
+    text = (SHIPPED / "glider" / "geometry.yml").read_text()
+    (tmp_path / "geometry.yml").write_text(text.replace("centre_x_m: 0.08", "centre_x_m: 0.16"))
+    assert main([str(tmp_path)]) == 0
+    assert "does NOT hold itself" in capsys.readouterr().out
+
+
+def test_surfaces_in_one_place_are_no_aircraft(tmp_path, capsys):
+    (tmp_path / "geometry.yml").write_text("wing: {half_span_m: 0.6}\ntail: {half_span_m: 0.6}\n")
+    assert main([str(tmp_path)]) == 2
+    assert "surfaces lie in each other's vortices" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["wing: {half_span: 1}", "wing: {half_span_m: 1, flap: {from_share: 1.0}}", "- 1",
+     "fin: {height_m: 0.2}"],
+)  # fmt: skip
 def test_the_program_tells_mistakes_with_their_place(tmp_path, capsys, text):
     (tmp_path / "geometry.yml").write_text(text)
     assert main([str(tmp_path)]) == 2
