@@ -49,7 +49,7 @@ class Machine:
         self.is_frozen = False
         self.reactor = reactor
         self.network = reactor.network
-        self.nameResolver = _LiteralResolver()
+        self.nameResolver = LiteralResolver()
         self.opened: dict[Any, None] = {}
         self.seconds = reactor.seconds
         self._calls: list[TimedCall] = []
@@ -212,7 +212,7 @@ class Machine:
 
 
 @implementer(IHostnameResolver)
-class _LiteralResolver:
+class LiteralResolver:
     """Knows addresses alone: a name would have to be looked up outside this process."""
 
     def resolveHostName(  # noqa: N802 - Twisted's name

@@ -68,6 +68,10 @@ def _companions(
     if scenario.ground is not None:
         settings["mission_control.yml"] = {"role": scenario.ground.role}
     # Twisted and the whole daemon: only for those who fly with it.
+    if scenario.is_real:
+        from up_simulator.scenario.real_companions import RealCompanions
+
+        return RealCompanions(scenario, dynamics, board, settings)
     from up_simulator.scenario.in_process_companions import InProcessCompanions
 
     return InProcessCompanions(scenario, dynamics, board, settings)

@@ -16,7 +16,7 @@ Problem = tuple[Node, str]
 _PATH_LIKE = ("/", ".")
 _NEEDS_BOARD = ("imu", "imu_errors", "reset")
 _NEEDS_RASPILOT = ("serial", "serial_noise", "raspilot", "cpu_load_percent")
-_NEEDS_PHONE = ("phone",)
+_NEEDS_PHONE = ("phone", "phone_battery")
 _NEEDS_GROUND = ("link", "link_settings", "command")
 _NEEDS_REAL = ("proxy",)
 _PARTS = {
@@ -88,8 +88,7 @@ def _events(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
             yield node, "needs a phone: add 'phone: {plugged: true}'"
         if kind in _NEEDS_GROUND and scenario.ground is None:
             yield node, "needs a ground station: add 'ground: {role: pilot}'"
-        is_hung = event.raspilot in ("hung", "awake")
-        if (kind in _NEEDS_REAL or is_hung) and not scenario.is_real:
+        if kind in _NEEDS_REAL and not scenario.is_real:
             yield node, "needs real programs: 'raspilot: {runs: real}'"
         if event.at_s > scenario.duration_s:
             what = f"is after the flight's end at {scenario.duration_s:g} s"

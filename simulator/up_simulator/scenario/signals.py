@@ -130,7 +130,6 @@ def _demand() -> Iterator[Signal]:
 def _daemon() -> Iterator[Signal]:
     yield Signal("raspilot.running", "the daemon's process runs", kind=_FLAG)
     yield Signal("phone.plugged", "the phone's cable is in", kind=_FLAG)
-    yield Signal("phone.battery_percent", "the phone's battery", "%")
 
 
 def _ground() -> Iterator[Signal]:

@@ -130,7 +130,7 @@ def test_all_mistakes_are_told_at_once_each_at_its_place():
         ("events: [{at_s: 1, phone: back}]\n", "needs a phone"),
         ("events: [{at_s: 9, imu: well}]\n", "is after the flight's end at 4 s"),
         ("board: direct\nevents: [{at_s: 1, imu: well}]\n", "there is no flight computer"),
-        ("raspilot: {runs: in process}\nevents: [{at_s: 1, raspilot: hung}]\n", "real programs"),
+        ("raspilot: {runs: in process}\nevents: [{at_s: 1, proxy: killed}]\n", "real programs"),
         ("raspilot: {runs: in process}\nground: {through: proxy}\n", "is a real program"),
         ("raspilot: {config: {config.yml: {mod: auto}}}\n", "did you mean 'mode'?"),
         ("raspilot: {config: {confg.yml: {}}}\n", "did you mean 'config.yml'?"),

@@ -1,0 +1,178 @@
+"""The daemon, and where it is wanted the proxy, as real programs with real sockets and a pty."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from up_rig.pty_line import PtyLine
+from up_simulator.crew.protocols import CrewError
+from up_simulator.crew.real_raspilot import RealRaspilot
+from up_simulator.crew.real_servers import RealProxy
+from up_simulator.flight import Flight
+from up_simulator.in_process.config_folder import write_config
+from up_simulator.in_process.ground import InProcessGround
+from up_simulator.in_process.phone import InProcessPhone
+from up_simulator.scenario.crew_companions import CrewCompanions
+from up_simulator.scenario.event import Event
+from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
+from up_simulator.scenario.scenario import Scenario
+from up_simulator.scenario.settings import merge
+from up_simulator.showcase_config import choose_ports
+
+BYTES_A_STEP = 23
+"""What 115200 baud carry in 2 ms."""
+PROXY_AGAIN_S = 10.0
+
+
+class RealCompanions(CrewCompanions):
+    """``python main.py`` on a pty; phone and ground station are stand-ins on real sockets.
+
+    The link lies between the daemon and whoever it speaks with: the ground station at its
+    listener, or the proxy. The flight keeps real time, from the boot on.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        flight: Flight,
+        board: LineBoard,
+        settings: dict[str, dict[str, Any]],
+    ) -> None:
+        super().__init__(scenario, board)
+        self._reactor = RealReactor()
+        self._temporary = tempfile.TemporaryDirectory(prefix="up-sim-")
+        self._folder = Path(self._temporary.name)
+        # Three of the phone's and the link's own, and those of the programs.
+        self._ports, self._before = choose_ports(True), choose_ports(True)
+        self._line: PtyLine | None = PtyLine(self._folder / "board")
+        files = merge(self._files(), settings)
+        config = write_config(self._folder / "config", merge(files, scenario.raspilot.config))
+        self._real = RealRaspilot(config, self._folder)
+        self.raspilot = self._real
+        self._proxy = RealProxy(config, self._folder) if self._has_proxy else None
+        self._make_ground()
+        self._make_phone(flight)
+
+    @property
+    def _has_proxy(self) -> bool:
+        ground = self.scenario.ground
+        return ground is not None and ground.through == "proxy"
+
+    def seconds(self) -> float:
+        """Return the monotonic time."""
+        return self._reactor.seconds()
+
+    def start(self) -> None:
+        """Start the proxy first, where there is one, then the others."""
+        if self._proxy is not None:
+            self._proxy.start()
+        super().start()
+
+    def exchange(self, step_s: float) -> None:
+        """Pass the bytes of the serial line, serve the sockets until the time is over."""
+        line = self._line
+        if line is not None:
+            data = line.read(0.0, BYTES_A_STEP)
+            if data:
+                self.board.write(data)
+        sent = self.board.read()
+        if line is not None and sent:
+            line.write(sent)
+        self._reactor.advance(step_s)
+        self.look_after_raspilot()
+
+    def look_after_raspilot(self) -> None:
+        """Raise CrewError with the daemon's last words where it should run and does not."""
+        if self._is_wanted and not self._real.is_running:
+            self._is_wanted = False
+            self._real.check()
+
+    def carry_out(self, event: Event) -> None:
+        """Let happen what concerns the crew; raises CrewError."""
+        if event.proxy is None:
+            super().carry_out(event)
+        elif self._proxy is not None:
+            if event.proxy == "killed":
+                self._proxy.stop()
+            else:
+                self._proxy.start()
+
+    def plug_serial(self, is_in: bool) -> None:
+        """Let the pty be there, or be gone with all that waits in it."""
+        if self._line is not None:
+            self._line.close()
+            self._line = None
+        if is_in:
+            self._line = PtyLine(self._folder / "board")
+
+    def load(self, percent: float) -> None:
+        """Refuse: what a real daemon measures is the whole machine."""
+        raise CrewError("a real machine's load is not set by a scenario: use 'runs: in process'")
+
+    def stop(self) -> None:
+        """End everybody, and remove what was written."""
+        super().stop()
+        if self._proxy is not None:
+            self._proxy.stop()
+        if self._line is not None:
+            self._line.close()
+            self._line = None
+        self._reactor.stop()
+        self._temporary.cleanup()
+
+    def _files(self) -> dict[str, dict[str, Any]]:
+        ports = self._ports
+        files: dict[str, dict[str, Any]] = {
+            "arduino.yml": {"port": str(self._folder / "board")},
+            "android.yml": {
+                "general port": ports.general,
+                "orientation port": ports.orientation,
+            },
+            "discovery.yml": {"port": ports.discovery},
+            "mission_control.yml": {"listener": {"port": ports.ground, "address": LOOPBACK}},
+        }
+        if self._has_proxy:
+            uplink = {"url": LOOPBACK, "port": self._before.airborne}
+            files["mission_control.yml"] = {"listener": {"port": 0}, "remote_server": uplink}
+            files["proxy.yml"] = {
+                "airborne port": ports.airborne,
+                "ground port": ports.ground,
+                "metrics port": ports.metrics,
+            }
+        return files
+
+    def _make_ground(self) -> None:
+        if self.scenario.ground is None:
+            return
+        ports, before = self._ports, self._before
+        seed = self.scenario.seed
+        reactor: Any = self._reactor
+        if self._has_proxy:
+            # From the aircraft's side of the link: what goes up leaves the aircraft.
+            self._reactor.targets[before.airborne] = ports.airborne
+            self._reactor.link(before.airborne, up=self.up, down=self.down)
+            self.ground = InProcessGround(reactor, ports.ground, seed=seed)
+        else:
+            self._reactor.targets[before.ground] = ports.ground
+            self._reactor.link(before.ground, up=self.down, down=self.up)
+            self.ground = InProcessGround(reactor, before.ground, seed=seed)
+
+    def _make_phone(self, flight: Flight) -> None:
+        part = self.scenario.phone
+        if part is None:
+            return
+        ports, before = self._ports, self._before
+        self._reactor.targets[before.general] = ports.general
+        self._reactor.targets[before.orientation] = ports.orientation
+        reactor: Any = self._reactor
+        self.phone = InProcessPhone(
+            reactor,
+            flight,
+            orientation=part.orientation,
+            seed=self.scenario.seed,
+            general_port=before.general,
+            orientation_port=before.orientation,
+        )

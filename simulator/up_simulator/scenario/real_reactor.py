@@ -1,0 +1,79 @@
+"""Twisted's own reactor, run in small pieces by the loop of a flight that keeps real time."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from up_simulator.in_process.machine import LiteralResolver
+from up_simulator.link.model import LinkModel
+from up_simulator.link.relay import LinkRelay
+
+LATEST_S = 0.25
+LOOPBACK = "127.0.0.1"
+
+
+class RealReactor:
+    """Looks to the stand-ins of phone and ground as the simulated one does.
+
+    ``link`` puts a relay before a port: who connects to the port passes the link to the
+    ``targets`` entry of it.
+    """
+
+    def __init__(self) -> None:
+        from twisted.internet import reactor as default_reactor
+
+        reactor: Any = default_reactor
+        # The reactor keeps wall-clock time by itself, and a flight must not see that jump.
+        reactor.seconds = time.monotonic
+        # Twisted's own resolver has threads, for which the program would wait at its end.
+        reactor.installNameResolver(LiteralResolver())
+        if not reactor.running:
+            reactor.startRunning(installSignalHandlers=False)
+        self._reactor = reactor
+        self.targets: dict[int, int] = {}
+        self._relays: list[LinkRelay] = []
+        self._due_s = time.monotonic()
+        self.skipped_s = 0.0
+
+    def seconds(self) -> float:
+        """Return the monotonic time."""
+        return time.monotonic()
+
+    def machine(self, _name: str = "") -> Any:
+        """Return the reactor: every program has the same one."""
+        return self._reactor
+
+    def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
+        """Put a relay with a link before a port; raises LinkRelayError."""
+        relay = LinkRelay(self._reactor, port, LOOPBACK, self.targets[port], up, down)
+        relay.start()
+        self._relays.append(relay)
+
+    def advance(self, step_s: float) -> None:
+        """Serve sockets and timers until this step's real time is over.
+
+        A flight that is late by more than 250 ms skips the time that it missed: ``skipped_s``.
+        """
+        self._due_s += step_s
+        left_s = self._due_s - time.monotonic()
+        self._reactor.iterate(max(0.0, left_s))
+        while (left_s := self._due_s - time.monotonic()) > 0:
+            self._reactor.iterate(left_s)
+        if left_s < -LATEST_S:
+            self.skipped_s -= left_s
+            self._due_s -= left_s
+
+    def stop(self) -> None:
+        """Take the relays away."""
+        relays, self._relays = self._relays, []
+        for relay in relays:
+            # Its coroutine has closed all before it first waits for anything.
+            _begin(relay)
+        self._reactor.iterate(0)
+
+
+def _begin(relay: LinkRelay) -> None:
+    from twisted.internet.defer import Deferred
+
+    Deferred.fromCoroutine(relay.stop()).addErrback(lambda _: None)
