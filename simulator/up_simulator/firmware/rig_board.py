@@ -6,7 +6,7 @@ import math
 import random
 from pathlib import Path
 
-from up_rig import SERVOS, CrashError, Motion, Rig
+from up_rig import CHANNELS, SERVOS, CrashError, Motion, Rig
 from up_rig.imu import Fault
 from up_simulator.firmware.board import (
     NEUTRAL_US,
@@ -116,17 +116,12 @@ class RigBoard:
 
     def set_receiver(self, is_on: bool) -> None:
         """Switch all channels of the receiver on or off."""
-        if is_on:
-            self._rig.receiver.start()
-        else:
-            self._rig.receiver.stop()
+        for channel in CHANNELS:
+            self._switch(channel, is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
         """Let one channel of the receiver send pulses or stay silent."""
-        if is_on:
-            self._rig.receiver.resume(channel)
-        else:
-            self._rig.receiver.stop(channel)
+        self._switch(channel, is_on)
 
     def set_motion(self, motion: Motion) -> None:
         """Set what the IMU feels from now on."""
@@ -176,3 +171,10 @@ class RigBoard:
         if pulse is None:
             return math.inf
         return self.now_us - (pulse.rise_cycle + pulse.width_cycles) / CYCLES_PER_US
+
+    def _switch(self, channel: str, is_on: bool) -> None:
+        # Frames go on unsent meanwhile: one that began anew could run into the one before.
+        if is_on:
+            self._rig.receiver.resume(channel)
+        else:
+            self._rig.receiver.stop(channel)
