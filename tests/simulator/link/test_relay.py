@@ -102,6 +102,19 @@ def test_bytes_are_as_old_as_the_link_makes_them():
     flown(fly)
 
 
+def test_the_first_bytes_wait_for_the_opening_and_its_answer():
+    async def fly():
+        async with Bench(LinkSettings(delay_ms=100), LinkSettings(delay_ms=40)) as bench:
+            client = await bench.client()
+            client.send(b"first")
+            await bench.pass_s(0.2395)
+            assert not bench.targets[0].data
+            await bench.pass_s(0.001)
+            assert bench.targets[0].data == b"first"
+
+    flown(fly)
+
+
 def test_a_narrow_link_takes_its_time_and_reads_no_more_than_it_carries():
     async def fly():
         async with Bench(LinkSettings(rate_bytes_s=10_000)) as bench:
