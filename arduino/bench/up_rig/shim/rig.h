@@ -146,7 +146,7 @@ typedef struct {
     uint64_t resets[4];                 /* power, external, brown-out, watchdog */
 } meter_t;
 
-/* An instruction as quick.c has decoded it. */
+/* An instruction as decode.c has read it. */
 typedef uint64_t quick_op_t;
 
 struct rig {
