@@ -116,6 +116,10 @@ class CrewCompanions(ABC):
             self.ground.stop()
         if self.phone is not None:
             self.phone.stop()
+        self.end_raspilot()
+
+    def end_raspilot(self) -> None:
+        """End the daemon at once."""
         self.raspilot.kill()
 
     def look_after_raspilot(self) -> None:

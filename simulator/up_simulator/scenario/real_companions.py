@@ -9,7 +9,7 @@ from typing import Any
 from up_rig.pty_line import PtyLine
 from up_simulator.crew.protocols import CrewError
 from up_simulator.crew.real_raspilot import RealRaspilot
-from up_simulator.crew.real_servers import RealProxy
+from up_simulator.crew.real_servers import RealProxy, RealRunner
 from up_simulator.flight import Flight
 from up_simulator.in_process.config_folder import write_config
 from up_simulator.in_process.ground import InProcessGround
@@ -18,6 +18,7 @@ from up_simulator.scenario.crew_companions import CrewCompanions
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
+from up_simulator.scenario.runner_crew import RunnerDaemon, RunnerPhone, write_runner_config
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.settings import merge
 from up_simulator.showcase_config import choose_ports
@@ -48,18 +49,18 @@ class RealCompanions(CrewCompanions):
         # Three of the phone's and the link's own, and those of the programs.
         self._ports, self._before = choose_ports(True), choose_ports(True)
         self._line: PtyLine | None = PtyLine(self._folder / "board")
-        files = merge(self._files(), settings)
-        config = write_config(self._folder / "config", merge(files, scenario.raspilot.config))
-        self._real = RealRaspilot(config, self._folder)
+        self._real = self._make_daemon(merge(self._files(), settings))
         self.raspilot = self._real
-        self._proxy = RealProxy(config, self._folder) if self._has_proxy else None
         self._make_ground()
         self._make_phone(flight)
 
     @property
+    def _through(self) -> str:
+        return "listener" if self.scenario.ground is None else self.scenario.ground.through
+
+    @property
     def _has_proxy(self) -> bool:
-        ground = self.scenario.ground
-        return ground is not None and ground.through == "proxy"
+        return self._through != "listener"
 
     def seconds(self) -> float:
         """Return the monotonic time."""
@@ -86,7 +87,9 @@ class RealCompanions(CrewCompanions):
 
     def look_after_raspilot(self) -> None:
         """Raise CrewError with the daemon's last words where it should run and does not."""
-        if self._is_wanted and not self._real.is_running:
+        if isinstance(self._real, RunnerDaemon):
+            self._real.check()
+        elif self._is_wanted and not self._real.is_running:
             self._is_wanted = False
             self._real.check()
 
@@ -123,6 +126,32 @@ class RealCompanions(CrewCompanions):
         self._reactor.stop()
         self._temporary.cleanup()
 
+    def end_raspilot(self) -> None:
+        """End the daemon, or the runner and what it started."""
+        if isinstance(self._real, RunnerDaemon):
+            self._real.end()
+        else:
+            self._real.kill()
+
+    def _make_daemon(self, files: dict[str, dict[str, Any]]) -> RealRaspilot | RunnerDaemon:
+        """Write the configuration; make the daemon, or the runner that will start it."""
+        folder, changes = self._folder / "config", self.scenario.raspilot.config
+        config = write_config(folder, merge(files, changes))
+        self._proxy = RealProxy(config, self._folder) if self._has_proxy else None
+        if self._through != "runner":
+            return RealRaspilot(config, self._folder)
+        uplink = {"url": LOOPBACK, "port": self._ports.airborne}
+        role = files["mission_control.yml"].get("role", "operator")
+        own: dict[str, dict[str, Any]] = {
+            "config.yml": {"mode": "black box"},
+            "mission_control.yml": {"remote_server": uplink, "role": role},
+        }
+        own = merge(own, changes)
+        proxy = {"airborne port": self._ports.airborne, "ground port": self._ports.ground}
+        write_runner_config(folder, self._folder / "run", own, proxy)
+        self._runner = RealRunner(folder, self._folder)
+        return RunnerDaemon(self._runner, self._folder / "run")
+
     def _files(self) -> dict[str, dict[str, Any]]:
         ports = self._ports
         files: dict[str, dict[str, Any]] = {
@@ -150,7 +179,10 @@ class RealCompanions(CrewCompanions):
         ports, before = self._ports, self._before
         seed = self.scenario.seed
         reactor: Any = self._reactor
-        if self._has_proxy:
+        if self._through == "runner":
+            # The link is the phone's: daemon and proxy are on servers.
+            self.ground = InProcessGround(reactor, ports.ground, seed=seed)
+        elif self._has_proxy:
             # From the aircraft's side of the link: what goes up leaves the aircraft.
             self._reactor.targets[before.airborne] = ports.airborne
             self._reactor.link(before.airborne, up=self.up, down=self.down)
@@ -165,6 +197,16 @@ class RealCompanions(CrewCompanions):
         if part is None:
             return
         ports, before = self._ports, self._before
+        if isinstance(self._real, RunnerDaemon):
+            self.phone = RunnerPhone(
+                self._reactor,
+                flight,
+                lambda: self._runner.port,
+                lambda port: self._reactor.relay(0, port, self.up, self.down),
+                orientation=part.orientation,
+                seed=self.scenario.seed,
+            )
+            return
         self._reactor.targets[before.general] = ports.general
         self._reactor.targets[before.orientation] = ports.orientation
         reactor: Any = self._reactor

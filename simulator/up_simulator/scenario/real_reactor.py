@@ -45,10 +45,18 @@ class RealReactor:
         return self._reactor
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Put a relay with a link before a port; raises LinkRelayError."""
-        relay = LinkRelay(self._reactor, port, LOOPBACK, self.targets[port], up, down)
-        relay.start()
+        """Put a relay with a link before a port that has a target; raises LinkRelayError."""
+        if port in self.targets:
+            self.relay(port, self.targets[port], up, down)
+
+    def relay(self, port: int, target: int, up: LinkModel, down: LinkModel) -> int:
+        """Listen on a port (0: any), carry everything to another one; return the port.
+
+        Raises LinkRelayError.
+        """
+        relay = LinkRelay(self._reactor, port, LOOPBACK, target, up, down)
         self._relays.append(relay)
+        return relay.start()
 
     def advance(self, step_s: float) -> None:
         """Serve sockets and timers until this step's real time is over.
