@@ -59,8 +59,8 @@ class Actuators:
     """Dynamics whose servos get the board's pulses later, larger, or with something added.
 
     ``delay_s`` and ``factors`` (of an axis's deflection) act from now on; ``added_us`` is asked
-    for what to add to an axis at a time. ``on_step`` hears, at each step, what the board gave
-    and what the servos got.
+    for what to add to an axis at a time. ``on_step`` hears, at each step, what arrives from the
+    board and what the servos get.
     """
 
     def __init__(self, dynamics: Dynamics, mix: Mix) -> None:
@@ -99,15 +99,15 @@ class Actuators:
         self._waiting.append(pulses_us)
         while len(self._waiting) > round(self.delay_s / STEP_S) + 1:
             self._waiting.popleft()
-        given = self._mix.axes(pulses_us)
-        moved = self._mix.axes(self._waiting[0])
+        arriving = self._mix.axes(self._waiting[0])
         for axis, factor in self.factors.items():
-            moved[axis] *= factor
+            arriving[axis] *= factor
+        moved = dict(arriving)
         if self.added_axis is not None:
             moved[self.added_axis] += self.added_us(self.time_s)
         self.dynamics.set_servos(self._mix.pulses(moved, pulses_us[2]))
         if self.on_step is not None:
-            self.on_step(given, moved)
+            self.on_step(arriving, moved)
 
     def advance(self, duration_s: float) -> None:
         """Fly on."""

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from up.config.writing import write_atomically
 from up.flight_controller.gains import Gains, GainSet
-from up.flight_controller.pids_file import PIDS, gain_set_of
+from up.flight_controller.pids_file import PIDS, PidsConfig, gain_set_of
 from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
@@ -123,6 +123,8 @@ def _parser() -> argparse.ArgumentParser:
 
 def _tune(options: argparse.Namespace) -> int:
     airframe = load_airframe(options.airframe)
+    if options.write is not None:
+        _held(options.write)
     gains = gains_of(airframe.gains)
     if options.begin is not None:
         gains = _gains_in(options.begin)
@@ -203,12 +205,14 @@ def _write(path: Path, gains: GainSet) -> None:
 
     Raises ConfigErrors for a file that is there and is no pids.yml, which is left alone.
     """
-    navigation = None
-    if path.exists():
-        navigation = PIDS.parse(path.read_bytes(), path).navigation
-    values = replace(PIDS.parse(pids_block(gains), path), navigation=navigation)
+    values = replace(PIDS.parse(pids_block(gains), path), navigation=_held(path).navigation)
     path.parent.mkdir(parents=True, exist_ok=True)
     write_atomically(path, PIDS.render(values).encode())
+
+
+def _held(path: Path) -> PidsConfig:
+    """Return what a file holds that is to be written; raises ConfigErrors where it is another's."""
+    return PIDS.parse(path.read_bytes(), path) if path.exists() else PidsConfig()
 
 
 def _is_drawn(draw: Callable[[Path], None], path: Path) -> bool:

@@ -169,7 +169,8 @@ def _advice(mode: str, responses: Sequence[StepResponse]) -> str:
     half = len(responses) / 2
     rings = sum(each.swings > 3 for each in responses)
     over = sum(each.overshoot_percent > 15 for each in responses)
-    short = sum(each.steady_error_percent > 10 for each in responses)
+    # What comes back to level does not fall short: half of the steps do in a flight that does.
+    short = 2 * sum(each.steady_error_percent > 10 for each in responses)
     never = sum(each.rise_time_s is None for each in responses)
     if never > half:
         return (
@@ -177,7 +178,7 @@ def _advice(mode: str, responses: Sequence[StepResponse]) -> str:
             " at the airspeed before any gain"
         )
     if mode == "RATE":
-        return _rate_advice(rings > half, over > half, short > half)
+        return _rate_advice(rings > half, over > half, short >= len(responses))
     slow = sum((each.rise_time_s or 9.0) > 1.2 for each in responses)
     if rings > half:
         return (
@@ -185,7 +186,7 @@ def _advice(mode: str, responses: Sequence[StepResponse]) -> str:
         )
     if over > half:
         return "it overshoots: lower the stabilize P by a quarter, or raise the rate P a little"
-    if short > half:
+    if short >= len(responses):
         return (
             "it falls short of what is asked: raise the stabilize P, then the rate P; more throttle"
             " where it sinks below its speed"

@@ -7,6 +7,7 @@ import itertools
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from statistics import fmean
 
 WIDEST_SPREAD = 0.35
 """The periods of a measurement agree within this part, or the frequency is left out."""
@@ -70,15 +71,19 @@ def loop_response(
     periods = len(moved) // period
     if periods < 3 or len(given) != len(moved):
         raise MarginsError("three whole periods of excitation are needed to measure a loop")
-    if _own_share(moved[-period:], multisine) > MOST_OF_ITS_OWN:
+    last = slice((periods - 1) * period, periods * period)
+    if _own_share(_level(moved[last], _slope(moved, last)), multisine) > MOST_OF_ITS_OWN:
         raise MarginsError("the loop rings by itself, or the air is rough")
+    parts = [slice(number * period, (number + 1) * period) for number in range(1, periods)]
+    came_level = [_level(given[part], _slope(given, part)) for part in parts]
+    went_level = [_level(moved[part], _slope(moved, part)) for part in parts]
     points = []
     for cycle, frequency_hz in zip(multisine.cycles, multisine.frequencies_hz, strict=True):
         turns = [cmath.exp(-2j * math.pi * cycle * at / period) for at in range(period)]
-        pairs = []
-        for number in range(1, periods):
-            part = slice(number * period, (number + 1) * period)
-            pairs.append((_at(given[part], turns), _at(moved[part], turns)))
+        pairs = [
+            (_at(came, turns), _at(went_in, turns))
+            for came, went_in in zip(came_level, went_level, strict=True)
+        ]
         if any(abs(went_in) < 1e-9 for _, went_in in pairs):
             raise MarginsError(f"the servos were not moved at {frequency_hz:g} Hz")
         single = [-came / went_in for came, went_in in pairs]
@@ -93,35 +98,34 @@ def loop_response(
     return points
 
 
+def _slope(values: Sequence[float], part: slice) -> float:
+    """Return how much values drift in a step, about a period: sines have no part in its means."""
+    period: int = part.stop - part.start
+    before = values[part.start - period : part.start]
+    now = values[part]
+    return (fmean(now) - fmean(before)) / period
+
+
+def _level(values: Sequence[float], slope: float) -> list[float]:
+    """Return values less their mean and their drift."""
+    middle = fmean(values)
+    half = (len(values) - 1) / 2
+    return [value - middle - slope * (at - half) for at, value in enumerate(values)]
+
+
 def _own_share(values: Sequence[float], multisine: Multisine) -> float:
     """Return which part of a period's movement is at frequencies that the excitation has not."""
-    straight = _level(values)
-    whole = sum(value * value for value in straight) / len(straight)
+    whole = fmean([value * value for value in values])
     asked = 0.0
     for cycle in multisine.cycles:
-        turn = -2j * math.pi * cycle / len(straight)
-        asked += (
-            2
-            * abs(
-                sum(value * cmath.exp(turn * at) for at, value in enumerate(straight))
-                / len(straight)
-            )
-            ** 2
-        )
-    return 1 - asked / max(whole, 1e-12)
-
-
-def _level(values: Sequence[float]) -> list[float]:
-    """Return values less the straight line through both ends."""
-    slope = (values[-1] - values[0]) / max(1, len(values) - 1)
-    return [value - values[0] - slope * at for at, value in enumerate(values)]
+        turn = -2j * math.pi * cycle / len(values)
+        turns = [cmath.exp(turn * at) for at in range(len(values))]
+        asked += 2 * abs(_at(values, turns)) ** 2
+    return float(1 - asked / max(whole, 1e-12))
 
 
 def _at(values: Sequence[float], turns: Sequence[complex]) -> complex:
-    # Without the straight line a drift would look like every sine.
-    return sum(value * turn for value, turn in zip(_level(values), turns, strict=True)) / len(
-        values
-    )
+    return sum(value * turn for value, turn in zip(values, turns, strict=True)) / len(values)
 
 
 @dataclass(frozen=True, slots=True)

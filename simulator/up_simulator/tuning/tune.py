@@ -20,7 +20,7 @@ PARTS_OF_MOST = (1.0, 0.85, 0.7, 0.55, 0.4)
 QUICK_PARTS_OF_MOST = (0.85, 0.5)
 I_OF_P = (0.5, 1.0, 2.0)
 YAW_P = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0)
-QUICK_YAW_P = (0.0, 2.0)
+QUICK_YAW_P = (0.0, 2.0, 4.0)
 MOST_RATE_P = 20.0
 GENTLE_SENSITIVITY = 3.5
 """A loop that is measured with a peak beyond this is measured again with half the gains."""
@@ -85,15 +85,17 @@ def tune_axis(
     workers: Workers,
     *,
     rules: Rules | None = None,
+    loops: tuple[Loop, Loop] | None = None,
     is_quick: bool = False,
     say: Say = lambda _text: None,
 ) -> AxisTuning:
     """Return what roll or pitch flies best with; the other axes keep their gains.
 
+    ``loops`` of the axis, at cruise and in the dive, are measured where they are not given.
     Raises ``TuneError``.
     """
     rules = rules or Rules()
-    cruise, dive = _loops(bench, gains, axis, workers, say)
+    cruise, dive = loops or measure_loops(bench, gains, axis, workers, say)
     tried = [
         each
         for each in _grid(cruise, dive, rules, is_quick)
@@ -156,10 +158,13 @@ def _rank(candidate: Candidate) -> tuple[int, float]:
     return len(candidate.broken), candidate.score
 
 
-def _loops(
-    bench: Bench, gains: GainSet, axis: Axis, workers: Workers, say: Say
+def measure_loops(
+    bench: Bench, gains: GainSet, axis: Axis, workers: Workers, say: Say = lambda _text: None
 ) -> tuple[Loop, Loop]:
-    """Measure the loop at cruise and in the dive, with gains that do not ring."""
+    """Return the loop at cruise and in the dive, measured with gains that do not ring.
+
+    Raises ``TuneError``.
+    """
     own = axis_gains(gains, axis)
     if own.rate.p <= 0:
         own = AxisGains(Gains(1.0), Gains(4.0))

@@ -1,0 +1,16 @@
+"""What tuning tests fly with: the firmware built for this computer, in the default airframe."""
+
+import pytest
+
+from tests.support.tools import need_tool
+from up_simulator.aircraft import load_airframe
+from up_simulator.tuning.experiments import Bench
+
+
+@pytest.fixture(scope="session")
+def bench():
+    """Return a bench with the motor glider and the host build."""
+    need_tool("g++")
+    need_tool("make")
+    pytest.importorskip("jsbsim")
+    return Bench(load_airframe("glider"), "host")
