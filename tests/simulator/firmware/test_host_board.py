@@ -10,10 +10,12 @@ from tests.arduino.commands import outputs as output_command
 from tests.arduino.commands import profile, setpoint
 from tests.simulator.firmware.pair import STEP_US, Aboard, Pair, rocking
 from up_rig.imu import motion_at
+from up_simulator.aircraft import FlightDynamics, Start, load_airframe
 from up_simulator.firmware.board import NEUTRAL_US
 from up_simulator.firmware.host_board import HostBoard
 from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.firmware.rig_board import RigBoard
+from up_simulator.world import World
 
 LOW, MIDDLE, HIGH = 1000, 1500, 2000
 STREAMS = "xOir"
@@ -293,3 +295,20 @@ def test_no_other_reset_arms(pair, cause, bits):
     pair.each("sticks", aux2=HIGH)
     pair.each("run_ms", 10_500 if cause == "button" else 1500)
     assert pair.agree("stands").vetoes & ~(8 | 32) == 0
+
+
+def test_a_flight_goes_the_same_way(library, elf):
+    ends = []
+    for board in (
+        HostBoard(library, imu_errors=ImuErrors()),
+        RigBoard(elf, imu_errors=ImuErrors()),
+    ):
+        world = World(FlightDynamics(load_airframe("glider"), Start(roll_deg=40.0)), board)
+        board.set_stick("aux1", MIDDLE)
+        world.boot(arms=True)
+        world.advance(3.0)
+        board.set_stick("ailerons", 1650)
+        world.advance(2.0)
+        ends.append((world.state.roll_deg, world.state.pitch_deg))
+    assert ends[0] == pytest.approx(ends[1], abs=0.1)
+    assert ends[0][0] > 8
