@@ -63,16 +63,18 @@ def glide(name, elevator_us, seconds=36.0):
 
 
 def stall(name):
-    """Pull slowly with level wings until the nose drops: the slowest at a load of about 1 g."""
+    """Pull slowly with level wings until the lift breaks: the slowest at about 1 g until then."""
     flight = launched(name)
     slowest, elevator = 99.0, 0.0
     for _ in range(3000):
         state = flight.state
-        elevator += TICK_S * 12
+        elevator += TICK_S * 8
         move(flight, wings_level(state), min(500.0, elevator))
         flight.advance(TICK_S)
-        if state.alpha_deg > 9.0 and abs(state.load_factor_g - 1) < 0.05:
+        if state.alpha_deg > 7.0 and abs(state.load_factor_g - 1) < 0.05:
             slowest = min(slowest, state.airspeed_m_s)
+        if state.alpha_deg > 7.0 and state.load_factor_g < 0.8:
+            break
     return slowest
 
 

@@ -74,11 +74,20 @@ def test_profile_and_gains_are_what_the_raspberry_pis_files_take(name, tmp_path)
     assert gains.rate.ailerons.p == airframe.gains["rate"]["ailerons"]["p"]
 
 
-def test_the_profile_has_the_keys_and_bounds_of_the_cogs():
-    assert ConfigFile("airframe.yml", Profile).json_schema() == {
-        **AIRFRAME.json_schema(),
-        "description": ConfigFile("airframe.yml", Profile).json_schema()["description"],
+def without_words(schema):
+    """Return a JSON Schema without what it says to people."""
+    if not isinstance(schema, dict):
+        return schema
+    return {
+        name: without_words(each)
+        for name, each in schema.items()
+        if name != "description" or isinstance(each, dict)
     }
+
+
+def test_the_profile_has_the_keys_and_bounds_of_the_cogs():
+    ours = ConfigFile("airframe.yml", Profile).json_schema()
+    assert without_words(ours) == without_words(AIRFRAME.json_schema())
 
 
 @pytest.mark.parametrize("as_file", [False, True])
@@ -152,7 +161,7 @@ def test_a_mistake_in_the_file_is_one_sentence(tmp_path, change, sentence):
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        (lambda text: text[:3000], "is no XML: no element found"),
+        (lambda text: text[: text.index("<metrics>")], "is no XML: no element found"),
         (lambda text: "<glider/>", "is no JSBSim model"),
         (lambda text: text.replace("0.95<", "heavy<"), "emptywt is no mass: heavy"),
         (lambda text: text.replace('"KG*M2"', '"STONES"'), 'Supplied unit: "STONES"'),

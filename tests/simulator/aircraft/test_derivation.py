@@ -44,7 +44,7 @@ def test_the_program_says_what_the_aircraft_will_do(tmp_path, capsys):
     (tmp_path / "geometry.yml").write_text((SHIPPED / "glider" / "geometry.yml").read_text())
     assert main([str(tmp_path)]) == 0
     said = capsys.readouterr().out
-    assert "stalls at 6.4 m/s" in said
+    assert "stalls at 6.2 m/s" in said
     assert "airspeed_m_s: 11.1, pitch_deg: -5.2, alpha_deg: 0.4, static margin 14 %" in said
 
 
