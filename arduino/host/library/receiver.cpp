@@ -75,7 +75,6 @@ void set(uint8_t channel, double width_us) { widths_us[channel] = width_us; }
 
 void set_on(bool is_on) {
   silent = is_on ? 0 : raspilot::ALL_INPUTS;
-  if (is_on) next_frame = now();
 }
 
 void set_channel(uint8_t channel, bool is_on) {

@@ -181,7 +181,7 @@ def test_a_lost_receiver_and_its_return_are_seen_alike(pair):
     pair.each("sticks", aux1=MIDDLE, aux2=HIGH, throttle=LOW)
     pair.each("sticks", throttle=1500, ailerons=1300)
     pair.board("set_receiver", False)
-    pair.each("run_ms", 300)
+    pair.each("run_ms", 306)
     assert not pair.agree("stands").is_receiver_valid
     pair.each("run_ms", 500)
     status = pair.agree("stands")
@@ -195,6 +195,9 @@ def test_a_lost_receiver_and_its_return_are_seen_alike(pair):
     status = pair.agree("stands")
     assert not status.is_failsafe and status.is_armed
     pair.agree_on_pulses(within_us=2.0)
+    # Its frames went on unsent, and are in step with themselves.
+    host, chip = (each.board.pulse_ages_us() for each in (pair.host, pair.chip))
+    assert host == pytest.approx(chip, abs=3)
 
 
 def test_one_silent_channel_is_no_receiver(pair):
