@@ -5,8 +5,11 @@ from __future__ import annotations
 import csv
 import io
 import math
+import sys
+from array import array
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import TextIO
 
 from up_simulator.scenario.signals import EVENT_COLUMN, Kind, signal_of
 
@@ -29,41 +32,52 @@ class FlightLog:
 
     def __init__(self, columns: Sequence[str]) -> None:
         self.columns = tuple(columns)
-        self.rows: list[tuple[Value, ...]] = []
-        self._words = frozenset(name for name in columns if is_word(name))
-        self._index = {name: at for at, name in enumerate(self.columns)}
+        self._numbers: dict[str, array[float]] = {}
+        self._words: dict[str, list[str]] = {}
+        self._count = 0
+        for name in self.columns:
+            if is_word(name):
+                self._words[name] = []
+            else:
+                self._numbers[name] = array("d")
 
     def __len__(self) -> int:
         """Return the number of rows."""
-        return len(self.rows)
+        return self._count
 
     def __contains__(self, column: object) -> bool:
         """Return whether there is a column of that name."""
-        return column in self._index
+        return column in self._numbers or column in self._words
 
     def append(self, values: Mapping[str, float | bool | str | None]) -> None:
         """Take a row; what is not in it is not known."""
-        row: list[Value] = []
-        for name in self.columns:
+        for name, words in self._words.items():
             value = values.get(name)
-            if name in self._words:
-                row.append("" if value is None else str(value))
-            elif isinstance(value, bool | int | float):
-                row.append(_rounded(float(value)))
-            else:
-                row.append(math.nan)
-        self.rows.append(tuple(row))
+            words.append("" if value is None else sys.intern(str(value)))
+        for name, numbers in self._numbers.items():
+            value = values.get(name)
+            is_number = isinstance(value, bool | int | float)
+            numbers.append(_rounded(float(value)) if is_number else math.nan)  # type: ignore[arg-type]
+        self._count += 1
+
+    @property
+    def rows(self) -> Iterator[tuple[Value, ...]]:
+        """Yield every row, its values in the order of the columns."""
+        return zip(*(self._values(name) for name in self.columns), strict=True)
 
     def column(self, name: str) -> list[Value]:
         """Return all values of a column; raises KeyError."""
-        at = self._index[name]
-        return [row[at] for row in self.rows]
+        return list(self._values(name))
+
+    def _values(self, name: str) -> Sequence[Value]:
+        words = self._words.get(name)
+        return self._numbers[name] if words is None else words
 
     def numbers(self, name: str) -> list[float]:
         """Return a column of numbers; raises KeyError, and TypeError for a column of words."""
         if name in self._words:
             raise TypeError(f"{name} holds words")
-        return [float(value) for value in self.column(name)]
+        return list(self._numbers[name])
 
     def has_words(self, name: str) -> bool:
         """Return whether a column holds words."""
@@ -72,7 +86,7 @@ class FlightLog:
     @property
     def events(self) -> list[tuple[float, str]]:
         """Return time and name of everything that happened."""
-        if EVENT_COLUMN not in self._index:
+        if EVENT_COLUMN not in self:
             return []
         found: list[tuple[float, str]] = []
         for time_s, cell in zip(self.numbers("time_s"), self.column(EVENT_COLUMN), strict=True):
@@ -82,15 +96,18 @@ class FlightLog:
     def text(self) -> str:
         """Return the log as CSV."""
         into = io.StringIO()
-        writer = csv.writer(into, lineterminator="\n")
-        writer.writerow(self.columns)
-        for row in self.rows:
-            writer.writerow([_cell(value) for value in row])
+        self._write(into)
         return into.getvalue()
 
     def write(self, path: Path) -> None:
         """Write the CSV file; raises OSError."""
-        path.write_text(self.text(), encoding="utf-8")
+        with path.open("w", encoding="utf-8", newline="") as file:
+            self._write(file)
+
+    def _write(self, into: TextIO) -> None:
+        writer = csv.writer(into, lineterminator="\n")
+        writer.writerow(self.columns)
+        writer.writerows([_cell(value) for value in row] for row in self.rows)
 
 
 EVENT_SEPARATOR = "; "

@@ -80,7 +80,7 @@ def _troubles(result: Result) -> Iterator[str]:
 
 def _place(record: FlightRecord) -> str:
     log = record.log
-    if not log.rows:
+    if not len(log):
         return ""
     north_m, east_m = log.numbers("truth.north_m")[-1], log.numbers("truth.east_m")[-1]
     return f", {_way(north_m, 'north', 'south')} and {_way(east_m, 'east', 'west')} of the start"

@@ -124,7 +124,7 @@ def write_files(name: str, result: Result, output: Output, say: Say) -> list[Pat
     if result.control is not None:
         written.append(folder / CONTROL_LOG)
         result.control.log.write(folder / CONTROL_LOG)
-    if output.has_picture and result.record.log.rows:
+    if output.has_picture and len(result.record.log):
         written += _draw(result, folder / PICTURE, say)
     (folder / SUMMARY).write_text(json.dumps(_summary(name, result), indent=1), encoding="utf-8")
     report = "\n".join(report_lines(name, result, written)) + "\n"
