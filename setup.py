@@ -60,6 +60,9 @@ setup(
             "*.csv",
             "*.xml",
             "*.gz",
+            "airframes/*/*.yml",
+            "airframes/*/*.xml",
+            "scenarios/*.yml",
             "shim/*.[ch]",
         ]
     },

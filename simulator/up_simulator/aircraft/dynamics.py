@@ -144,10 +144,16 @@ class FlightDynamics:
             self._battery.draw(0.0, self.STEP_S)
         self._air.blow(self._steps * self.STEP_S - self._launched_s)
         self._motion = None
-        if not self._fdm.run():
-            self.crash = "the flight model has given up"
-        else:
+        try:
+            is_flying = self._fdm.run()
+        except RuntimeError as error:
+            # What JSBSim throws: a property that no longer exists, a table without an answer.
+            self.crash = f"the flight model has given up: {error}"
+            return
+        if is_flying:
             self._watch()
+        else:
+            self.crash = "the flight model has given up"
 
     def change_battery(self) -> None:
         """Put a full battery in, in flight, as nobody else can."""

@@ -260,6 +260,17 @@ def test_a_model_that_lost_itself_is_a_crash_too():
     assert flight.crash is not None
 
 
+def test_what_jsbsim_throws_in_flight_is_a_crash_too(monkeypatch):
+    class Thrower:
+        def __getattr__(self, name):
+            raise RuntimeError("no answer")
+
+    flight = flying()
+    monkeypatch.setattr(flight, "_fdm", Thrower())
+    flight.advance(0.01)
+    assert flight.crash == "the flight model has given up: no answer"
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_it_may_be_launched_again(name):
     flight = flying(name, Start(height_m=5.0, pitch_deg=-60.0))
