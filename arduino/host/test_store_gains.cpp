@@ -60,8 +60,8 @@ TEST_CASE("the golden gains of two axes leave the rudder's alone") {
   CHECK(wire == payloads[0]);
 }
 
-TEST_CASE("the gains at the first start level the default aircraft") {
-  const float expected[18] = {6, 0, 0, 3, 0, 0, 1, 0, 0, 8, 0, 0, 6, 0, 0, 0, 0, 0};
+TEST_CASE("the gains at the first start are those of an aircraft that nobody has tuned") {
+  const float expected[18] = {2, 0, 0, 1.5f, 0, 0, 1, 0, 0, 8, 0, 0, 8, 0, 0, 0, 0, 0};
   Bytes wire(GAINS_SIZE);
   WireWriter writer(wire.data());
   for (float gain : expected) writer.f32(gain);

@@ -11,10 +11,10 @@ MOTOR_OFFSET = 29
 SWITCH_LETTERS = frozenset("arfA")
 PROFILE = struct.Struct(">" + "BhHH" * 4 + "BB" + "3s" + "hhh" + "hh" + "HH" + "HHH" + "B")
 GAINS = (
-    6.0, 0.0, 0.0, 3.0, 0.0, 0.0, 1.0, 0.0, 0.0,
-    8.0, 0.0, 0.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+    2.0, 0.0, 0.0, 1.5, 0.0, 0.0, 1.0, 0.0, 0.0,
+    8.0, 0.0, 0.0, 8.0, 0.0, 0.0, 0.0, 0.0, 0.0,
 )  # fmt: skip
-"""What levels the default aircraft in its default wind."""
+"""For an aircraft that nobody has tuned, as in the firmware and in pids.yml."""
 
 
 class OutOfRangeError(Exception):

@@ -5,7 +5,7 @@ import pytest
 from tests.arduino.commands import SERVOS, profile, setpoint
 from tests.arduino.flight import HIGH, LOW, MIDDLE, Flight
 
-A_DEGREE_US = 60
+A_DEGREE_US = 20
 """What the default gains make of a degree."""
 
 
@@ -147,7 +147,7 @@ def test_fbw_asks_for_its_limits_at_full_stick(flight, channel, stick, attitude)
     flight.sticks(**{channel: stick}, aux1=MIDDLE)
     assert flight.servo_us(channel) == pytest.approx(1500, abs=A_DEGREE_US)
     flight.tilt(0)
-    assert abs(flight.servo_us(channel) - 1500) > 150
+    assert abs(flight.servo_us(channel) - 1500) > 140
 
 
 def test_other_limits_are_taken_from_the_profile(flight):

@@ -242,5 +242,5 @@ def test_with_a_motor_auto_gives_no_authority_disarmed(calm):
     calm.send("s")
     assert calm.ask("M", b"u") == "K"
     calm.send("u", outputs(calm, 1800, throttle=1800))
-    assert calm.servo_us("ailerons") == pytest.approx(1500, abs=15)
+    assert calm.servo_us("ailerons") == pytest.approx(1500, abs=5)
     assert calm.servo_us("throttle") == pytest.approx(1000, abs=1)

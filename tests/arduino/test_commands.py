@@ -231,7 +231,7 @@ def test_outputs_reach_the_servos_while_they_are_fresh(auto):
     assert widths == pytest.approx([1234, 1765, 1610], abs=0.6)
     assert auto.rig.servo.newest_us("throttle") == pytest.approx(1450, abs=0.6)
     auto.run_ms(200)
-    assert auto.servo_us("ailerons") == pytest.approx(1500, abs=15)
+    assert auto.servo_us("ailerons") == pytest.approx(1500, abs=5)
     assert auto.servo_us("throttle") == pytest.approx(1000, abs=1)
     auto.run_ms(200)
     assert auto.mode() == "f"
@@ -243,7 +243,7 @@ def test_an_output_of_an_old_orientation_is_refused(auto):
     auto.run_ms(130)
     assert auto.ask("u", outputs(auto, sequence=sequence)) == TOO_OLD
     assert auto.ask("u", outputs(auto, sequence=(sequence + 5000) % 65536)) in (None, TOO_OLD)
-    assert auto.mode() != "u" or auto.servo_us("ailerons") == pytest.approx(1500, abs=15)
+    assert auto.mode() != "u" or auto.servo_us("ailerons") == pytest.approx(1500, abs=5)
 
 
 def test_an_output_wants_the_switch_the_armed_aircraft_and_the_imu(auto):
@@ -271,7 +271,7 @@ def test_a_setpoint_lives_as_long_as_it_says(auto):
     assert auto.servo_us("ailerons", 60) > 1700
     auto.run_ms(150)
     assert auto.mode() == "f"
-    assert auto.servo_us("ailerons") == pytest.approx(1500, abs=15)
+    assert auto.servo_us("ailerons") == pytest.approx(1500, abs=5)
 
 
 def test_an_output_leaves_nothing_of_an_older_setpoint(auto):

@@ -85,7 +85,7 @@ def test_each_wire_lost_in_each_way(fbw, channel, loss):
     status = fbw.status()
     assert not status.is_failsafe and status.is_armed
     assert fbw.servo_us("throttle") == pytest.approx(1400, abs=1)
-    assert fbw.servo_us("ailerons") == pytest.approx(1500, abs=15)
+    assert fbw.servo_us("ailerons") == pytest.approx(1500, abs=5)
 
 
 @pytest.mark.parametrize("switch", [LOW, MIDDLE, HIGH])
@@ -97,9 +97,9 @@ def test_a_silent_receiver_makes_a_gentle_circle(fbw, switch):
     assert fbw.servo_us("ailerons") > 1560
     assert fbw.servo_us("elevator") < 1500
     fbw.tilt(20, -3, seconds=0.3)
-    assert fbw.servo_us("ailerons") == pytest.approx(1500, abs=15)
-    assert fbw.servo_us("elevator") == pytest.approx(1500, abs=15)
-    assert fbw.servo_us("rudder") == pytest.approx(1500, abs=15)
+    assert fbw.servo_us("ailerons") == pytest.approx(1500, abs=5)
+    assert fbw.servo_us("elevator") == pytest.approx(1500, abs=5)
+    assert fbw.servo_us("rudder") == pytest.approx(1500, abs=5)
     assert fbw.servo_us("throttle") == pytest.approx(1150, abs=1)
     fbw.tilt(0, seconds=0.3)
 
@@ -132,7 +132,7 @@ def test_more_than_5_s_keep_the_throttle_until_the_stick_was_low(fbw):
     fbw.rig.receiver.start()
     fbw.run_ms(150)
     assert not fbw.status().is_failsafe
-    assert fbw.servo_us("ailerons") == pytest.approx(1500, abs=15)
+    assert fbw.servo_us("ailerons") == pytest.approx(1500, abs=5)
     for throttle in (1400, 1800, 1100):
         fbw.sticks(throttle=throttle)
         assert fbw.servo_us("throttle") == pytest.approx(1150, abs=1)
@@ -242,7 +242,7 @@ def test_a_receiver_never_heard_is_no_failsafe_and_turns_no_motor():
     assert (status.switch, status.receiver_age_ms) == (255, 65535)
     assert flight.ask("a") == 9
     for name in ("ailerons", "elevator", "rudder"):
-        assert flight.servo_us(name) == pytest.approx(1500, abs=15)
+        assert flight.servo_us(name) == pytest.approx(1500, abs=5)
     assert flight.servo_us("throttle") == pytest.approx(1000, abs=1)
     flight.tilt(30)
     assert flight.servo_us("ailerons") < 1300

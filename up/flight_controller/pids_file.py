@@ -25,35 +25,35 @@ class Controller:
 class AileronsRate(Controller):
     """Roll rate."""
 
-    p: float = key(2.1, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(2.0, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
 
 
 @dataclass(frozen=True, slots=True)
 class ElevatorRate(Controller):
     """Pitch rate."""
 
-    p: float = key(1.0, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(1.5, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
 
 
 @dataclass(frozen=True, slots=True)
 class RudderRate(Controller):
     """Yaw rate, washed out: a damper."""
 
-    p: float = key(0.5, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(1.0, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
 
 
 @dataclass(frozen=True, slots=True)
 class AileronsStabilize(Controller):
     """Roll angle."""
 
-    p: float = key(2.0, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(8.0, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=GREATEST)
 
 
 @dataclass(frozen=True, slots=True)
 class ElevatorStabilize(Controller):
     """Pitch angle."""
 
-    p: float = key(4.1, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(8.0, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=GREATEST)
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ from up.flight_controller.pids_file import PIDS, PidsFile
 GOOD = PIDS.template()
 AXES = ("ailerons", "elevator", "rudder")
 # The gains of the template, in the order of `g`.
-SAVED = (2.1, 0, 0, 1.0, 0, 0, 0.5, 0, 0, 2.0, 0, 0, 4.1, 0, 0, 0, 0, 0)
+SAVED = (2.0, 0, 0, 1.5, 0, 0, 1.0, 0, 0, 8.0, 0, 0, 8.0, 0, 0, 0, 0, 0)
 
 
 def loop(first, axes=AXES):
@@ -53,7 +53,7 @@ def test_a_disarmed_board_that_differs_gets_pids_yml_once(tuned):
     rig.connect()
     rig.alive(2)
     assert rig.sent(PUSHED) == [wire(SAVED)]
-    assert rig.module(PIDTuningsProvider).held.rate.ailerons.p == 2.1
+    assert rig.module(PIDTuningsProvider).held.rate.ailerons.p == 2.0
 
 
 def test_a_board_that_does_not_differ_is_left_alone(tuned):
@@ -127,7 +127,7 @@ def test_without_pids_yml_nothing_is_pushed(tuned):
         "units: degrees per second\nrate: {ailerons: {p: .nan}}\n",
         "rate:\n  ailerons: {p: 6}\n",
         "\x00\x01",
-        GOOD.replace("p: 2.1", "p: 51"),
+        GOOD.replace("p: 2.0", "p: 51"),
         GOOD[:300],
     ],
 )
@@ -320,7 +320,7 @@ def test_an_old_firmware_takes_two_axes_only(tuned):
     assert rig.gains[:3] == [3.0, 0.25, 0.125]
     saved, _ = PidsFile(rig.folder).load()
     assert saved.rate.ailerons.p == 3.0
-    assert saved.rate.rudder.p == 0.5, "the saved rudder stays"
+    assert saved.rate.rudder.p == 1.0, "the saved rudder stays"
 
 
 def test_where_the_raspberry_controls_this_module_does_not(tuned):

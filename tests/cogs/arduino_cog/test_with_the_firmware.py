@@ -17,6 +17,8 @@ from up_rig import CYCLES_PER_US
 from up_rig.imu import motion_at
 
 AIRFRAME = "rudder: {trim_us: 40}\nfly_by_wire: {roll_deg: 33.333}\n"
+# Not what a new board holds.
+GAINS = PIDS.template().replace("p: 2.0", "p: 2.25")
 CALM = "panic threshold: 100\n"
 PANIC = "panic threshold: 1\ncalm down threshold: 0\ninterval: 0.1\n"
 NO_GAINS = "\n".join(line.split(":")[0] + ": 0.0" if " p:" in line or " i:" in line
@@ -58,7 +60,7 @@ def flying(elf, folder, sticks=None, motion=None, **files):
 @pytest.fixture(scope="module")
 def flight(elf, tmp_path_factory):
     folder = tmp_path_factory.mktemp("firmware")
-    files = {"pids": PIDS.template(), "airframe": AIRFRAME}
+    files = {"pids": GAINS, "airframe": AIRFRAME}
     with flying(elf, folder, motion=motion_at(6.0, -4.0), **files) as both:
         yield both
 
@@ -101,7 +103,8 @@ def test_the_gains_of_pids_yml_are_pushed_and_read_back(flight):
     _, daemon = flight
     assert daemon.ground.ask("arduino.pids.tunings", request=True) == ""
     held = daemon.ground.content("arduino.pids.values")
-    wanted = gain_set_to_data(gain_set_of(PIDS.parse(PIDS.template(), Path("pids.yml"))))
+    wanted = gain_set_to_data(gain_set_of(PIDS.parse(GAINS, Path("pids.yml"))))
+    assert wanted["ratePIDs"]["ailerons"]["p"] == 2.25
     assert held["ratePIDs"] == wanted["ratePIDs"]
     assert held["stabPIDs"] == wanted["stabPIDs"]
     assert "the Arduino gets the gains of pids.yml" in daemon.said()

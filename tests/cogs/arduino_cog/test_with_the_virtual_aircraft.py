@@ -86,7 +86,7 @@ def aircraft(board, fly_aircraft):
 def system(tmp_path, framing="checked", controller="arduino"):
     config = {
         "arduino.yml": f"port: {tmp_path / 'board'}\nframing: {framing}\n",
-        "pids.yml": PIDS.template(),
+        "pids.yml": PIDS.template().replace("p: 2.0", "p: 2.25"),
         "airframe.yml": "fly_by_wire: {roll_deg: 45}\n",
         "config.yml": f"flight controller: {controller}\n",
     }
@@ -119,7 +119,7 @@ def test_readings_arming_modes_and_gains(aircraft, tmp_path):
         content = up.telemetry_controller.collect()
         assert content["arduino"]["connected"]
         assert content["rx"]["aux1"] > 1900
-        await until(lambda: gains.held is not None and gains.held.rate.ailerons.p == 2.1)
+        await until(lambda: gains.held is not None and gains.held.rate.ailerons.p == 2.25)
         profile = await until(lambda: profile_of(up))
         assert profile.roll_limit_deg == 45.0
         up.vetoes.set("a module", "did not start")
@@ -199,7 +199,7 @@ def test_an_old_firmware_with_its_boot_text(fly_aircraft, tmp_path):
         arduino = up.get_module(ArduinoProvider)
         gains = up.get_module(PIDTuningsProvider)
         await until(lambda: arduino.servo is not None)
-        await until(lambda: gains.held is not None and gains.held.rate.ailerons.p == 2.1)
+        await until(lambda: gains.held is not None and gains.held.rate.ailerons.p == 2.25)
         two_axes = {axis: LOOP[axis] for axis in ("ailerons", "elevator")}
         command = PIDTuningsCommand(pids={"ratePIDs": two_axes, "stabPIDs": two_axes})
         assert await ask(up, command) is None

@@ -52,8 +52,8 @@ void write(const Gains& gains, uint8_t* wire, uint8_t gains_a_loop) {
 bool is_gain(uint32_t bits) { return bits <= GREATEST_GAIN_BITS || bits == MINUS_ZERO_BITS; }
 
 const Gains DEFAULT_GAINS PROGMEM = {
-    {{6.0f, 0.0f, 0.0f}, {3.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}},
-    {{8.0f, 0.0f, 0.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}},
+    {{2.0f, 0.0f, 0.0f}, {1.5f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}},
+    {{8.0f, 0.0f, 0.0f}, {8.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}},
 };
 
 bool read_three_axes(const uint8_t* wire, Gains& gains) { return read(wire, gains, GAINS_A_LOOP); }
