@@ -13,6 +13,7 @@ from raspilot.flight_controller.cascade import Cascade
 from raspilot.flight_controller.yaw_damper import YawDamper
 from up.commands.flight_mode_command import FlightModeCommand
 from up.commands.flight_state_command import FlightStateCommand
+from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.output_command import OutputCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
@@ -39,11 +40,11 @@ _NO_GAINS = Gains(0.0)
 class RaspilotFlightController(BaseFlightController):
     """Computes an Output from every orientation frame while the board lets the Pi fly.
 
-    FBW: the sticks ask for bank and pitch, the rudder is stick plus yaw damper. ACRO: the sticks
-    pass through, where orientation is missing. The throttle is always the stick's. Without a valid
-    receiver, or from an orientation that is not the board's, nothing is sent: the board's own
-    failsafe acts. Loaded with ``flight controller:
-    raspberry``.
+    FBW: the sticks ask for bank and pitch within the limits of airframe.yml, those of a new Arduino
+    where it says nothing; the rudder is stick plus yaw damper. ACRO: the sticks pass through, where
+    orientation is missing. The throttle is always the stick's. Without a valid receiver, or from an
+    orientation that is not the board's, nothing is sent: the board's own failsafe acts. Loaded with
+    ``flight controller: raspberry``.
     """
 
     MODES: ClassVar[frozenset[Mode]] = WITH_ARDUINO
@@ -57,6 +58,7 @@ class RaspilotFlightController(BaseFlightController):
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self.outputs = 0
+        self._limits = sticks.DEFAULT_LIMITS
         self._is_asked = True
         self._is_board_ready = False
         self._asked_at_s = float("-inf")
@@ -98,6 +100,7 @@ class RaspilotFlightController(BaseFlightController):
         executor.register_command(OrientationCommand, self._on_orientation)
         executor.register_command(FlightStateCommand, self._on_flight_state)
         executor.register_command(FlightModeCommand, self._on_flight_mode)
+        executor.register_command(FlyByWireLimitsCommand, self._on_limits)
         executor.register_command(PIDTuningsCommand, self._on_tunings)
 
     def _build(self, gains: GainSet) -> None:
@@ -136,13 +139,13 @@ class RaspilotFlightController(BaseFlightController):
 
     def _fly_by_wire(self, attitude: OrientationCommand, rx: Any, dt_s: float) -> OutputCommand:
         ailerons_us = self._roll.hold_angle(
-            sticks.roll_deg(rx.ailerons_us),
+            sticks.roll_deg(rx.ailerons_us, self._limits),
             attitude.roll_deg,
             attitude.roll_rate_deg_s or 0.0,
             dt_s,
         )
         elevator_us = self._pitch.hold_angle(
-            sticks.pitch_deg(rx.elevator_us),
+            sticks.pitch_deg(rx.elevator_us, self._limits),
             attitude.pitch_deg,
             attitude.pitch_rate_deg_s or 0.0,
             dt_s,
@@ -183,6 +186,9 @@ class RaspilotFlightController(BaseFlightController):
         # The board takes a mode with the switch at AUTO only: what it refuses is no wish.
         if self._state is not None and self._state.is_auto:
             self._is_asked = command.mode == "AUTO"
+
+    def _on_limits(self, command: FlyByWireLimitsCommand) -> None:
+        self._limits = sticks.Limits.of(command)
 
     def _on_tunings(self, command: PIDTuningsCommand) -> Deferred[None] | None:
         gains = command.gains

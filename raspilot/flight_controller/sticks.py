@@ -2,11 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
+from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+
 CENTRE_US = 1500
 HALF_TRAVEL_US = 500
-ROLL_LIMIT_DEG = 50.0
-PITCH_UP_LIMIT_DEG = 20.0
-PITCH_DOWN_LIMIT_DEG = 25.0
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Bank and pitch at full stick, in degrees; by default those of a new Arduino."""
+
+    roll_deg: float = 50.0
+    pitch_up_deg: float = 20.0
+    pitch_down_deg: float = 25.0
+
+    @classmethod
+    def of(cls, command: FlyByWireLimitsCommand) -> Limits:
+        """Return what is said, and the defaults where nothing is."""
+        said = {name: value for name, value in command.data.items() if value is not None}
+        return replace(cls(), **said)
+
+
+DEFAULT_LIMITS = Limits()
 
 
 def deflection(stick_us: int) -> float:
@@ -14,12 +33,12 @@ def deflection(stick_us: int) -> float:
     return max(-1.0, min(1.0, (stick_us - CENTRE_US) / HALF_TRAVEL_US))
 
 
-def roll_deg(stick_us: int) -> float:
+def roll_deg(stick_us: int, limits: Limits = DEFAULT_LIMITS) -> float:
     """Return the bank that the ailerons stick asks for, right wing down positive."""
-    return deflection(stick_us) * ROLL_LIMIT_DEG
+    return deflection(stick_us) * limits.roll_deg
 
 
-def pitch_deg(stick_us: int) -> float:
+def pitch_deg(stick_us: int, limits: Limits = DEFAULT_LIMITS) -> float:
     """Return the pitch that the elevator stick asks for, nose up positive."""
     part = deflection(stick_us)
-    return part * (PITCH_UP_LIMIT_DEG if part >= 0 else PITCH_DOWN_LIMIT_DEG)
+    return part * (limits.pitch_up_deg if part >= 0 else limits.pitch_down_deg)

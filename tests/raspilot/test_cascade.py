@@ -9,10 +9,13 @@ from hypothesis import strategies as st
 from raspilot.flight_controller import sticks
 from raspilot.flight_controller.cascade import OUTPUT_LIMIT, US_PER_UNIT, Cascade
 from raspilot.flight_controller.yaw_damper import WASHOUT_S, YawDamper
+from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
 from up.flight_controller.gains import Gains
+from up.flight_controller.pids_file import PidsConfig, gain_set_of
 
 LIMIT_US = OUTPUT_LIMIT * US_PER_UNIT
 DT_S = 0.02
+DEFAULTS = gain_set_of(PidsConfig())
 
 
 def cascade(rate=None, stabilize=None, limit=120.0):
@@ -107,9 +110,9 @@ def roll_of(controller, wanted_deg, seconds, gust_deg_s2=0.0):
 
 @pytest.mark.parametrize("wanted", [30.0, -45.0])
 def test_the_closed_loop_reaches_the_bank_and_stays(wanted):
-    banks = roll_of(cascade(Gains(2.1), Gains(2.0)), wanted, 10)
+    banks = roll_of(cascade(DEFAULTS.rate.ailerons, DEFAULTS.stabilize.ailerons), wanted, 10)
     assert banks[-1] == pytest.approx(wanted, abs=0.5)
-    assert max(abs(bank) for bank in banks) < abs(wanted) * 1.2
+    assert max(abs(bank) for bank in banks) < abs(wanted) * 1.05
     assert all(bank == pytest.approx(wanted, abs=1.0) for bank in banks[-100:])
 
 
@@ -165,3 +168,11 @@ class TestYawDamper:
 def test_sticks(stick, roll, pitch):
     assert sticks.roll_deg(stick) == roll
     assert sticks.pitch_deg(stick) == pitch
+
+
+def test_sticks_within_other_limits():
+    limits = sticks.Limits.of(FlyByWireLimitsCommand(roll_deg=30.0, pitch_down_deg=0.0))
+    assert limits == sticks.Limits(30.0, 20.0, 0.0)
+    assert sticks.roll_deg(1750, limits) == 15
+    assert sticks.pitch_deg(2000, limits) == 20
+    assert sticks.pitch_deg(1000, limits) == 0

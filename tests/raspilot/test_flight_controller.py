@@ -11,6 +11,7 @@ from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up
 from up.commands.flight_mode_command import FlightModeCommand
 from up.commands.flight_state_command import FlightStateCommand
+from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand
@@ -120,6 +121,23 @@ def test_signs(rig):
     rig.sticks(ailerons=1600, elevator=1400)
     output = rig.frame()
     assert output.ailerons_us > 1500 > output.elevator_us
+
+
+def test_full_sticks_ask_for_the_limits_that_the_airframes_configuration_says(rig):
+    rig.bus.execute_command(FlyByWireLimitsCommand(30.0, 10.0, 15.0))
+    at_rest = OutputCommand(1500, 1500, 0, 1500, 1)
+    rig.sticks(ailerons=2000, elevator=2000)
+    assert rig.frame(30.0, 10.0, sequence=1) == at_rest
+    rig.sticks(ailerons=1000, elevator=1000)
+    rig.controller._reset()
+    assert rig.frame(-30.0, -15.0, sequence=1) == at_rest
+
+
+def test_what_the_airframes_configuration_does_not_say_is_as_a_new_board_has_it(rig):
+    rig.bus.execute_command(FlyByWireLimitsCommand(30.0, 10.0, 15.0))
+    rig.bus.execute_command(FlyByWireLimitsCommand())
+    rig.sticks(ailerons=2000, elevator=1000)
+    assert rig.frame(50.0, -25.0) == OutputCommand(1500, 1500, 0, 1500, 1)
 
 
 def test_the_rudder_is_the_stick_and_a_damper(rig):

@@ -8,6 +8,7 @@ from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.command import BaseCommand
 from up.commands.flight_mode_command import FlightModeCommand
 from up.commands.flight_state_command import FlightStateCommand
+from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
@@ -27,6 +28,7 @@ BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     DisarmCommand,
     FlightModeCommand,
     FlightStateCommand,
+    FlyByWireLimitsCommand,
     HeadingCommand,
     LinkStateCommand,
     LocationCommand,

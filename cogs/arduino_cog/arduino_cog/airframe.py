@@ -57,7 +57,7 @@ class Switch:
 
 @dataclass(frozen=True, slots=True)
 class FlyByWire:
-    """How far the sticks bank and pitch the aeroplane in FBW."""
+    """How far the sticks bank and pitch the aeroplane in FBW, on the Arduino and on the Pi."""
 
     roll_deg: float | None = _angle("Greatest bank. A new Arduino has 50.")
     pitch_up_deg: float | None = _angle("Greatest pitch up. A new Arduino has 20.")

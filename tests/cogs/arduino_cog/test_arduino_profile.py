@@ -8,6 +8,8 @@ from arduino_cog.modules import arduino_profile
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT, Ground
 from up.commands.arming_commands import ArmCommand
+from up.commands.flight_state_command import FlightStateCommand
+from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
 
 NAME = "airframe.yml"
@@ -60,6 +62,16 @@ def test_without_a_word_nothing_is_asked_pushed_or_forbidden(make_rig, text):
     rig.alive(3)
     assert rig.sent("cC") == []
     assert rig.up.vetoes.own == {}
+
+
+def test_its_limits_of_fbw_are_told_before_the_board_says_who_flies(framed):
+    rig = framed("fly_by_wire: {roll_deg: 33.333, pitch_down_deg: 10}\n")
+    told = []
+    for kind in (FlyByWireLimitsCommand, FlightStateCommand):
+        rig.up.command_executor.register_command(kind, told.append)
+    rig.connect(armed=True)
+    assert told[0] == FlyByWireLimitsCommand(33.333, None, 10.0)
+    assert isinstance(told[1], FlightStateCommand)
 
 
 def test_a_disarmed_board_that_differs_gets_it_once_and_is_read_back(framed, said):

@@ -50,6 +50,7 @@ SAMPLES = {
     "up.setpoint.set": {"roll": 1, "pitch": 1},
     "up.flight_mode.set": {"mode": "FBW"},
     "up.flight.state": {"flight_mode": "FBW", "armed": True, "auto": True, "failsafe": False},
+    "up.flight.limits": {},
     "up.panic": {"panic": True, "delay_ms": 100},
     "up.system.state": {
         "utilization": 1, "memory": 1, "providers": [], "arduino_connected": True, "mode": "auto"

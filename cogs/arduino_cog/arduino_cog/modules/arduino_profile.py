@@ -18,6 +18,7 @@ from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.profile import Profile, pack_profile, read_profile
 from arduino_cog.profile_data import differences, flat, with_changes
 from up.base_module import BaseModule
+from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.config.values import plain_value
 from up.mode import WITH_ARDUINO
@@ -34,7 +35,8 @@ class ArduinoProfile(BaseModule):
 
     It is compared whenever a board answers that may be another one, and sent only while that is
     disarmed and only where it differs, again and again at growing distances. Until the board holds
-    it, arming is vetoed under the file's name. An airframe.yml that says nothing does nothing, and
+    it, arming is vetoed under the file's name. Its limits of FBW are told on the bus, for a flight
+    controller on the Raspberry Pi. An airframe.yml that says nothing does nothing, and
     an old firmware (thesis framing) has no profile.
     """
 
@@ -85,6 +87,7 @@ class ArduinoProfile(BaseModule):
         self._wait_s = FIRST_WAIT_S
         self._next_s = float("-inf")
         self.up.vetoes.set(_VETO, "the Arduino's profile is not known yet")
+        self._tell_limits()
         self._reconcile()
 
     def on_status(self, status: ArduinoStatusCommand) -> None:
@@ -130,6 +133,14 @@ class ArduinoProfile(BaseModule):
         self._log_info(f"the Arduino gets the profile of {_VETO}, which differs: {text}")
         sent = self._board.send("C", payload, lambda now: now == wanted)
         sent.addCallbacks(lambda _: self._on_sent(), self._on_failed)
+
+    def _tell_limits(self) -> None:
+        """Let a flight controller on the Raspberry Pi fly by the same limits."""
+        limits = self.config.fly_by_wire
+        command = FlyByWireLimitsCommand(
+            limits.roll_deg, limits.pitch_up_deg, limits.pitch_down_deg
+        )
+        self.up.command_executor.execute_command(command)
 
     def _back_off(self) -> None:
         """Let nothing be tried for a while, the next time for longer."""
