@@ -13,11 +13,15 @@ SETUPS := setup.py pyproject.toml $(addsuffix /setup.py,$(COGS)) raspilot/Cogfil
 TEST ?=
 BENCH ?=
 SCENARIO ?=
+CONTROLLER ?=
+RADIO ?=
+ARGS ?=
 
 .PHONY: help run scenarios test check bench format schemas clean
 
 help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
+	@echo '              (CONTROLLER=raspberry, RADIO=keyboard or js0, ARGS=--help for more)'
 	@echo 'make scenarios  fly every scenario that is shipped and count (SCENARIO=receiver-lost for some)'
 	@echo 'make test     set up everything and run every test (TEST=tests/up for some)'
 	@echo 'make check    lint, types, import contracts'
@@ -42,7 +46,8 @@ $(VENV)/.dev-ready: $(SETUPS) | $(PY)
 
 run: $(VENV)/.run-ready
 	@tools/toolchain
-	@$(PY) -m up_simulator.showcase
+	@$(PY) -m up_simulator.showcase $(if $(CONTROLLER),--controller $(CONTROLLER)) \
+		$(if $(RADIO),--radio $(RADIO)) $(ARGS)
 
 scenarios: $(VENV)/.run-ready
 	@$(PY) -m up_simulator.cli $(if $(SCENARIO),fly $(SCENARIO),all)

@@ -23,8 +23,6 @@ class Ports:
     general: int = 50001
     discovery: int = 3001
     metrics: int = 9303
-    uplink: int = 0
-    """Where the aircraft finds the proxy behind a bad link; 0: it has no such link."""
 
 
 def choose_ports(any_ports: bool = False) -> Ports:
@@ -54,11 +52,18 @@ def _free_port(wanted: int, any_port: bool, held: list[socket.socket]) -> int:
 
 
 def write_config(
-    folder: Path, board: Path, ports: Ports, *, controller: str, airframe: Airframe
+    folder: Path,
+    board: Path,
+    ports: Ports,
+    *,
+    controller: str,
+    airframe: Airframe,
+    uplink_port: int = 0,
 ) -> None:
     """Write the files of a run; gains that an earlier run of the same airframe saved stay.
 
-    ``controller`` (arduino or raspberry) is who holds the attitude: nothing else differs.
+    ``controller`` (arduino or raspberry) is who holds the attitude: nothing else differs. The
+    aircraft finds the proxy at ``uplink_port`` where there is a bad link between them.
     """
     folder.mkdir(parents=True, exist_ok=True)
     files = {
@@ -69,7 +74,7 @@ def write_config(
         "mission_control.yml": (
             "remote_server:\n"
             "  url: 127.0.0.1\n"
-            f"  port: {ports.uplink or ports.airborne}\n"
+            f"  port: {uplink_port or ports.airborne}\n"
             "# On loopback nobody else listens: the ground may arm and tune.\n"
             "role: pilot\n"
             "tune_in_flight: true\n"

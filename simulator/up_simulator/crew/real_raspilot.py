@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import signal
 import sys
 from collections.abc import Sequence
@@ -13,14 +12,13 @@ from up_simulator.crew.protocols import CrewError
 
 ROOT = Path(__file__).resolve().parents[3]
 START_LIMIT_S = 30.0
-_GROUND = re.compile(r"ground listens on port (\d+)")
 
 
 class RealRaspilot:
     """Satisfies ``protocols.Raspilot`` by a process.
 
     ``config`` is its configuration folder, ``folder`` gets ``raspilot.log``, one log for all its
-    lives. Nothing here waits for it in flight: ``start`` only makes the process.
+    lives. Nothing here waits for it in flight but ``wait_for_line`` and ``stop``.
     """
 
     def __init__(self, config: Path, folder: Path, root: Path = ROOT) -> None:
@@ -32,6 +30,11 @@ class RealRaspilot:
     def is_running(self) -> bool:
         """Return whether it runs now."""
         return self._child is not None and self._child.poll() is None
+
+    @property
+    def pid(self) -> int:
+        """Return its process number; raises ``CrewError`` when it was never started."""
+        return self._alive().pid
 
     @property
     def log(self) -> Sequence[str]:
@@ -48,30 +51,28 @@ class RealRaspilot:
         """Wait until it has logged a line with a text and return that; raises ``CrewError``."""
         return self._alive().wait_for_line(text, limit_s)
 
-    def ground_port(self, limit_s: float = START_LIMIT_S) -> int:
-        """Wait for the port where a ground station without a proxy connects; or ``CrewError``."""
-        found = _GROUND.search(self.wait_for_line("ground listens on port", limit_s))
-        if found is None:
-            raise CrewError("raspilot names no port for ground stations")
-        return int(found[1])
-
     def check(self) -> None:
         """Raise ``CrewError`` with its last words when it has ended by itself."""
         if self._child is not None and (status := self._child.poll()) is not None:
             raise CrewError(self._child.last_words(status))
 
+    def ask_to_stop(self) -> None:
+        """Ask it to end, as systemd does."""
+        if self._child is not None:
+            self._child.terminate()
+            self.thaw()
+
     def stop(self) -> None:
         """Ask it to end and wait until it has."""
         if self._child is not None:
-            self._child.end()
-            self._child = None
+            self.ask_to_stop()
+            self._child.wait()
 
     def kill(self) -> None:
         """End it at once, wherever it is, by ``kill -9``."""
         if self._child is not None:
             self._child.signal(signal.SIGKILL)
             self._child.wait()
-            self._child = None
 
     def freeze(self) -> None:
         """Stop it in its tracks: it holds its ports and does nothing, as a hung one."""
@@ -83,5 +84,5 @@ class RealRaspilot:
 
     def _alive(self) -> Child:
         if self._child is None:
-            raise CrewError("raspilot does not run")
+            raise CrewError("raspilot was not started")
         return self._child

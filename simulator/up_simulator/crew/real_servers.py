@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import signal
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from up_simulator.crew.child import Child
@@ -12,25 +14,43 @@ from up_simulator.crew.protocols import CrewError
 START_LIMIT_S = 30.0
 
 
-class RealProxy:
-    """``up-proxy --config DIR``; ``start`` waits for its ports."""
+class _Server:
+    """A program that says on which port it listens."""
+
+    NAME = ""
+    MODULE = ""
 
     def __init__(self, config: Path, folder: Path) -> None:
-        self._command = [sys.executable, "-m", "up_proxy.main", "--config", str(config)]
+        self._command = [sys.executable, "-m", self.MODULE, "--config", str(config)]
         self._folder = folder
         self._child: Child | None = None
-        self.airborne_port = 0
-        self.ground_port = 0
 
-    def start(self) -> None:
-        """Start it; raises ``CrewError`` with its own words when it does not listen."""
-        self._child = Child("proxy", self._command, self._folder)
-        self.airborne_port = _port_of(self._child, "airborne side listens on port ")
-        self.ground_port = _port_of(self._child, "ground side listens on port ")
+    @property
+    def pid(self) -> int | None:
+        """Return its process number while it runs."""
+        child = self._child
+        return child.pid if child is not None and child.poll() is None else None
+
+    @property
+    def log(self) -> Sequence[str]:
+        """Return the newest lines that it logged."""
+        return [] if self._child is None else self._child.lines()
+
+    def begin(self) -> None:
+        """Make its process and wait for nothing."""
+        self._child = Child(self.NAME, self._command, self._folder)
 
     def check(self) -> None:
         """Raise ``CrewError`` with its last words when it has ended by itself."""
-        _check(self._child)
+        if self._child is not None and (status := self._child.poll()) is not None:
+            raise CrewError(self._child.last_words(status))
+
+    def kill(self) -> None:
+        """End it at once by ``kill -9``."""
+        if self._child is not None:
+            self._child.signal(signal.SIGKILL)
+            self._child.wait()
+            self._child = None
 
     def stop(self) -> None:
         """Ask it to end and wait until it has."""
@@ -38,43 +58,37 @@ class RealProxy:
             self._child.end()
             self._child = None
 
+    def _port(self, words: str) -> int:
+        if self._child is None:
+            raise CrewError(f"the {self.NAME} does not run")
+        line = self._child.wait_for_line(words, START_LIMIT_S)
+        found = re.search(re.escape(words) + r"(\d+)", line)
+        if found is None:
+            raise CrewError(f"the {self.NAME} names no port: {line}")
+        return int(found[1])
 
-class RealRunner:
-    """``up-runner --config DIR``; it stops its instances when it is stopped.
 
-    The configuration's ``runner.yml`` must say ``stop instances on exit: true``.
-    """
+class RealProxy(_Server):
+    """``up-proxy --config DIR``; ``start`` waits for its ports."""
 
-    def __init__(self, config: Path, folder: Path) -> None:
-        self._command = [sys.executable, "-m", "up_runner.main", "--config", str(config)]
-        self._folder = folder
-        self._child: Child | None = None
-        self.port = 0
+    NAME, MODULE = "proxy", "up_proxy.main"
 
     def start(self) -> None:
         """Start it; raises ``CrewError`` with its own words when it does not listen."""
-        self._child = Child("runner", self._command, self._folder)
-        self.port = _port_of(self._child, "listens on port ")
-
-    def check(self) -> None:
-        """Raise ``CrewError`` with its last words when it has ended by itself."""
-        _check(self._child)
-
-    def stop(self) -> None:
-        """Ask it to end, with what it has spawned, and wait until it has."""
-        if self._child is not None:
-            self._child.end()
-            self._child = None
+        self.begin()
+        self.airborne_port = self._port("airborne side listens on port ")
+        self.ground_port = self._port("ground side listens on port ")
 
 
-def _port_of(child: Child, words: str) -> int:
-    line = child.wait_for_line(words, START_LIMIT_S)
-    found = re.search(re.escape(words) + r"(\d+)", line)
-    if found is None:
-        raise CrewError(f"{child.name} names no port: {line}")
-    return int(found[1])
+class RealRunner(_Server):
+    """``up-runner --config DIR``; ``start`` waits for its port.
 
+    Its instances end with it where ``runner.yml`` says ``stop instances on exit: true``.
+    """
 
-def _check(child: Child | None) -> None:
-    if child is not None and (status := child.poll()) is not None:
-        raise CrewError(child.last_words(status))
+    NAME, MODULE = "runner", "up_runner.main"
+
+    def start(self) -> None:
+        """Start it; raises ``CrewError`` with its own words when it does not listen."""
+        self.begin()
+        self.port = self._port("listens on port ")
