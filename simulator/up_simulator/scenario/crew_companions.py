@@ -122,6 +122,10 @@ class CrewCompanions(ABC):
         """End the daemon at once."""
         self.raspilot.kill()
 
+    def ask_raspilot_to_stop(self) -> None:
+        """Ask the daemon to end, and do not wait for it."""
+        self.raspilot.stop()
+
     def look_after_raspilot(self) -> None:
         """Raise CrewError where the daemon should run and does not."""
         if self._is_wanted and not self.raspilot.is_running:
@@ -173,5 +177,5 @@ class CrewCompanions(ABC):
             self.raspilot.thaw()
         else:
             self._is_wanted = what == "started"
-            end = self.raspilot.kill if what == "killed" else self.raspilot.stop
+            end = self.raspilot.kill if what == "killed" else self.ask_raspilot_to_stop
             (self.raspilot.start if what == "started" else end)()

@@ -99,9 +99,9 @@ class RealCompanions(CrewCompanions):
             super().carry_out(event)
         elif self._proxy is not None:
             if event.proxy == "killed":
-                self._proxy.stop()
+                self._proxy.kill()
             else:
-                self._proxy.start()
+                self._proxy.begin()
 
     def plug_serial(self, is_in: bool) -> None:
         """Let the pty be there, or be gone with all that waits in it."""
@@ -132,6 +132,13 @@ class RealCompanions(CrewCompanions):
             self._real.end()
         else:
             self._real.kill()
+
+    def ask_raspilot_to_stop(self) -> None:
+        """Ask the daemon to end, and do not wait for it."""
+        if isinstance(self._real, RealRaspilot):
+            self._real.ask_to_stop()
+        else:
+            self._real.stop()
 
     def _make_daemon(self, files: dict[str, dict[str, Any]]) -> RealRaspilot | RunnerDaemon:
         """Write the configuration; make the daemon, or the runner that will start it."""

@@ -19,7 +19,7 @@ from up_simulator.picture.flight_picture import Failure, PictureError, Wind, dra
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight import FlightRecord
 from up_simulator.scenario.progress import ProgressLine
-from up_simulator.scenario.report import report_lines, speed_text
+from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import (
     Result,
     control_scenario,
@@ -143,7 +143,7 @@ def _draw(result: Result, path: Path, say: Say) -> list[Path]:
             record.log,
             path,
             title=record.scenario.title,
-            subtitle=speed_text(record),
+            subtitle=_subtitle(record),
             failures=failures,
             wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
         )
@@ -151,6 +151,12 @@ def _draw(result: Result, path: Path, say: Say) -> list[Path]:
         say(str(error))
         return []
     return [path]
+
+
+def _subtitle(record: FlightRecord) -> str:
+    """Return what flew: nothing that differs from run to run, as the speed does."""
+    scenario = record.scenario
+    return f"{scenario.airframe}, seed {scenario.seed}, {record.board_title}"
 
 
 def _summary(name: str, result: Result) -> dict[str, object]:
