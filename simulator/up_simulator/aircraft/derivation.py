@@ -58,13 +58,23 @@ class Derivation:
         self.area_m2, self.span_m, self.chord_m = references(geometry.wing)
         self.aspect = self.span_m**2 / self.area_m2
         self._lattice = lattice_of(geometry)
+        self._loads: dict[float, Loads] = {}
+        self._derivatives: dict[tuple[str, float], Derivatives] = {}
 
     def loads(self, alpha_deg: float) -> Loads:
         """Return the loads of attached flow without sideslip, rates and deflections."""
-        return self._lattice.loads(Flow(alpha_rad=math.radians(alpha_deg)))
+        if alpha_deg not in self._loads:
+            flow = Flow(alpha_rad=math.radians(alpha_deg))
+            self._loads[alpha_deg] = self._lattice.loads(flow)
+        return self._loads[alpha_deg]
 
     def by(self, what: str, alpha_deg: float = 0.0) -> Derivatives:
         """Return the derivatives by ``alpha_rad``, ``beta_rad``, a rate or a control's name."""
+        if (what, alpha_deg) not in self._derivatives:
+            self._derivatives[what, alpha_deg] = self._differentiate(what, alpha_deg)
+        return self._derivatives[what, alpha_deg]
+
+    def _differentiate(self, what: str, alpha_deg: float) -> Derivatives:
         alpha = math.radians(alpha_deg)
         sides = []
         for step in (_STEP, -_STEP):

@@ -1,7 +1,9 @@
 """From geometry to coefficients: the lattice against theory, the shipped models against it."""
 
 import dataclasses
+import functools
 import math
+import re
 
 import pytest
 
@@ -16,6 +18,7 @@ from up_simulator.aircraft.panels import lattice_of, references
 NAMES = airframe_names()
 
 
+@functools.cache
 def derived(name):
     return Derivation(GEOMETRY.load(SHIPPED / name))
 
@@ -29,7 +32,15 @@ def plain_wing(aspect=8.0, **changes):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_shipped_model_is_what_its_geometry_gives(name):
-    assert (SHIPPED / name / f"{name}.xml").read_text() == model_text(name, derived(name))
+    """To the last but one digit: libraries for linear algebra round differently."""
+    shipped, made = (
+        re.split(r"(-?\d+\.\d{4,})", text)
+        for text in ((SHIPPED / name / f"{name}.xml").read_text(), model_text(name, derived(name)))
+    )
+    assert [each.split() for each in shipped[::2]] == [each.split() for each in made[::2]]
+    numbers = [[float(each) for each in side[1::2]] for side in (shipped, made)]
+    assert len(numbers[0]) > 1000
+    assert numbers[0] == pytest.approx(numbers[1], abs=1.01e-4)
 
 
 def test_the_program_writes_it(tmp_path):
