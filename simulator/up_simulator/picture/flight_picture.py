@@ -168,7 +168,9 @@ def _lines(log: Log, failures: Sequence[Failure], left_out: int) -> list[tuple[s
     ):
         values = [value for value in numbers(log, name) or () if math.isfinite(value)]
         if values:
-            lines.append((words.format(min(values) + 0.0, max(values) + 0.0), False))
+            # Adding zero to what is rounded makes a minus zero plain.
+            low, high = (round(each, 2) + 0.0 for each in (min(values), max(values)))
+            lines.append((words.format(low, high).replace("-0 ", "0 "), False))
     for name, words in (("error.roll_deg", "roll error"), ("error.pitch_deg", "pitch error")):
         values = [value for value in numbers(log, name) or () if math.isfinite(value)]
         if values:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from up.flight_controller.gains import Gains, GainSet
 from up_simulator.tuning.experiments import STEPS, Bench, FlownSteps, fly_steps, measure_loop
 from up_simulator.tuning.gain_set import Axis, AxisGains
-from up_simulator.tuning.margins import LoopPoint, Margins, MarginsError, margins_of
+from up_simulator.tuning.margins import LoopPoint, Margins, MarginsError, margins_of, scaled
 
 D_FILTER_S = 0.007
 """The low-pass of the firmware's derivative (pid.h)."""
@@ -73,6 +73,17 @@ class Loop:
             )
             for point in self.points
         ]
+
+    def at_least(self, airspeed_m_s: float) -> Loop:
+        """Return the loop as it is at this airspeed, if it was measured at a lower one.
+
+        Surfaces grip with the square of the airspeed; that the air damps more too is left out,
+        which errs to the safe side.
+        """
+        if self.airspeed_m_s >= airspeed_m_s:
+            return self
+        factor = (airspeed_m_s / self.airspeed_m_s) ** 2
+        return Loop(self.gains, tuple(scaled(self.points, factor)), airspeed_m_s)
 
     def margins(self, gains: AxisGains | None = None) -> Margins:
         """Return its margins, with other gains or its own. Raises ``MarginsError``."""

@@ -14,15 +14,6 @@ LOOPS = ("rate", "stabilize")
 _UNITS = {"rate": "1.25 us per deg/s", "stabilize": "deg/s per deg"}
 ZERO = Gains(0.0)
 
-PIDS_DEFAULTS = GainSet(
-    LoopGains(Gains(2.1), Gains(1.0), Gains(0.5)), LoopGains(Gains(2.0), Gains(4.1), ZERO)
-)
-"""What pids.yml has when nothing was saved: the thesis's flown gains in degrees."""
-FIRMWARE_DEFAULTS = GainSet(
-    LoopGains(Gains(6.0), Gains(3.0), Gains(1.0)), LoopGains(Gains(8.0), Gains(6.0), ZERO)
-)
-"""What the firmware has when its EEPROM holds no gains."""
-
 
 @dataclass(frozen=True, slots=True)
 class AxisGains:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import itertools
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -46,13 +47,10 @@ def draw_tuning(tuning: AxisTuning, path: Path, *, title: str) -> None:
 
     Raises ``PictureError``.
     """
-    shown = sorted(tuning.candidates, key=lambda each: (each.gains.stabilize.p, each.gains.rate.p))[
-        :MOST_CELLS
-    ]
-    rows = math.ceil(len(shown) / COLUMNS)
+    rows = _rows(tuning.candidates)
     with sheet_for(path) as sheet:
         grid_top = HEAD_IN + BIG_IN + 1.45
-        sheet.resize(WIDTH_IN, grid_top + rows * (CELL_HEIGHT_IN + GAP_HEIGHT_IN) + 0.2)
+        sheet.resize(WIDTH_IN, grid_top + len(rows) * (CELL_HEIGHT_IN + GAP_HEIGHT_IN))
         sheet.text(MARGIN_IN, 0.2, title, size=15, weight="bold")
         sheet.text(
             MARGIN_IN,
@@ -68,17 +66,33 @@ def draw_tuning(tuning: AxisTuning, path: Path, *, title: str) -> None:
         ]
         _draw_comparison(axes[0], tuning)
         _draw_loop(axes[1], axes[2], tuning)
-        if shown:
-            sheet.text(
-                MARGIN_IN,
-                grid_top - 0.6,
-                "All that were tried (green: proposed, blue: keeps the rules, grey: does not):"
-                " rise and settling in s, overshoot",
-                size=9.5,
-                color=MUTED,
-            )
-        for number, candidate in enumerate(shown):
-            _draw_candidate(_cell(sheet, number, grid_top), candidate, tuning)
+        sheet.text(
+            MARGIN_IN,
+            grid_top - 0.6,
+            "All that were tried (green: proposed, blue: keeps the rules, grey: does not):"
+            " rise and settling in s, overshoot",
+            size=9.5,
+            color=MUTED,
+        )
+        for number, row in enumerate(rows):
+            for column, candidate in enumerate(row):
+                cell = _cell(sheet, number * COLUMNS + column, grid_top)
+                _draw_candidate(cell, candidate, tuning)
+
+
+def _rows(candidates: Sequence[Candidate]) -> list[list[Candidate]]:
+    """Return a row for each stabilize P, by rate P, and those with an integral part last."""
+    ordered = sorted(
+        candidates,
+        key=lambda each: (each.gains.rate.i > 0, each.gains.stabilize.p, tuple(each.gains.rate)),
+    )
+    rows = []
+    for _, group in itertools.groupby(
+        ordered, lambda each: (each.gains.rate.i > 0, each.gains.stabilize.p)
+    ):
+        row = list(group)
+        rows += [row[at : at + COLUMNS] for at in range(0, len(row), COLUMNS)]
+    return rows
 
 
 def draw_log_steps(
@@ -91,9 +105,13 @@ def draw_log_steps(
     times_s = log.numbers("time_s")
     rows = math.ceil(len(shown) / COLUMNS)
     with sheet_for(path) as sheet:
-        sheet.resize(WIDTH_IN, HEAD_IN + 0.3 + rows * (CELL_HEIGHT_IN + GAP_HEIGHT_IN) + 0.2)
+        columns = max(3, min(COLUMNS, len(shown)))
+        width = 2 * MARGIN_IN + columns * (CELL_WIDTH_IN + GAP_WIDTH_IN)
+        sheet.resize(width, HEAD_IN + 0.3 + rows * (CELL_HEIGHT_IN + GAP_HEIGHT_IN))
         sheet.text(MARGIN_IN, 0.2, title, size=15, weight="bold")
         sheet.text(MARGIN_IN, 0.5, subtitle, size=9.5, color=MUTED)
+        words = "blue: flown; dashed: the board's estimate; dotted: asked; times in s"
+        sheet.text(MARGIN_IN, 0.7, words, size=8.5, color=MUTED)
         for number, step in enumerate(shown):
             axes = _cell(sheet, number, HEAD_IN + 0.3)
             _draw_log_step(axes, log, times_s, step)

@@ -24,6 +24,8 @@ QUICK_YAW_P = (0.0, 2.0, 4.0)
 MOST_RATE_P = 20.0
 GENTLE_SENSITIVITY = 3.5
 """A loop that is measured with a peak beyond this is measured again with half the gains."""
+DIVE_FACTOR = 1.6
+"""The dive counts as at least so many times as fast as cruise."""
 NEARLY_AS_GOOD = 1.1
 WORTH_AN_INTEGRAL = 0.75
 HALF = 0.5
@@ -163,6 +165,8 @@ def measure_loops(
 ) -> tuple[Loop, Loop]:
     """Return the loop at cruise and in the dive, measured with gains that do not ring.
 
+    The dive is 1.6 times as fast as cruise at least.
+
     Raises ``TuneError``.
     """
     own = axis_gains(gains, axis)
@@ -179,7 +183,8 @@ def measure_loops(
         if isinstance(cruise, Loop) and isinstance(dive, Loop):
             calm = max(cruise.margins().peak_sensitivity, dive.margins().peak_sensitivity)
             if calm <= GENTLE_SENSITIVITY:
-                return cruise, dive
+                # Soft gains of the other axes must not make a gentle dive of it.
+                return cruise, dive.at_least(DIVE_FACTOR * cruise.airspeed_m_s)
             reason = "it rings"
         else:
             reason = next(each for each in (cruise, dive) if isinstance(each, str))

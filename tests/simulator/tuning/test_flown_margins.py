@@ -5,11 +5,11 @@ from statistics import fmean
 
 import pytest
 
+from tests.simulator.tuning.gains import FIRM
 from up.flight_controller.gains import Gains
 from up_simulator.tuning.evaluation import measured_loop
 from up_simulator.tuning.experiments import measure_loop
 from up_simulator.tuning.gain_set import (
-    FIRMWARE_DEFAULTS,
     AxisGains,
     axis_gains,
     with_axis,
@@ -17,7 +17,7 @@ from up_simulator.tuning.gain_set import (
 from up_simulator.tuning.margins import margins_of
 from up_simulator.tuning.trial import StickMove
 
-GAINS = FIRMWARE_DEFAULTS
+GAINS = FIRM
 RINGS_DEG_S, CALM_DEG_S = 5.0, 1.0
 
 

@@ -5,13 +5,14 @@ import struct
 
 import pytest
 
+from tests.simulator.tuning.gains import FIRM
 from up.flight_controller.gains import Gains, GainSet, LoopGains
 from up_simulator.aircraft import Weather, load_airframe
 from up_simulator.firmware.settings_wire import SettingsError
 from up_simulator.firmware.tap import BoardTap
 from up_simulator.tuning.actuators import Mix
 from up_simulator.tuning.experiments import STEPS, Bench, fly_rough, fly_steps, yaw_swing
-from up_simulator.tuning.gain_set import FIRMWARE_DEFAULTS, ZERO, AxisGains, with_axis
+from up_simulator.tuning.gain_set import ZERO, AxisGains, with_axis
 from up_simulator.tuning.trial import StickMove
 
 ODD = GainSet(
@@ -32,20 +33,20 @@ def test_the_board_flies_with_the_gains_on_trial(bench):
 
 
 def test_gains_out_of_range_are_one_sentence(bench):
-    wild = with_axis(FIRMWARE_DEFAULTS, "roll", AxisGains(Gains(51.0), Gains(1.0)))
+    wild = with_axis(FIRM, "roll", AxisGains(Gains(51.0), Gains(1.0)))
     with pytest.raises(SettingsError, match="not within 0 to 50"):
         bench.trial(wild)
 
 
 def test_the_same_trial_is_the_same_flight(bench):
     weather = Weather(turbulence="light")
-    one, other = (bench.trial(FIRMWARE_DEFAULTS, weather).fly(1.5) for _ in range(2))
+    one, other = (bench.trial(FIRM, weather).fly(1.5) for _ in range(2))
     assert one == other
-    assert one != bench.trial(FIRMWARE_DEFAULTS, weather, seed=7).fly(1.5)
+    assert one != bench.trial(FIRM, weather, seed=7).fly(1.5)
 
 
 def test_it_begins_level_armed_and_at_its_speed(bench):
-    trial = bench.trial(FIRMWARE_DEFAULTS)
+    trial = bench.trial(FIRM)
     recording = trial.fly(3.0)
     assert max(map(abs, recording["truth.roll_deg"])) < 2
     assert max(map(abs, recording["truth.pitch_deg"])) < 6
@@ -54,7 +55,7 @@ def test_it_begins_level_armed_and_at_its_speed(bench):
 
 
 def test_the_sticks_move_when_they_are_to(bench):
-    trial = bench.trial(FIRMWARE_DEFAULTS)
+    trial = bench.trial(FIRM)
     recording = trial.fly(1.5, [StickMove(0.5, "ailerons", 2000.0)])
     rolls = dict(zip(recording.times_s, recording["truth.roll_deg"], strict=True))
     assert abs(rolls[min(rolls, key=lambda time_s: abs(time_s - 0.5))]) < 2
@@ -65,7 +66,7 @@ def test_the_sticks_move_when_they_are_to(bench):
 def test_firm_gains_follow_a_step_better_than_soft_ones(bench, axis):
     soft = GainSet(LoopGains(Gains(1.0), Gains(0.6), ZERO), LoopGains(Gains(2.0), Gains(2.0), ZERO))
     plan = STEPS[axis, "FBW"]
-    poor, good = (fly_steps(bench, gains, plan) for gains in (soft, FIRMWARE_DEFAULTS))
+    poor, good = (fly_steps(bench, gains, plan) for gains in (soft, FIRM))
     assert len(good.responses) == len(poor.responses) == len(plan.demands)
     assert good.rise_time_s < 0.8 * (poor.rise_time_s or math.inf)
     assert good.steady_error_percent < 0.6 * poor.steady_error_percent
@@ -73,13 +74,13 @@ def test_firm_gains_follow_a_step_better_than_soft_ones(bench, axis):
 
 
 def test_rates_are_followed_in_rate(bench):
-    steps = fly_steps(bench, FIRMWARE_DEFAULTS, STEPS["roll", "RATE"])
+    steps = fly_steps(bench, FIRM, STEPS["roll", "RATE"])
     assert steps.rise_time_s < 0.2
     assert max(steps.recording["truth.roll_rate_deg_s"]) > 30
 
 
 def test_a_crash_ends_a_trial_and_is_told(bench):
-    trial = bench.trial(FIRMWARE_DEFAULTS)
+    trial = bench.trial(FIRM)
     dive = [StickMove(0, "elevator", 1000.0), StickMove(0, "throttle", 2000.0)]
     trial.board.set_stick("aux1", 1000.0)
     recording = trial.fly(120.0, [*dive, StickMove(0, "rudder", 2000.0)], sample_s=1.0)
@@ -89,10 +90,10 @@ def test_a_crash_ends_a_trial_and_is_told(bench):
 def test_rough_air_and_a_kicked_rudder_tell_firm_gains_from_none(bench):
     none = GainSet(LoopGains(ZERO, ZERO, ZERO), LoopGains(ZERO, ZERO, ZERO))
     loose = fly_rough(bench, none, seconds=5.0, seeds=(1,))
-    held = fly_rough(bench, FIRMWARE_DEFAULTS, seconds=5.0, seeds=(1,))
+    held = fly_rough(bench, FIRM, seconds=5.0, seeds=(1,))
     assert held.roll_rms_deg < 0.4 * loose.roll_rms_deg
-    damped = with_axis(FIRMWARE_DEFAULTS, "yaw", AxisGains(Gains(3.0), ZERO))
-    undamped = with_axis(FIRMWARE_DEFAULTS, "yaw", AxisGains(ZERO, ZERO))
+    damped = with_axis(FIRM, "yaw", AxisGains(Gains(3.0), ZERO))
+    undamped = with_axis(FIRM, "yaw", AxisGains(ZERO, ZERO))
     assert yaw_swing(bench, damped) < 0.7 * yaw_swing(bench, undamped)
 
 

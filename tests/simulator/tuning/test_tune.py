@@ -7,7 +7,7 @@ import pytest
 from up.flight_controller.gains import Gains, GainSet, LoopGains
 from up_simulator.tuning.evaluation import Rules, measured_loop
 from up_simulator.tuning.gain_set import AxisGains, with_axis
-from up_simulator.tuning.tune import TuneError, choose, tune_axis, tune_yaw
+from up_simulator.tuning.tune import TuneError, choose, measure_loops, tune_axis, tune_yaw
 from up_simulator.tuning.workers import Workers
 
 RULES = Rules()
@@ -29,6 +29,17 @@ def test_what_is_proposed_keeps_the_rules_when_it_is_measured(bench, roll):
         loop = measured_loop(bench, with_axis(BEGIN, "roll", gains), "roll", gains, dives)
         assert RULES.broken_by_margins(loop.margins()) == []
     assert RULES.broken_by_steps(roll.proposal.steps) == []
+
+
+def test_a_soft_pitch_makes_no_gentle_dive_of_it(bench, roll):
+    """The nose stays up with it: the roll would be judged at a speed that is soon flown."""
+    soft = with_axis(BEGIN, "pitch", AxisGains(Gains(0.6), Gains(2.0)))
+    with Workers() as workers:
+        cruise, dive = measure_loops(bench, soft, "roll", workers)
+    assert dive.airspeed_m_s >= 1.6 * cruise.airspeed_m_s - 1e-9
+    gains = roll.proposal.gains
+    left_db = dive.margins(gains).gain_margin_db
+    assert left_db <= roll.dive.margins(gains).gain_margin_db + 1.0
 
 
 def test_it_is_the_fastest_of_those_that_were_tried_or_nearly_as_fast_and_calmer(roll):
