@@ -14,11 +14,11 @@ DEADLINE_S = 30.0
 
 
 class Program:
-    """``python -m up_simulator`` with its output kept; ended at the end of the ``with``."""
+    """``python -m up_simulator start`` with its output kept; ended at the end of the ``with``."""
 
     def __init__(self, *arguments, environment=None):
         self.process = subprocess.Popen(
-            [sys.executable, "-W", "error", "-m", "up_simulator", *map(str, arguments)],
+            [sys.executable, "-W", "error", "-m", "up_simulator", "start", *map(str, arguments)],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             env=os.environ | (environment or {}),

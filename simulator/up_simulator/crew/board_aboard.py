@@ -34,7 +34,7 @@ def board_aboard(
             options.board, seed=options.seed, eeprom=eeprom, elf=options.elf, say=say
         )
     except BoardUnavailableError as error:
-        if options.board != "auto":
+        if options.board != "auto" or options.elf is not None:
             raise
         say(f"no firmware aboard but a stand-in: {error}")
         return None

@@ -46,6 +46,8 @@ def main(arguments: list[str] | None = None) -> int:
         failures.append(failure)
         reactor.stop()
 
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _end_early)
     try:
         aircraft = VirtualAircraft(
             reactor, options, say, lambda: reactor.callLater(0, reactor.stop)
@@ -53,8 +55,8 @@ def main(arguments: list[str] | None = None) -> int:
     except FOR_THE_USER as error:
         sys.stderr.write(f"up-sim: {error}\n")
         return 1
-    reactor.callWhenRunning(aircraft.start, fail)
     reactor.callWhenRunning(_hear_hangup, reactor)
+    reactor.callWhenRunning(aircraft.start, fail)
     reactor.addSystemEventTrigger(
         "before", "shutdown", lambda: Deferred.fromCoroutine(aircraft.stop())
     )
@@ -65,6 +67,11 @@ def main(arguments: list[str] | None = None) -> int:
         else:
             failure.printTraceback()
     return 1 if failures else 0
+
+
+def _end_early(_number: int, _frame: object) -> None:
+    """End while everything is still being built, and give back what was taken."""
+    raise SystemExit(0)
 
 
 def _hear_hangup(reactor: Any) -> None:

@@ -100,6 +100,7 @@ class VirtualAircraft:
             options.sticks,
             options.controller,
             has_motor=has_motor,
+            is_armed=board is not None,
             say=self._say,
             on_leave=on_leave,
         )

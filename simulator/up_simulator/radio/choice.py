@@ -22,16 +22,18 @@ def choose_radio(
     axis_map: AxisMap,
     *,
     has_motor: bool,
+    is_armed: bool,
     say: Callable[[str], None],
     on_leave: Callable[[], None],
 ) -> Radio:
     """Return the radio of a name: circle, script, keyboard, or a game controller's device.
 
-    ``moves`` is a script for the first two; ``on_leave`` is called when the keyboard's pilot
+    ``moves`` is a script for the first two; ``is_armed`` tells that the board is armed before the
+    flight, where ``is_armed_at_first`` wants it; ``on_leave`` is called when the keyboard's pilot
     leaves. Raises ``RadioError``.
     """
     if name == "circle":
-        return ScriptedRadio(moves, CirclingPilot(has_motor=has_motor))
+        return ScriptedRadio(moves, CirclingPilot(has_motor=has_motor, is_armed=is_armed))
     if name == "script":
         return ScriptedRadio([*read_sticks(BEFORE), *moves])
     if name == "keyboard":

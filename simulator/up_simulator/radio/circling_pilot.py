@@ -11,7 +11,7 @@ from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_U
 
 GRAVITY_M_S2 = 9.80665
 HALF_TRAVEL_US = 500
-ARMS_S, CLIMBS_S = 0.3, 1.5
+ARMS_S, CLIMBS_S = 1.0, 2.0
 """AUX2 rises, unless the board was armed on the ground, and counts after 300 ms; then the motor."""
 BANK_MOST_DEG = 28.0
 BANK_PER_COURSE = 0.7

@@ -28,7 +28,10 @@ from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider  # isort
 LOOP = {axis: {"p": 3.25, "i": 0.5, "d": 0.1} for axis in ("ailerons", "elevator", "rudder")}
 
 
-STAND_IN = ("up_simulator", "--no-phone", "--wind", "0", "--turbulence", "none")
+STAND_IN = (
+    "up_simulator", "start", "--no-phone", "--wind", "0", "--turbulence", "none",
+    "--board", "stand-in", "--radio", "script",
+)  # fmt: skip
 
 
 class Aircraft:

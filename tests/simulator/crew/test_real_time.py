@@ -6,13 +6,13 @@ import pytest
 from twisted.internet.task import Clock
 
 from up_rig.pty_line import PtyLine
+from up_rig.sticks import read_sticks
 from up_simulator.crew.real_time import RealTimeWorld
 from up_simulator.crew.replayed import ReplayedFlight
 from up_simulator.firmware.direct_board import DirectBoard
 from up_simulator.radio.scripted import ScriptedRadio
 from up_simulator.recorded_flight import read_recording
 from up_simulator.world import World
-from up_rig.sticks import read_sticks
 
 
 class EchoBoard(DirectBoard):

@@ -1,4 +1,4 @@
-"""The whole program with a board: a real process, a real pty, real time."""
+"""``up-sim start`` with its board: a real process, a real pty, real time."""
 
 import csv
 import itertools
@@ -11,10 +11,20 @@ import pytest
 
 from tests.simulator.pi import GAINS, pulses_for
 from tests.simulator.program import Line, Program
+from tests.support.firmware import build_firmware
 
 
-def board(tmp_path, *arguments):
-    return Program("--no-phone", "--pty-link", tmp_path / "board", *arguments)
+@pytest.fixture(scope="module", params=["stand-in", "firmware"])
+def kind(request):
+    """What both promise is shown on both."""
+    if request.param == "firmware":
+        build_firmware()
+    return request.param
+
+
+def board(tmp_path, *arguments, kind="stand-in"):
+    link = tmp_path / "board"
+    return Program("--no-phone", "--pty-link", link, "--board", kind, *arguments)
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
@@ -35,8 +45,8 @@ def test_without_a_link_it_names_the_pty():
         assert program.end()[0] == 0
 
 
-def test_it_answers_on_its_real_line(tmp_path):
-    with board(tmp_path) as program:
+def test_it_answers_on_its_real_line(tmp_path, kind):
+    with board(tmp_path, kind=kind) as program:
         program.wait_for("board on")
         with Line(tmp_path / "board") as line:
             line.send("s")
@@ -48,7 +58,9 @@ def test_it_answers_on_its_real_line(tmp_path):
             assert numbers == list(range(numbers[0], numbers[0] + 50))
             line.send("G")
             assert len(line.wait_for_type("G").payload) == 72
-            assert line.wait_for_type("x").payload[1:2] == b"a"
+            # At AUTO nobody asks for anything: the firmware holds level, the stand-in cannot.
+            flown = b"f" if kind == "firmware" else b"a"
+            assert line.wait_for_type("x").payload[1:2] == flown
         assert program.end()[0] == 0
 
 
@@ -63,8 +75,8 @@ def test_the_line_may_be_closed_and_opened_again(tmp_path):
         assert program.end()[0] == 0
 
 
-def test_streams_come_in_real_time(tmp_path):
-    with board(tmp_path) as program:
+def test_streams_come_in_real_time(tmp_path, kind):
+    with board(tmp_path, kind=kind) as program:
         program.wait_for("board on")
         with Line(tmp_path / "board") as line:
             line.send("s")
@@ -156,7 +168,8 @@ def test_thesis_framing_over_the_line(tmp_path):
         (("--general-port", "65536"), "a port is 1 to 65535"),
         (("--runner", "nowhere"), "is not HOST:PORT"),
         (("--turbulence", "9"), "invalid choice"),
-        (("--aircraft", "airbus"), "airbus: is no airframe (glider"),
+        (("--radio", "telepathy"), "'telepathy' is not circle, script, keyboard or js0"),
+        (("--controller", "flaps=1"), "'flaps=1' is not understood"),
     ],
 )
 def test_wrong_options_are_one_sentence(arguments, sentence):
@@ -172,9 +185,71 @@ def test_what_is_in_the_way_is_one_sentence(tmp_path):
     with board(tmp_path) as program:
         assert program.process.wait(30) == 1
         error = program.error()
-    assert (
-        error == f"up_simulator: {tmp_path / 'board'} exists and is no symbolic link: left alone\n"
-    )
+    assert error == f"up-sim: {tmp_path / 'board'} exists and is no symbolic link: left alone\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--radio", "/nowhere/js7"), "/nowhere/js7 is missing"),
+        (("--radio", "keyboard"), "the keyboard needs a terminal"),
+        (("--elf", "missing.elf"), "cannot read missing.elf"),
+        (("--replay", "missing.csv"), "cannot read the recorded flight"),
+    ],
+)
+def test_what_cannot_be_flown_is_one_sentence(tmp_path, arguments, sentence):
+    kind = "auto" if "--elf" in arguments else "stand-in"
+    with board(tmp_path, *arguments, kind=kind) as program:
+        assert program.process.wait(60) == 1
+        error = program.error()
+    assert error.startswith("up-sim: ") and error.count("\n") == 1, error
+    assert sentence in error
+    assert not (tmp_path / "board").is_symlink()
+
+
+def test_the_firmware_flies_and_its_attitude_is_the_truth(tmp_path):
+    build_firmware()
+    log = tmp_path / "truth.csv"
+    with board(
+        tmp_path, "--state-log", log, "--turbulence", "moderate", kind="firmware"
+    ) as program:
+        program.wait_for("aboard: the firmware on a simulated ATmega328P")
+        program.wait_for("board on")
+        said = []
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            while len(said) < 200:
+                values = struct.unpack(">H6f", line.wait_for_type("O").payload)
+                said.append((values[3], values[2]))
+            status = line.wait_for_type("x").payload
+        assert program.end()[0] == 0
+    assert status[1:2] == b"f" and status[3] & 1, "FBW, armed"
+    with log.open() as file:
+        rows = list(csv.DictReader(file))
+    truth = [(float(row["roll_deg"]), float(row["pitch_deg"])) for row in rows]
+    for roll, pitch in said[::10]:
+        assert min(max(abs(roll - a), abs(pitch - b)) for a, b in truth) < 2.0
+    assert len({round(roll) for roll, _ in said}) > 5, "it banks into its circle"
+    assert all(float(row["height_m"]) > 100 for row in rows)
+    assert any(int(row["throttle_us"]) > 1300 for row in rows), "the motor runs"
+
+
+def test_it_follows_a_script(tmp_path):
+    build_firmware()
+    script = "t=0.5 aux1=1000 aileron=1700 t=1 aileron=1500"
+    with board(tmp_path, "--radio", "script", "--sticks", script, kind="firmware") as program:
+        program.wait_for("board on")
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            line.wait_for(lambda message: message.type == "x" and message.payload[1:2] == b"a")
+        assert program.end()[0] == 0
+
+
+def test_a_terminal_that_closes_ends_it_and_removes_the_link(tmp_path):
+    with board(tmp_path) as program:
+        program.wait_for("board on")
+        assert program.end(signal.SIGHUP)[0] == 0
+    assert not (tmp_path / "board").is_symlink()
 
 
 def test_help_teaches():
