@@ -31,10 +31,10 @@ from up_simulator.tuning.gain_set import (
     with_axis,
 )
 from up_simulator.tuning.log_steps import LogStepsError, steps_of
-from up_simulator.tuning.report import log_lines, rules_lines, tuning_lines, yaw_lines
+from up_simulator.tuning.report import log_lines, rough_lines, rules_lines, tuning_lines, yaw_lines
 from up_simulator.tuning.response_picture import draw_log_steps, draw_tuning
 from up_simulator.tuning.trial import TrialError
-from up_simulator.tuning.tune import TuneError, tune_axis, tune_yaw
+from up_simulator.tuning.tune import TuneError, try_rough_air, tune_axis, tune_yaw
 from up_simulator.tuning.workers import MOST_PROCESSES, Workers
 from up_simulator.verbs.outcome import HELD, NOT_HELD, UsageError
 
@@ -132,7 +132,14 @@ def _tune(options: argparse.Namespace) -> int:
     _out(f"{airframe.title}, beginning with roll {axis_gains(gains, 'roll')},")
     _out(f"pitch {axis_gains(gains, 'pitch')}, yaw damper {axis_gains(gains, 'yaw').rate.p:g}")
     with Workers(options.processes, _progress) as workers:
-        gains, pictures, is_good = _all_axes(options, bench, gains, workers)
+        was = gains
+        axes: list[Axis] = [options.axis] if options.axis else ["roll", "pitch", "yaw"]
+        gains, pictures, is_good = _all_axes(options, bench, gains, axes, workers)
+        air = try_rough_air(bench, was, gains, axes, workers, is_quick=options.quick)
+    _clear()
+    _out("")
+    for line in rough_lines(air):
+        _out(line)
     _out("")
     for line in rules_lines(Rules()):
         _out(line)
@@ -147,13 +154,16 @@ def _tune(options: argparse.Namespace) -> int:
 
 
 def _all_axes(
-    options: argparse.Namespace, bench: Bench, gains: GainSet, workers: Workers
+    options: argparse.Namespace,
+    bench: Bench,
+    gains: GainSet,
+    axes: Sequence[Axis],
+    workers: Workers,
 ) -> tuple[GainSet, list[Path], bool]:
     """Tune one axis after the other, each with what was proposed for those before."""
     pictures: list[Path] = []
     is_good = True
-    wanted: list[Axis] = [options.axis] if options.axis else ["roll", "pitch", "yaw"]
-    for axis in wanted:
+    for axis in axes:
         _out("")
         if axis == "yaw":
             yaw = tune_yaw(bench, gains, workers, is_quick=options.quick)

@@ -202,7 +202,6 @@ class RoughFlight:
 def fly_rough(
     bench: Bench,
     gains: GainSet,
-    *,
     turbulence: str = "moderate",
     seconds: float = 20.0,
     seeds: Sequence[int] = (1, 2, 3),

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from up_simulator.tuning.evaluation import Rules
 from up_simulator.tuning.log_steps import LogStep, advice
 from up_simulator.tuning.margins import Margins
-from up_simulator.tuning.tune import AxisTuning, Candidate, YawTuning
+from up_simulator.tuning.tune import AxisTuning, Candidate, RoughAir, YawTuning
 
 MOST_ROWS = 12
 WIDTH = 98
@@ -50,6 +50,28 @@ def yaw_lines(tuning: YawTuning | None) -> list[str]:
         f"yaw damper, rate P and the swing left of a kick, deg/s rms: {swings}",
         f"    the weakest that halves it: {tuning.proposal:g}",
     ]
+
+
+def rough_lines(air: RoughAir) -> list[str]:
+    """Return how the proposal does where the air moves."""
+    lines = []
+    for axis, steps in air.steps:
+        lines.append(
+            f"{axis} steps of the proposal in light turbulence:"
+            f" rise {_number(steps.rise_time_s, 2)} s, over {steps.overshoot_percent:.0f} %,"
+            f" lacks {steps.steady_error_percent:.0f} %"
+        )
+    was, now = air.was, air.proposed
+    lines.append(
+        "level in moderate turbulence, rms, as it was -> proposed:"
+        f" roll {was.roll_rms_deg:.2f} -> {now.roll_rms_deg:.2f} deg,"
+        f" pitch {was.pitch_rms_deg:.2f} -> {now.pitch_rms_deg:.2f} deg,"
+        f" yaw rate {was.yaw_rate_rms_deg_s:.1f} -> {now.yaw_rate_rms_deg_s:.1f} deg/s"
+    )
+    for words, flight in (("as it was", was), ("proposed", now)):
+        if flight.crash is not None:
+            lines.append(f"{words}: the aircraft {flight.crash}")
+    return [row for line in lines for row in textwrap.wrap(line, WIDTH, subsequent_indent="    ")]
 
 
 def rules_lines(rules: Rules) -> list[str]:

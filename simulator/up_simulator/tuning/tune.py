@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from up.flight_controller.gains import Gains, GainSet
+from up_simulator.aircraft import Weather
 from up_simulator.tuning.evaluation import Loop, Rules, try_loop, try_steps, worst
-from up_simulator.tuning.experiments import Bench, FlownSteps, yaw_swing
+from up_simulator.tuning.experiments import (
+    STEPS,
+    Bench,
+    FlownSteps,
+    RoughFlight,
+    fly_rough,
+    fly_steps,
+    yaw_swing,
+)
 from up_simulator.tuning.gain_set import Axis, AxisGains, axis_gains, with_axis
 from up_simulator.tuning.margins import Margins
 from up_simulator.tuning.workers import Workers
@@ -21,6 +30,8 @@ QUICK_PARTS_OF_MOST = (0.85, 0.5)
 I_OF_P = (0.5, 1.0, 2.0)
 YAW_P = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0)
 QUICK_YAW_P = (0.0, 2.0, 4.0)
+ROOM_FOR_I = 0.93
+"""An integral part spends a little phase: the P beside it gives way."""
 MOST_RATE_P = 20.0
 GENTLE_SENSITIVITY = 3.5
 """A loop that is measured with a peak beyond this is measured again with half the gains."""
@@ -29,6 +40,7 @@ DIVE_FACTOR = 1.6
 NEARLY_AS_GOOD = 1.1
 WORTH_AN_INTEGRAL = 0.75
 HALF = 0.5
+ROUGH_S = 15.0
 
 
 class TuneError(Exception):
@@ -111,7 +123,9 @@ def tune_axis(
     if not is_quick:
         rate = best.gains.rate
         more = [
-            AxisGains(replace(rate, i=_round(part * rate.p)), best.gains.stabilize)
+            AxisGains(
+                Gains(_round(ROOM_FOR_I * rate.p), _round(part * rate.p)), best.gains.stabilize
+            )
             for part in I_OF_P
         ]
         with_integral = _fly(bench, gains, axis, more, (cruise, dive), rules, workers)
@@ -140,6 +154,38 @@ def tune_yaw(
     enough = max(min(swings), HALF * swings[0])
     weakest = next(gain for gain, swing in zip(grid, swings, strict=True) if swing <= enough)
     return YawTuning(tuple(zip(grid, swings, strict=True)), weakest)
+
+
+@dataclass(frozen=True, slots=True)
+class RoughAir:
+    """How two sets of gains hold the aircraft in rough air: as it was, and as proposed."""
+
+    steps: tuple[tuple[Axis, FlownSteps], ...]
+    """Steps of the proposal in light turbulence."""
+    was: RoughFlight
+    proposed: RoughFlight
+
+
+def try_rough_air(
+    bench: Bench,
+    was: GainSet,
+    proposed: GainSet,
+    axes: Sequence[Axis],
+    workers: Workers,
+    *,
+    is_quick: bool = False,
+) -> RoughAir:
+    """Fly the proposal's steps in light turbulence, and both sets level in moderate."""
+    light = Weather(turbulence="light")
+    plans = [STEPS[axis, "FBW"] for axis in axes if axis != "yaw"]
+    steps = workers.fly(fly_steps, [(bench, proposed, plan, light) for plan in plans])
+    seeds = (1,) if is_quick else (1, 2, 3)
+    before, after = workers.fly(
+        fly_rough, [(bench, each, "moderate", ROUGH_S, seeds) for each in (was, proposed)]
+    )
+    return RoughAir(
+        tuple((plan.axis, flown) for plan, flown in zip(plans, steps, strict=True)), before, after
+    )
 
 
 def choose(candidates: Sequence[Candidate]) -> Candidate:
