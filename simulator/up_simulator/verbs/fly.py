@@ -60,8 +60,6 @@ def _read(path: Path, options: argparse.Namespace) -> Scenario:
     ]
     overrides += [_override(text) for text in options.set]
     scenario = read_scenario(path, overrides)
-    if options.speed == "real" and not scenario.is_real:
-        return scenario
     if options.speed == "fast" and scenario.is_real:
         raise UsageError(f"{path}: real programs fly in real time only")
     return scenario

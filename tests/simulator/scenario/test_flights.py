@@ -59,6 +59,9 @@ def test_a_row_is_logged_every_20_ms_from_the_first_moment_on():
     assert record.log.column("board.mode")[0] == "FBW"
     assert record.log.numbers("board.armed")[0] == 1.0
     assert record.flown_s == 4.0 and record.notes == []
+    # Pulses come every 20 ms: between two rows an output grows nearly that old.
+    stale_ms = record.log.numbers("servo.stale_ms")[1:]
+    assert all(15.0 < each < 25.0 for each in stale_ms)
 
 
 def test_events_happen_at_their_time_and_stand_in_the_log():
