@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -17,6 +18,7 @@ from pathlib import Path
 from tests.support.virtual_environment import REPOSITORY
 
 LIMIT_S = 120.0
+SHOWCASE = [sys.executable, "-m", "up_simulator.showcase", "--any-ports", "--no-watch"]
 
 
 @dataclass
@@ -69,16 +71,25 @@ def copy_of_the_tree(folder: Path) -> Path:
     return folder
 
 
+def options_of(line: str) -> list[str]:
+    """Return the options that ``make run CONTROLLER=raspberry`` hands to the program."""
+    options: list[str] = []
+    for word in shlex.split(line.removeprefix("make run")):
+        name, _, value = word.partition("=")
+        options += shlex.split(value) if name == "ARGS" else [f"--{name.lower()}", value]
+    return options
+
+
 @contextmanager
-def flying(folder: Path, files: Mapping[str, str]) -> Iterator[Flight]:
-    """Fly until the end of the block, with these files in the application."""
+def flying(folder: Path, files: Mapping[str, str], line: str = "make run") -> Iterator[Flight]:
+    """Fly as ``line`` says until the end of the block, with these files in the application."""
     tree = copy_of_the_tree(folder / "tree")
     for name, text in files.items():
         (tree / "raspilot" / name).write_text(text, encoding="utf-8")
     said = folder / "said"
     with said.open("wb") as stream:
         process = subprocess.Popen(
-            [sys.executable, "-m", "up_simulator.showcase", "--any-ports", "--no-watch"],
+            [*SHOWCASE, *options_of(line)],
             cwd=tree,
             env={**os.environ, "PYTHONPATH": str(tree / "simulator")},
             stdout=stream,

@@ -102,7 +102,9 @@ def test_level_ignores_the_sticks_and_only_when_it_is_on(controllers, tmp_path):
 
 
 def test_level_is_switched_from_the_ground_in_flight(tmp_path):
-    with flying(tmp_path, files_of(PAGE)) as flight:
+    make_run = "make run CONTROLLER=raspberry"
+    assert f"`{make_run}`" in (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
+    with flying(tmp_path, files_of(PAGE), make_run) as flight:
         on, look = lines_of(PAGE, "level")
         done = flight.run(on)
         assert "ack after" in done.stdout, done.stdout + done.stderr

@@ -19,6 +19,10 @@ from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
 
 PAGE = "guide.md"
 FILES = files_of(PAGE)
+FBW, OUTPUT = (
+    "board: FBW, the Arduino holds the attitude",
+    "board: OUTPUT, Raspilot moves the servos",
+)
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +62,10 @@ def test_a_remark_that_is_too_long_is_refused_in_words(flight):
 
 
 def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
-    with flying(tmp_path / "flight", {}) as flight:
+    make_run = "make run CONTROLLER=raspberry"
+    text = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
+    assert all(f"`{words}`" in text for words in (make_run, FBW, OUTPUT))
+    with flying(tmp_path / "flight", {}, make_run) as flight:
         os.kill(_child(flight.process.pid, "up_simulator"), signal.SIGKILL)
         assert flight.process.wait(LIMIT_S) == 1
         said = flight.said.read_text()
@@ -84,12 +91,12 @@ def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
             log.write_text("")
             board, board_said = start(simulator, "board 2")
             _wait_for("Controller: flies", log)
-            _wait_for("following the Raspberry Pi", board_said)
+            _wait_for(OUTPUT, board_said)
             board_said.write_text("")
             aircraft.kill()
-            _wait_for("sticks pass through", board_said)
+            _wait_for(FBW, board_said)
             start(daemon, "aircraft 2")
-            _wait_for("following the Raspberry Pi", board_said)
+            _wait_for(OUTPUT, board_said)
 
 
 def _child(parent: int, name: str) -> int:

@@ -26,6 +26,14 @@ from up_simulator.state_log import StateLog
 
 TICK_S = 0.004
 MODE_NAMES = {"a": "ACRO", "r": "RATE", "f": "FBW", "s": "SETPOINT", "u": "OUTPUT"}
+MODE_WORDS = {
+    "ACRO": "ACRO, the sticks move the servos",
+    "RATE": "RATE, the Arduino holds the rates",
+    "FBW": "FBW, the Arduino holds the attitude",
+    "SETPOINT": "SETPOINT, the Arduino holds the attitude that Raspilot asks for",
+    "OUTPUT": "OUTPUT, Raspilot moves the servos",
+}
+"""What is said when the board flies another mode."""
 
 Say = Callable[[str], None]
 
@@ -105,11 +113,11 @@ class VirtualAircraft:
             on_leave=on_leave,
         )
         self._radio = radio
+
+        def mode() -> str:
+            return MODE_NAMES.get(tap.mode or "", "")
+
         if options.radio_socket is not None:
-
-            def mode() -> str:
-                return MODE_NAMES.get(tap.mode or "", "")
-
             self._radio = radio = RemoteRadio(options.radio_socket, radio, self._say, mode)
         if board is None:
             stand_in = StandInAircraft(
@@ -121,8 +129,11 @@ class VirtualAircraft:
         )
 
         def hear(data: bytes) -> None:
+            before = tap.mode
             tap.feed(data, self._reactor.seconds())
             tap.answers.clear()
+            if tap.mode != before:
+                self._say(f"board: {MODE_WORDS.get(mode(), mode())}")
 
         aircraft.real_time.heard = hear
         return aircraft.keep

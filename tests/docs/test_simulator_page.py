@@ -1,0 +1,79 @@
+"""docs/simulator.md: its commands do what it says, and what can be asked for is on it."""
+
+import re
+import shlex
+
+import pytest
+
+from tests.docs.flying import lines_of, options_of
+from tests.simulator.program import Program
+from tests.support.firmware import build_firmware
+from tests.support.virtual_environment import REPOSITORY
+from up_simulator.cli import VERBS, main
+from up_simulator.crew.start_options import read_options
+from up_simulator.scenario.event import EVENT_KINDS
+from up_simulator.showcase import _options as read_showcase_options
+
+PAGE = "simulator.md"
+TEXT = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
+SAID = {
+    "imu": "frozen, unplugged, holding its bus, garbage",
+    "imu_errors": "noise, bias, drift while it warms up, vibration",
+    "receiver": "lost and back",
+    "channel_lost": "one wire",
+    "channel_back": "one wire",
+    "reset": "reset by watchdog, power, button or brown-out",
+    "serial": "unplugged",
+    "serial_noise": "bits flipped, bytes lost or inserted",
+    "phone": "unplugged; battery low",
+    "phone_battery": "battery low",
+    "link": "stall, then all at once; blackout",
+    "link_settings": "delay, jitter, loss, rate",
+    "raspilot": "daemon killed, stopped, hung",
+    "proxy": "the proxy killed",
+    "cpu_load_percent": "processor load",
+    "command": "",
+}
+"""What the page says of each kind of event; a Command is no fault."""
+
+
+def test_its_flights_hold(tmp_path, monkeypatch, capsys):
+    build_firmware()
+    monkeypatch.chdir(tmp_path)
+    for line in lines_of(PAGE, "up-sim"):
+        program, *arguments = line.split()
+        assert program == "up-sim"
+        assert main(arguments) == 0, (line, capsys.readouterr())
+    assert (tmp_path / "run/flights/level-flight-in-gusts/picture.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("line", lines_of(PAGE, "start"))
+def test_what_starts_the_aircraft_is_understood(line):
+    program, verb, *arguments = shlex.split(line)
+    assert (program, verb) == ("up-sim", "start")
+    read_options(arguments)
+
+
+def test_the_aircraft_starts_for_a_raspilot(tmp_path):
+    build_firmware()
+    *_, line = lines_of(PAGE, "start")
+    link = str(tmp_path / "board")
+    arguments = [link if word == "/tmp/board" else word for word in shlex.split(line)[2:]]
+    with Program(*arguments, "--no-phone") as program:
+        program.wait_for(f"board on {link}\n")
+        assert program.end()[0] == 0
+
+
+@pytest.mark.parametrize("line", re.findall(r"^    (make run.*?)(?:   |$)", TEXT, re.MULTILINE))
+def test_make_run_understands_what_the_page_says(line):
+    read_showcase_options(options_of(line))
+
+
+def test_every_verb_is_on_the_page():
+    assert all(f"`up-sim {verb}`" in TEXT for verb in VERBS)
+
+
+def test_every_kind_of_event_is_on_the_page():
+    assert set(SAID) == set(EVENT_KINDS)
+    table = TEXT.partition("## What can go wrong")[2].partition("\n## ")[0]
+    assert all(words in table for words in SAID.values())
