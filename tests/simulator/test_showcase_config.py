@@ -1,7 +1,21 @@
 import socket
 from dataclasses import astuple
 
+import yaml
+
+from up_simulator.aircraft import load_airframe
 from up_simulator.showcase_config import Ports, choose_ports, write_config
+
+
+def write(folder, controller="arduino", airframe="glider", **more):
+    write_config(
+        folder,
+        folder / "board",
+        Ports(),
+        controller=controller,
+        airframe=load_airframe(airframe),
+        **more,
+    )
 
 
 def test_a_port_that_only_udp_has_taken_is_not_chosen(monkeypatch):
@@ -20,11 +34,40 @@ def test_all_ports_differ():
     assert len(set(ports)) == len(ports)
 
 
-def test_saved_gains_stay(tmp_path):
-    write_config(tmp_path, tmp_path / "board", Ports())
+def test_the_gains_are_the_airframes_and_saved_ones_stay(tmp_path):
+    write(tmp_path)
+    gains = yaml.safe_load((tmp_path / "pids.yml").read_text())
+    assert gains == load_airframe("glider").gains
     (tmp_path / "pids.yml").write_text("tuned")
-    write_config(tmp_path, tmp_path / "board", Ports())
+    write(tmp_path)
     assert (tmp_path / "pids.yml").read_text() == "tuned"
+
+
+def test_another_airframe_begins_with_its_own_gains(tmp_path):
+    write(tmp_path)
+    (tmp_path / "pids.yml").write_text("tuned for the glider")
+    write(tmp_path, airframe="wing")
+    assert yaml.safe_load((tmp_path / "pids.yml").read_text()) == load_airframe("wing").gains
+
+
+def test_the_controller_is_one_word_in_one_file(tmp_path):
+    one, other = tmp_path / "arduino", tmp_path / "raspberry"
+    for folder in (one, other):
+        write(folder, controller=folder.name)
+
+    def texts(folder):
+        return {each.name: each.read_text().replace(str(folder), "") for each in folder.iterdir()}
+
+    ours, theirs = texts(one), texts(other)
+    differing = [name for name in ours if ours[name] != theirs[name]]
+    assert differing == ["config.yml"]
+
+
+def test_a_bad_link_stands_between_aircraft_and_proxy(tmp_path):
+    write(tmp_path, uplink_port=4711)
+    mission = yaml.safe_load((tmp_path / "mission_control.yml").read_text())
+    assert mission["remote_server"]["port"] == 4711
+    assert yaml.safe_load((tmp_path / "proxy.yml").read_text())["airborne port"] == 3003
 
 
 def test_two_showcases_do_not_share_a_folder(tmp_path, capsys):
