@@ -48,10 +48,11 @@ class RadioLink:
         # Linux finds a name for it, which leaves no file behind.
         self._socket.bind("")
         self._socket.settimeout(SILENT_S)
-        self._send(write_sticks(None))
         try:
+            self._send(write_sticks(None))
             self.seen = read_seen(self._socket.recv(LONGEST))
-        except (OSError, ValueError):
+        except (OSError, ValueError, RadioError):
+            self._socket.close()
             raise self._nobody() from None
         self._socket.setblocking(False)
         self._heard_s = clock()

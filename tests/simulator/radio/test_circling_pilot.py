@@ -1,0 +1,89 @@
+"""The pilot who circles: near and high for minutes, by the sticks of FBW alone."""
+
+import pytest
+
+from tests.simulator.bench import StillFlight
+from tests.support.tools import unavailable
+from up.earth import distance_m
+from up_rig import RigUnavailableError
+from up_rig.sticks import read_sticks
+from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
+from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.radio.circling_pilot import CirclingPilot
+from up_simulator.radio.scripted import ScriptedRadio
+from up_simulator.radio.sticks import Sticks, Transmitter
+from up_simulator.world import World
+
+
+
+@pytest.mark.parametrize(
+    ("airframe", "wind_m_s", "minutes"), [("glider", 4.0, 3), ("wing", 6.0, 1)]
+)
+def test_it_stays_near_and_high_in_turbulence(airframe, wind_m_s, minutes):
+    """The firmware, built for this computer, holds what the pilot's sticks ask for."""
+    flown = load_airframe(airframe)
+    weather = Weather(wind_m_s=wind_m_s, turbulence="moderate")
+    flight = FlightDynamics(flown, weather=weather, seed=3)
+    try:
+        board = choose_board("host", eeprom=prepared_eeprom("host", flown.profile, flown.gains))
+    except (BoardUnavailableError, RigUnavailableError) as error:
+        unavailable(str(error))
+    world, pilot, transmitter = World(flight, board), CirclingPilot(), Transmitter(board)
+    world.boot(arms=True)
+    home = flight.state
+    for step in range(minutes * 60 * 500):
+        transmitter.send(pilot.sticks(world.time_s, world.state))
+        world.step()
+        if step % 500 == 0:
+            state = flight.state
+            here = (home.latitude_deg, home.longitude_deg, state.latitude_deg, state.longitude_deg)
+            assert flight.crash is None
+            assert 90 < state.height_m < 150, world.time_s
+            assert distance_m(*here) < 200, world.time_s
+            assert abs(state.roll_deg) < 60
+
+
+def test_a_board_that_is_not_armed_gets_its_edge_first_and_throttle_later():
+    pilot, state = CirclingPilot(is_armed=False), StillFlight().state
+    assert not pilot.sticks(0.0, state).is_armed
+    assert not pilot.sticks(0.9, state).is_armed
+    armed = pilot.sticks(1.1, state)
+    assert (armed.is_armed, armed.throttle) == (True, 1000)
+    assert pilot.sticks(2.1, state).throttle > 1000
+
+
+def test_a_glider_without_a_motor_gets_no_throttle():
+    assert CirclingPilot(has_motor=False).sticks(5.0, StillFlight().state).throttle == 1000
+
+
+def test_a_script_takes_channels_from_the_pilot_for_good():
+    moves = read_sticks("t=1 aileron=1900 t=2 receiver=off t=3 receiver=on")
+    radio, state = ScriptedRadio(moves, CirclingPilot()), StillFlight().state
+    assert radio.sticks(0.5, state).ailerons != 1900
+    for time_s, is_on in ((1.0, True), (2.0, False), (3.0, True)):
+        sticks = radio.sticks(time_s, state)
+        assert (sticks.ailerons, sticks.is_on, sticks.mode) == (1900, is_on, "AUTO")
+
+
+class Board:
+    def __init__(self):
+        self.told = []
+
+    def set_stick(self, channel, width_us):
+        self.told.append((channel, width_us))
+
+    def set_receiver(self, is_on):
+        self.told.append(("receiver", is_on))
+
+
+def test_only_what_moves_is_told_and_a_receiver_is_on_by_itself():
+    board = Board()
+    transmitter = Transmitter(board)
+    transmitter.send(Sticks())
+    assert len(board.told) == 6
+    board.told.clear()
+    transmitter.send(Sticks(rudder=1600))
+    transmitter.send(Sticks(rudder=1600, is_on=False))
+    transmitter.send(Sticks(rudder=1600))
+    assert board.told == [("rudder", 1600), ("receiver", False), ("receiver", True)]

@@ -1,0 +1,246 @@
+"""A radio in another terminal: it takes the sticks, shows what flies, and gives them back."""
+
+import os
+import pty
+import select
+import signal
+import socket
+import subprocess
+import sys
+import termios
+import time
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.simulator.bench import StillFlight
+from up_simulator.radio.remote import RemoteRadio
+from up_simulator.radio.remote_words import (
+    Seen,
+    read_seen,
+    read_sticks_of,
+    write_seen,
+    write_sticks,
+)
+from up_simulator.radio.scripted import ScriptedRadio
+from up_simulator.radio.sticks import RadioError, Sticks
+from up_simulator.radio.take_over import RadioLink
+
+DEADLINE_S = 30.0
+STATE = StillFlight().state
+OTHERS = Sticks(ailerons=1700, throttle=1400, aux1=1500, aux2=2000)
+
+
+class Aircraft:
+    """The aircraft's end, moved on by hand."""
+
+    def __init__(self, path):
+        self.said = []
+        self.radio = RemoteRadio(path, ScriptedRadio([]), self.said.append, lambda: "FBW")
+        self.time_s = 0.0
+
+    def sticks(self, passed_s=0.02):
+        self.time_s += passed_s
+        return self.radio.sticks(self.time_s, STATE)
+
+
+class Pilot:
+    """A sender whose datagrams are written by the test."""
+
+    def __init__(self, path):
+        self.path = path
+        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self.socket.bind("")
+        self.socket.setblocking(False)
+
+    def send(self, datagram):
+        self.socket.sendto(datagram, str(self.path))
+
+    def seen(self):
+        return read_seen(self.socket.recv(4096))
+
+
+@pytest.fixture
+def aircraft(tmp_path):
+    made = Aircraft(tmp_path / "radio")
+    yield made
+    made.radio.close()
+
+
+@pytest.fixture
+def pilot(tmp_path, aircraft):
+    made = Pilot(tmp_path / "radio")
+    yield made
+    made.socket.close()
+
+
+def test_the_sticks_are_taken_shown_and_given_back(aircraft, pilot):
+    assert aircraft.sticks() == Sticks()
+    pilot.send(write_sticks(OTHERS))
+    assert aircraft.sticks() == OTHERS
+    seen = pilot.seen()
+    assert (seen.mode, seen.sticks) == ("FBW", OTHERS)
+    assert seen.state.roll_deg == STATE.roll_deg and seen.state.height_m == STATE.height_m
+    pilot.send(write_sticks(None))
+    assert aircraft.sticks() == Sticks()
+    assert len(aircraft.said) == 2
+
+
+def test_who_is_silent_for_a_second_has_them_no_more(aircraft, pilot):
+    pilot.send(write_sticks(OTHERS))
+    assert aircraft.sticks() == OTHERS
+    assert aircraft.sticks(0.9) == OTHERS
+    assert aircraft.sticks(0.2) == Sticks()
+
+
+def test_a_second_radio_takes_nothing_and_sees(aircraft, pilot, tmp_path):
+    pilot.send(write_sticks(OTHERS))
+    aircraft.sticks()
+    second = Pilot(tmp_path / "radio")
+    second.send(write_sticks(Sticks(ailerons=1000)))
+    second.send(write_sticks(None))
+    assert aircraft.sticks() == OTHERS
+    assert second.seen().sticks == OTHERS
+    second.socket.close()
+
+
+def test_rubbish_moves_nothing(aircraft, pilot):
+    for datagram in (b"", b"{}", b"[]", b"\xff", b'{"sticks": {"ailerons": 1500}}', b"[" * 2000):
+        pilot.send(datagram)
+    assert aircraft.sticks() == Sticks()
+    assert aircraft.said == []
+
+
+def test_the_socket_goes_with_the_aircraft(tmp_path):
+    aircraft = Aircraft(tmp_path / "radio")
+    aircraft.radio.close()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_old_socket_is_replaced_and_a_file_is_not(tmp_path):
+    first = Aircraft(tmp_path / "radio")
+    Aircraft(tmp_path / "radio").radio.close()
+    first.radio.close()
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(RadioError, match="no radio can be taken over"):
+        Aircraft(tmp_path / "file")
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+def test_without_an_aircraft_it_is_one_sentence(tmp_path):
+    with pytest.raises(RadioError, match="does 'make run' fly"):
+        RadioLink(tmp_path / "radio")
+
+
+@given(st.binary(max_size=300) | st.text(max_size=100).map(str.encode))
+def test_any_datagram_is_read_or_refused(datagram):
+    for read in (read_sticks_of, read_seen):
+        try:
+            read(datagram)
+        except ValueError:
+            continue
+
+
+@given(
+    st.recursive(
+        st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+        lambda inner: st.dictionaries(
+            st.sampled_from(["sticks", "ailerons", "is_on", "mode", "roll_deg"]), inner
+        ),
+    )
+)
+def test_any_object_is_read_or_refused(found):
+    import json
+
+    for read in (read_sticks_of, read_seen):
+        try:
+            read(json.dumps(found).encode())
+        except ValueError:
+            continue
+
+
+def test_what_is_written_is_read():
+    assert read_sticks_of(write_sticks(OTHERS)) == OTHERS
+    assert read_sticks_of(write_sticks(None)) is None
+    assert read_seen(write_seen(Seen(STATE, OTHERS, "FBW"))).sticks == OTHERS
+
+
+class Terminal:
+    """``up-sim radio keyboard`` in a terminal of its own."""
+
+    def __init__(self, path):
+        self.own, self.other = pty.openpty()
+        self.before = termios.tcgetattr(self.other)
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "up_simulator", "radio", "keyboard", "--socket", str(path)],
+            stdin=self.other, stdout=self.other, stderr=self.other, start_new_session=True,
+        )  # fmt: skip
+        self.shown = ""
+
+    def read(self):
+        while select.select([self.own], [], [], 0.01)[0]:
+            self.shown += os.read(self.own, 4096).decode()
+
+    def is_as_before(self):
+        return termios.tcgetattr(self.other) == self.before
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+        os.close(self.own)
+        os.close(self.other)
+
+
+@pytest.fixture
+def terminal(aircraft, tmp_path):
+    made = Terminal(tmp_path / "radio")
+    yield made
+    made.close()
+
+
+def fly_until(aircraft, terminal, condition, what):
+    deadline_s = time.monotonic() + DEADLINE_S
+    while not condition(aircraft.sticks()):
+        terminal.read()
+        assert terminal.process.poll() is None, terminal.shown
+        assert time.monotonic() < deadline_s, f"never: {what}; {terminal.shown}"
+    return True
+
+
+def test_keys_of_a_terminal_fly_it_and_q_gives_everything_back(aircraft, terminal):
+    fly_until(aircraft, terminal, lambda _: len(aircraft.said) == 1, "the sticks are taken")
+    fly_until(aircraft, terminal, lambda _: "FBW" in terminal.shown, "the line")
+    assert "arming switch" in terminal.shown, "the help"
+    assert not terminal.is_as_before()
+    os.write(terminal.own, b"\x1b[C1 w")
+    fly_until(aircraft, terminal, lambda s: s.ailerons > 1500, "the stick moves")
+    fly_until(aircraft, terminal, lambda s: s.mode == "ACRO" and s.is_armed, "the switches")
+    os.write(terminal.own, b"q")
+    deadline_s = time.monotonic() + DEADLINE_S
+    while terminal.process.poll() is None:
+        aircraft.sticks(0.001)
+        terminal.read()
+        assert time.monotonic() < deadline_s
+    assert terminal.process.returncode == 0
+    assert aircraft.sticks(0.001) == Sticks(), "at once, not after a second"
+    assert terminal.is_as_before()
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+def test_a_signal_gives_the_terminal_back(aircraft, terminal, number):
+    fly_until(aircraft, terminal, lambda _: len(aircraft.said) == 1, "the sticks are taken")
+    terminal.process.send_signal(number)
+    terminal.process.wait(DEADLINE_S)
+    assert terminal.is_as_before()
+
+
+def test_an_aircraft_that_ends_gives_the_terminal_back_with_a_sentence(aircraft, terminal):
+    fly_until(aircraft, terminal, lambda _: len(aircraft.said) == 1, "the sticks are taken")
+    aircraft.radio.close()
+    assert terminal.process.wait(DEADLINE_S) == 1
+    terminal.read()
+    assert "up-sim radio: no aircraft listens" in terminal.shown
+    assert "Traceback" not in terminal.shown
+    assert terminal.is_as_before()
