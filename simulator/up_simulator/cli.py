@@ -81,7 +81,7 @@ def _module(verb: str) -> Any:
         if error.name is not None and error.name.startswith("up_simulator"):
             raise UsageError(f"'{verb}' is not built in here ({error.name})") from error
         raise UsageError(
-            f"'{verb}' needs {error.name}, which is not installed: pip install 'raspilot[sim]'"
+            f"'{verb}' needs {error.name}, which is not installed: pip install -e '.[sim]'"
         ) from error
 
 

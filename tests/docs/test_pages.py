@@ -22,6 +22,7 @@ PAGES = sorted(
     ]
 )
 FILES = {file.filename: file for file in configuration_page.configuration_files()}
+PICTURE_MOST = 200_000
 _FENCE = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 _LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 _TEST = re.compile(r"`(tests/[\w/]+\.py)::(\w+)`")
@@ -61,6 +62,19 @@ def test_links_lead_somewhere(page):
         if not target.exists() or (anchor and anchor not in anchors(target)):
             wrong.append(link)
     assert not wrong
+
+
+def test_pictures_are_small():
+    pictures = list((REPOSITORY / "docs" / "pictures").iterdir())
+    too_large = [each.name for each in pictures if each.stat().st_size > PICTURE_MOST]
+    assert not too_large and len(pictures) > 5
+
+
+def test_every_picture_is_on_a_page():
+    shown = {
+        (page.parent / link).resolve() for page in PAGES for link in _LINK.findall(text_of(page))
+    }
+    assert set((REPOSITORY / "docs" / "pictures").iterdir()) <= shown
 
 
 def test_every_page_is_in_the_index():

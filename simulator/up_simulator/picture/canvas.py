@@ -99,7 +99,7 @@ def sheet_for(path: Path) -> Iterator[Sheet]:
         agg = importlib.import_module("matplotlib.backends.backend_agg")
     except ImportError as error:
         raise PictureError(
-            "no picture: matplotlib is not installed; pip install 'raspilot[sim]' brings it"
+            "no picture: matplotlib is not installed; pip install -e '.[sim]' brings it"
         ) from error
     with matplotlib.rc_context():
         matplotlib.rcdefaults()

@@ -63,7 +63,7 @@ def test_without_matplotlib_the_figures_are_told_all_the_same(log, tmp_path, cap
     assert tune("--log", log, "--pictures", tmp_path) == 0
     told = capsys.readouterr()
     assert "roll in FBW: " in told.out
-    assert "pip install 'raspilot[sim]'" in told.err
+    assert "pip install -e '.[sim]'" in told.err
 
 
 @pytest.mark.parametrize(
