@@ -118,7 +118,7 @@ class ScenarioFlight:
         """Boot and fly to the end as fast as it goes; Ctrl-C ends it with what there is."""
         began_s = time.perf_counter()
         try:
-            self.boot()
+            self.boot(progress)
             began_s = time.perf_counter()
             while not self.is_over:
                 self.step()
@@ -132,7 +132,7 @@ class ScenarioFlight:
             self.companions.stop()
         return self.record
 
-    def boot(self) -> None:
+    def boot(self, progress: Callable[[float], None] = lambda _time_s: None) -> None:
         """Switch everything on, on the ground; arm if the sticks say so; begin in the air."""
         wanted_us = self._timeline.pulses_us(0.0)
         is_armed = wanted_us["aux2"] > AT_FIRST_US["ailerons"]
@@ -141,7 +141,7 @@ class ScenarioFlight:
             self._set_stick(channel, AT_FIRST_US[channel] if at_rest else wanted_us[channel])
         try:
             self.companions.start()
-            self._wait_until_ready()
+            self._wait_until_ready(progress)
             self._world.boot(arms=is_armed)
         except (BoardCrashedError, CrewError) as error:
             self._fail(str(error))
@@ -169,7 +169,7 @@ class ScenarioFlight:
         if self._steps % STEPS_A_ROW == 0 or self.is_over:
             self._take_row()
 
-    def _wait_until_ready(self) -> None:
+    def _wait_until_ready(self, progress: Callable[[float], None]) -> None:
         companions, board = self.companions, self._board
         board.set_motion(motion_at(0.0, 0.0))
         waited_s = 0.0
@@ -178,6 +178,7 @@ class ScenarioFlight:
                 self.record.notes.append(f"not everybody had connected after {READY_S:g} s")
                 return
             board.run_us(READY_STEP_US)
+            progress(0.0)
             waited_s += READY_STEP_US / 1e6
 
     def _note_if_not_armed(self, is_armed: bool) -> None:

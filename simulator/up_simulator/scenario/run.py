@@ -18,6 +18,7 @@ from up_simulator.flight import FlightUnavailableError
 from up_simulator.picture.flight_picture import Failure, PictureError, Wind, draw_flight
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.interrupt import hearing_ctrl_c
 from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import (
@@ -91,7 +92,14 @@ def _fly(
     except _CANNOT_FLY as error:
         raise CannotFlyError(str(error)) from error
     else:
-        return flight.fly(_Paced(progress.show) if is_paced else progress.show)
+        show = _Paced(progress.show) if is_paced else progress.show
+        with hearing_ctrl_c() as interrupt:
+
+            def go_on(time_s: float) -> None:
+                interrupt.look()
+                show(time_s)
+
+            return flight.fly(go_on)
     finally:
         progress.end()
 
@@ -105,7 +113,8 @@ class _Paced:
 
     def __call__(self, time_s: float) -> None:
         now_s = time.monotonic()
-        if self._began_s is None:
+        # Before the flight begins it is 0 again and again.
+        if self._began_s is None or time_s <= 0:
             self._began_s = now_s - time_s
         self._show(time_s)
         ahead_s = self._began_s + time_s - now_s
