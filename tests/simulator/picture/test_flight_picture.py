@@ -136,7 +136,7 @@ def test_without_matplotlib_one_sentence_says_how_to_get_it(flight, tmp_path, mo
     for name in [each for each in sys.modules if each.partition(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(PictureError, match=r"pip install 'raspilot\[sim\]'") as raised:
+    with pytest.raises(PictureError, match=r"pip install -e '.\[sim\]'") as raised:
         draw_flight(flight, tmp_path / "flight.png")
     assert "\n" not in str(raised.value)
     assert not (tmp_path / "flight.png").exists()
