@@ -11,9 +11,10 @@ from tests.docs.test_pages import PAGES, name_of, text_of
 from tests.support.virtual_environment import REPOSITORY
 from up.cli.parser import make_parser
 from up_ground.arguments import make_parser as make_ground_parser
+from up_simulator.cli import main as up_sim
 
-_SPAN = re.compile(r"`((?:up|up-ground|make) [^`\n]+)`")
-_LINE = re.compile(r"^(?: {4}|\$ )?((?:up|up-ground|make) [a-z-].*)$", re.MULTILINE)
+_SPAN = re.compile(r"`((?:up|up-ground|up-sim|make) [^`\n]+)`")
+_LINE = re.compile(r"^(?: {4}|\$ )?((?:up|up-ground|up-sim|make) [a-z-].*)$", re.MULTILINE)
 _BLOCK = re.compile(r"^```\n(.*?)^```", re.DOTALL | re.MULTILINE)
 PARSERS = {"up": make_parser, "up-ground": lambda: make_ground_parser({})}
 
@@ -36,7 +37,7 @@ def command_lines(text):
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
 def test_up_understands_what_the_page_says(page, capsys):
     for program, *arguments in command_lines(text_of(page)):
-        if program == "make":
+        if program in ("make", "up-sim"):
             continue
         parser = PARSERS[program]()
         # A mention of a verb alone is no whole command: its help must know it.
@@ -48,6 +49,18 @@ def test_up_understands_what_the_page_says(page, capsys):
         except SystemExit as end:
             shown = capsys.readouterr()
             assert end.code == 0, f"{program} {shlex.join(arguments)}: {shown.err}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_up_sim_knows_the_verbs_and_options_that_the_page_says(page, capsys):
+    for program, verb, *arguments in command_lines(text_of(page)):
+        if program != "up-sim":
+            continue
+        with pytest.raises(SystemExit):
+            assert up_sim([verb, "--help"]) == 0, capsys.readouterr().err
+        told = set(re.findall(r"--[a-z-]+", capsys.readouterr().out))
+        asked = {word.partition("=")[0] for word in arguments if word.startswith("--")}
+        assert asked <= told, f"{asked - told} of up-sim {verb}"
 
 
 def targets_of(folder):
