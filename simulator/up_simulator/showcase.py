@@ -89,6 +89,11 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
         help="who moves the sticks: circle (default), keyboard, js0",
     )
     parser.add_argument("--board", default="auto", help="auto, firmware, host or stand-in")
+    parser.add_argument(
+        "--link",
+        default="",
+        help="a bad link from aircraft to proxy: 'delay=80 jitter=20 loss=1 rate=20000'",
+    )
     parser.add_argument("--folder", type=Path, help="for configuration and logs (run/showcase)")
     parser.add_argument("--seconds", type=float, help="end after so long; default: Ctrl-C")
     parser.add_argument("--no-watch", action="store_true", help="do not show the telemetry")

@@ -23,6 +23,7 @@ class Ports:
     general: int = 50001
     discovery: int = 3001
     metrics: int = 9303
+    uplink: int = 3005
 
 
 def choose_ports(any_ports: bool = False) -> Ports:

@@ -47,6 +47,7 @@ class ShowcaseFlight:
         self._say = say
         self._children: list[Child] = []
         self._holder = options.controller
+        self._told = 0
         self._airframe = load_airframe(options.airframe)
         self._ports = Ports()
 
@@ -61,10 +62,9 @@ class ShowcaseFlight:
         proxy = self._add("proxy", "-m", "up_proxy.main", "--config", folder / "config")
         proxy.wait_for_line("ground side listens", START_LIMIT_S)
         say(f"  proxy      aircraft on port {ports.airborne}, ground on port {ports.ground}")
-        aircraft.wait_for(_has_board, "board", BUILD_LIMIT_S)
-        for line in aircraft.lines():
-            if line.startswith(("flying", "aboard", "no firmware")) or "JSBSim" in line:
-                say(f"  aircraft   {line}")
+        if options.link:
+            say(f"  link       from the aircraft to the proxy: {options.link}")
+        aircraft.wait_for(self._has_board, "board", BUILD_LIMIT_S)
         self._holder = self._choose_holder(aircraft.lines())
         daemon = self._add("raspilot", self._root / "main.py", "--config", folder / "config")
         aircraft.wait_for_line("board on", START_LIMIT_S)
@@ -83,7 +83,7 @@ class ShowcaseFlight:
         watch: Child | None = None
         wants_watch = not options.no_watch
         if wants_watch and sys.stdin.isatty():
-            self._say(f"The ground station opens in {READING_S} s, or with Enter; q leaves it.")
+            self._say(f"The {self._picture} opens in {READING_S} s, or with Enter; q leaves it.")
             if select.select([sys.stdin], [], [], READING_S)[0]:
                 sys.stdin.readline()
         while end_s is None or time.monotonic() < end_s:
@@ -94,7 +94,7 @@ class ShowcaseFlight:
                 if status == 0 and child is watch:
                     self._children.remove(child)
                     watch, wants_watch = None, False
-                    self._say("It flies on. Enter: the ground station again; Ctrl-C: stop all.")
+                    self._say(f"It flies on. Enter: the {self._picture} again; Ctrl-C: stop all.")
                 elif status is not None:
                     raise CrewError(child.last_words(status))
             if watch is None:
@@ -114,6 +114,14 @@ class ShowcaseFlight:
             self._say("Everything is stopped.")
         self._children.clear()
 
+    def _has_board(self, lines: list[str]) -> bool:
+        """Say what the aircraft has said meanwhile, and return whether its board is chosen."""
+        for line in lines[self._told :]:
+            if not line.startswith(("phone:", "board")):
+                self._say(f"  aircraft   {line}")
+        self._told = len(lines)
+        return any(line.startswith(("aboard", "no firmware", "board on")) for line in lines)
+
     def _write_config(self, holder: str) -> None:
         folder = self._folder
         write_config(
@@ -122,6 +130,7 @@ class ShowcaseFlight:
             self._ports,
             controller=holder,
             airframe=self._airframe,
+            uplink_port=self._ports.uplink if self._options.link else 0,
         )
 
     def _start_aircraft(self) -> Child:
@@ -135,6 +144,9 @@ class ShowcaseFlight:
             "--pty-link", folder / "board", "--general-port", str(ports.general),
             "--orientation-port", str(ports.orientation),
         ]  # fmt: skip
+        if options.link:
+            words += ["--link", options.link, "--link-port", str(ports.uplink)]
+            words += ["--link-to", f"127.0.0.1:{ports.airborne}"]
         if options.replay:
             words += ["--replay", options.replay]
         if options.state_log:
@@ -156,6 +168,11 @@ class ShowcaseFlight:
         self._children.append(child)
         return child
 
+    @property
+    def _picture(self) -> str:
+        """Return what this terminal is for."""
+        return "keyboard radio" if self._options.radio == "keyboard" else "ground station"
+
     def _open_watch(self) -> Child:
         port = str(self._ports.ground)
         words = ["-m", "up_ground.main", "watch", "--port", port]
@@ -172,10 +189,6 @@ class ShowcaseFlight:
         for line in lines:
             if any(words in line for words in NEWS):
                 self._say(f"aircraft: {line}")
-
-
-def _has_board(lines: list[str]) -> bool:
-    return any(line.startswith(("aboard", "no firmware", "board on")) for line in lines)
 
 
 def hints(ports: Ports, folder: Path) -> list[str]:

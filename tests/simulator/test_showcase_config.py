@@ -22,7 +22,7 @@ def test_a_port_that_only_udp_has_taken_is_not_chosen(monkeypatch):
     taken = socket.socket(type=socket.SOCK_DGRAM)
     taken.bind(("", 0))
     number = taken.getsockname()[1]
-    monkeypatch.setattr(Ports.__init__, "__defaults__", (number,) * 6)
+    monkeypatch.setattr(Ports.__init__, "__defaults__", (number,) * 7)
     try:
         assert number not in astuple(choose_ports())
     finally:

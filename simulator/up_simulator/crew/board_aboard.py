@@ -9,6 +9,7 @@ from typing import Any
 
 import yaml
 
+from up_rig.build import ARDUINO
 from up_simulator.aircraft import Airframe
 from up_simulator.firmware.board import FirmwareBoard
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
@@ -27,7 +28,8 @@ def board_aboard(
     """
     if options.board == "stand-in" or options.framing == "thesis":
         return None
-    say("building the firmware where it is not built yet; the first time takes a minute")
+    if not (ARDUINO / "build" / "raspilot.elf").exists() and options.elf is None:
+        say("building the firmware: that takes a minute, the first time")
     try:
         eeprom = _eeprom(options, airframe, say)
         board = choose_board(

@@ -18,6 +18,7 @@ from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.flight import FlightUnavailableError
+from up_simulator.link.relay import LinkRelayError
 from up_simulator.radio.sticks import RadioError
 
 FOR_THE_USER = (
@@ -25,6 +26,7 @@ FOR_THE_USER = (
     BoardCrashedError,
     BoardUnavailableError,
     FlightUnavailableError,
+    LinkRelayError,
     OSError,
     PreparationError,
     PtyLineError,

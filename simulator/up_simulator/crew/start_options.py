@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import TypeVar
 
 from up_rig.sticks import StickMove, SticksError, read_sticks
+from up_simulator.crew.uplink import UplinkError, read_link
+from up_simulator.link.settings import LinkSettings
 from up_simulator.radio.axis_map import AxisMap, read_axis_map
 from up_simulator.radio.sticks import RadioError
 
@@ -48,6 +50,9 @@ examples:
   up-sim start --state-log truth.csv
       write the true state 50 times a second; --replay truth.csv flies it again
 
+  up-sim start --pty-link /tmp/board --link "delay=150 jitter=50 loss=3"
+      Raspilot reaches its proxy (127.0.0.1:3003) through port 3005, as over the mobile network
+
 Ctrl-C stops everything."""
 TURBULENCE = ("none", "light", "moderate", "severe")
 T = TypeVar("T")
@@ -66,6 +71,7 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
     _add_board(parser.add_argument_group("board"))
     _add_pilot(parser.add_argument_group("pilot"))
     _add_phone(parser.add_argument_group("phone"))
+    _add_link(parser.add_argument_group("link to the proxy"))
     options = parser.parse_args(arguments)
     if options.no_board and options.no_phone:
         parser.error("--no-board and --no-phone leave nothing to do")
@@ -173,6 +179,25 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
     )
 
 
+def _add_link(group: argparse._ArgumentGroup) -> None:
+    group.add_argument(
+        "--link",
+        type=_link,
+        metavar="LINK",
+        help='a bad one: "delay=80 jitter=20 loss=1 rate=20000" (ms, ms, percent, bytes/s)',
+    )
+    group.add_argument(
+        "--link-port", type=_port, default=3005, metavar="N", help="where Raspilot enters it, 3005"
+    )
+    group.add_argument(
+        "--link-to",
+        type=_place,
+        default=("127.0.0.1", 3003),
+        metavar="HOST:PORT",
+        help="the proxy's side for aircraft, 127.0.0.1:3003",
+    )
+
+
 def _wind_m_s(text: str) -> float:
     try:
         speed_m_s = float(text)
@@ -211,8 +236,12 @@ def _controller(text: str) -> AxisMap:
     return _or_sentence(read_axis_map, text)
 
 
+def _link(text: str) -> LinkSettings:
+    return _or_sentence(read_link, text)
+
+
 def _or_sentence(read: Callable[[str], T], text: str) -> T:
     try:
         return read(text)
-    except (SticksError, RadioError) as error:
+    except (SticksError, RadioError, UplinkError) as error:
         raise argparse.ArgumentTypeError(str(error)) from error

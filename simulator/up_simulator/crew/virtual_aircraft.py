@@ -14,7 +14,9 @@ from up_simulator.crew.aloft import put_aloft
 from up_simulator.crew.board_aboard import board_aboard
 from up_simulator.crew.firmware_aircraft import FirmwareAircraft
 from up_simulator.crew.stand_in import StandInAircraft
+from up_simulator.crew.uplink import make_uplink
 from up_simulator.firmware.tap import BoardTap
+from up_simulator.link.relay import LinkRelay
 from up_simulator.pace import Pace
 from up_simulator.phone import Phone
 from up_simulator.phone_address import RaspberryPi, Runner, discover, spawn
@@ -44,7 +46,7 @@ class VirtualAircraft:
     ``reactor`` gives time and sockets; its clock must be monotonic. ``say`` takes one line for the
     user, ``on_leave`` is called when the pilot at the keyboard leaves. Raises
     ``FlightUnavailableError``, ``AirframeError``, ``BoardUnavailableError``, ``PtyLineError``,
-    ``RadioError`` and ``OSError`` (the state log) with messages for the user.
+    ``RadioError``, ``LinkRelayError`` and ``OSError`` (the state log) with messages for the user.
     """
 
     def __init__(
@@ -56,6 +58,7 @@ class VirtualAircraft:
         self._radio: Radio | None = None
         self._link: PhoneLink | None = None
         self._log: StateLog | None = None
+        self._uplink: LinkRelay | None = None
         self._ticks: list[Callable[[], None]] = []
         self._loop = LoopingCall(self._tick)
         self._loop.clock = reactor
@@ -82,6 +85,8 @@ class VirtualAircraft:
         self._give_back()
         if self._link is not None:
             await self._link.stop()
+        if self._uplink is not None:
+            await self._uplink.stop()
 
     def _put_together(
         self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
@@ -92,6 +97,11 @@ class VirtualAircraft:
             self._ticks.append(Pace(self.flight, self._reactor, self._say).keep)
         else:
             self._ticks.append(self._board_it(options, airframe, on_leave))
+        if options.link is not None:
+            self._uplink = make_uplink(
+                self._reactor, options.link_port, options.link_to, options.link, options.seed
+            )
+            self._uplink.start()
         if not options.no_phone:
             self._ticks.append(self._carry_phone(options).tick)
 
