@@ -27,7 +27,7 @@ def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
     done = fly(
         tmp_path,
         HEAD
-        + "duration_s: 20\nraspilot: {runs: real}\nphone: {}\nground: {period_ms: 50}\n"
+        + "duration_s: 13\nraspilot: {runs: real}\nphone: {}\nground: {period_ms: 50}\n"
         + "link: {up: {delay_ms: 20}, down: {delay_ms: 20}}\n"
         + "events:\n"
         + "  - {at_s: 0.5, command: {name: up.telemetry.frequency, data: {frequency: 100},"
@@ -37,7 +37,7 @@ def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
         + "expect:\n"
         + "  - {name: a, signal: board.armed, is: true}\n"
         + "  - {name: b, signal: board.pi_heard, after: killed, becomes: false, within_s: 1.5}\n"
-        + "  - {name: c, signal: board.pi_heard, after: started, becomes: true, within_s: 17}\n"
+        + "  - {name: c, signal: board.pi_heard, after: started, becomes: true, within_s: 10}\n"
         + "  - {name: d, signal: raspilot.running, after: killed, becomes: false, within_s: 0.1}\n"
         + "  - {name: e, signal: servo.stale_ms, below: 40}\n",
     )
