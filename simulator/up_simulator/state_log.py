@@ -16,7 +16,8 @@ class StateLog:
     """A CSV line for every 20 ms of flight, written through at once.
 
     Columns are what a recorded flight has (``recorded_flight.COLUMNS``), then the four servo
-    positions (us). The file can be flown again with ``--replay``. Raises ``OSError`` when it cannot be written.
+    positions (us). The file can be flown again with ``--replay``. Raises ``OSError`` when it cannot
+    be written.
     """
 
     def __init__(self, path: Path) -> None:

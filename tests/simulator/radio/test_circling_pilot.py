@@ -16,7 +16,6 @@ from up_simulator.radio.sticks import Sticks, Transmitter
 from up_simulator.world import World
 
 
-
 @pytest.mark.parametrize(
     ("airframe", "wind_m_s", "minutes"), [("glider", 4.0, 3), ("wing", 6.0, 1)]
 )
