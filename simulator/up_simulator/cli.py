@@ -23,7 +23,8 @@ A first flight in three commands:
   up-sim new first-flight            a scenario of your own, with a comment at every key
 
   up-sim start                       the aircraft in real time, for Raspilot and a ground station
-'up-sim VERB --help' explains a verb; docs/scenarios.md explains scenarios."""
+'up-sim VERB --help' explains a verb; docs/simulator.md explains the virtual aircraft and
+docs/scenarios.md scenarios."""
 VERBS = {
     "fly": ("fly scenarios and report what held", "up_simulator.verbs.fly"),
     "list": ("list the scenarios", "up_simulator.verbs.listing"),
@@ -69,7 +70,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stderr.close()
         return NOT_HELD
     except OSError as error:
-        return _fail(str(error), NOT_HELD)
+        where = f"{error.filename}: " if error.filename else ""
+        return _fail(f"{where}{error.strerror or error}", NOT_HELD)
     except KeyboardInterrupt:
         return _fail("interrupted", INTERRUPTED)
 

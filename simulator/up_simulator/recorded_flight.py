@@ -102,8 +102,12 @@ def read_recording(path: Path | None) -> RecordedFlight:
         if data[:2] == b"\x1f\x8b":
             data = gzip.decompress(data)
         text = data.decode("utf-8")
-    except (OSError, EOFError, zlib.error, UnicodeDecodeError) as error:
-        raise FlightUnavailableError(f"cannot read the recorded flight: {error}") from error
+    except OSError as error:
+        raise FlightUnavailableError(
+            f"cannot read the recorded flight {path}: {error.strerror or error}"
+        ) from error
+    except (EOFError, zlib.error, UnicodeDecodeError) as error:
+        raise FlightUnavailableError(f"cannot read the recorded flight {path}: {error}") from error
     return RecordedFlight(_states(text, str(path or SHIPPED)))
 
 

@@ -159,7 +159,7 @@ def test_the_program_refuses_a_missing_file_in_one_sentence(tmp_path):
     with Program("--no-phone", "--replay", tmp_path / "missing.csv") as program:
         assert program.process.wait(30) == 1
         error = program.error()
-    assert error.startswith("up_simulator: cannot read the recorded flight: ")
+    assert error.startswith("up-sim: cannot read the recorded flight ")
     assert error.count("\n") == 1
 
 

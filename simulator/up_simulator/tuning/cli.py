@@ -116,7 +116,11 @@ def _parser() -> argparse.ArgumentParser:
         " simulated chip (default: %(default)s)",
     )
     parser.add_argument(
-        "--processes", type=int, choices=range(1, MOST_PROCESSES + 1), default=MOST_PROCESSES
+        "--processes",
+        type=int,
+        choices=range(1, MOST_PROCESSES + 1),
+        default=MOST_PROCESSES,
+        help="how many flights at a time (default: %(default)s)",
     )
     return parser
 

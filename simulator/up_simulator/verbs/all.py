@@ -18,7 +18,7 @@ from up.config import ConfigErrors
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
 from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, WRONG_INPUT
-from up_simulator.verbs.shelf import name_of, shipped_paths
+from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
 
 WAIT_S = 0.05
 SHOWN_S = 0.5
@@ -105,6 +105,7 @@ def _jobs(options: argparse.Namespace) -> list[Job] | None:
     """Return what is to be flown, the longest first; None: a file has mistakes, which are told."""
     jobs: list[tuple[float, Job]] = []
     has_mistakes = False
+    tags: set[str] = set()
     for path in shipped_paths():
         try:
             scenario = read_scenario(path)
@@ -112,10 +113,13 @@ def _jobs(options: argparse.Namespace) -> list[Job] | None:
             sys.stderr.write(f"{errors}\n")
             has_mistakes = True
             continue
+        tags.update(scenario.tags)
         if set(options.tag) <= set(scenario.tags):
             flights = 1 if scenario.control is None else 2
             job = Job(path, scenario.is_real, options.output / name_of(path))
             jobs.append((-scenario.duration_s * flights, job))
+    if options.tag and not jobs and not has_mistakes:
+        raise no_such_tag(options.tag, tags)
     jobs.sort(key=lambda each: (each[1].is_real, each[0], each[1].name))
     return None if has_mistakes else [job for _, job in jobs]
 

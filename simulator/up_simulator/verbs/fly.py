@@ -50,11 +50,11 @@ def main(arguments: Sequence[str]) -> int:
 
 def _read(path: Path, options: argparse.Namespace) -> Scenario:
     overrides = [
-        Override(f"{key}={value}", key, value)
-        for key, value in (
-            ("seed", options.seed),
-            ("duration_s", options.duration),
-            ("board", options.board),
+        Override(f"{option} {value}", key, value)
+        for option, key, value in (
+            ("--seed", "seed", options.seed),
+            ("--duration", "duration_s", options.duration),
+            ("--board", "board", options.board),
         )
         if value is not None
     ]

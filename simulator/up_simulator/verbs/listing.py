@@ -10,7 +10,7 @@ from pathlib import Path
 from up.config import ConfigErrors
 from up_simulator.scenario.file import read_scenario
 from up_simulator.verbs.outcome import HELD, WRONG_INPUT
-from up_simulator.verbs.shelf import name_of, shipped_paths
+from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
 
 EPILOG = """\
 examples:
@@ -37,6 +37,8 @@ def main(arguments: Sequence[str]) -> int:
         paths = sorted(options.folder.glob("*.yml"))
     else:
         parser.error(f"{options.folder} is no folder")
+    tags: set[str] = set()
+    is_empty = True
     width = max((len(name_of(path)) for path in paths), default=0)
     status = HELD
     for path in paths:
@@ -46,10 +48,13 @@ def main(arguments: Sequence[str]) -> int:
             sys.stderr.write(f"{errors}\n")
             status = WRONG_INPUT
             continue
+        tags.update(scenario.tags)
         if set(options.tag) <= set(scenario.tags):
+            is_empty = False
             pace = "real time" if scenario.is_real else ""
-            tags = ", ".join(scenario.tags)
             line = f"{name_of(path):<{width}}  {scenario.duration_s:>5g} s  {scenario.title}"
-            more = "; ".join(part for part in (tags, pace) if part)
+            more = "; ".join(part for part in (", ".join(scenario.tags), pace) if part)
             sys.stdout.write(f"{line}  [{more}]\n" if more else f"{line}\n")
+    if is_empty and options.tag:
+        raise no_such_tag(options.tag, tags)
     return status

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Iterable
 from pathlib import Path
 
 from up_simulator.verbs.outcome import UsageError
@@ -36,6 +37,16 @@ def _hint(name: str) -> str:
     names = [each.stem for each in shipped_paths()]
     near = difflib.get_close_matches(name[:80], names, n=1, cutoff=0.5)
     return f", did you mean '{near[0]}'?" if near else " ('up-sim list' names them)"
+
+
+def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
+    """Return what to raise where no scenario has the tags that were asked for."""
+    names = sorted(set(known))
+    asked = " and ".join(f"'{tag[:80]}'" for tag in wanted)
+    unknown = [tag for tag in wanted if tag not in names]
+    near = difflib.get_close_matches(unknown[0][:80], names, n=1) if unknown else []
+    hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names)}"
+    return UsageError(f"no scenario has the tag {asked}: {hint}")
 
 
 def name_of(path: Path) -> str:

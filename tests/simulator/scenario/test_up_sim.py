@@ -81,6 +81,12 @@ def test_the_list_names_every_scenario(capsys):
     assert "fbw-roll-step" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("verb", ["list", "all"])
+def test_a_tag_that_nothing_has_is_wrong_input(verb, capsys):
+    assert main([verb, "--tag", "stpe"]) == 2
+    assert "no scenario has the tag 'stpe': did you mean 'step'?" in capsys.readouterr().err
+
+
 def test_check_tells_mistakes_with_their_places(capsys):
     assert main(["check", write("good.yml", GOOD)]) == 0
     assert "Good: 1 s, 1 expectations, no mistake" in capsys.readouterr().out
