@@ -108,7 +108,11 @@ def read_recording(path: Path | None) -> RecordedFlight:
         ) from error
     except (EOFError, zlib.error, UnicodeDecodeError) as error:
         raise FlightUnavailableError(f"cannot read the recorded flight {path}: {error}") from error
-    return RecordedFlight(_states(text, str(path or SHIPPED)))
+    name = str(path or SHIPPED)
+    try:
+        return RecordedFlight(_states(text, name))
+    except csv.Error as error:
+        raise FlightUnavailableError(f"{name}: is no recorded flight: {error}") from error
 
 
 def _states(text: str, name: str) -> list[FlightState]:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.simulator.program import Line, Program
@@ -130,6 +130,7 @@ def test_a_file_that_is_no_flight_is_one_sentence(tmp_path, text, what):
 
 
 @given(st.binary(max_size=200))
+@example(b"\r\x00")
 def test_any_file_is_refused_in_one_sentence(tmp_path_factory, data):
     path = tmp_path_factory.mktemp("any") / "log.csv"
     path.write_bytes(data)
