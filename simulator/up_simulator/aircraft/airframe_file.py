@@ -8,8 +8,8 @@ from typing import Any
 
 from up.config import ConfigFile, key, mapping, section
 from up.fields import Constraint
+from up.flight_controller.airframe_profile import AirframeProfile
 from up.flight_controller.pids_file import Rate, Stabilize
-from up_simulator.aircraft.profile import Profile
 
 _PROPERTY = Constraint(str, max_length=80)
 _TRAVEL = Constraint(float, minimum=-90.0, maximum=90.0)
@@ -127,7 +127,9 @@ class AirframeFile:
     battery: BatteryConfig = section(BatteryConfig)
     imu: ImuConfig = section(ImuConfig)
     limits: LimitsConfig = section(LimitsConfig)
-    profile: Profile = section(Profile, "What the Arduino is told, as in config/airframe.yml.")
+    profile: AirframeProfile = section(
+        AirframeProfile, "What the Arduino is told, as in config/airframe.yml."
+    )
     gains: GainsConfig = section(GainsConfig)
 
     def problems(self) -> Iterator[tuple[str, str]]:

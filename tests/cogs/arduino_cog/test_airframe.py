@@ -4,7 +4,7 @@ import struct
 from pathlib import Path
 
 import pytest
-from arduino_cog.airframe import AIRFRAME, AirframeConfig
+from arduino_cog.airframe import AIRFRAME
 from arduino_cog.profile import pack_profile, read_profile
 from arduino_cog.profile_data import differences, flat, profile_from_data, profile_to_data
 from arduino_cog.profile_data import with_changes as changed
@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT
 from up.config import ConfigErrors
 from up.config.values import plain_value
+from up.flight_controller.airframe_profile import AirframeProfile
 
 FACTORY = read_profile(struct.pack(PROFILE_FORMAT, *PROFILE))
 PATH = Path("config/airframe.yml")
@@ -24,7 +25,7 @@ def wishes(text):
 
 
 def test_the_shipped_file_asks_for_nothing():
-    assert AIRFRAME.parse(AIRFRAME.template(), PATH) == AirframeConfig()
+    assert AIRFRAME.parse(AIRFRAME.template(), PATH) == AirframeProfile()
     assert wishes(AIRFRAME.template()) == {}
 
 

@@ -8,7 +8,6 @@ from arduino_cog.airframe import AIRFRAME
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up.config import ConfigFile
 from up.flight_controller.pids_file import PIDS
 from up_simulator.aircraft import (
     DEFAULT_AIRFRAME,
@@ -19,7 +18,6 @@ from up_simulator.aircraft import (
 )
 from up_simulator.aircraft.airframe import SHIPPED
 from up_simulator.aircraft.airframe_file import file_named
-from up_simulator.aircraft.profile import Profile
 
 
 def own(folder, yml=lambda text: text, xml=lambda text: text):
@@ -72,22 +70,6 @@ def test_profile_and_gains_are_what_the_raspberry_pis_files_take(name, tmp_path)
     assert read.motor == airframe.profile["motor"]
     gains = PIDS.parse(yaml.safe_dump(airframe.gains), tmp_path / "pids.yml", whole=False)
     assert gains.rate.ailerons.p == airframe.gains["rate"]["ailerons"]["p"]
-
-
-def without_words(schema):
-    """Return a JSON Schema without what it says to people."""
-    if not isinstance(schema, dict):
-        return schema
-    return {
-        name: without_words(each)
-        for name, each in schema.items()
-        if name != "description" or isinstance(each, dict)
-    }
-
-
-def test_the_profile_has_the_keys_and_bounds_of_the_cogs():
-    ours = ConfigFile("airframe.yml", Profile).json_schema()
-    assert without_words(ours) == without_words(AIRFRAME.json_schema())
 
 
 @pytest.mark.parametrize("as_file", [False, True])

@@ -1,4 +1,4 @@
-"""The profile of the Arduino in an airframe of the simulator: the keys of config/airframe.yml."""
+"""The keys of airframe.yml: what the Arduino shall know about an aeroplane; what is null stays."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from up.config import key, section
 
 MIXES = ("none", "elevon", "V-tail")
-_MODES = ("ACRO", "RATE", "FBW", "AUTO")
+MODES = ("ACRO", "RATE", "FBW", "AUTO")
 
 
 def _pulse(comment: str, least: int = 800, most: int = 2200) -> int | None:
@@ -20,7 +20,7 @@ def _angle(comment: str, least: float = 0.0) -> float | None:
 
 
 def _switch(comment: str) -> str | None:
-    return key(None, comment, choices=_MODES, ignore_case=True)
+    return key(None, comment, choices=MODES, ignore_case=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class Switch:
 
 @dataclass(frozen=True, slots=True)
 class FlyByWire:
-    """How far the sticks bank and pitch the aeroplane in FBW."""
+    """How far the sticks bank and pitch the aeroplane in FBW, on the Arduino and on the Pi."""
 
     roll_deg: float | None = _angle("Greatest bank. A new Arduino has 50.")
     pitch_up_deg: float | None = _angle("Greatest pitch up. A new Arduino has 20.")
@@ -87,7 +87,7 @@ class ReceiverLost:
 
 
 @dataclass(frozen=True, slots=True)
-class Profile:
+class AirframeProfile:
     """The airframe that the Arduino flies: servos, switch, limits, failsafe.
 
     The Arduino keeps its own profile: what is null here, or not here, stays as the Arduino has it.
