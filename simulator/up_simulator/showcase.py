@@ -81,7 +81,9 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--airframe", default="glider", help=" or ".join(airframe_names()))
     parser.add_argument("--wind", default="4", metavar="M_S", help="from the south, default 4")
-    parser.add_argument("--turbulence", choices=TURBULENCE, default="moderate")
+    parser.add_argument(
+        "--turbulence", choices=TURBULENCE, default="moderate", help="default moderate"
+    )
     parser.add_argument(
         "--radio",
         default="circle",

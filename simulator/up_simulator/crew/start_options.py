@@ -81,7 +81,9 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
 
 
 def _add_flight(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--airframe", default="glider", metavar="NAME", help="glider, wing, a file")
+    group.add_argument(
+        "--airframe", default="glider", metavar="NAME", help="glider (default), wing, or one's own"
+    )
     group.add_argument(
         "--wind", type=_wind_m_s, default=3.0, metavar="M_S", help="from the south, default 3"
     )
@@ -154,9 +156,18 @@ def _add_pilot(group: argparse._ArgumentGroup) -> None:
 
 def _add_phone(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--no-phone", action="store_true", help="no stand-in for the phone")
-    group.add_argument("--phone-host", default="127.0.0.1", metavar="HOST", help="Raspilot's host")
-    group.add_argument("--general-port", type=_port, default=50001, metavar="N", help="50001")
-    group.add_argument("--orientation-port", type=_port, default=50000, metavar="N", help="50000")
+    group.add_argument(
+        "--phone-host",
+        default="127.0.0.1",
+        metavar="HOST",
+        help="where Raspilot is, default %(default)s",
+    )
+    group.add_argument(
+        "--general-port", type=_port, default=50001, metavar="N", help="default 50001"
+    )
+    group.add_argument(
+        "--orientation-port", type=_port, default=50000, metavar="N", help="default 50000"
+    )
     group.add_argument(
         "--orientation",
         choices=("off", "tcp", "udp"),
@@ -187,7 +198,11 @@ def _add_link(group: argparse._ArgumentGroup) -> None:
         help='a bad one: "delay=80 jitter=20 loss=1 rate=20000" (ms, ms, percent, bytes/s)',
     )
     group.add_argument(
-        "--link-port", type=_port, default=3005, metavar="N", help="where Raspilot enters it, 3005"
+        "--link-port",
+        type=_port,
+        default=3005,
+        metavar="N",
+        help="where Raspilot enters it, default 3005",
     )
     group.add_argument(
         "--link-to",
