@@ -1,0 +1,10 @@
+"""Every shipped scenario with the daemon in this process holds."""
+
+import pytest
+
+from tests.simulator.scenarios.shipped import WITH_DAEMON, fly
+
+
+@pytest.mark.parametrize("name", WITH_DAEMON)
+def test_what_flies_with_the_daemon_holds(name):
+    assert fly(name) == []
