@@ -8,29 +8,12 @@ import random
 from up_rig.imu import Motion
 from up_rig.pins import CHANNELS, SERVOS
 from up_rig.receiver import NEUTRAL_US as RECEIVER_NEUTRAL_US
-from up_simulator.firmware.board import NEUTRAL_US, Channel, ImuFault, Pulses, ResetCause
+from up_simulator.firmware.board import NEUTRAL_US, Channel, Pulses, ResetCause
+from up_simulator.firmware.board_imu import BoardImu
 from up_simulator.firmware.imu_errors import ImuErrors
 
 FRAME_US = 20_000.0
 GAP_US = 10.0
-
-
-class NoImu:
-    """Nobody measures here; what is set is kept and has no effect."""
-
-    def __init__(self, errors: ImuErrors) -> None:
-        self.errors = errors
-        self.throttle = 0.0
-        self._fault: ImuFault = "well"
-
-    @property
-    def fault(self) -> ImuFault:
-        """Return what was set last."""
-        return self._fault
-
-    def set_fault(self, fault: ImuFault) -> None:
-        """Keep it."""
-        self._fault = fault
 
 
 class DirectBoard:
@@ -43,7 +26,7 @@ class DirectBoard:
     title = "no flight computer: the receiver moves the servos"
 
     def __init__(self, *, seed: int = 1, imu_errors: ImuErrors | None = None) -> None:
-        self.imu = NoImu(imu_errors or ImuErrors())
+        self.imu = BoardImu(imu_errors or ImuErrors(), seed)
         self._now_us = 0.0
         self._frame_us = random.Random(f"receiver start {seed}").uniform(0, FRAME_US)
         self._sticks_us: dict[str, float] = dict(RECEIVER_NEUTRAL_US)

@@ -15,6 +15,7 @@ from up_simulator.firmware.board import (
     Pulses,
     ResetCause,
 )
+from up_simulator.firmware.board_imu import BoardImu
 from up_simulator.firmware.host_library import (
     EEPROM_SIZE,
     SAMPLE_NUMBERS,
@@ -22,7 +23,7 @@ from up_simulator.firmware.host_library import (
     HostUnavailableError,
     View,
 )
-from up_simulator.firmware.imu_errors import ImuErrors, ImuModel
+from up_simulator.firmware.imu_errors import ImuErrors
 
 __all__ = ["HostBoard", "HostImu", "HostUnavailableError"]
 
@@ -35,44 +36,19 @@ _COUNTS_DEG_S, _COUNTS_G = 131.0, 16384.0
 _TEMPERATURE = round((25.0 - 36.53) * 340)
 
 
-class HostImu:
+class HostImu(BoardImu):
     """What the MPU6050 of a host build measures, by the same ``ImuModel`` as the rig's."""
 
     def __init__(self, library: HostLibrary, errors: ImuErrors, seed: int) -> None:
+        super().__init__(errors, seed)
         self._library = library
         self._view: View = library.view
-        self._model = ImuModel(errors, seed)
         self._random = random.Random(f"imu {seed}")
-        self._fault: ImuFault = "well"
         self._numbers = [0] * SAMPLE_NUMBERS
-        self.motion = Motion()
-
-    @property
-    def errors(self) -> ImuErrors:
-        """Return how it errs."""
-        return self._model.errors
-
-    @errors.setter
-    def errors(self, errors: ImuErrors) -> None:
-        self._model.errors = errors
-
-    @property
-    def throttle(self) -> float:
-        """Return how fast the motor turns, 0 to 1."""
-        return self._model.throttle
-
-    @throttle.setter
-    def throttle(self, throttle: float) -> None:
-        self._model.throttle = throttle
-
-    @property
-    def fault(self) -> ImuFault:
-        """Return what was set last."""
-        return self._fault
 
     def set_fault(self, fault: ImuFault) -> None:
         """Let it fail, or mend it."""
-        self._fault = fault
+        super().set_fault(fault)
         self._library.set_imu_fault({"unplugged": 1, "stuck": 2}.get(fault, 0))
 
     def give_sample(self) -> None:

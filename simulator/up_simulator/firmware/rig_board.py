@@ -16,45 +16,20 @@ from up_simulator.firmware.board import (
     Pulses,
     ResetCause,
 )
-from up_simulator.firmware.imu_errors import ImuErrors, ImuModel
+from up_simulator.firmware.board_imu import BoardImu
+from up_simulator.firmware.imu_errors import ImuErrors
 
-LEVEL_AND_STILL = Motion()
 CYCLES_PER_US = 16
 
 
-class RigImu:
+class RigImu(BoardImu):
     """The MPU6050 of the rig, with the errors of an ``ImuModel`` in place of the rig's own."""
 
     def __init__(self, rig: Rig, errors: ImuErrors, seed: int) -> None:
+        super().__init__(errors, seed)
         self._imu = rig.imu
         self._imu.noise_deg_s = self._imu.noise_m_s2 = 0.0
         self._imu.motion = self._measure
-        self._model = ImuModel(errors, seed)
-        self._fault: ImuFault = "well"
-        self.motion = LEVEL_AND_STILL
-
-    @property
-    def errors(self) -> ImuErrors:
-        """Return how it errs."""
-        return self._model.errors
-
-    @errors.setter
-    def errors(self, errors: ImuErrors) -> None:
-        self._model.errors = errors
-
-    @property
-    def throttle(self) -> float:
-        """Return how fast the motor turns, 0 to 1."""
-        return self._model.throttle
-
-    @throttle.setter
-    def throttle(self, throttle: float) -> None:
-        self._model.throttle = throttle
-
-    @property
-    def fault(self) -> ImuFault:
-        """Return what was set last."""
-        return self._fault
 
     def set_fault(self, fault: ImuFault) -> None:
         """Let it fail, or mend it."""
@@ -68,7 +43,7 @@ class RigImu:
             imu.plug()
         if fault == "stuck":
             imu.fail(Fault.SDA_LOW)
-        self._fault = fault
+        super().set_fault(fault)
 
     def _measure(self, time_s: float) -> Motion:
         return self._model.measure(self.motion, time_s)

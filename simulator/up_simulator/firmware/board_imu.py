@@ -1,0 +1,43 @@
+"""The IMU of a board as a flight sees it: what it errs by, and what is broken."""
+
+from __future__ import annotations
+
+from up_rig.imu import Motion
+from up_simulator.firmware.board import ImuFault
+from up_simulator.firmware.imu_errors import ImuErrors, ImuModel
+
+
+class BoardImu:
+    """What every board's IMU keeps; ``motion`` is what it feels until it is set again."""
+
+    def __init__(self, errors: ImuErrors, seed: int) -> None:
+        self._model = ImuModel(errors, seed)
+        self._fault: ImuFault = "well"
+        self.motion = Motion()
+
+    @property
+    def errors(self) -> ImuErrors:
+        """Return how it errs."""
+        return self._model.errors
+
+    @errors.setter
+    def errors(self, errors: ImuErrors) -> None:
+        self._model.errors = errors
+
+    @property
+    def throttle(self) -> float:
+        """Return how fast the motor turns, 0 to 1."""
+        return self._model.throttle
+
+    @throttle.setter
+    def throttle(self, throttle: float) -> None:
+        self._model.throttle = throttle
+
+    @property
+    def fault(self) -> ImuFault:
+        """Return what was set last."""
+        return self._fault
+
+    def set_fault(self, fault: ImuFault) -> None:
+        """Let it fail, or mend it."""
+        self._fault = fault
