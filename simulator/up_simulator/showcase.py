@@ -11,12 +11,12 @@ import contextlib
 import fcntl
 import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from up_simulator.aircraft import AirframeError, airframe_names
 from up_simulator.crew.protocols import CrewError
-from up_simulator.crew.start_options import TURBULENCE
+from up_simulator.crew.start_options import BOARDS, TURBULENCE, link_settings, wind_m_s
 from up_simulator.showcase_flight import ShowcaseFlight
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -80,19 +80,32 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
         help="who holds the attitude: the firmware, or Raspilot on this machine; default arduino",
     )
     parser.add_argument("--airframe", default="glider", help=" or ".join(airframe_names()))
-    parser.add_argument("--wind", default="4", metavar="M_S", help="from the south, default 4")
+    parser.add_argument(
+        "--wind",
+        type=_text_of(wind_m_s),
+        default="4",
+        metavar="M_S",
+        help="from the south, default 4",
+    )
     parser.add_argument(
         "--turbulence", choices=TURBULENCE, default="moderate", help="default moderate"
     )
     parser.add_argument(
         "--radio",
+        type=_who,
         default="circle",
         metavar="WHO",
         help="who moves the sticks: circle (default), keyboard, js0",
     )
-    parser.add_argument("--board", default="auto", help="auto, firmware, host or stand-in")
+    parser.add_argument(
+        "--board",
+        choices=BOARDS,
+        default="auto",
+        help="what is aboard, as in 'up-sim start --help'",
+    )
     parser.add_argument(
         "--link",
+        type=_text_of(link_settings),
         default="",
         help="a bad link from aircraft to proxy: 'delay=80 jitter=20 loss=1 rate=20000'",
     )
@@ -103,6 +116,22 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--state-log", type=Path, help="write the true state there, as CSV")
     parser.add_argument("--any-ports", action="store_true", help="do not try the usual ports")
     return parser.parse_args(arguments)
+
+
+def _text_of(read: Callable[[str], object]) -> Callable[[str], str]:
+    """Return what takes a text as it is if the aircraft, which gets it, will understand it."""
+
+    def take(text: str) -> str:
+        read(text)
+        return text
+
+    return take
+
+
+def _who(text: str) -> str:
+    if text not in ("circle", "keyboard") and not text.startswith(("js", "/")):
+        raise argparse.ArgumentTypeError(f"{text!r} is not circle, keyboard or js0")
+    return text
 
 
 def _raise_stopped(number: int, frame: object) -> None:

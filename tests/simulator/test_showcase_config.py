@@ -1,9 +1,11 @@
 import socket
 from dataclasses import astuple
 
+import pytest
 import yaml
 
 from up_simulator.aircraft import load_airframe
+from up_simulator.showcase import main
 from up_simulator.showcase_config import Ports, choose_ports, write_config
 
 
@@ -73,8 +75,6 @@ def test_a_bad_link_stands_between_aircraft_and_proxy(tmp_path):
 def test_two_showcases_do_not_share_a_folder(tmp_path, capsys):
     import fcntl
 
-    from up_simulator.showcase import main
-
     with (tmp_path / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         assert main(["--folder", str(tmp_path)]) == 1
@@ -91,3 +91,19 @@ def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
     )
     subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True, timeout=60)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "what"),
+    [
+        (["--wind", "99"], "wind is 0 to 25 m/s"),
+        (["--radio", "script"], "is not circle, keyboard or js0"),
+        (["--board", "chip"], "invalid choice: 'chip'"),
+        (["--link", "dealy=5"], "'dealy=5' is not understood"),
+    ],
+)
+def test_what_the_aircraft_would_refuse_is_refused_before_anything_starts(words, what, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(words)
+    assert end.value.code == 2
+    assert what in capsys.readouterr().err.splitlines()[-1]

@@ -54,6 +54,7 @@ examples:
       Raspilot reaches its proxy (127.0.0.1:3003) through port 3005, as over the mobile network
 
 Ctrl-C stops everything."""
+BOARDS = ("auto", "firmware", "host", "stand-in")
 TURBULENCE = ("none", "light", "moderate", "severe")
 T = TypeVar("T")
 
@@ -85,7 +86,7 @@ def _add_flight(group: argparse._ArgumentGroup) -> None:
         "--airframe", default="glider", metavar="NAME", help="glider (default), wing, or one's own"
     )
     group.add_argument(
-        "--wind", type=_wind_m_s, default=3.0, metavar="M_S", help="from the south, default 3"
+        "--wind", type=wind_m_s, default=3.0, metavar="M_S", help="from the south, default 3"
     )
     group.add_argument(
         "--turbulence", choices=TURBULENCE, default="light", help="default %(default)s"
@@ -103,7 +104,7 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--no-board", action="store_true", help="no Arduino aboard")
     group.add_argument(
         "--board",
-        choices=("auto", "firmware", "host", "stand-in"),
+        choices=BOARDS,
         default="auto",
         help="the firmware on its chip, built for this computer, or a stand-in; default auto",
     )
@@ -193,7 +194,7 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
 def _add_link(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--link",
-        type=_link,
+        type=link_settings,
         metavar="LINK",
         help='a bad one: "delay=80 jitter=20 loss=1 rate=20000" (ms, ms, percent, bytes/s)',
     )
@@ -213,7 +214,8 @@ def _add_link(group: argparse._ArgumentGroup) -> None:
     )
 
 
-def _wind_m_s(text: str) -> float:
+def wind_m_s(text: str) -> float:
+    """Return a wind's speed; raises ``ArgumentTypeError``."""
     try:
         speed_m_s = float(text)
     except ValueError:
@@ -251,7 +253,8 @@ def _controller(text: str) -> AxisMap:
     return _or_sentence(read_axis_map, text)
 
 
-def _link(text: str) -> LinkSettings:
+def link_settings(text: str) -> LinkSettings:
+    """Return a link's settings; raises ``ArgumentTypeError``."""
     return _or_sentence(read_link, text)
 
 

@@ -131,7 +131,10 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("who", nargs="?", default="keyboard", help="keyboard (default), js0, ...")
     parser.add_argument("--socket", type=Path, default=DEFAULT_SOCKET, help="default %(default)s")
     parser.add_argument(
-        "--controller", default="transmitter", metavar="MAP", help="as of 'up-sim start'"
+        "--controller",
+        default="transmitter",
+        metavar="MAP",
+        help="axes and buttons, as in 'up-sim start --help'",
     )
     return parser.parse_args(arguments)
 
