@@ -166,10 +166,24 @@ def _known(measure: _Measure) -> _Measure:
         unknown_s = window.unknown_s()
         if unknown_s is None:
             return measure(expectation, window)
-        why = f"{expectation.signal} was not known at {unknown_s:.2f} s"
-        return Verdict(expectation.name, False, "none", limit_text(expectation), why, False)
+        return _no_figure(expectation, f"{expectation.signal} was not known at {unknown_s:.2f} s")
 
     return measure_known
+
+
+def _known_once(measure: _Measure) -> _Measure:
+    """Let a measure look only at windows in which at least one value is known."""
+
+    def measure_known_once(expectation: Expectation, window: Window) -> Verdict:
+        if any(value != "" and value == value for value in window.values):
+            return measure(expectation, window)
+        return _no_figure(expectation, f"{expectation.signal} was never known")
+
+    return measure_known_once
+
+
+def _no_figure(expectation: Expectation, why: str) -> Verdict:
+    return Verdict(expectation.name, False, "none", limit_text(expectation), why, False)
 
 
 MEASURES: dict[str, _Measure] = {
@@ -177,7 +191,7 @@ MEASURES: dict[str, _Measure] = {
     "below": _known(_below),
     "above": _known(_above),
     "is_": _is,
-    "is_not": _is_not,
+    "is_not": _known(_is_not),
     "becomes": _becomes,
     "becomes_below": _becomes_below,
     "becomes_above": _becomes_above,
@@ -188,8 +202,8 @@ MEASURES: dict[str, _Measure] = {
     "stays": _known(_stays),
     "grows_below": _known(_grows_below),
     "grows_above": _known(_grows_above),
-    "changes_below": _changes_below,
-    "changes_above": _changes_above,
+    "changes_below": _known_once(_changes_below),
+    "changes_above": _known_once(_changes_above),
 }
 _AT_MOST = {"below", "rms_below", "max_step", "stays", "grows_below"}
 _AT_LEAST = {"above", "grows_above"}

@@ -98,8 +98,26 @@ def test_what_is_not_known_is_no_figure():
         found = verdict(f"signal: truth.roll_deg, {kind}", unknown)
         assert not found.is_held and not found.has_figure
         assert "not known at 1.02 s" in found.why
-    word = verdict("signal: board.mode, is: FBW", {"board.mode": lambda t: ""})
-    assert not word.is_held and not word.has_figure
+    for kind in ("is: FBW", "is_not: ACRO", "changes_below: 0"):
+        word = verdict(f"signal: board.mode, {kind}", {"board.mode": lambda t: ""})
+        assert not word.is_held and not word.has_figure
+    assert "never known" in word.why
+
+
+def test_it_is_not_something_only_where_it_is_known_throughout():
+    mode = {"board.mode": lambda t: "" if t < 0.5 else "FBW"}
+    text = "signal: board.mode, is_not: ACRO"
+    found = verdict(text, mode)
+    assert not found.is_held and not found.has_figure
+    assert verdict(f"{text}, from_s: 0.5", mode).is_held
+
+
+def test_changes_are_counted_where_something_was_known():
+    mode = {"board.mode": lambda t: "" if t < 0.5 else "FBW" if t < 1 else "ACRO"}
+    assert verdict("signal: board.mode, changes_below: 1", mode).is_held
+    assert verdict("signal: board.mode, changes_above: 1", mode).is_held
+    unknown = verdict("signal: board.mode, changes_below: 0, to_s: 0.4", mode)
+    assert (unknown.is_held, unknown.figure) == (False, "none")
 
 
 def test_a_part_that_is_not_aboard_is_no_figure():
