@@ -55,13 +55,20 @@ def _sticks(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     modes = set(scenario.switch.positions().values())
     for at, point in enumerate(scenario.sticks):
         if point.mode is not None and point.mode not in modes:
-            yield place(root, "sticks", at, "mode"), _no_position(point.mode)
+            yield place(root, "sticks", at, "mode"), _no_position(point.mode, scenario)
     if scenario.control is not None and scenario.control.mode not in {None, *modes}:
-        yield place(root, "control", "mode"), _no_position(str(scenario.control.mode))
+        what = _no_position(str(scenario.control.mode), scenario)
+        yield place(root, "control", "mode"), what
 
 
-def _no_position(mode: str) -> str:
-    return f"no position of the switch selects {mode}: add 'switch: {{middle: {mode}}}'"
+def _no_position(mode: str, scenario: Scenario) -> str:
+    used = {point.mode for point in scenario.sticks}
+    positions = scenario.switch.positions()
+    free = [position for position, selected in positions.items() if selected not in used]
+    what = f"no position of the switch selects {mode}"
+    if not free:
+        return f"{what}: the flight uses all three for other modes"
+    return f"{what}: add 'switch: {{{free[0]}: {mode}}}'"
 
 
 def _crew(scenario: Scenario, root: MapNode) -> Iterator[Problem]:

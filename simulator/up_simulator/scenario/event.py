@@ -60,6 +60,11 @@ class Event:
     name: str = key(
         "", "What reports and pictures call it, and 'after' of an expectation.", max_length=80
     )
+    mark: str | None = key(
+        None,
+        "Nothing happens: only a name for this moment, as of a move of the sticks.",
+        max_length=80,
+    )
     imu: Literal["well", "frozen", "unplugged", "stuck", "garbage"] | None = key(
         None,
         "frozen repeats its last sample, stuck holds the bus, garbage sends noise, unplugged does"
@@ -110,6 +115,10 @@ class Event:
         kinds = self.kinds
         if not kinds:
             yield "at_s", "nothing happens: name one of " + ", ".join(EVENT_KINDS)
+        if self.mark == "":
+            yield "mark", "must be a name"
+        if self.mark and self.name:
+            yield "name", f"the mark {self.mark!r} is its name already"
         for kind in kinds[1:]:
             yield kind, f"'{kinds[0]}' happens already: give '{kind}' an event of its own"
 
@@ -121,8 +130,8 @@ class Event:
     @property
     def title(self) -> str:
         """Return its name, or words for what happens."""
-        if self.name:
-            return self.name
+        if self.name or self.mark:
+            return self.name or str(self.mark)
         kind = self.kinds[0]
         value = getattr(self, kind)
         words = kind.replace("_", " ")

@@ -17,6 +17,8 @@ def happen(event: Event, board: LineBoard, companions: Companions, imu: ImuConfi
     ``imu`` is how the airframe carries its IMU. Raises CrewError.
     """
     match event.kinds[0]:
+        case "mark":
+            pass
         case "imu":
             board.imu.set_fault(cast(ImuFault, event.imu))
         case "imu_errors":

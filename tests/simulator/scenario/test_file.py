@@ -150,6 +150,36 @@ def test_what_does_not_fit_together_is_told(part, what):
 
 
 @pytest.mark.parametrize(
+    ("part", "place", "hint"),
+    [
+        ("sticks: [{at_s: 0, mode: RATE}]\n", "3:26", "add 'switch: {low: RATE}'"),
+        ("sticks: [{at_s: 0, mode: ACRO}, {at_s: 1, mode: RATE}]\n", "3:49", "{middle: RATE}"),
+        ("switch: {high: ACRO}\ncontrol: {mode: AUTO, fails: [It flies]}\n", "4:17",
+         "{low: AUTO}"),
+        ("sticks: [{at_s: 0, mode: ACRO}, {at_s: 1, mode: FBW}, {at_s: 2, mode: AUTO}]\n"
+         "control: {mode: RATE, fails: [It flies]}\n", "4:17", "the flight uses all three"),
+    ],
+)  # fmt: skip
+def test_a_mode_that_no_position_selects_is_told_with_a_position_that_is_free(part, place, hint):
+    (found,) = problems(HEAD + part + EXPECT)
+    assert found.startswith(f"flight.yml:{place}: no position of the switch selects ")
+    assert hint in found
+
+
+@pytest.mark.parametrize(
+    ("event", "what"),
+    [
+        ("mark: ''", "must be a name"),
+        ("mark: a, name: b", "is its name already"),
+        ("mark: a, imu: well", "happens already"),
+    ],
+)
+def test_a_mark_is_a_name_and_no_more(event, what):
+    (found,) = problems(f"{HEAD}events: [{{at_s: 1, {event}}}]\n{EXPECT}")
+    assert found.startswith("flight.yml:3:") and what in found
+
+
+@pytest.mark.parametrize(
     ("expectation", "what"),
     [
         ("signal: time_s, above: 0", "must be a sentence"),

@@ -72,15 +72,17 @@ def test_events_happen_at_their_time_and_stand_in_the_log():
             "events:\n"
             "  - {at_s: 1, name: frozen, imu: frozen}\n"
             "  - {at_s: 2, name: well, imu: well}\n"
+            "  - {at_s: 3, mark: by then}\n"
             "expect:\n"
             "  - {name: a, signal: board.imu_valid, after: frozen, becomes: false, within_s: 0.5}\n"
             "  - {name: b, signal: board.imu_valid, after: well, becomes: true, within_s: 1.5}\n"
             "  - {name: c, signal: servo.stale_ms, below: 30}\n"
+            "  - {name: d, signal: board.imu_valid, after: by then, is: true}\n"
         )
     )
     record = fly(text)
     assert broken(record) == []
-    assert record.log.events == [(1.0, "frozen"), (2.0, "well")]
+    assert record.log.events == [(1.0, "frozen"), (2.0, "well"), (3.0, "by then")]
 
 
 def test_the_receiver_one_channel_and_a_reset():
