@@ -5,12 +5,15 @@ from __future__ import annotations
 import argparse
 import difflib
 import importlib
+import os
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any
 
 from up.config import ConfigErrors
 from up.version import VERSION
+from up_simulator.ending import ending_in_order
 from up_simulator.verbs.outcome import INTERRUPTED, NOT_HELD, WRONG_INPUT, UsageError
 
 DESCRIPTION = """\
@@ -42,9 +45,17 @@ VERBS = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out one verb; return the exit status.
 
-    0: held; 1: not held, or it could not be flown; 2: wrong input; 130: interrupted.
+    0: held; 1: not held, or it could not be flown; 2: wrong input; 130, 143, 129: ended by Ctrl-C,
+    SIGTERM, SIGHUP (a closed terminal), each in the same order.
     """
-    words = list(sys.argv[1:] if arguments is None else arguments)
+    with ending_in_order() as ending:
+        try:
+            return ending.status(_main(list(sys.argv[1:] if arguments is None else arguments)))
+        finally:
+            _flush()
+
+
+def _main(words: list[str]) -> int:
     parser = _parser()
     if not words:
         parser.print_help()
@@ -102,8 +113,21 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _fail(text: str, status: int) -> int:
-    sys.stderr.write(f"up-sim: {text}\n")
+    # The terminal may be gone by now.
+    with suppress(OSError):
+        sys.stderr.write(f"up-sim: {text}\n")
     return status
+
+
+def _flush() -> None:
+    """Write out what is left; where nobody reads any more, let it go without another word."""
+    try:
+        sys.stdout.flush()
+    except (OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        with suppress(OSError, ValueError):
+            os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ class Child:
                 stderr=subprocess.STDOUT if output else None,
                 env={**os.environ, "PYTHONUNBUFFERED": "1"},
                 start_new_session=not in_foreground,
-                preexec_fn=_dying_wish(),
+                preexec_fn=dying_wish(),
             )
         finally:
             if output is not None:
@@ -134,9 +134,23 @@ class Child:
         return self.wait()
 
 
-def _dying_wish() -> Callable[[], object] | None:
-    """Return what a child does before it becomes its program: it asks to go when we go."""
+def dying_wish(
+    number: int = signal.SIGTERM, parent: int | None = None
+) -> Callable[[], None] | None:
+    """Return what a child does before it becomes its program: it asks to go when we go.
+
+    The child calls it, and gets the signal; ``parent`` is the process that makes it if no other is
+    named. None: only Linux can.
+    """
     if not sys.platform.startswith("linux"):
         return None
     ask = ctypes.CDLL(None).prctl
-    return lambda: ask(_PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
+    awaited = os.getpid() if parent is None else parent
+
+    def wish() -> None:
+        ask(_PR_SET_PDEATHSIG, number, 0, 0, 0)
+        # Who went before the wish was heard tells nobody.
+        if os.getppid() != awaited:
+            os.kill(os.getpid(), number)
+
+    return wish

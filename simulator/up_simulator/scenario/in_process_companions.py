@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
-from pathlib import Path
 from typing import Any
 
 from up_simulator.flight import Flight
@@ -16,6 +14,7 @@ from up_simulator.scenario.crew_companions import CrewCompanions
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.settings import merge
+from up_simulator.scenario.workspace import Workspace
 
 
 class InProcessCompanions(CrewCompanions):
@@ -34,14 +33,15 @@ class InProcessCompanions(CrewCompanions):
     ) -> None:
         super().__init__(scenario, board)
         self._reactor = SimulatedReactor()
-        # The folder goes when nobody refers to it any more, whatever ends the flight.
-        self._folder = tempfile.TemporaryDirectory(prefix="up-sim-")
-        config = write_config(Path(self._folder.name), merge(settings, scenario.raspilot.config))
+        self._workspace = Workspace()
+        config = write_config(self._workspace.path, merge(settings, scenario.raspilot.config))
         self._daemon = InProcessRaspilot(self._reactor, config, seed=scenario.seed)
         self.raspilot = self._daemon
         self._reactor.link(GROUND_PORT, up=self.down, down=self.up)
         if scenario.ground is not None:
-            self.ground = InProcessGround(self._reactor, seed=scenario.seed)
+            self.ground = InProcessGround(
+                self._reactor, seed=scenario.seed, frame_age=self._daemon.frame_age_s
+            )
         if scenario.phone is not None:
             self.phone = InProcessPhone(
                 self._reactor, flight, orientation=scenario.phone.orientation, seed=scenario.seed
@@ -71,4 +71,4 @@ class InProcessCompanions(CrewCompanions):
     def stop(self) -> None:
         """End everybody and remove the configuration."""
         super().stop()
-        self._folder.cleanup()
+        self._workspace.close()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TextIO
 
 SHOWN_S = 0.2
@@ -44,13 +45,17 @@ class ProgressLine:
     def end(self) -> None:
         """Take the line away."""
         if self._is_shown and self._width:
-            self._stream.write("\r" + " " * self._width + "\r")
-            self._stream.flush()
+            self._put("\r" + " " * self._width + "\r")
             self._width = 0
 
     def _write(self, text: str) -> None:
         if self._is_shown:
             padded = text.ljust(self._width)
             self._width = len(text)
-            self._stream.write("\r" + padded)
+            self._put("\r" + padded)
+
+    def _put(self, text: str) -> None:
+        # The terminal may be gone by now, and the flight must still end in order.
+        with suppress(OSError):
+            self._stream.write(text)
             self._stream.flush()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
-from pathlib import Path
 from typing import Any
 
 from up_rig.pty_line import PtyLine
@@ -21,6 +19,7 @@ from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
 from up_simulator.scenario.runner_crew import RunnerDaemon, RunnerPhone, write_runner_config
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.settings import merge
+from up_simulator.scenario.workspace import Workspace
 from up_simulator.showcase_config import choose_ports
 
 BYTES_A_STEP = 23
@@ -44,8 +43,8 @@ class RealCompanions(CrewCompanions):
     ) -> None:
         super().__init__(scenario, board)
         self._reactor = RealReactor()
-        self._temporary = tempfile.TemporaryDirectory(prefix="up-sim-")
-        self._folder = Path(self._temporary.name)
+        self._workspace = Workspace()
+        self._folder = self._workspace.path
         # Three of the phone's and the link's own, and those of the programs.
         self._ports, self._before = choose_ports(True), choose_ports(True)
         self._line: PtyLine | None = PtyLine(self._folder / "board")
@@ -124,7 +123,7 @@ class RealCompanions(CrewCompanions):
             self._line.close()
             self._line = None
         self._reactor.stop()
-        self._temporary.cleanup()
+        self._workspace.close()
 
     def end_raspilot(self) -> None:
         """End the daemon, or the runner and what it started."""

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from up_simulator.aircraft import AirframeError
 from up_simulator.crew.protocols import CrewError
+from up_simulator.ending import ending_between_steps
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
@@ -18,7 +19,6 @@ from up_simulator.flight import FlightUnavailableError
 from up_simulator.picture.flight_picture import Failure, PictureError, Wind, draw_flight
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight import FlightRecord
-from up_simulator.scenario.interrupt import hearing_ctrl_c
 from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import (
@@ -93,7 +93,7 @@ def _fly(
         raise CannotFlyError(str(error)) from error
     else:
         show = _Paced(progress.show) if is_paced else progress.show
-        with hearing_ctrl_c() as interrupt:
+        with ending_between_steps() as interrupt:
 
             def go_on(time_s: float) -> None:
                 interrupt.look()

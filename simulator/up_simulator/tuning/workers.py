@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
+import signal
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from types import TracebackType
 from typing import Any, TypeVar
+
+from up_simulator.crew.child import dying_wish
 
 T = TypeVar("T")
 MOST_PROCESSES = 2
@@ -27,7 +31,9 @@ class Workers:
         if processes > 1:
             # A fresh interpreter: a copy of this one would share what JSBSim and simavr hold.
             context = multiprocessing.get_context("spawn")
-            self._pool = ProcessPoolExecutor(min(processes, MOST_PROCESSES), mp_context=context)
+            self._pool = ProcessPoolExecutor(
+                min(processes, MOST_PROCESSES), context, _begin_worker, (os.getpid(),)
+            )
 
     def __enter__(self) -> Workers:
         """Return itself."""
@@ -39,8 +45,11 @@ class Workers:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """End the processes; after an error what has not begun is not flown."""
+        """End the processes; after an error, or when the end is asked for, in mid-flight."""
         if self._pool is not None:
+            if kind is not None:
+                for process in multiprocessing.active_children():
+                    process.kill()
             self._pool.shutdown(cancel_futures=kind is not None)
 
     def fly(self, trial: Callable[..., T], arguments: Sequence[tuple[Any, ...]]) -> list[T]:
@@ -62,3 +71,12 @@ class Workers:
     def _count(self) -> None:
         self._flown += 1
         self._on_flown(self._flown, self._asked)
+
+
+def _begin_worker(parent: int) -> None:
+    """Leave Ctrl-C and a closed terminal to the parent, and go when it goes."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+    wish = dying_wish(signal.SIGKILL, parent)
+    if wish is not None:
+        wish()

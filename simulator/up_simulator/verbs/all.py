@@ -10,17 +10,20 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
 from up.config import ConfigErrors
+from up_simulator.crew.child import dying_wish
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
 from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, WRONG_INPUT
 from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
 
 WAIT_S = 0.05
+END_LIMIT_S = 30.0
 SHOWN_S = 0.5
 _MIB = 1024.0
 EPILOG = """\
@@ -59,7 +62,7 @@ class Job:
         command += ["--output", str(options.output)]
         command += [] if options.picture else ["--no-picture"]
         self.began_s = time.monotonic()
-        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL)
+        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, preexec_fn=dying_wish())
 
     def is_over(self) -> bool:
         """Return whether it has ended, and note how."""
@@ -151,14 +154,18 @@ class Fleet:
         self._clear()
 
     def end(self) -> None:
-        """End what flies; a terminal's Ctrl-C has reached it already."""
-        self._clear()
+        """End what flies; what a terminal tells has reached it already."""
+        # Not by SIGINT: a shell's background job and what it starts ignore that.
         for job in self._flying:
             if job.process is not None and not job.is_over():
-                job.process.send_signal(signal.SIGINT)
+                job.process.send_signal(signal.SIGTERM)
+        limit_s = time.monotonic() + END_LIMIT_S
         for job in self._flying:
             while job.status is None and not job.is_over():
+                if job.process is not None and time.monotonic() > limit_s:
+                    job.process.kill()
                 time.sleep(WAIT_S)
+        self._clear()
 
     def _has_room_for(self, job: Job) -> bool:
         if job.is_real:
@@ -170,12 +177,16 @@ class Fleet:
         if self._stream.isatty() and now_s - self._shown_s >= SHOWN_S:
             self._shown_s = now_s
             names = ", ".join(job.name for job in self._flying)
-            self._stream.write(f"\r\x1b[K{len(self.done)} of {self._count}: {names}"[:200])
-            self._stream.flush()
+            self._write(f"\r\x1b[K{len(self.done)} of {self._count}: {names}"[:200])
 
     def _clear(self) -> None:
         if self._stream.isatty():
-            self._stream.write("\r\x1b[K")
+            self._write("\r\x1b[K")
+
+    def _write(self, text: str) -> None:
+        # The terminal may be gone by now.
+        with suppress(OSError):
+            self._stream.write(text)
             self._stream.flush()
 
 

@@ -1,0 +1,48 @@
+"""A flight's own temporary folder, which goes with it; what a killed flight left goes, too."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+PREFIX = "up-sim-"
+LOCK = "lock"
+
+
+class Workspace:
+    """A folder that is held by a lock while this process lives, whatever ends that.
+
+    Nobody can remove the folder of a flight that was killed (``kill -9``) but a later one: it
+    takes every folder of this kind, of the same user, whose lock is free.
+    """
+
+    def __init__(self) -> None:
+        _sweep()
+        # The folder goes when nobody refers to it any more, too.
+        self._temporary = tempfile.TemporaryDirectory(prefix=PREFIX, ignore_cleanup_errors=True)
+        self.path = Path(self._temporary.name)
+        # It is locked before it has its name: nobody finds it free.
+        fresh = self.path / f"{LOCK}.new"
+        self._lock = fresh.open("w")
+        fcntl.flock(self._lock, fcntl.LOCK_EX)
+        fresh.rename(self.path / LOCK)
+
+    def close(self) -> None:
+        """Remove the folder."""
+        self._temporary.cleanup()
+        self._lock.close()
+
+
+def _sweep() -> None:
+    """Remove what killed flights left; what cannot be removed is left alone."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
+        with suppress(OSError):
+            if folder.is_symlink() or folder.stat().st_uid != os.getuid():
+                continue
+            with (folder / LOCK).open("r") as lock:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                shutil.rmtree(folder, ignore_errors=True)
