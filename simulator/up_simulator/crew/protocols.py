@@ -42,6 +42,12 @@ class Ground(Protocol):
     def newest_s(self) -> float | None:
         """Return when the newest frame came, in the crew's time; None before the first."""
 
+    def take_latency_s(self) -> float | None:
+        """Return how old what came since the last call was, at most; None where nobody knows.
+
+        Where nothing came it is the newest frame's, which was there before.
+        """
+
     @property
     def is_connected(self) -> bool:
         """Return whether there is a connection, as far as this end knows."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import OrderedDict
 from collections.abc import Mapping
 from pathlib import Path
@@ -17,6 +18,7 @@ from up_ground.settings import Seat, Settings
 from up_ground.telemetry import Telemetry
 from up_ground.token_store import TokenStore
 from up_simulator.in_process.config_folder import GROUND_PORT
+from up_simulator.in_process.frame_age import FrameAge, UptimeAges
 from up_simulator.in_process.machine import Machine
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
@@ -30,11 +32,17 @@ class InProcessGround:
 
     Each Command echoes the newest beacon. What can leave only with a link and has none is lost,
     and never answered. ``others`` keeps the newest other message of each name, as what the
-    aircraft tells of its gains.
+    aircraft tells of its gains. ``frame_age`` knows how old a frame is; without it the frames
+    themselves tell it.
     """
 
     def __init__(
-        self, reactor: SimulatedReactor, port: int = GROUND_PORT, *, seed: int = 1
+        self,
+        reactor: SimulatedReactor,
+        port: int = GROUND_PORT,
+        *,
+        seed: int = 1,
+        frame_age: FrameAge | None = None,
     ) -> None:
         self.others: OrderedDict[str, Mapping[str, Any]] = OrderedDict()
         self._reactor = reactor
@@ -44,6 +52,9 @@ class InProcessGround:
         self._received = Telemetry()
         self._answers: OrderedDict[str, str] = OrderedDict()
         self._newest_s: float | None = None
+        self._frame_age = frame_age or UptimeAges().age_s
+        self._newest_age_s: float | None = None
+        self._worst_age_s: float | None = None
         self._sent = 0
         self._machine: Machine | None = None
         self._link: GroundLink | None = None
@@ -67,6 +78,12 @@ class InProcessGround:
     def newest_s(self) -> float | None:
         """Return when the newest frame came; None before the first."""
         return self._newest_s
+
+    def take_latency_s(self) -> float | None:
+        """Return the greatest age of what came since the last call, else the newest frame's."""
+        worst_s, self._worst_age_s = self._worst_age_s, None
+        found_s = self._newest_age_s if worst_s is None else worst_s
+        return None if found_s == math.inf else found_s
 
     @property
     def beacon(self) -> int | None:
@@ -110,6 +127,10 @@ class InProcessGround:
         now_s = self._reactor.seconds()
         if self._received.take(message, now_s):
             self._newest_s = now_s
+            age_s = self._frame_age(message, now_s)
+            # Nobody knows how old: that may be any age.
+            self._newest_age_s = math.inf if age_s is None else age_s
+            self._worst_age_s = max(self._newest_age_s, self._worst_age_s or 0.0)
         elif message.name in ("up.ack", "up.nack"):
             refused = message.name == "up.nack"
             reason = str(message.data.get("reason") or "refused") if refused else ""

@@ -12,6 +12,7 @@ from twisted.logger import Logger
 from twisted.python.failure import Failure
 
 from up.base_module import BaseModule
+from up.commands.beacon import Beacons
 from up.commands.system_commands import SystemStopCommand
 from up.config import load_all
 from up.life_cycle import BootStoppedError, LifeCycle
@@ -21,6 +22,7 @@ from up.loading.files import config_files
 from up.log.levels import level_named
 from up.mode import Mode
 from up.program import USER_ERRORS, make_context
+from up.protocols.general_message import GeneralMessage
 from up.protocols.serial_line import SerialLike
 from up.protocols.serial_port import SerialPortError
 from up.up import Up
@@ -89,6 +91,7 @@ class InProcessRaspilot:
         self._machine: Machine | None = None
         self._life: LifeCycle | None = None
         self._is_stopping = False
+        self._beacons: list[Beacons] = []
 
     @property
     def is_running(self) -> bool:
@@ -133,6 +136,7 @@ class InProcessRaspilot:
             raise CrewError("\n".join(dict.fromkeys(problems))) from error
         self.boots += 1
         self._machine, self.up, self._is_stopping = machine, up, False
+        self._beacons.append(up.beacons)
         self._life = LifeCycle(up)
         up.command_executor.adopt_thread()
         up.command_executor.register_command(SystemStopCommand, lambda _: self.stop())
@@ -174,6 +178,15 @@ class InProcessRaspilot:
         if data:
             board.write(data)
         self.wire.write(board.read())
+
+    def frame_age_s(self, message: GeneralMessage, _now_s: float) -> float | None:
+        """Return how old a frame of telemetry is, of this life or one before; None: of none."""
+        for beacons in reversed(self._beacons):
+            if message.beacon is not None:
+                age_s = beacons.age_s(message.beacon)
+                if age_s is not None:
+                    return age_s
+        return None
 
     def module(self, class_name: str) -> BaseModule:
         """Return a module that is loaded now; raises LookupError."""

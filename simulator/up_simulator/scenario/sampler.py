@@ -154,6 +154,7 @@ def _ground(ground: Ground, now_s: float) -> Iterable[tuple[str, Any]]:
     yield "ground.frames", ground.frames
     yield "ground.connected", ground.is_connected
     yield "ground.age_s", None if ground.newest_s is None else now_s - ground.newest_s
+    yield "ground.latency_s", ground.take_latency_s()
     yield from _flat("ground", ground.telemetry)
 
 

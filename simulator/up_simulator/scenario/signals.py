@@ -134,6 +134,11 @@ def _daemon() -> Iterator[Signal]:
 
 def _ground() -> Iterator[Signal]:
     yield Signal("ground.age_s", "since the newest telemetry came", "s")
+    yield Signal(
+        "ground.latency_s",
+        "how old telemetry was when it came, the oldest since the row before",
+        "s",
+    )
     yield Signal("ground.frames", "telemetry frames that have come")
     yield Signal("ground.connected", "it has a connection, as far as it knows", kind=_FLAG)
     for group, unit in (("orientation", "deg"), ("rates", "deg/s")):

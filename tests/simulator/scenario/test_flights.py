@@ -108,6 +108,29 @@ def test_the_receiver_one_channel_and_a_reset():
     assert broken(fly(text)) == []
 
 
+def test_telemetry_that_waited_is_told_to_be_as_old_as_it_is():
+    text = (
+        HEAD.replace("duration_s: 4", "duration_s: 8")
+        + LEVEL
+        + (
+            "raspilot: {runs: in process}\nground: {period_ms: 50}\n"
+            "events:\n"
+            "  - {at_s: 0.5, name: killed, raspilot: killed}\n"
+            "  - {at_s: 0.6, name: started, raspilot: started}\n"
+            "  - {at_s: 3, name: the stall, link: stall}\n"
+            "  - {at_s: 4.2, name: the end, link: restore}\n"
+            "  - {at_s: 4.6, name: slow, link_settings: {up: {delay_ms: 1300}}}\n"
+            "expect:\n"
+            "  - {name: a, signal: ground.latency_s, to_s: 4.18, below: 0.1}\n"
+            "  - {name: b, signal: ground.latency_s, after: the end, becomes_above: 1,"
+            " within_s: 0.1}\n"
+            "  - {name: c, signal: ground.latency_s, from_s: 4.4, to_s: 4.6, below: 0.1}\n"
+            "  - {name: d, signal: ground.latency_s, from_s: 7.2, between: [1.2, 1.4]}\n"
+        )
+    )
+    assert broken(fly(text)) == []
+
+
 def test_a_crash_is_a_result_with_its_place():
     text = HEAD + "start: {height_m: 10, pitch_deg: -60, airspeed_m_s: 15}\n"
     record = fly(text + "sticks: [{at_s: 0, mode: ACRO}]\n" + HELD.replace("error", "truth"))
