@@ -125,7 +125,7 @@ def test_telemetry_that_waited_is_told_to_be_as_old_as_it_is():
             "  - {name: b, signal: ground.latency_s, after: the end, becomes_above: 1,"
             " within_s: 0.1}\n"
             "  - {name: c, signal: ground.latency_s, from_s: 4.4, to_s: 4.6, below: 0.1}\n"
-            "  - {name: d, signal: ground.latency_s, from_s: 7.2, between: [1.2, 1.4]}\n"
+            "  - {name: d, signal: ground.latency_s, from_s: 7.2, between: [1.2, 2.1]}\n"
         )
     )
     assert broken(fly(text)) == []
