@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from statistics import fmean
@@ -52,10 +53,16 @@ def _first_other(
     if not wrong:
         shown = _shown(expectation, window.values[0])
         return _verdict(expectation, True, f"{shown} all the time", window)
+    share = 100 / len(window.values)
+    # nan is not equal to itself; what is shown is.
+    (shown, count), *others = Counter(
+        _shown(expectation, window.values[at]) for at in wrong
+    ).most_common()
+    figure = f"{shown} for {share * count:.0f} % of the time"
+    if others:
+        figure += f", others for {share * (len(wrong) - count):.0f} %"
+    verdict = _verdict(expectation, False, figure, window)
     at = wrong[0]
-    share = 100 * len(wrong) / len(window.values)
-    shown = _shown(expectation, window.values[at])
-    verdict = _verdict(expectation, False, f"{shown} for {share:.0f} % of the time", window)
     is_known = window.values[at] != "" and window.values[at] == window.values[at]
     return replace(verdict, why=f"first at {window.times_s[at]:.2f} s", has_figure=is_known)
 

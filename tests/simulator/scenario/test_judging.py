@@ -76,6 +76,15 @@ def test_words_and_flags():
     assert not verdict("signal: board.armed, is: true", armed).is_held
 
 
+def test_of_several_wrong_values_the_most_frequent_is_told_with_its_own_share():
+    mode = {"board.mode": lambda t: "" if t < 0.1 else "FBW" if t < 0.9 else "ACRO"}
+    found = verdict("signal: board.mode, is: RATE, from_s: 0.5, to_s: 1.48", mode)
+    assert found.figure == "ACRO for 60 % of the time, others for 40 %"
+    assert found.why == "first at 0.50 s" and found.has_figure
+    heights = verdict("signal: truth.roll_deg, is: 3", roll(lambda t: t))
+    assert heights.figure == "0 for 1 % of the time, others for 99 %"
+
+
 def test_a_window_counts_from_its_event():
     columns = {**roll(lambda t: t), "board.armed": lambda t: False}
     events = {"then": 1.0}
