@@ -1,8 +1,7 @@
 """The compiled firmware in the glider's flight dynamics, with a Raspberry Pi that listens."""
 
-import pytest
-
 from tests.support.firmware import build_firmware
+from tests.support.tools import unavailable
 from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.imu_errors import ImuErrors
@@ -35,7 +34,7 @@ class Flown:
             eeprom = prepared_eeprom(kind, self.airframe.profile, self.airframe.gains)
             board = choose_board(kind, seed=seed, imu_errors=errors or ImuErrors(), eeprom=eeprom)
         except BoardUnavailableError as error:
-            pytest.skip(str(error))
+            unavailable(str(error))
         weather = Weather(wind_m_s=0 if turbulence == "none" else 4, turbulence=turbulence)
         self.dynamics = FlightDynamics(self.airframe, start or Start(), weather, seed=seed)
         self.world = World(self.dynamics, board)

@@ -6,6 +6,7 @@ A sign that is wrong anywhere between stick, mix, pulse, surface, IMU and PID sh
 import pytest
 
 from tests.support.firmware import build_firmware
+from tests.support.tools import unavailable
 from up_simulator.aircraft import FlightDynamics, Start, airframe_names, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.preparation import prepared_eeprom
@@ -22,7 +23,7 @@ def aloft(name, aux1, **start):
         eeprom = prepared_eeprom("firmware", airframe.profile, airframe.gains)
         board = choose_board("firmware", eeprom=eeprom)
     except BoardUnavailableError as error:
-        pytest.skip(str(error))
+        unavailable(str(error))
     board.set_stick("aux1", aux1)
     world = World(FlightDynamics(airframe, Start(height_m=200.0, **start)), board)
     world.boot(arms=True)

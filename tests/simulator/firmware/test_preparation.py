@@ -5,6 +5,7 @@ import struct
 import pytest
 
 from tests.support.firmware import build_firmware
+from tests.support.tools import unavailable
 from up_simulator.firmware import preparation
 from up_simulator.firmware.build import BoardUnavailableError, aboard
 from up_simulator.firmware.imu_errors import ImuErrors
@@ -117,7 +118,7 @@ def test_the_work_is_done_once_for_each_firmware_and_each_set(tmp_path, monkeypa
     try:
         first = prepared_eeprom("firmware", {"motor": False}, {})
     except BoardUnavailableError as error:
-        pytest.skip(str(error))
+        unavailable(str(error))
     assert prepared_eeprom("firmware", {"motor": False}, {}) == first
     assert len(made) == 1
     assert prepared_eeprom("firmware", {"motor": True}, {}) != first

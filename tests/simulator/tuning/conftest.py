@@ -1,8 +1,10 @@
 """What tuning tests fly with: the firmware built for this computer, in the default airframe."""
 
+import importlib.util
+
 import pytest
 
-from tests.support.tools import need_tool
+from tests.support.tools import need_tool, unavailable
 from up_simulator.aircraft import load_airframe
 from up_simulator.tuning.experiments import Bench
 
@@ -12,5 +14,6 @@ def bench():
     """Return a bench with the motor glider and the host build."""
     need_tool("g++")
     need_tool("make")
-    pytest.importorskip("jsbsim")
+    if importlib.util.find_spec("jsbsim") is None:
+        unavailable("JSBSim is not installed (pip install -e .[sim])")
     return Bench(load_airframe("glider"), "host")

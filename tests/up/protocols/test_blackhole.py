@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.tools import need_root, need_tool
+from tests.support.tools import need_root, need_tool, unavailable
 
 SCRIPT = Path(__file__).with_name("blackhole.py")
 TOOLS = {"unshare": "util-linux", "nft": "nftables", "ip": "iproute2"}
@@ -30,7 +30,7 @@ def test_a_blackhole_is_noticed_long_before_the_system_would(way):
         check=False,
     )
     if "unshare" in result.stderr:
-        pytest.skip(result.stderr.strip())
+        unavailable(result.stderr.strip())
     seconds, _, why = result.stdout.partition(" ")
     assert why == "the connection broke\n", result.stderr
     # 1.5 s without an acknowledgement; an idle link is first probed after 3 s.
