@@ -14,7 +14,13 @@ from typing import Any
 from up.config import ConfigErrors
 from up.version import VERSION
 from up_simulator.ending import ending_in_order
-from up_simulator.verbs.outcome import INTERRUPTED, NOT_HELD, WRONG_INPUT, UsageError
+from up_simulator.verbs.outcome import (
+    INTERRUPTED,
+    NOT_HELD,
+    WRONG_INPUT,
+    FailedError,
+    UsageError,
+)
 
 DESCRIPTION = """\
 The virtual aircraft: the firmware that goes on the Arduino and the daemon that goes on the
@@ -76,6 +82,8 @@ def _main(words: list[str]) -> int:
         return WRONG_INPUT
     except UsageError as error:
         return _fail(str(error), WRONG_INPUT)
+    except FailedError as error:
+        return _fail(str(error), NOT_HELD)
     except BrokenPipeError:
         # The reader, such as 'head', has seen enough; nothing more can be written.
         sys.stderr.close()

@@ -27,10 +27,22 @@ class Ports:
 
 
 def choose_ports(any_ports: bool = False) -> Ports:
-    """Return the usual ports where they are free, any free ones where not."""
+    """Return the usual ports where they are free, any free ones where not; raises OSError."""
+    return _choose(1, any_ports)[0]
+
+
+def choose_port_sets(count: int) -> tuple[Ports, ...]:
+    """Return so many sets of any free ports, all of them different; raises OSError."""
+    return _choose(count, True)
+
+
+def _choose(count: int, any_ports: bool) -> tuple[Ports, ...]:
     held: list[socket.socket] = []
     try:
-        return Ports(*(_free_port(port, any_ports, held) for port in astuple(Ports())))
+        return tuple(
+            Ports(*(_free_port(port, any_ports, held) for port in astuple(Ports())))
+            for _ in range(count)
+        )
     finally:
         for each in held:
             each.close()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from up_rig.pty_line import PtyLine
+from up_rig.pty_line import PtyLine, PtyLineError
 from up_simulator.crew.protocols import CrewError
 from up_simulator.crew.real_raspilot import RealRaspilot
 from up_simulator.crew.real_servers import RealProxy, RealRunner
@@ -20,7 +20,7 @@ from up_simulator.scenario.runner_crew import RunnerDaemon, RunnerPhone, write_r
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.settings import merge
 from up_simulator.scenario.workspace import Workspace
-from up_simulator.showcase_config import choose_ports
+from up_simulator.showcase_config import choose_port_sets
 
 BYTES_A_STEP = 23
 """What 115200 baud carry in 2 ms."""
@@ -31,7 +31,7 @@ class RealCompanions(CrewCompanions):
     """``python main.py`` on a pty; phone and ground station are stand-ins on real sockets.
 
     The link lies between the daemon and whoever it speaks with: the ground station at its
-    listener, or the proxy. The flight keeps real time, from the boot on.
+    listener, or the proxy. The flight keeps real time, from the boot on. Raises CrewError.
     """
 
     def __init__(
@@ -46,8 +46,8 @@ class RealCompanions(CrewCompanions):
         self._workspace = Workspace()
         self._folder = self._workspace.path
         # Three of the phone's and the link's own, and those of the programs.
-        self._ports, self._before = choose_ports(True), choose_ports(True)
-        self._line: PtyLine | None = PtyLine(self._folder / "board")
+        self._ports, self._before = choose_port_sets(2)
+        self._line: PtyLine | None = self._open_line()
         self._real = self._make_daemon(merge(self._files(), settings))
         self.raspilot = self._real
         self._make_ground()
@@ -108,7 +108,7 @@ class RealCompanions(CrewCompanions):
             self._line.close()
             self._line = None
         if is_in:
-            self._line = PtyLine(self._folder / "board")
+            self._line = self._open_line()
 
     def load(self, percent: float) -> None:
         """Refuse: what a real daemon measures is the whole machine."""
@@ -138,6 +138,12 @@ class RealCompanions(CrewCompanions):
             self._real.ask_to_stop()
         else:
             self._real.stop()
+
+    def _open_line(self) -> PtyLine:
+        try:
+            return PtyLine(self._folder / "board")
+        except (PtyLineError, OSError) as error:
+            raise CrewError(f"no serial line: {error}") from error
 
     def _make_daemon(self, files: dict[str, dict[str, Any]]) -> RealRaspilot | RunnerDaemon:
         """Write the configuration; make the daemon, or the runner that will start it."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import time
 from typing import Any
 
+from up_simulator.crew.protocols import CrewError
 from up_simulator.in_process.machine import LiteralResolver
 from up_simulator.link.model import LinkModel
-from up_simulator.link.relay import LinkRelay
+from up_simulator.link.relay import LinkRelay, LinkRelayError
 
 LATEST_S = 0.25
 LOOPBACK = "127.0.0.1"
@@ -45,18 +46,21 @@ class RealReactor:
         return self._reactor
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Put a relay with a link before a port that has a target; raises LinkRelayError."""
+        """Put a relay with a link before a port that has a target; raises CrewError."""
         if port in self.targets:
             self.relay(port, self.targets[port], up, down)
 
     def relay(self, port: int, target: int, up: LinkModel, down: LinkModel) -> int:
         """Listen on a port (0: any), carry everything to another one; return the port.
 
-        Raises LinkRelayError.
+        Raises CrewError.
         """
         relay = LinkRelay(self._reactor, port, LOOPBACK, target, up, down)
         self._relays.append(relay)
-        return relay.start()
+        try:
+            return relay.start()
+        except LinkRelayError as error:
+            raise CrewError(str(error)) from error
 
     def advance(self, step_s: float) -> None:
         """Serve sockets and timers until this step's real time is over.
