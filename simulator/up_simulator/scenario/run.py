@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from up_simulator.aircraft import AirframeError
@@ -38,16 +40,35 @@ LOG, CONTROL_LOG, REPORT, PICTURE, SUMMARY = (
     "picture.png",
     "summary.json",
 )
+_WRONG_INPUT = (AirframeError, SettingsError)
 _CANNOT_FLY = (
-    AirframeError,
+    *_WRONG_INPUT,
     BoardCrashedError,
     BoardUnavailableError,
     CrewError,
     FlightUnavailableError,
     PreparationError,
-    SettingsError,
 )
 Say = Callable[[str], None]
+
+
+@dataclass(slots=True)
+class Files:
+    """What has been written of a flight; ``trouble`` is a sentence about what could not be."""
+
+    written: list[Path] = field(default_factory=list)
+    trouble: str | None = None
+
+    def put(self, path: Path, write: Callable[[Path], object]) -> bool:
+        """Write a file, or nothing of it: half a file would be taken for a whole one."""
+        try:
+            write(path)
+        except OSError as error:
+            with suppress(OSError):
+                path.unlink()
+            self.trouble = self.trouble or f"{path} is not written: {error.strerror or error}"
+            return False
+        return True
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +80,14 @@ class Output:
 
 
 class CannotFlyError(Exception):
-    """What a scenario needs is not here: the message is one sentence for the user."""
+    """What a scenario needs is not here: the message is one sentence for the user.
+
+    ``is_wrong_input``: the user has named it.
+    """
+
+    def __init__(self, text: str, is_wrong_input: bool) -> None:
+        super().__init__(text)
+        self.is_wrong_input = is_wrong_input
 
 
 def fly_scenario(
@@ -90,7 +118,7 @@ def _fly(
     try:
         flight = build_flight(scenario, say)
     except _CANNOT_FLY as error:
-        raise CannotFlyError(str(error)) from error
+        raise CannotFlyError(str(error), isinstance(error, _WRONG_INPUT)) from error
     else:
         show = _Paced(progress.show) if is_paced else progress.show
         with ending_between_steps() as interrupt:
@@ -122,44 +150,62 @@ class _Paced:
             time.sleep(ahead_s)
 
 
-def write_files(name: str, result: Result, output: Output, say: Say) -> list[Path]:
-    """Write logs, picture and summary and return their paths; raises OSError."""
+def try_folder(folder: Path) -> None:
+    """Make a folder and write into it, that nothing is flown in vain; raises OSError."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryFile(dir=folder) as file:
+        file.write(bytes(4096))
+
+
+def write_files(name: str, result: Result, output: Output, say: Say) -> Files:
+    """Write logs, picture, summary and report, each if it can be."""
+    files = Files()
     folder = output.folder
     if folder is None:
-        return []
+        return files
     folder.mkdir(parents=True, exist_ok=True)
-    written = [folder / LOG]
-    result.record.log.write(folder / LOG)
+    logs = [(LOG, result.record.log)]
     if result.control is not None:
-        written.append(folder / CONTROL_LOG)
-        result.control.log.write(folder / CONTROL_LOG)
+        logs.append((CONTROL_LOG, result.control.log))
+    for file_name, log in logs:
+        if files.put(folder / file_name, log.write):
+            files.written.append(folder / file_name)
     if output.has_picture and len(result.record.log):
-        written += _draw(result, folder / PICTURE, say)
-    (folder / SUMMARY).write_text(json.dumps(_summary(name, result), indent=1), encoding="utf-8")
-    report = "\n".join(report_lines(name, result, written)) + "\n"
-    (folder / REPORT).write_text(report, encoding="utf-8")
-    return written
+        _draw(result, folder / PICTURE, files, say)
+    summary = json.dumps(_summary(name, result), indent=1)
+    files.put(folder / SUMMARY, lambda path: path.write_text(summary, encoding="utf-8"))
+    report = "\n".join(report_lines(name, result, files.written)) + "\n"
+    files.put(folder / REPORT, lambda path: path.write_text(report, encoding="utf-8"))
+    return files
 
 
-def _draw(result: Result, path: Path, say: Say) -> list[Path]:
+def _draw(result: Result, path: Path, files: Files, say: Say) -> None:
     record = result.record
     weather = record.scenario.weather
     failures = [
         Failure(part.signal, part.begin_s, part.end_s, part.text) for part in failed_parts(result)
     ]
+
+    def draw(path: Path) -> None:
+        try:
+            draw_flight(
+                record.log,
+                path,
+                title=record.scenario.title,
+                subtitle=_subtitle(record),
+                failures=failures,
+                wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
+            )
+        except PictureError as error:
+            if isinstance(error.__cause__, OSError):
+                raise error.__cause__ from None
+            raise
+
     try:
-        draw_flight(
-            record.log,
-            path,
-            title=record.scenario.title,
-            subtitle=_subtitle(record),
-            failures=failures,
-            wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
-        )
+        if files.put(path, draw):
+            files.written.append(path)
     except PictureError as error:
         say(str(error))
-        return []
-    return [path]
 
 
 def _subtitle(record: FlightRecord) -> str:

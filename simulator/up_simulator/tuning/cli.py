@@ -20,6 +20,7 @@ from up_simulator.firmware.settings_wire import SettingsError
 from up_simulator.flight import FlightUnavailableError
 from up_simulator.picture.canvas import PictureError
 from up_simulator.scenario.log import LogError, read_log
+from up_simulator.scenario.run import try_folder
 from up_simulator.tuning.evaluation import Rules
 from up_simulator.tuning.experiments import Bench
 from up_simulator.tuning.gain_set import (
@@ -129,6 +130,7 @@ def _tune(options: argparse.Namespace) -> int:
     airframe = load_airframe(options.airframe)
     if options.write is not None:
         _held(options.write)
+        try_folder(options.write.parent)
     gains = gains_of(airframe.gains)
     if options.begin is not None:
         gains = _gains_in(options.begin)

@@ -19,6 +19,7 @@ from up.config import ConfigErrors
 from up_simulator.crew.child import dying_wish
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
+from up_simulator.verbs.fly import try_output
 from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, WRONG_INPUT
 from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
 
@@ -90,6 +91,7 @@ def main(arguments: Sequence[str]) -> int:
     jobs = _jobs(options)
     if jobs is None:
         return WRONG_INPUT
+    try_output(options.output, [job.name for job in jobs])
     began_s = time.monotonic()
     fleet = Fleet(jobs, options, sys.stderr)
     is_interrupted = False

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from up_simulator.scenario.file import read_scenario
@@ -12,9 +13,16 @@ from up_simulator.scenario.override import Override
 from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import Result
-from up_simulator.scenario.run import FLIGHTS, CannotFlyError, Output, fly_scenario, write_files
+from up_simulator.scenario.run import (
+    FLIGHTS,
+    CannotFlyError,
+    Output,
+    fly_scenario,
+    try_folder,
+    write_files,
+)
 from up_simulator.scenario.scenario import BOARDS, Scenario
-from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, UsageError
+from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, FailedError, UsageError
 from up_simulator.verbs.shelf import find, name_of
 
 EPILOG = """\
@@ -28,24 +36,38 @@ examples:
   up-sim fly receiver-lost fbw-roll-step --no-picture --output /tmp/flights
 
 Log, picture and report of each are written into run/flights/NAME/. Ctrl-C ends a flight; what has
-been flown until then is reported. Exit status: 0 all held, 1 something did not, 2 wrong input."""
+been flown until then is reported. Exit status: 0 all held, 1 something did not,
+2 wrong input."""
 
 
 def main(arguments: Sequence[str]) -> int:
     """Fly what is named; return the exit status."""
     options = _parser().parse_args(arguments)
     flights = [(path, _read(path, options)) for path in map(find, options.scenarios)]
+    try_output(options.output, [name_of(path) for path, _ in flights])
     results: list[tuple[str, Result]] = []
+    is_whole = True
     for path, scenario in flights:
-        result = _fly(name_of(path), scenario, options)
+        result, is_written = _fly(name_of(path), scenario, options)
         results.append((name_of(path), result))
+        is_whole = is_whole and is_written
         if result.record.is_interrupted or (result.control and result.control.is_interrupted):
             break
     if len(flights) > 1:
         _say_table(results, len(flights))
     if any(result.record.is_interrupted for _, result in results):
         return INTERRUPTED
-    return HELD if all(result.is_held for _, result in results) else NOT_HELD
+    return HELD if is_whole and all(result.is_held for _, result in results) else NOT_HELD
+
+
+def try_output(output: Path, names: Iterable[str]) -> None:
+    """Raise UsageError where the files of a flight of one of these names cannot be written."""
+    for name in names:
+        try:
+            try_folder(output / name)
+        except OSError as error:
+            why = error.strerror or error
+            raise UsageError(f"--output {output}: nothing can be written there: {why}") from error
 
 
 def _read(path: Path, options: argparse.Namespace) -> Scenario:
@@ -72,23 +94,29 @@ def _override(text: str) -> Override:
     return Override(f"--set {text}", key, value)
 
 
-def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> Result:
+def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> tuple[Result, bool]:
+    """Return the result, and whether all its files are written."""
     progress = ProgressLine(sys.stderr, is_shown=not options.quiet)
     try:
         result = fly_scenario(name, scenario, progress, _note, is_paced=options.speed == "real")
     except CannotFlyError as error:
-        raise UsageError(f"{name}: {error}") from error
+        kind = UsageError if error.is_wrong_input else FailedError
+        raise kind(f"{name}: {error}") from error
     output = Output(options.output / name, has_picture=not options.no_picture)
     files = write_files(name, result, output, _note)
     if not options.quiet:
-        for line in report_lines(name, result, files):
+        for line in report_lines(name, result, files.written):
             sys.stdout.write(f"{line}\n")
         sys.stdout.flush()
-    return result
+    if files.trouble is not None:
+        _note(files.trouble)
+    return result, files.trouble is None
 
 
 def _note(text: str) -> None:
-    sys.stderr.write(f"up-sim: {text}\n")
+    # The terminal may be gone by now.
+    with suppress(OSError):
+        sys.stderr.write(f"up-sim: {text}\n")
 
 
 def _say_table(results: list[tuple[str, Result]], count: int) -> None:
