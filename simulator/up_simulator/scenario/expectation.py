@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from up.config import items, key, section
 from up.fields import Constraint
 from up_simulator.scenario.signals import Kind, signal_of
+from up_simulator.scenario.words import word_problem
 
 _NUMBER = Constraint(float)
 
@@ -150,9 +151,12 @@ class Expectation:
             return
         if kind in VALUED:
             try:
-                value_of(getattr(self, kind), signal.kind)
+                value = value_of(getattr(self, kind), signal.kind)
             except ValueError as error:
                 yield kind, str(error)
+                return
+            if isinstance(value, str) and value and (what := word_problem(signal.name, value)):
+                yield kind, what
         elif kind not in COUNTED and signal.kind is not Kind.NUMBER:
             yield kind, f"needs a number, and {signal.name} is a {signal.kind.value}: use 'is' ..."
 

@@ -1,9 +1,11 @@
 """Scenario files: what they say, and every mistake at its place."""
 
 import re
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
+from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -11,9 +13,12 @@ import up_simulator.scenario
 from tests.simulator.scenario.minimal import EXPECT, HEAD, scenario
 from up.config import ConfigErrors
 from up_simulator.scenario.file import parse_scenario, read_scenario
+from up_simulator.scenario.sampler import CAUSES, MODES
 from up_simulator.scenario.scenario import Scenario
+from up_simulator.scenario.words import words_of
 from up_simulator.verbs.shelf import shipped_paths
 
+ABOARD = HEAD + "raspilot: {runs: in process}\nground: {role: pilot}\n"
 TEMPLATE = Path(up_simulator.scenario.__file__).with_name("template.yml")
 RICH = """\
 title: Everything
@@ -200,6 +205,45 @@ def test_a_mark_is_a_name_and_no_more(event, what):
 )
 def test_a_wrong_expectation_is_told(expectation, what):
     assert what in "\n".join(problems(HEAD + f"expect: [{{{expectation}}}]\n"))
+
+
+@pytest.mark.parametrize(
+    ("expectation", "what"),
+    [
+        ("signal: board.mode, is: FBWW", "board.mode is never \"FBWW\": did you mean 'FBW'?"),
+        ("signal: board.mode, is_not: fbw", "did you mean 'FBW'?"),
+        ("signal: board.mode, is: 3", "it has ACRO, RATE, FBW, SETPOINT, OUTPUT, RTH"),
+        ("signal: board.mode, becomes: on, within_s: 1", 'is never "on"'),
+        ("signal: board.reset_cause, is: power watchdg", "did you mean 'watchdog'?"),
+        ("signal: ground.source.orientation, is: phone", "it has arduino, android"),
+        ("signal: ground.mode, is: blackbox", "did you mean 'black box'?"),
+        ("signal: ground.arduino.reset_cause, is: power", "did you mean 'power-on'?"),
+    ],
+)
+def test_a_word_that_a_signal_never_has_is_told(expectation, what):
+    text = f"{ABOARD}expect: [{{name: a, {expectation}}}]\n"
+    (found,) = problems(text)
+    assert what in found and ": expect[0]." in found
+
+
+@pytest.mark.parametrize(
+    "expectation",
+    [
+        "signal: board.mode, is: null",
+        "signal: board.reset_cause, is: power brown-out",
+        "signal: ground.arduino.reset_cause, is: 'watchdog, state restored'",
+        "signal: ground.vetoes, is: any text",
+    ],
+)
+def test_a_word_that_a_signal_has_is_taken(expectation):
+    assert parse_scenario(f"{ABOARD}expect: [{{name: a, {expectation}}}]\n").expect
+
+
+def test_the_words_are_those_that_the_flight_computer_and_the_daemon_say():
+    assert words_of("board.mode") == tuple(MODES.values())
+    assert words_of("board.reset_cause") == tuple(CAUSES.values())
+    every = ArduinoStatusCommand(*(0xFF for _ in fields(ArduinoStatusCommand))).reset_causes
+    assert set(every.split(", ")) | {"unknown"} == set(words_of("ground.arduino.reset_cause"))
 
 
 @pytest.mark.parametrize(
