@@ -151,9 +151,9 @@ class DatagramRelay:
         listener, self._listener = self._listener, None
         ports = [port for _socket, port in self._clients.values()]
         self._clients.clear()
-        for port in [listener, *ports]:
-            if port is not None:
-                await port.stopListening()
+        # All are asked to close before the first is waited for.
+        for closed in [port.stopListening() for port in (listener, *ports) if port is not None]:
+            await closed
 
     def _open(self, number: int, protocol: DatagramProtocol) -> Any:
         port = listen_udp(self._reactor, number, protocol, self._interface)

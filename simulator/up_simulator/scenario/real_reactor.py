@@ -7,6 +7,7 @@ from typing import Any
 
 from up_simulator.crew.protocols import CrewError
 from up_simulator.in_process.machine import LiteralResolver
+from up_simulator.link.datagram_relay import DatagramRelay
 from up_simulator.link.model import LinkModel
 from up_simulator.link.relay import LinkRelay, LinkRelayError
 
@@ -33,7 +34,7 @@ class RealReactor:
             reactor.startRunning(installSignalHandlers=False)
         self._reactor = reactor
         self.targets: dict[int, int] = {}
-        self._relays: list[LinkRelay] = []
+        self._relays: list[LinkRelay | DatagramRelay] = []
         self._due_s = time.monotonic()
         self.skipped_s = 0.0
 
@@ -46,16 +47,20 @@ class RealReactor:
         return self._reactor
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Put a relay with a link before a port that has a target; raises CrewError."""
+        """Put a link before a port that has a target, for TCP and UDP; raises CrewError."""
         if port in self.targets:
             self.relay(port, self.targets[port], up, down)
+            self.relay(port, self.targets[port], up, down, is_datagram=True)
 
-    def relay(self, port: int, target: int, up: LinkModel, down: LinkModel) -> int:
+    def relay(
+        self, port: int, target: int, up: LinkModel, down: LinkModel, *, is_datagram: bool = False
+    ) -> int:
         """Listen on a port (0: any), carry everything to another one; return the port.
 
         Raises CrewError.
         """
-        relay = LinkRelay(self._reactor, port, LOOPBACK, target, up, down)
+        kind = DatagramRelay if is_datagram else LinkRelay
+        relay = kind(self._reactor, port, LOOPBACK, target, up, down)
         self._relays.append(relay)
         try:
             return relay.start()
@@ -80,12 +85,12 @@ class RealReactor:
         """Take the relays away."""
         relays, self._relays = self._relays, []
         for relay in relays:
-            # Its coroutine has closed all before it first waits for anything.
+            # Each has closed all before it first waits for anything.
             _begin(relay)
         self._reactor.iterate(0)
 
 
-def _begin(relay: LinkRelay) -> None:
+def _begin(relay: LinkRelay | DatagramRelay) -> None:
     from twisted.internet.defer import Deferred
 
     Deferred.fromCoroutine(relay.stop()).addErrback(lambda _: None)

@@ -92,7 +92,8 @@ class RunnerDaemon:
 class RunnerPhone(InProcessPhone):
     """A phone whose cellular link leads to a runner, and from there to the instance's ports.
 
-    ``relay`` puts the cellular link before a port and returns where to connect.
+    ``relay`` puts the cellular link before a port, for datagrams if it is told so, and returns
+    where to connect.
     """
 
     def __init__(
@@ -100,13 +101,15 @@ class RunnerPhone(InProcessPhone):
         reactor: RealReactor,
         flight: Any,
         port: Callable[[], int],
-        relay: Callable[[int], int],
+        relay: Callable[[int, bool], int],
         *,
         orientation: Any,
         seed: int,
     ) -> None:
         self._runner_port = port
         self._relay = relay
+        self._relayed: dict[tuple[int, bool], int] = {}
+        self._sends_datagrams = orientation == "udp"
         self._real = reactor
         simulated: Any = reactor
         super().__init__(
@@ -122,8 +125,17 @@ class RunnerPhone(InProcessPhone):
         runner = Runner(LOOPBACK, self._runner_port(), AIRCRAFT)
         place = await spawn(self._real.machine(), runner)
         return RaspberryPi(
-            LOOPBACK, self._relay(place.general_port), self._relay(place.orientation_port)
+            LOOPBACK,
+            self._by_link(place.general_port, False),
+            self._by_link(place.orientation_port, self._sends_datagrams),
         )
+
+    def _by_link(self, port: int, is_datagram: bool) -> int:
+        """Return where the link to a port begins: the same one at every attempt."""
+        key = (port, is_datagram)
+        if key not in self._relayed:
+            self._relayed[key] = self._relay(port, is_datagram)
+        return self._relayed[key]
 
 
 def write_runner_config(
