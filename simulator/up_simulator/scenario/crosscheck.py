@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
 from up.config.nodes import MapNode, Node
 from up_simulator.aircraft import airframe_names
@@ -43,7 +44,8 @@ def cross_problems(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
 def _airframe(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     name = scenario.airframe
     names = airframe_names()
-    if name not in names and not any(each in name for each in _PATH_LIKE):
+    is_path = any(each in name for each in _PATH_LIKE) or is_there(Path(name))
+    if name not in names and not is_path:
         known = ", ".join(names)
         yield (
             place(root, "airframe"),
@@ -139,3 +141,11 @@ def guess(name: str, known: Iterable[str]) -> str:
     """Return ', did you mean ...?' where something known is near."""
     near = difflib.get_close_matches(name[:100], sorted(set(known)), n=1, cutoff=0.5)
     return f", did you mean {near[0]!r}?" if near else ""
+
+
+def is_there(path: Path) -> bool:
+    """Return whether a path leads to something, which one that is too long does not."""
+    try:
+        return path.exists()
+    except OSError:
+        return False

@@ -13,8 +13,9 @@ from up.config.reading import decode, read_text
 from up.config.scalars import is_null
 from up.config.shape import shape_of
 from up.config.validator import Validator
+from up_simulator.aircraft import airframe_names
 from up_simulator.scenario.config_files import daemon_files
-from up_simulator.scenario.crosscheck import cross_problems, guess
+from up_simulator.scenario.crosscheck import cross_problems, guess, is_there
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.override import OverriddenProblems, Override, apply
 from up_simulator.scenario.plain import plain_of
@@ -22,6 +23,7 @@ from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.tree import child, items_of
 
 SHAPE = shape_of(Scenario)
+_HERE = Path()
 _FREE_TEXT = ("is", "is_not", "becomes")
 
 
@@ -35,7 +37,7 @@ def read_scenario(path: Path | str, overrides: Sequence[Override] = ()) -> Scena
     text = read_text(path, problems.report)
     if text is None and not problems.found:
         problems.report(1, 1, "there is no such file")
-    return _parse(text or "", problems, overrides)
+    return _parse(text or "", problems, overrides, path.parent)
 
 
 def parse_scenario(
@@ -48,7 +50,9 @@ def parse_scenario(
     return _parse(text, problems, overrides)
 
 
-def _parse(text: str, problems: Problems, overrides: Sequence[Override]) -> Scenario:
+def _parse(
+    text: str, problems: Problems, overrides: Sequence[Override], folder: Path = _HERE
+) -> Scenario:
     root = compose(text, problems.report) if not problems.found else None
     if root is None or not isinstance(root, MapNode):
         if not problems.found:
@@ -59,11 +63,19 @@ def _parse(text: str, problems: Problems, overrides: Sequence[Override]) -> Scen
     free = _Free(root, problems.report)
     scenario: Scenario = Validator(problems.report, {}).read(SHAPE, root)
     problems.raise_if_any()
-    scenario = free.fill(scenario)
+    scenario = _with_airframe_beside(free.fill(scenario), folder)
     for node, what in cross_problems(scenario, root):
         problems.report(node.line, node.column, what)
     problems.raise_if_any()
     return scenario
+
+
+def _with_airframe_beside(scenario: Scenario, folder: Path) -> Scenario:
+    """Look for an airframe beside the file too, where its path leads nowhere from here."""
+    beside = folder / scenario.airframe
+    if scenario.airframe in airframe_names() or is_there(Path(scenario.airframe)):
+        return scenario
+    return replace(scenario, airframe=str(beside)) if is_there(beside) else scenario
 
 
 class _Free:

@@ -108,7 +108,10 @@ class Scenario:
         Constraint(str, max_length=40), "Words to choose scenarios by.", max_length=20
     )
     airframe: str = key(
-        "glider", "Which aircraft: glider, wing, or the path of an airframe.yml.", max_length=4096
+        "glider",
+        "Which aircraft: glider, wing, or an airframe.yml or its folder, from here or beside the"
+        " scenario.",
+        max_length=4096,
     )
     seed: int = key(1, "Of turbulence and all noise.", minimum=0, maximum=2**31 - 1)
     duration_s: float = key(30.0, "How long it flies.", unit="s", minimum=0.1, maximum=3600)

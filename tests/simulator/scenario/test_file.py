@@ -253,6 +253,18 @@ def test_what_is_no_scenario_is_refused_in_a_sentence(text):
     assert all(re.match(r"flight\.yml:\d+:\d+: .", line) for line in problems(text))
 
 
+def test_an_airframe_may_be_a_folder_here_or_beside_the_scenario(tmp_path, monkeypatch):
+    (tmp_path / "big").mkdir()
+    file = tmp_path / "flight.yml"
+    file.write_text(f"{HEAD}airframe: big\n{EXPECT}")
+    assert read_scenario(file).airframe == str(tmp_path / "big")
+    monkeypatch.chdir(tmp_path)
+    assert read_scenario("flight.yml").airframe == "big"
+    (tmp_path / "big").rmdir()
+    with pytest.raises(ConfigErrors, match="there is no airframe 'big'"):
+        read_scenario(file)
+
+
 def test_a_missing_file_is_told(tmp_path):
     with pytest.raises(ConfigErrors, match=r"nowhere\.yml:1:1: there is no such file"):
         read_scenario(tmp_path / "nowhere.yml")
