@@ -54,6 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     0: held; 1: not held, or it could not be flown; 2: wrong input; 130, 143, 129: ended by Ctrl-C,
     SIGTERM, SIGHUP (a closed terminal), each in the same order.
     """
+    _open_closed_streams()
     with ending_in_order() as ending:
         try:
             return ending.status(_main(list(sys.argv[1:] if arguments is None else arguments)))
@@ -118,6 +119,15 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"up-sim {VERSION}")
     return parser
+
+
+def _open_closed_streams() -> None:
+    """Let what was closed before the start (``>&-``) lead nowhere, for children too."""
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
+    sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
 
 
 def _fail(text: str, status: int) -> int:

@@ -87,6 +87,15 @@ def test_a_tag_that_nothing_has_is_wrong_input(verb, capsys):
     assert "no scenario has the tag 'stpe': did you mean 'step'?" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(("words", "status"), [("list", 0), ("fyl", 2), ("new", 2)])
+def test_closed_streams_are_no_trouble(closed, words, status):
+    command = f'"{sys.executable}" -m up_simulator {words} {closed}'
+    done = subprocess.run(["sh", "-c", command], capture_output=True, timeout=LIMIT_S, check=False)
+    assert done.returncode == status
+    assert b"Traceback" not in done.stderr and b"Exception" not in done.stderr
+
+
 def test_check_tells_mistakes_with_their_places(capsys):
     assert main(["check", write("good.yml", GOOD)]) == 0
     assert "Good: 1 s, 1 expectations, no mistake" in capsys.readouterr().out
