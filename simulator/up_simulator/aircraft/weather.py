@@ -11,8 +11,9 @@ from up_simulator.aircraft.model import FOOT_M, writer
 Turbulence = Literal["none", "light", "moderate", "severe"]
 TURBULENCE: tuple[Turbulence, ...] = ("none", "light", "moderate", "severe")
 # What MIL-F-8785C takes turbulence from: wind at 6 m above the ground (m/s), and a severity (1 to
-# 7) that JSBSim blends in towards 600 m. Measured at 60 to 250 m, rms m/s along and vertical: light
-# 0.4 to 1.0 and 0.3 to 0.7, moderate 0.9 to 1.7 and 0.7 to 0.8, severe 1.5 to 3.2 and 1.0 to 1.4.
+# 7) that JSBSim blends in towards 600 m. Measured with the glider at 75 to 130 m, seeds 1 to 10,
+# 120 s each, rms m/s along, across and vertical: light 0.33 to 0.76, 0.30 to 0.60, 0.30 to 0.67;
+# moderate 0.54 to 1.37, 0.50 to 1.35, 0.58 to 0.99; severe 1.31 to 3.61, 0.73 to 2.40, 0.85 to 1.72.
 _LEVELS: dict[str, tuple[float, int]] = {
     "light": (4.0, 1),
     "moderate": (8.0, 2),

@@ -10,6 +10,7 @@ from up_simulator.verbs.shelf import shipped_paths
 
 # Expectations that look for no more than who flies need no number of their own.
 LEAST_EXPECTATIONS = 2
+ATTITUDE = ("truth.roll_deg", "truth.pitch_deg", "error.roll_deg", "error.pitch_deg")
 CONTROLLERS = ("controller-on-arduino", "controller-on-raspberry")
 
 
@@ -37,10 +38,31 @@ def test_real_programs_and_only_they_are_tagged_real(name):
     assert ("real" in SCENARIOS[name].tags) == (name in REAL)
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["level-flight-in-gusts", "wing-in-gusts", "save", "fbw-roll-step", "arduino-alone"],
-)
+def attitudes(scenario):
+    """Return the names of what is expected of the attitude."""
+    return {each.name for each in scenario.expect if each.signal in ATTITUDE}
+
+
+def is_rough(scenario):
+    """Return whether the air tries what holds the attitude; light turbulence hardly does."""
+    weather = scenario.weather
+    return weather.turbulence in ("moderate", "severe") or bool(weather.gusts)
+
+
+IN_ROUGH_AIR = [name for name, each in SCENARIOS.items() if is_rough(each) and attitudes(each)]
+
+
+def test_there_is_rough_air():
+    assert {"level-flight-in-gusts", "wing-in-gusts", *CONTROLLERS} <= set(IN_ROUGH_AIR)
+
+
+@pytest.mark.parametrize("name", IN_ROUGH_AIR)
+def test_an_attitude_that_is_held_in_rough_air_is_not_in_the_control_run(name):
+    control = SCENARIOS[name].control
+    assert control is not None and attitudes(SCENARIOS[name]) & set(control.fails)
+
+
+@pytest.mark.parametrize("name", ["save", "fbw-roll-step", "fbw-pitch-step", "wing-steps"])
 def test_what_could_succeed_by_itself_has_a_control_run(name):
     control = SCENARIOS[name].control
     assert control is not None and control.fails
