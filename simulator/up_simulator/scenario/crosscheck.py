@@ -83,6 +83,11 @@ def _crew(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     if ground is not None and ground.through != "listener" and not scenario.is_real:
         what = f"{ground.through} is a real program: it needs 'raspilot: {{runs: real}}'"
         yield place(root, "ground", "through"), what
+    phone = scenario.phone
+    by_runner = ground is not None and ground.through == "runner"
+    if by_runner and phone is not None and phone.orientation == "udp":
+        what = "a Black Box on a server takes no datagrams: with 'through: runner' it is tcp"
+        yield place(root, "phone", "orientation"), what
 
 
 def _events(scenario: Scenario, root: MapNode) -> Iterator[Problem]:

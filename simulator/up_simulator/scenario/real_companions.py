@@ -214,9 +214,7 @@ class RealCompanions(CrewCompanions):
                 self._reactor,
                 flight,
                 lambda: self._runner.port,
-                lambda port, is_datagram: self._reactor.relay(
-                    0, port, self.up, self.down, is_datagram=is_datagram
-                ),
+                lambda port: self._reactor.relay(0, port, self.up, self.down),
                 orientation=part.orientation,
                 seed=self.scenario.seed,
             )

@@ -92,8 +92,8 @@ class RunnerDaemon:
 class RunnerPhone(InProcessPhone):
     """A phone whose cellular link leads to a runner, and from there to the instance's ports.
 
-    ``relay`` puts the cellular link before a port, for datagrams if it is told so, and returns
-    where to connect.
+    ``relay`` puts the cellular link before a port and returns where to connect. All goes by TCP:
+    a Black Box takes no datagrams.
     """
 
     def __init__(
@@ -101,15 +101,14 @@ class RunnerPhone(InProcessPhone):
         reactor: RealReactor,
         flight: Any,
         port: Callable[[], int],
-        relay: Callable[[int, bool], int],
+        relay: Callable[[int], int],
         *,
         orientation: Any,
         seed: int,
     ) -> None:
         self._runner_port = port
         self._relay = relay
-        self._relayed: dict[tuple[int, bool], int] = {}
-        self._sends_datagrams = orientation == "udp"
+        self._relayed: dict[int, int] = {}
         self._real = reactor
         simulated: Any = reactor
         super().__init__(
@@ -126,16 +125,15 @@ class RunnerPhone(InProcessPhone):
         place = await spawn(self._real.machine(), runner)
         return RaspberryPi(
             LOOPBACK,
-            self._by_link(place.general_port, False),
-            self._by_link(place.orientation_port, self._sends_datagrams),
+            self._by_link(place.general_port),
+            self._by_link(place.orientation_port),
         )
 
-    def _by_link(self, port: int, is_datagram: bool) -> int:
+    def _by_link(self, port: int) -> int:
         """Return where the link to a port begins: the same one at every attempt."""
-        key = (port, is_datagram)
-        if key not in self._relayed:
-            self._relayed[key] = self._relay(port, is_datagram)
-        return self._relayed[key]
+        if port not in self._relayed:
+            self._relayed[port] = self._relay(port)
+        return self._relayed[port]
 
 
 def write_runner_config(

@@ -63,6 +63,23 @@ def test_a_daemon_that_dies_is_told_with_the_tail_of_its_log(tmp_path):
     assert summary["held"] is False and "ended by itself" in summary["failure"]
 
 
+def test_datagrams_of_the_phone_pass_its_cable(tmp_path):
+    age = "signal: ground.age_ms.orientation"
+    done = fly(
+        tmp_path,
+        HEAD.replace(", mode: FBW, arm: true", "")
+        + "duration_s: 6\nboard: direct\nraspilot: {runs: real}\nphone: {orientation: udp}\n"
+        + "ground: {}\n"
+        + "events:\n  - {at_s: 3, name: out, phone: unplugged}\n"
+        + "  - {at_s: 4.2, name: in, phone: back}\n"
+        + "expect:\n"
+        + "  - {name: a, signal: ground.source.orientation, becomes: android, within_s: 3}\n"
+        + f"  - {{name: b, {age}, after: out, becomes_above: 800, within_s: 2}}\n"
+        + f"  - {{name: c, {age}, after: in, becomes_below: 300, within_s: 1.8}}\n",
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_a_black_box_through_runner_and_proxy_leaves_no_process(tmp_path):
     done = fly(
         tmp_path,

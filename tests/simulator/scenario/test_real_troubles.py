@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.firmware import build_firmware
+from up_simulator.cli import main
 
 LIMIT_S = 120.0
 REAL = """\
@@ -80,3 +81,11 @@ def test_a_pty_that_cannot_come_back_ends_the_flight_with_a_report():
     assert "exists and is no symbolic link: left alone" in done.stdout
     failure = json.loads(Path("out/real/summary.json").read_text())["failure"]
     assert "board exists and is no symbolic link" in failure
+
+
+def test_datagrams_to_a_black_box_are_a_mistake_of_the_file(capsys):
+    lines = REAL.replace("ground: {}", "ground: {through: runner}\nphone: {orientation: udp}")
+    Path("real.yml").write_text(lines)
+    assert main(["check", "real.yml"]) == 2
+    told = capsys.readouterr().err
+    assert told.startswith("real.yml:6:") and "a Black Box on a server takes no datagrams" in told
