@@ -11,6 +11,8 @@ from up_simulator.flight import FlightState
 
 STEP_S = 0.002
 STEP_US = 2000.0
+BYTES_A_STEP = 23
+"""What a line of 115200 baud carries in a step: more waits, as it does on a line."""
 STILL_S = 2.0
 TILT_S = 1.0
 SETTLE_S = 0.5

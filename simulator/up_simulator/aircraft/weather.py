@@ -13,7 +13,8 @@ TURBULENCE: tuple[Turbulence, ...] = ("none", "light", "moderate", "severe")
 # What MIL-F-8785C takes turbulence from: wind at 6 m above the ground (m/s), and a severity (1 to
 # 7) that JSBSim blends in towards 600 m. Measured with the glider at 75 to 130 m, seeds 1 to 10,
 # 120 s each, rms m/s along, across and vertical: light 0.33 to 0.76, 0.30 to 0.60, 0.30 to 0.67;
-# moderate 0.54 to 1.37, 0.50 to 1.35, 0.58 to 0.99; severe 1.31 to 3.61, 0.73 to 2.40, 0.85 to 1.72.
+# moderate 0.54 to 1.37, 0.50 to 1.35, 0.58 to 0.99; severe 1.31 to 3.61, 0.73 to 2.40, 0.85 to
+# 1.72.
 _LEVELS: dict[str, tuple[float, int]] = {
     "light": (4.0, 1),
     "moderate": (8.0, 2),

@@ -7,14 +7,12 @@ from typing import Protocol
 
 from up_simulator.clock import Clock
 from up_simulator.radio.sticks import Radio, Sticks, Transmitter
-from up_simulator.world import STEP_S, World
+from up_simulator.world import BYTES_A_STEP, STEP_S, World
 
 LATEST_S = 0.25
 SAY_AGAIN_S = 5.0
 STEPS_MOST = 25
 """Steps at a time: a world that has to catch up leaves the sockets their turn."""
-BYTES_A_STEP = 23
-"""What 115200 baud carry in a step: more waits on the pty, as it does on a line."""
 
 
 class SerialLine(Protocol):

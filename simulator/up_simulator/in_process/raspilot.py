@@ -32,11 +32,10 @@ from up_simulator.firmware.board import FirmwareBoard
 from up_simulator.in_process.daemon_log import DaemonLog
 from up_simulator.in_process.machine import Machine
 from up_simulator.in_process.reactor import SimulatedReactor
-from up_simulator.in_process.serial_wire import SerialWire, SocketLine
+from up_simulator.in_process.socket_line import SocketLine
+from up_simulator.world import BYTES_A_STEP
 
 ROOT = Path(__file__).resolve().parents[3]
-BYTES_A_STEP = 23
-"""What 115200 baud carry in 2 ms: the rest is lost when the daemon is killed."""
 
 
 class SettableMeter:
@@ -60,7 +59,7 @@ class InProcessRaspilot:
 
     The application is found from ``root`` and configured by a folder (``write_config``). Its
     serial port is a socket in this process, whatever its configuration calls it, which ``pump``
-    connects with a board; ``wire`` and ``line`` can be disturbed. ``boot_s`` passes between the
+    connects with a board; ``line`` can be unplugged. ``boot_s`` passes between the
     start and the first module's. What it draws at random follows ``seed``. Signals, the process's
     priority, its watchdogs and its garbage collector are the program's, and not part of this. A
     proxy is to be configured by its address: a name would be looked up by a thread.
@@ -79,7 +78,6 @@ class InProcessRaspilot:
     ) -> None:
         self.meter = SettableMeter()
         self.line = SocketLine()
-        self.wire = SerialWire(self.line, seed)
         self.up: Up | None = None
         self.boots = 0
         self._reactor = reactor
@@ -174,10 +172,11 @@ class InProcessRaspilot:
 
     def pump(self, board: FirmwareBoard) -> None:
         """Move the bytes of 2 ms between the board and the daemon; call it at every step."""
-        data = self.wire.read(0.0, BYTES_A_STEP)
+        # The rest waits in the socket, and is lost when the daemon is killed.
+        data = self.line.read(0.0, BYTES_A_STEP)
         if data:
             board.write(data)
-        self.wire.write(board.read())
+        self.line.write(board.read())
 
     def frame_age_s(self, message: GeneralMessage, _now_s: float) -> float | None:
         """Return how old a frame of telemetry is, of this life or one before; None: of none."""

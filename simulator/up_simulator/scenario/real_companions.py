@@ -21,9 +21,8 @@ from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.settings import merge
 from up_simulator.scenario.workspace import Workspace
 from up_simulator.showcase_config import choose_port_sets
+from up_simulator.world import BYTES_A_STEP
 
-BYTES_A_STEP = 23
-"""What 115200 baud carry in 2 ms."""
 PROXY_AGAIN_S = 10.0
 
 

@@ -9,11 +9,12 @@ import tempfile
 from pathlib import Path
 
 from tests.simulator.in_process.flying import CELLULAR, Flying
-from up_simulator.in_process.serial_wire import SerialNoise
 from up_simulator.in_process.tcp_end import TcpEnd
 from up_simulator.link.model import LinkSettings
+from up_simulator.scenario.event import SerialNoise
 
 LOSSY = LinkSettings(CELLULAR.delay_ms, CELLULAR.jitter_ms, loss_percent=5, rate_bytes_s=60_000)
+NOISE = SerialNoise(3600, flipped_percent=0.2, inserted_percent=0.1, lost_percent=0.1)
 
 
 def digests(folder, seed, duration_s=3.0):
@@ -28,7 +29,7 @@ def digests(folder, seed, duration_s=3.0):
     TcpEnd.write = write_and_note
     try:
         flying = Flying(folder, seed=seed, link=LOSSY, orientation="udp")
-        flying.raspilot.wire.noise = SerialNoise(flips=0.002, inserts=0.001, drops=0.001)
+        flying.board.wires.set_noise(NOISE, 0.0)
         flying.start()
         flying.fly(duration_s / 3)
         flying.ask("up.telemetry.frequency", limit_s=5.0, frequency=50)

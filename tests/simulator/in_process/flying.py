@@ -15,6 +15,7 @@ from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.link.model import LinkModel, LinkSettings
+from up_simulator.scenario.serial_line import FROM_BOARD, TO_BOARD, SerialWires
 from up_simulator.world import STEP_S, World
 
 ACRO_US, FBW_US, AUTO_US = 1000.0, 1500.0, 2000.0
@@ -22,23 +23,29 @@ CELLULAR = LinkSettings(delay_ms=40, jitter_ms=10)
 
 
 class TappedBoard:
-    """Lets the serial line of a board be read along: both ways, with their times."""
+    """Lets the serial line of a board be read along, both ways with their times, and spoilt."""
 
-    def __init__(self, board):
+    def __init__(self, board, wires):
         self._board = board
+        self.wires = wires
         self.tap = BoardTap()
         self.digest = hashlib.sha256()
 
     def __getattr__(self, name):
         return getattr(self._board, name)
 
+    @property
+    def now_s(self):
+        return self._board.now_us / 1e6
+
     def read(self):
         data = self._board.read()
         self.digest.update(b"<" + data)
-        self.tap.feed(data, self._board.now_us / 1e6)
-        return data
+        self.tap.feed(data, self.now_s)
+        return self.wires.pass_on(data, FROM_BOARD, self.now_s)
 
     def write(self, data):
+        data = self.wires.pass_on(data, TO_BOARD, self.now_s)
         self.digest.update(b">" + data)
         self._board.write(data)
 
@@ -55,7 +62,7 @@ class Flying:
         airframe = load_airframe("glider")
         eeprom = prepared_eeprom("firmware", airframe.profile, airframe.gains)
         rig = RigBoard(build_firmware(), seed=seed, imu_errors=ImuErrors(), eeprom=eeprom)
-        self.board = TappedBoard(rig)
+        self.board = TappedBoard(rig, SerialWires(seed))
         dynamics = FlightDynamics(airframe, start or Start(), seed=seed)
         self.world = World(dynamics, self.board)
         self.reactor = SimulatedReactor()

@@ -4,7 +4,7 @@ import pytest
 
 from tests.simulator.in_process.flying import ACRO_US, AUTO_US, CELLULAR, Flying
 from up_simulator.aircraft.dynamics import Start
-from up_simulator.in_process.serial_wire import SerialNoise
+from up_simulator.scenario.event import SerialNoise
 
 OF_THE_PI = {"config.yml": {"flight controller": "raspberry"}}
 TUNING = {"mission_control.yml": {"tune_in_flight": True}}
@@ -206,7 +206,7 @@ def test_the_phones_orientation_steps_in_for_a_board_that_is_gone(fly):
     flying.start()
     flying.fly(1.5)
     assert flying.ground.telemetry["source"]["orientation"] == "arduino"
-    flying.raspilot.wire.is_connected = False
+    flying.board.wires.is_plugged = False
     flying.until(lambda: flying.ground.telemetry["source"]["orientation"] == "android", 1.0)
     assert flying.ground.telemetry["orientation"]["roll"] == pytest.approx(
         flying.state.roll_deg, abs=2
@@ -246,9 +246,10 @@ def test_noise_on_the_serial_line_is_dropped_and_counted_and_the_flight_goes_on(
     flying.start()
     flying.board.set_stick("aux1", AUTO_US)
     flying.until(lambda: flying.status.mode == "u", 3.0)
-    flying.raspilot.wire.noise = SerialNoise(flips=0.002, inserts=0.0005, drops=0.0005)
+    noise = SerialNoise(60, flipped_percent=0.2, inserted_percent=0.05, lost_percent=0.05)
+    flying.board.wires.set_noise(noise, flying.board.now_s)
     flying.fly(4.0)
-    assert flying.raspilot.wire.spoilt > 20
+    assert flying.board.wires.spoilt > 20
     counters = flying.ground.telemetry["counters"]["serial"]
     assert counters["crc_errors"] + counters["format_errors"] > 5
     assert not any("CRITICAL" in line for line in flying.raspilot.log)

@@ -1,0 +1,66 @@
+"""The serial line between board and Raspberry Pi, as a socket in this process."""
+
+from __future__ import annotations
+
+import socket
+from contextlib import suppress
+
+
+class SocketLine:
+    """The board's end of a line in this process; ``open`` gives the other end.
+
+    Bytes pass at once and in order, without the system's own time as on a pty. Opening it again
+    hangs up on the end before. ``unplug`` takes the whole adapter away: the port is gone.
+    """
+
+    def __init__(self) -> None:
+        self.is_plugged = True
+        self._own: socket.socket | None = None
+        self._other: socket.socket | None = None
+
+    def open(self) -> socket.socket:
+        """Return the other end, which whoever asked has to close."""
+        self.hang_up()
+        self._own, self._other = socket.socketpair()
+        self._own.setblocking(False)
+        return self._other
+
+    def read(self, timeout_s: float, most: int) -> bytes:
+        """Return what has come; nothing is waited for."""
+        if self._own is None:
+            return b""
+        try:
+            return self._own.recv(most)
+        except BlockingIOError:
+            return b""
+        except OSError:
+            self.hang_up()
+            return b""
+
+    def write(self, data: bytes) -> None:
+        """Send bytes; what nobody reads is dropped."""
+        if self._own is not None:
+            with suppress(OSError):
+                self._own.send(data)
+
+    def plug(self) -> None:
+        """Let the port be there again."""
+        self.is_plugged = True
+
+    def unplug(self) -> None:
+        """Take the port away: whoever has it open is hung up on."""
+        self.is_plugged = False
+        self.hang_up()
+
+    def cut(self) -> None:
+        """Close both ends, as when the program with the other one is killed."""
+        self.hang_up()
+        if self._other is not None:
+            self._other.close()
+            self._other = None
+
+    def hang_up(self) -> None:
+        """Close this end; bytes that have not passed are lost."""
+        if self._own is not None:
+            self._own.close()
+            self._own = None
