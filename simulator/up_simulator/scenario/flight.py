@@ -58,6 +58,11 @@ class FlightRecord:
         """Return how many times faster than the real time it was."""
         return self.flown_s / self.took_s if self.took_s > 0 else 0.0
 
+    @property
+    def is_broken_off(self) -> bool:
+        """Return whether something else than a crash ended it before its time."""
+        return self.is_interrupted or self.failure is not None
+
 
 class ScenarioFlight:
     """Boots the board, then flies: sticks, events, rows of the log.

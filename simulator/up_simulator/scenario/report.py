@@ -18,6 +18,7 @@ def report_lines(name: str, result: Result, files: Iterable[Path] = ()) -> Itera
     record = result.record
     scenario = record.scenario
     yield f"{scenario.title} ({name})"
+    yield from _interrupted(result)
     yield from _flown("flight", record)
     if result.control is not None:
         yield from _flown("control run", result.control)
@@ -36,6 +37,13 @@ def report_lines(name: str, result: Result, files: Iterable[Path] = ()) -> Itera
     held = sum(verdict.is_held for verdict in result.verdicts)
     word = "held" if result.is_held else "NOT held"
     yield f"{name}: {word} ({held} of {count} expectations)"
+
+
+def _interrupted(result: Result) -> Iterator[str]:
+    for what, record in (("the flight", result.record), ("the control run", result.control)):
+        if record is not None and record.is_interrupted:
+            when = f"{record.flown_s:.2f} s of {record.scenario.duration_s:g} s"
+            yield f"  INTERRUPTED: {what} was interrupted at {when}"
 
 
 def speed_text(record: FlightRecord) -> str:
@@ -68,8 +76,6 @@ def _troubles(result: Result) -> Iterator[str]:
     for what, record in (("the flight", result.record), ("the control run", result.control)):
         if record is None:
             continue
-        if record.is_interrupted:
-            yield f"  {what} was interrupted at {record.flown_s:.2f} s"
         if record.failure is not None:
             yield f"  {what} could not go on at {record.flown_s:.2f} s: {record.failure}"
             for line in record.failure_log:

@@ -26,11 +26,15 @@ class Result:
     def is_held(self) -> bool:
         """Return whether everything that was expected is true."""
         records = (self.record, self.control)
-        broken = any(
-            record is not None and (record.failure is not None or record.is_interrupted)
-            for record in records
-        )
+        broken = any(record is not None and record.is_broken_off for record in records)
         return not broken and all(verdict.is_held for verdict in self.verdicts)
+
+    @property
+    def is_interrupted(self) -> bool:
+        """Return whether the user ended the flight or its control run."""
+        return any(
+            record is not None and record.is_interrupted for record in (self.record, self.control)
+        )
 
 
 def verdicts_of(record: FlightRecord) -> list[Verdict]:
@@ -79,9 +83,9 @@ def failed_parts(result: Result) -> Iterator[FailedPart]:
 def facts_of(record: FlightRecord) -> FlightFacts:
     """Return what the judge must know."""
     scenario = record.scenario
-    return FlightFacts(
-        record.log, record.event_times, scenario.duration_s, record.crash_s, scenario.may_crash
-    )
+    # A crash may end a flight that is allowed to crash; being broken off never may.
+    may_end = scenario.may_crash and not record.is_broken_off
+    return FlightFacts(record.log, record.event_times, scenario.duration_s, record.crash_s, may_end)
 
 
 def control_scenario(scenario: Scenario) -> Scenario:
@@ -108,11 +112,15 @@ def control_verdicts(scenario: Scenario, record: FlightRecord) -> list[Verdict]:
     words = control.about or (
         f"in {control.mode}" if control.mode else f"with board {control.board}"
     )
-    return [
+    verdicts = [
         _failing(judge(expectation, facts), words)
         for expectation in scenario.expect
         if expectation.name in control.fails
     ]
+    if record.is_broken_off:
+        why = _cut_short(record)
+        return [replace(verdict, is_held=False, why=why) for verdict in verdicts]
+    return verdicts
 
 
 def _failing(verdict: Verdict, words: str) -> Verdict:
@@ -126,7 +134,12 @@ def _failing(verdict: Verdict, words: str) -> Verdict:
     return Verdict(name, fails, verdict.figure, f"not {verdict.limit}", why)
 
 
+def _cut_short(record: FlightRecord) -> str:
+    return f"it was cut short at {record.flown_s:.2f} s" if record.is_broken_off else ""
+
+
 def _whole(record: FlightRecord) -> Verdict:
     if record.crash is None:
-        return Verdict(NO_CRASH, True, f"{record.flown_s:g} s flown", "no crash")
+        figure = f"{record.flown_s:g} s flown"
+        return Verdict(NO_CRASH, not record.is_broken_off, figure, "no crash", _cut_short(record))
     return Verdict(NO_CRASH, False, f"crashed at {record.crash_s:.2f} s", "no crash", record.crash)

@@ -172,6 +172,11 @@ def write_files(name: str, result: Result, output: Output, say: Say) -> Files:
             files.written.append(folder / file_name)
     if output.has_picture and len(result.record.log):
         _draw(result, folder / PICTURE, files, say)
+    for path in (folder / CONTROL_LOG, folder / PICTURE):
+        if path not in files.written:
+            # It is of an earlier flight, and would be taken for this one's.
+            with suppress(OSError):
+                path.unlink()
     summary = json.dumps(_summary(name, result), indent=1)
     files.put(folder / SUMMARY, lambda path: path.write_text(summary, encoding="utf-8"))
     report = "\n".join(report_lines(name, result, files.written)) + "\n"
@@ -224,6 +229,7 @@ def _summary(name: str, result: Result) -> dict[str, object]:
         "speed": round(record.speed, 2),
         "crash_s": record.crash_s,
         "failure": record.failure,
+        "interrupted": result.is_interrupted,
         "expectations": [
             {
                 "name": verdict.name,

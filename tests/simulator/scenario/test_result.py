@@ -44,6 +44,26 @@ def test_a_crash_may_be_allowed():
     assert Result(record, verdicts_of(record)).is_held
 
 
+@pytest.mark.parametrize("broken", [{"is_interrupted": True}, {"failure": "the daemon has ended"}])
+def test_a_flight_that_was_cut_short_shows_nothing_about_its_whole(broken):
+    for text in (ROLL, "may_crash: true\n" + ROLL):
+        record = record_of(text, lambda t: 0.0, 3, **broken)
+        assert not any(verdict.is_held for verdict in verdicts_of(record))
+    early = ROLL.replace("name: Level", "name: Level, to_s: 1")
+    record = record_of(early, lambda t: 0.0, 101, **broken)
+    assert [verdict.is_held for verdict in verdicts_of(record)] == [True, False]
+    scenario = parse_scenario(HEAD + ROLL + CONTROL)
+    control = record_of(ROLL, lambda t: 0.0, 51, **broken)
+    assert not control_verdicts(scenario, control)[0].is_held
+
+
+def test_the_report_of_an_interrupted_flight_says_so_first():
+    record = record_of(ROLL, lambda t: 0.0, 3, is_interrupted=True)
+    lines = list(report_lines("a", Result(record, verdicts_of(record))))
+    assert lines[1] == "  INTERRUPTED: the flight was interrupted at 0.04 s of 4 s"
+    assert lines[-1] == "a: NOT held (0 of 2 expectations)"
+
+
 def test_a_control_run_must_fail_with_a_figure():
     scenario = parse_scenario(HEAD + ROLL + CONTROL)
     fails = control_verdicts(scenario, record_of(ROLL, lambda t: 9.0))

@@ -121,6 +121,19 @@ def test_a_flight_that_holds_leaves_its_files(capsys, in_a_folder):
     assert json.loads((folder / "summary.json").read_text())["held"] is True
 
 
+def test_no_file_of_an_earlier_flight_is_left(in_a_folder):
+    build_firmware()
+    folder = in_a_folder / "run" / "flights" / "good"
+    folder.mkdir(parents=True)
+    for name in ("picture.png", "control.csv", "report.txt"):
+        (folder / name).write_text("of an earlier flight")
+    (folder / "notes.txt").write_text("the user's own")
+    assert main(["fly", write("good.yml", GOOD), "--no-picture", "--quiet"]) == 0
+    names = {path.name for path in folder.iterdir()}
+    assert names == {"log.csv", "report.txt", "summary.json", "notes.txt"}
+    assert "of an earlier" not in (folder / "report.txt").read_text()
+
+
 def test_a_flight_that_does_not_hold_is_status_1(capsys):
     build_firmware()
     words = ["fly", write("bad.yml", BAD), write("good.yml", GOOD), "--no-picture"]
