@@ -22,8 +22,8 @@ class FirmwareAircraft:
 
     A crash is said, and after 3 s the aircraft is in the air again with a board that has just got
     its power. A battery that is almost empty is changed in flight, and that is said, too: it would
-    end every long look at the aircraft. ``say`` takes one line for the user. Raises
-    ``BoardCrashedError``.
+    end every long look at the aircraft. ``who`` tells the mode and who has the sticks: a crash is
+    said with it. ``say`` takes one line for the user. Raises ``BoardCrashedError``.
     """
 
     def __init__(
@@ -35,12 +35,15 @@ class FirmwareAircraft:
         clock: Clock,
         radio_name: str,
         say: Callable[[str], None],
+        who: Callable[[], str] = lambda: "",
     ) -> None:
         self._flight = flight
         self._clock = clock
         self._say = say
         self._arms = is_armed_at_first(radio_name)
         self._crashed_s: float | None = None
+        self._who = who
+        self._why = ""
         world = World(flight, board)
         world.boot(arms=self._arms)
         self.real_time = RealTimeWorld(world, line, radio, clock, say)
@@ -54,11 +57,12 @@ class FirmwareAircraft:
         now_s = self._clock.seconds()
         if self._crashed_s is None:
             self._crashed_s = now_s
-            self._say(f"{self._flight.crash}; in {LIES_S:.0f} s it flies again")
+            self._why = f" ({self._who()})" if self._who() else ""
+            self._say(f"{self._flight.crash}{self._why}; in {LIES_S:.0f} s it flies again")
         elif now_s - self._crashed_s >= LIES_S:
             self._crashed_s = None
             self.real_time.begin_again(self._launch)
-            self._say("launched again in the air")
+            self._say(f"launched again in the air, after the crash{self._why}")
 
     def _watch_battery(self) -> None:
         state = self._flight.state

@@ -113,6 +113,13 @@ class VirtualAircraft:
         self._line = line = PtyLine(options.pty_link)
         board = board_aboard(options, airframe, self._say)
         tap = BoardTap()
+
+        def mode() -> str:
+            return MODE_NAMES.get(tap.mode or "", "")
+
+        def is_armed() -> bool | None:
+            return None if tap.status is None else tap.status.is_armed
+
         radio = choose_radio(
             options.radio,
             options.sticks,
@@ -121,21 +128,29 @@ class VirtualAircraft:
             is_armed=board is not None,
             say=self._say,
             on_leave=on_leave,
+            mode=mode,
         )
         self._radio = radio
-
-        def mode() -> str:
-            return MODE_NAMES.get(tap.mode or "", "")
-
+        remote: RemoteRadio | None = None
         if options.radio_socket is not None:
-            self._radio = radio = RemoteRadio(options.radio_socket, radio, self._say, mode)
+            # Whoever holds a transmitter of his own arms by himself.
+            arms = is_armed if options.radio in ("circle", "script") else None
+            remote = RemoteRadio(options.radio_socket, radio, self._say, mode, arms)
+            self._radio = radio = remote
+
+        def who() -> str:
+            holder = options.radio if options.radio != "circle" else "the circling pilot"
+            if remote is not None and remote.is_taken:
+                holder = "another radio"
+            return f"{mode() or 'mode not known'}, {holder} had the sticks"
+
         if board is None:
             stand_in = StandInAircraft(
                 self.flight, line, radio, self._reactor, options, has_motor, self._say
             )
             return stand_in.keep
         aircraft = FirmwareAircraft(
-            self.flight, board, line, radio, self._reactor, options.radio, self._say
+            self.flight, board, line, radio, self._reactor, options.radio, self._say, who
         )
 
         def hear(data: bytes) -> None:

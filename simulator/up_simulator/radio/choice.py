@@ -25,19 +25,21 @@ def choose_radio(
     is_armed: bool,
     say: Callable[[str], None],
     on_leave: Callable[[], None],
+    mode: Callable[[], str] = lambda: "",
 ) -> Radio:
     """Return the radio of a name: circle, script, keyboard, or a game controller's device.
 
     ``moves`` is a script for the first two; ``is_armed`` tells that the board is armed before the
     flight, where ``is_armed_at_first`` wants it; ``on_leave`` is called when the keyboard's pilot
-    leaves. Raises ``RadioError``.
+    leaves; ``mode`` names what the board flies, or nothing. Raises ``RadioError``.
     """
     if name == "circle":
-        return ScriptedRadio(moves, CirclingPilot(has_motor=has_motor, is_armed=is_armed))
+        pilot = CirclingPilot(has_motor=has_motor, is_armed=is_armed, mode=mode)
+        return ScriptedRadio(moves, pilot)
     if name == "script":
         return ScriptedRadio([*read_sticks(BEFORE), *moves])
     if name == "keyboard":
-        return KeyboardRadio(on_leave, start=AT_FIRST)
+        return KeyboardRadio(on_leave, start=AT_FIRST, mode=mode)
     return GameController(controller_device(name), axis_map, say)
 
 

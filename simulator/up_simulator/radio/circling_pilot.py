@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from up.earth import bearing_deg, distance_m
@@ -20,6 +21,13 @@ FULL_BANK_DEG, FULL_UP_DEG, FULL_DOWN_DEG = 50.0, 20.0, 25.0
 THROTTLE_US_PER_M, THROTTLE_US_PER_M_S = 25.0, 60.0
 THROTTLE_MOST_US = 1900
 PITCH_DEG_PER_M, PITCH_MOST_DEG = 0.3, 4.0
+RATE_PER_ANGLE = 4.0
+"""How fast the pilot goes back to the attitude where the mode does not, deg/s per deg."""
+ROLL_MOST_DEG_S, PITCH_MOST_DEG_S = 60.0, 30.0
+FULL_ROLL_DEG_S, FULL_PITCH_DEG_S = 180.0, 90.0
+"""What a full stick asks for in RATE (firmware, flight_controller.h)."""
+SURFACE_US_PER_DEG_S = 3.0
+"""What the sticks damp in ACRO, where they move the surfaces."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,11 +43,12 @@ class Circuit:
 
 
 class CirclingPilot:
-    """Moves the sticks of FBW so that the aircraft stays near and high, for as long as it flies.
+    """Moves the sticks so that the aircraft stays near and high, for as long as it flies.
 
-    The switch stands at ``switch``. Where the board ``is_armed`` already, AUX2 is up from the
-    beginning; else it rises soon, then the throttle. Without a motor the height is what the air
-    leaves of it.
+    The sticks are those of the mode that the board says it flies: ``mode`` names it, and where it
+    names nothing they are those of FBW. The switch stands at ``switch``. Where the board
+    ``is_armed`` already, AUX2 is up from the beginning; else it rises soon, then the throttle.
+    Without a motor the height is what the air leaves of it.
     """
 
     def __init__(
@@ -49,7 +58,9 @@ class CirclingPilot:
         switch: str = "AUTO",
         has_motor: bool = True,
         is_armed: bool = True,
+        mode: Callable[[], str] = lambda: "",
     ) -> None:
+        self._mode = mode
         self._circuit = circuit or Circuit()
         self._switch_us = SWITCH_US[switch]
         self._has_motor = has_motor
@@ -65,9 +76,11 @@ class CirclingPilot:
         self._watch_climb(state)
         wanted_m = self._home.height_m if self._circuit.height_m is None else self._circuit.height_m
         low_m = wanted_m - state.height_m
+        bank_deg, pitch_deg = self._bank_deg(self._home, state), self._pitch_deg(low_m)
+        ailerons_us, elevator_us = _right_stick(self._mode(), bank_deg, pitch_deg, state)
         return Sticks(
-            ailerons=_stick(self._bank_deg(self._home, state) / FULL_BANK_DEG),
-            elevator=self._elevator_us(low_m),
+            ailerons=ailerons_us,
+            elevator=elevator_us,
             throttle=self._throttle_us(low_m) if time_s >= self._climbs_s else LOWEST_US,
             aux1=self._switch_us,
             aux2=HIGHEST_US if time_s >= self._arms_s else LOWEST_US,
@@ -89,11 +102,10 @@ class CirclingPilot:
         bank_deg = turn_deg * share + BANK_PER_COURSE * off_deg
         return max(-BANK_MOST_DEG, min(BANK_MOST_DEG, bank_deg))
 
-    def _elevator_us(self, low_m: float) -> int:
-        pitch_deg = max(-PITCH_MOST_DEG, min(PITCH_MOST_DEG, PITCH_DEG_PER_M * low_m))
+    def _pitch_deg(self, low_m: float) -> float:
         if not self._has_motor:
-            pitch_deg = 0.0
-        return _stick(pitch_deg / (FULL_UP_DEG if pitch_deg > 0 else FULL_DOWN_DEG))
+            return 0.0
+        return max(-PITCH_MOST_DEG, min(PITCH_MOST_DEG, PITCH_DEG_PER_M * low_m))
 
     def _throttle_us(self, low_m: float) -> int:
         if not self._has_motor:
@@ -109,6 +121,26 @@ class CirclingPilot:
         passed_s = state.time_s - before.time_s
         climb_m_s = (state.height_m - before.height_m) / passed_s
         self._climb_m_s += (climb_m_s - self._climb_m_s) * min(1.0, passed_s)
+
+
+def _right_stick(
+    mode: str, bank_deg: float, pitch_deg: float, state: FlightState
+) -> tuple[int, int]:
+    """Return the pulses of ailerons and elevator that ask for an attitude in a mode."""
+    if mode not in ("RATE", "ACRO"):
+        full_deg = FULL_UP_DEG if pitch_deg > 0 else FULL_DOWN_DEG
+        return _stick(bank_deg / FULL_BANK_DEG), _stick(pitch_deg / full_deg)
+    roll_deg_s = _within(RATE_PER_ANGLE * (bank_deg - state.roll_deg), ROLL_MOST_DEG_S)
+    pitch_deg_s = _within(RATE_PER_ANGLE * (pitch_deg - state.pitch_deg), PITCH_MOST_DEG_S)
+    if mode == "RATE":
+        return _stick(roll_deg_s / FULL_ROLL_DEG_S), _stick(pitch_deg_s / FULL_PITCH_DEG_S)
+    roll_us = SURFACE_US_PER_DEG_S * (roll_deg_s - state.roll_rate_deg_s)
+    pitch_us = SURFACE_US_PER_DEG_S * (pitch_deg_s - state.pitch_rate_deg_s)
+    return _stick(roll_us / HALF_TRAVEL_US), _stick(pitch_us / HALF_TRAVEL_US)
+
+
+def _within(value: float, most: float) -> float:
+    return max(-most, min(most, value))
 
 
 def _stick(deflection: float) -> int:

@@ -22,7 +22,8 @@ _STICK_KEYS = {
 _THROTTLE_KEYS = {"w": THROTTLE_STEP_US, "s": -THROTTLE_STEP_US}
 _MODE_KEYS = {"1": "ACRO", "2": "FBW", "3": "AUTO"}
 HELP = """\
-arrows   ailerons and elevator: left, right bank; up pushes (nose down), down pulls (nose up)
+arrows   ailerons and elevator: left, right bank; up pushes (nose down), down pulls (nose up); \
+these sticks spring back to the middle when no key is held, throttle and switches stay
 w s      throttle up, down                 a d  rudder left, right
 1 2 3    mode switch: ACRO, FBW, AUTO      x    sticks to the middle
 space    arming switch (the motor arms with the throttle low)

@@ -79,12 +79,16 @@ class KeyboardRadio:
 
 
 def status_line(sticks: Sticks, state: FlightState, mode: str = "") -> str:
-    """Return sticks, mode, attitude and height in one line of at most 80 letters."""
+    """Return sticks, switch, mode, attitude and height in one line for 80 columns.
+
+    The mode that flies is named where it is another than the switch's.
+    """
     part = [round((each - 1500) / 5) for each in (sticks.ailerons, sticks.elevator, sticks.rudder)]
     armed = "armed" if sticks.is_armed else "disarmed"
+    flies = sticks.mode if mode in ("", sticks.mode) else f"{sticks.mode}, flies {mode}"
     return (
         f"a{part[0]:+4d} e{part[1]:+4d} r{part[2]:+4d} t{(sticks.throttle - 1000) // 10:3d}%"
-        f"  {mode or sticks.mode} {armed}"
-        f"  bank {state.roll_deg:+.0f} pitch {state.pitch_deg:+.0f}"
-        f"  {state.height_m:.0f} m {state.airspeed_m_s:.0f} m/s"
+        f" {flies} {armed}"
+        f" bank {state.roll_deg:+.0f} pitch {state.pitch_deg:+.0f}"
+        f" {state.height_m:.0f} m {state.airspeed_m_s:.0f} m/s"
     )

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from up_simulator.flight import FlightState
+from up_simulator.radio.arming_again import ArmingAgain
 from up_simulator.radio.remote_words import LONGEST, Seen, read_sticks_of, write_seen
 from up_simulator.radio.sticks import Radio, RadioError, Sticks
 
@@ -20,8 +21,9 @@ class RemoteRadio:
     """Passes the sticks of whoever sends to ``path``, else those of ``pilot``.
 
     One sender at a time: the first, until it is silent for a second or gives the sticks back.
-    ``mode`` names what the board flies, as far as it is known. ``say`` takes one line for the user.
-    Raises ``RadioError`` when the socket cannot be made.
+    ``mode`` names what the board flies, as far as it is known. Where ``is_armed`` tells whether the
+    board is, ``pilot`` arms it again after somebody who has disarmed it. ``say`` takes one line for
+    the user. Raises ``RadioError`` when the socket cannot be made.
     """
 
     def __init__(
@@ -30,11 +32,13 @@ class RemoteRadio:
         pilot: Radio,
         say: Callable[[str], None],
         mode: Callable[[], str] = lambda: "",
+        is_armed: Callable[[], bool | None] | None = None,
     ) -> None:
         self._path = path
         self._pilot = pilot
         self._say = say
         self._mode = mode
+        self._arming = None if is_armed is None else ArmingAgain(is_armed)
         self._sender: Any = None
         self._heard_s = float("-inf")
         self._taken: Sticks | None = None
@@ -49,6 +53,11 @@ class RemoteRadio:
             self._socket.close()
             raise RadioError(f"no radio can be taken over at {path}: {error}") from None
 
+    @property
+    def is_taken(self) -> bool:
+        """Return whether somebody else has the sticks."""
+        return self._taken is not None
+
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
         """Return the sticks of who has them."""
         own = self._pilot.sticks(time_s, state)
@@ -59,7 +68,9 @@ class RemoteRadio:
                 break
             self._hear(datagram, sender, time_s, state)
         if self._taken is not None and time_s - self._heard_s > FRESH_S:
-            self._give_back()
+            self._give_back(time_s)
+        if self._taken is None and self._arming is not None:
+            own = self._arming.sticks(time_s, own)
         self._now = own if self._taken is None else self._taken
         return self._now
 
@@ -76,19 +87,19 @@ class RemoteRadio:
         except ValueError:
             return
         is_others = self._taken is not None and sender != self._sender
-        if is_others and sticks is not None:
-            return
-        if sticks is not None:
+        if sticks is not None and not is_others:
             if self._taken is None:
                 self._say("another pilot has taken the sticks")
             self._taken, self._sender, self._heard_s = sticks, sender, time_s
         elif self._taken is not None and not is_others:
-            self._give_back()
+            self._give_back(time_s)
         if sender:
             with suppress(OSError):
-                answer = Seen(state, self._taken or self._now, self._mode())
+                answer = Seen(state, self._taken or self._now, self._mode(), is_others)
                 self._socket.sendto(write_seen(answer), sender)
 
-    def _give_back(self) -> None:
+    def _give_back(self, time_s: float) -> None:
+        if self._arming is not None and self._taken is not None:
+            self._arming.begin(time_s, self._taken)
         self._taken = self._sender = None
         self._say("the first pilot has the sticks again")

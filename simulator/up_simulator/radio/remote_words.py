@@ -17,11 +17,15 @@ SEEN = ("roll_deg", "pitch_deg", "height_m", "airspeed_m_s")
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """What the aircraft answers: what a pilot on the ground sees, and where its sticks stand."""
+    """What the aircraft answers: what a pilot on the ground sees, and where its sticks stand.
+
+    ``is_others``: they are moved by another radio than the one that is answered.
+    """
 
     state: FlightState
     sticks: Sticks
     mode: str = ""
+    is_others: bool = False
 
 
 def write_sticks(sticks: Sticks | None) -> bytes:
@@ -38,7 +42,8 @@ def read_sticks_of(datagram: bytes) -> Sticks | None:
 def write_seen(seen: Seen) -> bytes:
     """Return what the aircraft answers."""
     values = {name: round(getattr(seen.state, name), 3) for name in SEEN}
-    return json.dumps({**values, "sticks": _sticks(seen.sticks), "mode": seen.mode}).encode("ascii")
+    words = {"sticks": _sticks(seen.sticks), "mode": seen.mode, "is_others": seen.is_others}
+    return json.dumps({**values, **words}).encode("ascii")
 
 
 def read_seen(datagram: bytes) -> Seen:
@@ -53,7 +58,10 @@ def read_seen(datagram: bytes) -> Seen:
     mode = found["mode"]
     if not isinstance(mode, str) or not (mode.isascii() and mode.isprintable()):
         raise ValueError("mode is no word")
-    return Seen(FlightState(**values), _read_sticks(found["sticks"]), mode[:20])
+    is_others = found["is_others"]
+    if type(is_others) is not bool:
+        raise ValueError("whose the sticks are is not said")
+    return Seen(FlightState(**values), _read_sticks(found["sticks"]), mode[:20], is_others)
 
 
 def _sticks(sticks: Sticks) -> dict[str, Any]:

@@ -20,6 +20,7 @@ PERIOD_S = 0.02
 SILENT_S = 2.0
 SHOWN_S = 1.0
 DEFAULT_SOCKET = Path("run/showcase/radio")
+OTHERS = "another radio has the sticks: q there gives them back"
 DESCRIPTION = """\
 Takes the sticks of the aircraft that 'make run' (or 'up-sim start --radio-socket PATH') flies, and
 gives them back at the end. The mode switch stays where it was: FBW by itself, or 3 for AUTO."""
@@ -39,7 +40,9 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 class RadioLink:
-    """The radio's end of the socket. Raises ``RadioError`` when no aircraft answers there."""
+    """The radio's end of the socket. Raises ``RadioError`` when no aircraft answers there, or
+    another radio has the sticks.
+    """
 
     def __init__(self, path: Path, clock: Callable[[], float] = time.monotonic) -> None:
         self._path = path
@@ -55,6 +58,9 @@ class RadioLink:
             self._socket.close()
             raise self._nobody() from None
         self._socket.setblocking(False)
+        if self.seen.is_others:
+            self._socket.close()
+            raise RadioError(OTHERS)
         self._heard_s = clock()
 
     def exchange(self, datagram: bytes) -> Seen:
@@ -68,8 +74,10 @@ class RadioLink:
             except ValueError:
                 continue
             self._heard_s = self._clock()
+        if self.seen.is_others:
+            raise RadioError(OTHERS)
         if self._clock() - self._heard_s > SILENT_S:
-            raise RadioError("the aircraft does not answer any more, or another radio has it")
+            raise RadioError("the aircraft does not answer any more")
         return self.seen
 
     def close(self) -> None:

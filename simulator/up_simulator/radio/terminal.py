@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import atexit
 import os
+import re
 import termios
+import textwrap
 import tty
 from contextlib import suppress
 from typing import Any
@@ -12,6 +14,7 @@ from typing import Any
 from up_simulator.radio.sticks import RadioError
 
 _OFF = b"\x00"
+_ITEM = re.compile(r"\S+(?: \S+)* {2,}")
 
 
 class KeyTerminal:
@@ -53,8 +56,9 @@ class KeyTerminal:
         self._is_shown = True
 
     def say(self, text: str) -> None:
-        """Write lines that stay, above the line that does not."""
-        self._write(f"\r\x1b[K{text}\n")
+        """Write lines that stay, wrapped by words, above the line that does not."""
+        lines = "\n".join(wrapped(line, self._columns()) for line in text.splitlines())
+        self._write(f"\r\x1b[K{lines}\n")
         self._is_shown = False
 
     def leave(self) -> None:
@@ -77,3 +81,10 @@ class KeyTerminal:
     def _write(self, text: str) -> None:
         with suppress(OSError):
             os.write(self._picture, text.encode("utf-8", "replace"))
+
+
+def wrapped(line: str, columns: int) -> str:
+    """Return a line in lines of so many columns; under an item's words, not under its name."""
+    item = _ITEM.match(line)
+    indent = item.end() if item is not None and item.end() < columns // 2 else 0
+    return textwrap.fill(line, max(columns, 10), subsequent_indent=" " * indent)

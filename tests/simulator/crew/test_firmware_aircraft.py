@@ -21,8 +21,9 @@ class Flown:
         self.flight = FlightDynamics(load_airframe("glider"), Start(**start))
         radio = ScriptedRadio(read_sticks(script))
         self.aircraft = FirmwareAircraft(
-            self.flight, DirectBoard(), self.line, radio, self.clock, "script", self.said.append
-        )
+            self.flight, DirectBoard(), self.line, radio, self.clock, "script", self.said.append,
+            lambda: "ACRO, a script had the sticks",
+        )  # fmt: skip
 
     def run(self, seconds, until=lambda: False):
         for _ in range(round(seconds / 0.02)):
@@ -52,7 +53,9 @@ def test_a_crash_is_said_and_it_flies_again(fly):
     flown.run(2.5)
     assert flown.flight.crash is not None and len(flown.said) == 1
     flown.run(1.0)
-    assert flown.said[1] == "launched again in the air"
+    why = "(ACRO, a script had the sticks)"
+    assert why in flown.said[0]
+    assert flown.said[1] == f"launched again in the air, after the crash {why}"
     assert flown.flight.crash is None
     assert flown.flight.state.height_m > 100
 

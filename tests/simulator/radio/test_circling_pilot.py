@@ -8,8 +8,10 @@ from up.earth import distance_m
 from up_rig import RigUnavailableError
 from up_rig.sticks import read_sticks
 from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
+from up_simulator.crew.virtual_aircraft import MODE_NAMES
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.firmware.tap import BoardTap
 from up_simulator.radio.circling_pilot import CirclingPilot
 from up_simulator.radio.scripted import ScriptedRadio
 from up_simulator.radio.sticks import Sticks, Transmitter
@@ -41,6 +43,35 @@ def test_it_stays_near_and_high_in_turbulence(airframe, wind_m_s, minutes):
             assert 90 < state.height_m < 150, world.time_s
             assert distance_m(*here) < 200, world.time_s
             assert abs(state.roll_deg) < 60
+
+
+@pytest.mark.parametrize("airframe", ["glider", "wing"])
+@pytest.mark.parametrize(("mode", "switch"), [("RATE", "AUTO"), ("ACRO", "ACRO")])
+def test_it_flies_by_the_mode_that_the_board_says(airframe, mode, switch):
+    """A ground station, or a switch, may choose modes that hold no attitude."""
+    flown = load_airframe(airframe)
+    flight = FlightDynamics(flown, weather=Weather(wind_m_s=4.0, turbulence="moderate"), seed=3)
+    try:
+        board = choose_board("host", eeprom=prepared_eeprom("host", flown.profile, flown.gains))
+    except (BoardUnavailableError, RigUnavailableError) as error:
+        unavailable(str(error))
+    tap = BoardTap()
+    pilot = CirclingPilot(switch=switch, mode=lambda: MODE_NAMES.get(tap.mode or "", ""))
+    world, transmitter = World(flight, board), Transmitter(board)
+    world.boot(arms=True)
+    board.write(tap.start_bytes())
+    for step in range(60 * 500):
+        if step == 5 * 500 and mode == "RATE":
+            board.write(tap.command_bytes("M", b"r"))
+        transmitter.send(pilot.sticks(world.time_s, world.state))
+        world.step()
+        tap.feed(board.read(), world.time_s)
+        assert flight.crash is None, world.time_s
+        if step % 500 == 0:
+            assert 90 < flight.state.height_m < 150, world.time_s
+            assert abs(flight.state.roll_deg) < 60
+            if step > 6 * 500:
+                assert MODE_NAMES[tap.mode] == mode
 
 
 def test_a_board_that_is_not_armed_gets_its_edge_first_and_throttle_later():

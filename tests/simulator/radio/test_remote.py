@@ -8,13 +8,24 @@ import socket
 import subprocess
 import sys
 import termios
+import threading
 import time
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.simulator.bench import StillFlight
+from tests.support.tools import unavailable
+from up_rig import RigUnavailableError
+from up_simulator.aircraft import FlightDynamics, load_airframe
+from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.firmware.tap import BoardTap
+from up_simulator.radio.circling_pilot import CirclingPilot
+from up_simulator.radio.keyboard import HELP
+from up_simulator.radio.keyboard_radio import status_line
 from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.remote_words import (
     Seen,
@@ -24,8 +35,10 @@ from up_simulator.radio.remote_words import (
     write_sticks,
 )
 from up_simulator.radio.scripted import ScriptedRadio
-from up_simulator.radio.sticks import RadioError, Sticks
+from up_simulator.radio.sticks import RadioError, Sticks, Transmitter
 from up_simulator.radio.take_over import RadioLink
+from up_simulator.radio.terminal import wrapped
+from up_simulator.world import World
 
 DEADLINE_S = 30.0
 STATE = StillFlight().state
@@ -101,8 +114,109 @@ def test_a_second_radio_takes_nothing_and_sees(aircraft, pilot, tmp_path):
     second.send(write_sticks(Sticks(ailerons=1000)))
     second.send(write_sticks(None))
     assert aircraft.sticks() == OTHERS
-    assert second.seen().sticks == OTHERS
+    told = [second.seen(), second.seen()]
+    assert [(each.sticks, each.is_others) for each in told] == [(OTHERS, True)] * 2
+    assert not pilot.seen().is_others
     second.socket.close()
+
+
+def test_a_second_radio_is_told_at_once_who_has_the_sticks(aircraft, pilot, tmp_path):
+    pilot.send(write_sticks(OTHERS))
+    aircraft.sticks()
+    asks, told = threading.Event(), []
+
+    def take():
+        asks.set()
+        try:
+            RadioLink(tmp_path / "radio")
+        except RadioError as error:
+            told.append(str(error))
+
+    second = threading.Thread(target=take)
+    second.start()
+    asks.wait(DEADLINE_S)
+    while second.is_alive():
+        aircraft.sticks(0.0)
+    second.join()
+    assert told == ["another radio has the sticks: q there gives them back"]
+
+
+class Flown:
+    """The firmware in the air with the circling pilot, whose sticks another radio may take."""
+
+    def __init__(self, path):
+        airframe = load_airframe("glider")
+        try:
+            self.board = choose_board(
+                "host", eeprom=prepared_eeprom("host", airframe.profile, airframe.gains)
+            )
+        except (BoardUnavailableError, RigUnavailableError) as error:
+            unavailable(str(error))
+        self.tap = BoardTap()
+        self.radio = RemoteRadio(path, CirclingPilot(), lambda _: None, is_armed=self.is_armed)
+        self.world = World(FlightDynamics(airframe), self.board)
+        self.transmitter = Transmitter(self.board)
+        self.world.boot(arms=True)
+        self.board.write(self.tap.start_bytes())
+
+    def is_armed(self):
+        return None if self.tap.status is None else self.tap.status.is_armed
+
+    def fly(self, seconds, before_each=lambda: None):
+        for step in range(round(seconds * 500)):
+            if step % 50 == 0:
+                before_each()
+            self.transmitter.send(self.radio.sticks(self.world.time_s, self.world.state))
+            self.world.step()
+            self.tap.feed(self.board.read(), self.world.time_s)
+
+
+@pytest.mark.parametrize("disarmed_s", [0.5, 3.0])
+def test_who_gets_a_disarmed_aircraft_back_arms_it_and_goes_on(tmp_path, disarmed_s):
+    """The throttle low, AUX2 from low to high, and the motor again: no other way arms a board."""
+    flown = Flown(tmp_path / "radio")
+    flown.fly(1.0)
+    other = Pilot(tmp_path / "radio")
+    disarmed = Sticks(throttle=1600, aux1=1500, aux2=1000)
+    flown.fly(disarmed_s, lambda: other.send(write_sticks(disarmed)))
+    assert flown.board.pulses_us()[2] < 1010, "the motor stands"
+    other.send(write_sticks(None))
+    flown.fly(5.0)
+    assert flown.is_armed()
+    assert flown.board.pulses_us()[2] > 1200
+    flown.fly(10.0)
+    assert flown.world.state.height_m > 100
+    other.socket.close()
+    flown.radio.close()
+
+
+def test_who_gets_an_armed_aircraft_back_moves_no_switch(tmp_path):
+    flown = Flown(tmp_path / "radio")
+    flown.fly(1.0)
+    other = Pilot(tmp_path / "radio")
+    other.send(write_sticks(OTHERS))
+    flown.fly(0.5)
+    other.send(write_sticks(None))
+    flown.fly(0.02)
+    assert flown.radio.sticks(flown.world.time_s, flown.world.state).is_armed
+    other.socket.close()
+    flown.radio.close()
+
+
+def test_the_line_names_switch_and_mode_where_they_differ():
+    at_auto = Sticks(aux1=2000, aux2=2000)
+    assert " AUTO, flies FBW armed " in status_line(at_auto, STATE, "FBW")
+    assert " AUTO armed " in status_line(at_auto, STATE)
+    assert " FBW armed " in status_line(replace(at_auto, aux1=1500), STATE, "FBW")
+    assert len(status_line(at_auto, STATE, "FBW")) < 80
+
+
+@pytest.mark.parametrize("columns", [40, 60, 80, 200])
+def test_the_help_is_wrapped_by_words(columns):
+    lines = [part for line in HELP.splitlines() for part in wrapped(line, columns).splitlines()]
+    assert max(map(len, lines)) <= columns
+    assert " ".join(lines).split() == HELP.split()
+    assert "spring back" in HELP
 
 
 def test_rubbish_moves_nothing(aircraft, pilot):
