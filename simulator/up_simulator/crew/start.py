@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -48,8 +49,10 @@ def main(arguments: list[str] | None = None) -> int:
         failures.append(failure)
         reactor.stop()
 
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _end_early)
+    _hear(signal.SIGTERM, _end_early)
+    _hear(signal.SIGHUP, _end_early)
+    # The reactor takes Ctrl-C over from Python's own handler, and from no other.
+    _hear(signal.SIGINT, signal.default_int_handler)
     try:
         aircraft = VirtualAircraft(
             reactor, options, say, lambda: reactor.callLater(0, reactor.stop)
@@ -71,6 +74,12 @@ def main(arguments: list[str] | None = None) -> int:
     return 1 if failures else 0
 
 
+def _hear(number: int, handler: Callable[[int, Any], object]) -> None:
+    """Hear a signal, unless it is to be ignored, as after ``nohup``."""
+    if signal.getsignal(number) != signal.SIG_IGN:
+        signal.signal(number, handler)
+
+
 def _end_early(_number: int, _frame: object) -> None:
     """End while everything is still being built, and give back what was taken."""
     raise SystemExit(0)
@@ -82,7 +91,7 @@ def _hear_hangup(reactor: Any) -> None:
     def end(_number: int, _frame: object) -> None:
         reactor.callFromThread(reactor.stop)
 
-    signal.signal(signal.SIGHUP, end)
+    _hear(signal.SIGHUP, end)
 
 
 def say(text: str) -> None:
