@@ -111,5 +111,8 @@ def sheet_for(path: Path) -> Iterator[Sheet]:
         try:
             figure.savefig(path, format=suffix[1:], metadata=metadata)
         except OSError as error:
+            # Half a picture is none.
+            with contextlib.suppress(OSError):
+                path.unlink()
             reason = error.strerror or error
             raise PictureError(f"{path}: the picture cannot be written: {reason}") from error

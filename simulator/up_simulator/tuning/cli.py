@@ -54,8 +54,6 @@ _SENTENCES = (
     BoardCrashedError,
     BoardUnavailableError,
     FlightUnavailableError,
-    LogError,
-    LogStepsError,
     PreparationError,
     SettingsError,
     TrialError,
@@ -70,8 +68,10 @@ def main(arguments: Sequence[str]) -> int:
         raise UsageError("--write needs gains that were flown: leave --log out")
     try:
         return _look_at_log(options) if options.log is not None else _tune(options)
-    except AirframeError as error:
+    except (AirframeError, LogError) as error:
         raise UsageError(str(error)) from None
+    except LogStepsError as error:
+        raise UsageError(f"{options.log}: {error}") from None
     except _SENTENCES as error:
         sys.stderr.write(f"up-sim: {error}\n")
         return NOT_HELD
@@ -236,8 +236,11 @@ def _is_drawn(draw: Callable[[Path], None], path: Path) -> bool:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         draw(path)
-    except (PictureError, OSError) as error:
+    except PictureError as error:
         _say(str(error))
+        return False
+    except OSError as error:
+        _say(f"{path}: the picture cannot be written: {error.strerror or error}")
         return False
     return True
 

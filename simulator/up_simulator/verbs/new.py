@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from up_simulator.verbs.outcome import HELD, UsageError
+from up_simulator.verbs.outcome import HELD, FailedError, UsageError
 
 TEMPLATE = "template.yml"
 EPILOG = """\
@@ -33,12 +33,16 @@ def main(arguments: Sequence[str]) -> int:
     template = importlib.resources.files("up_simulator.scenario").joinpath(TEMPLATE)
     text = template.read_text(encoding="utf-8").replace("TITLE", _title(path))
     try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(text)
+        path.open("x").close()
     except FileExistsError:
         raise UsageError(f"{path} is there already: choose another name") from None
     except FileNotFoundError:
         raise UsageError(f"there is no folder {path.parent}") from None
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        path.unlink()
+        raise FailedError(f"{path} is not written: {error.strerror}") from None
     sys.stdout.write(f"{path} is written. Fly it:\n  up-sim fly {path}\n")
     return HELD
 

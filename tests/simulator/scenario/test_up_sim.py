@@ -161,6 +161,23 @@ def test_a_new_scenario_flies_and_holds(capsys):
     assert main(["fly", "first-flight.yml", "--no-picture"]) == 0
 
 
+def test_a_new_scenario_is_found_as_it_says(capsys):
+    assert main(["new", "first-flight"]) == 0
+    said = Path("first-flight.yml").read_text().partition("up-sim list ")[2].splitlines()[0]
+    capsys.readouterr()
+    assert main(["list", *said.split()]) == 0
+    assert "first-flight " in capsys.readouterr().out
+
+
+def test_a_new_scenario_that_cannot_be_written_is_named_and_not_left(in_a_folder):
+    command = f'ulimit -f 0; exec "{sys.executable}" -m up_simulator new first-flight'
+    words = ["sh", "-c", command]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT_S, check=False)
+    assert done.returncode == 1
+    assert done.stderr == "up-sim: first-flight.yml is not written: File too large\n"
+    assert list(in_a_folder.iterdir()) == []
+
+
 def test_real_speed_is_no_faster_than_real_time():
     build_firmware()
     began_s = time.monotonic()

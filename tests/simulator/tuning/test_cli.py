@@ -1,5 +1,8 @@
 """``up-sim tune`` as it is typed: what it says, writes and refuses."""
 
+import subprocess
+import sys
+
 import pytest
 
 from tests.simulator.picture.flights import made_up
@@ -51,6 +54,20 @@ def test_a_log_is_looked_at_without_flying(log, tmp_path, capsys):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_picture_that_cannot_be_written_is_a_sentence_and_leaves_nothing(log, tmp_path, capsys):
+    (tmp_path / "file").write_text("no folder")
+    assert tune("--log", log, "--pictures", tmp_path / "file") == 0
+    told = capsys.readouterr()
+    assert "-steps.png: the picture cannot be written: File exists" in told.err
+    assert "[Errno" not in told.err and "picture: " not in told.out
+    tuning = f'"{sys.executable}" -m up_simulator tune'
+    command = f'ulimit -f 1; exec {tuning} --log "$0" --pictures "$1"'
+    words = ["sh", "-c", command, str(log), str(tmp_path / "new")]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False)
+    assert (done.returncode, list((tmp_path / "new").iterdir())) == (0, [])
+    assert "-steps.png: the picture cannot be written: File too large" in done.stderr
+
+
 def test_a_log_without_steps_is_said_to_have_none(tmp_path, capsys):
     path = tmp_path / "flight.csv"
     made_up(8.0).write(path)
@@ -72,11 +89,12 @@ def test_without_matplotlib_the_figures_are_told_all_the_same(log, tmp_path, cap
         (["--airframe", "gilder"], "gilder: is no airframe"),
         (["--log", "none.csv"], "none.csv: cannot be read: No such file"),
         (["--log", "none.csv", "--write", "x"], "--write needs gains that were flown"),
+        (["--log", __file__], "is no log of a flight: its first column is not time_s"),
         (["--from", "none.yml"], "none.yml: there is no such file"),
     ],
 )
 def test_wrong_input_is_one_sentence(arguments, sentence, capsys):
-    assert tune(*arguments) in (1, 2)
+    assert tune(*arguments) == 2
     said = capsys.readouterr().err
     assert sentence in said
     assert said.count("\n") == 1
