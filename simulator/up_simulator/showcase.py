@@ -37,7 +37,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            return _fail(f"another showcase runs in {folder}: stop it, or use --folder", 1)
+            return _fail(
+                f"another 'make run' flies with {folder}: end it, or give this one another folder:"
+                " make run ARGS='--folder run/second'",
+                1,
+            )
         return _fly(options, folder)
 
 
@@ -45,7 +49,9 @@ def _fly(options: argparse.Namespace, folder: Path) -> int:
     # A shell's background job ignores SIGINT: whoever sends it here means it.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _raise_stopped)
+        # What 'nohup' has it ignore stays so.
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, _raise_stopped)
     last_words = ""
     flight: ShowcaseFlight | None = None
     try:

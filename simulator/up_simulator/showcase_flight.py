@@ -6,9 +6,12 @@ import argparse
 import os
 import select
 import sys
+import termios
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from up_simulator.aircraft import load_airframe
 from up_simulator.crew.child import Child
@@ -19,6 +22,8 @@ START_LIMIT_S = 60.0
 BUILD_LIMIT_S = 900.0
 READING_S = 8
 LOOK_S = 0.1
+AS_BEFORE = "\x1b[0m\x1b[?25h\x1b[?1049l"
+"""Leaves the alternate screen and shows the cursor, for a picture that could not do so itself."""
 NEWS = ("hit the ground", "broke in the air", "lost itself", "given up", "launched again",
         "battery", "late by")  # fmt: skip
 """What the aircraft says that its user wants to know at once."""
@@ -82,6 +87,7 @@ class ShowcaseFlight:
         end_s = None if options.seconds is None else time.monotonic() + options.seconds
         watch: Child | None = None
         wants_watch = not options.no_watch
+        terminal = _terminal_settings()
         if wants_watch and sys.stdin.isatty():
             self._say(f"The {self._picture} opens in {READING_S} s, or with Enter; q leaves it.")
             if select.select([sys.stdin], [], [], READING_S)[0]:
@@ -91,10 +97,10 @@ class ShowcaseFlight:
                 watch = self._open_watch()
             for child in list(self._children):
                 status = child.poll()
-                if status == 0 and child is watch:
+                if status is not None and child is watch:
                     self._children.remove(child)
                     watch, wants_watch = None, False
-                    self._say(f"It flies on. Enter: the {self._picture} again; Ctrl-C: stop all.")
+                    self._leave_watch(status, terminal)
                 elif status is not None:
                     raise CrewError(child.last_words(status))
             if watch is None:
@@ -183,6 +189,16 @@ class ShowcaseFlight:
         self._children.append(child)
         return child
 
+    def _leave_watch(self, status: int, terminal: Any) -> None:
+        """Give the terminal back where the picture did not, and say that nothing else ends."""
+        why = ""
+        if status:
+            if status < 0:
+                _restore_terminal(terminal)
+            how = f"signal {-status}" if status < 0 else f"status {status}"
+            why = f"The {self._picture} ended by itself with {how}. "
+        self._say(f"{why}It flies on. Enter: the {self._picture} again; Ctrl-C: stop all.")
+
     def _tell_news(self, aircraft: Child) -> None:
         """Say what the aircraft has said since the last time, if its user wants to know."""
         lines = aircraft.new_lines()
@@ -214,3 +230,20 @@ def _enter_was_pressed() -> bool:
     if not sys.stdin.isatty() or not select.select([sys.stdin], [], [], 0)[0]:
         return False
     return bool(sys.stdin.readline())
+
+
+def _terminal_settings() -> Any:
+    try:
+        return termios.tcgetattr(sys.stdin)
+    except (OSError, ValueError, termios.error):
+        return None
+
+
+def _restore_terminal(settings: Any) -> None:
+    if settings is None or not sys.stdout.isatty():
+        return
+    sys.stdout.write(AS_BEFORE)
+    sys.stdout.flush()
+    with suppress(termios.error):
+        # What was typed for the picture is not for us.
+        termios.tcsetattr(sys.stdin, termios.TCSAFLUSH, settings)

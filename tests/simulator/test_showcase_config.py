@@ -92,7 +92,8 @@ def test_two_showcases_do_not_share_a_folder(tmp_path, capsys):
     with (tmp_path / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         assert main(["--folder", str(tmp_path)]) == 1
-    assert "another showcase runs in" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "another 'make run' flies with" in said and "make run ARGS='--folder " in said
 
 
 def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
