@@ -15,7 +15,7 @@ import pytest
 
 from tests.support.firmware import build_firmware
 
-LIMIT_S = 30.0
+LIMIT_S = 90.0
 LONG = """\
 title: Long
 duration_s: 3000
@@ -67,9 +67,10 @@ def words_of(pid):
 
 
 @contextmanager
-def program(folder, *words, code=None, **options):
+def program(folder, *words, code=None, python=False, **options):
     """Run up-sim in a session of its own; whatever it leaves is ended."""
-    command = [sys.executable, *(["-c", code] if code else ["-m", "up_simulator.cli"]), *words]
+    program = [] if python else ["-c", code] if code else ["-m", "up_simulator.cli"]
+    command = [sys.executable, *program, *words]
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, **options}
     process = subprocess.Popen(command, start_new_session=True, **options)
     try:
@@ -204,12 +205,53 @@ def test_tuning_takes_its_workers_along(in_a_folder, number):
     assert left(in_a_folder) == []
 
 
+def as_nohup_does():
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+
+
+@pytest.mark.parametrize("module", ["up_simulator", "up_simulator.showcase"])
+def test_what_is_in_the_air_after_nohup_ignores_the_hangup(in_a_folder, module):
+    own = ["start", "--no-phone", "--board", "stand-in"]
+    if module != "up_simulator":
+        own = ["--any-ports", "--no-watch", "--folder", str(in_a_folder)]
+    words = ("-m", module, *own)
+    with program(in_a_folder, *words, python=True, preexec_fn=as_nohup_does) as process:
+        told = b""
+        while not any(word in told for word in (b"board on", b"It flies")):
+            line = process.stdout.readline()
+            assert line, told
+            told += line
+        ignored = [
+            line
+            for line in Path(f"/proc/{process.pid}/status").read_text().splitlines()
+            if line.startswith("SigIgn")
+        ]
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(LIMIT_S) == 0
+        wait(lambda: not ours(in_a_folder), "the end of everybody")
+    assert int(ignored[0].split()[1], 16) >> (signal.SIGHUP - 1) & 1
+    assert left(in_a_folder) == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, *ENDS, signal.SIGKILL])
+def test_a_showcase_takes_everything_along(in_a_folder, number):
+    words = ("--any-ports", "--no-watch", "--folder", str(in_a_folder))
+    with program(in_a_folder, "-m", "up_simulator.showcase", *words, python=True) as process:
+        told = b""
+        while b"It flies" not in told:
+            line = process.stdout.readline()
+            assert line, told
+            told += line
+        assert len(ours(in_a_folder)) == 4
+        process.send_signal(number)
+        assert process.wait(LIMIT_S) == (-number if number == signal.SIGKILL else 0)
+        wait(lambda: not ours(in_a_folder), "the end of everybody")
+    assert left(in_a_folder) == []
+    assert not (in_a_folder / "board").is_symlink() and not (in_a_folder / "radio").exists()
+
+
 def test_without_a_hangup_wanted_it_flies_on(in_a_folder):
     Path("long.yml").write_text(LONG.replace("3000", "20"))
-
-    def as_nohup_does():
-        signal.signal(signal.SIGHUP, signal.SIG_IGN)
-
     words = ("fly", "long.yml", "--no-picture")
     with program(in_a_folder, *words, preexec_fn=as_nohup_does) as process:
         wait(lambda: flights(in_a_folder), "a flight")
