@@ -31,10 +31,13 @@ def draw_flight(pen: Pen, row: int, column: int) -> int:
     style = Style.PLAIN if armed is None else (Style.BAD if armed else Style.GOOD)
     pen.value(row + 3, column, flag_text(armed, "ARMED", "disarmed"), style=style)
     vetoes = telemetry.texts("vetoes")
-    text = "vetoes " + (UNKNOWN if vetoes is None else "; ".join(vetoes) or "none")
+    # In the air a veto is no alarm: it tells what would have to be so to arm once more.
+    text = "against arming again: " if armed else "vetoes "
+    text += UNKNOWN if vetoes is None else "; ".join(vetoes) or "none"
+    alarm = Style.WARNING if vetoes and not armed else Style.PLAIN
     lines = textwrap.wrap(text, PANEL_COLUMNS, max_lines=2, placeholder=" ...") or [""]
     for line, part in enumerate(lines, row + 4):
-        pen.value(line, column, part, style=Style.WARNING if vetoes else Style.PLAIN)
+        pen.value(line, column, part, style=alarm)
     return row + 6
 
 

@@ -30,7 +30,8 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
         flag_text(telemetry.flag("armed"), "ARMED", "disarmed"),
     ]
     if vetoes:
-        parts.append(f"vetoes: {'; '.join(vetoes)}"[:200])
+        word = "against arming again" if telemetry.flag("armed") else "vetoes"
+        parts.append(f"{word}: {'; '.join(vetoes)}"[:200])
     if telemetry.flag("load", "panic"):
         parts.append("PANIC")
     return " | ".join(parts)

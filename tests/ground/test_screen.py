@@ -58,7 +58,7 @@ def test_everything_that_is_known_is_there():
         "flight controller (arduino)",
         "flight mode FBW  switch AUTO",
         "ARMED",
-        "vetoes gyro is warm; AUX2 low",
+        "against arming again: gyro is warm;",
         "LOCATION android 0.60 s",
         "50.075500   14.437800 deg",
         "home 1204 m, bearing 271 deg",
@@ -244,3 +244,10 @@ def test_numbers_and_ages():
         "2 h",
         "days",
     ]
+
+
+def test_vetoes_warn_only_where_it_is_not_armed():
+    on_ground = text_of(state(frame(vetoes=["AUX2 is low"], armed=False)))
+    assert "vetoes AUX2 is low" in on_ground
+    in_flight = text_of(state(frame(vetoes=["the throttle is not low"], armed=True)))
+    assert "vetoes" not in in_flight
