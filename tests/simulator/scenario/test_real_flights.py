@@ -39,7 +39,8 @@ def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
         + "  - {name: b, signal: board.pi_heard, after: killed, becomes: false, within_s: 1.5}\n"
         + "  - {name: c, signal: board.pi_heard, after: started, becomes: true, within_s: 10}\n"
         + "  - {name: d, signal: raspilot.running, after: killed, becomes: false, within_s: 0.1}\n"
-        + "  - {name: e, signal: servo.stale_ms, below: 40}\n",
+        + "  - {name: e, signal: servo.stale_ms, below: 40}\n"
+        + "  - {name: f, signal: ground.latency_s, below: 2}\n",
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "real time, not repeatable to the digit" in done.stdout
