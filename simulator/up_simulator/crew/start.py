@@ -13,6 +13,7 @@ from twisted.internet.defer import Deferred
 
 from up_rig.pty_line import PtyLineError
 from up_simulator.aircraft import AirframeError
+from up_simulator.crew.option_parser import WRONG_INPUT
 from up_simulator.crew.start_options import read_options
 from up_simulator.crew.virtual_aircraft import VirtualAircraft
 from up_simulator.firmware.board import BoardCrashedError
@@ -59,7 +60,7 @@ def main(arguments: list[str] | None = None) -> int:
         )
     except FOR_THE_USER as error:
         sys.stderr.write(f"up-sim: {error}\n")
-        return 1
+        return WRONG_INPUT if isinstance(error, AirframeError) else 1
     reactor.callWhenRunning(_hear_hangup, reactor)
     reactor.callWhenRunning(aircraft.start, fail)
     reactor.addSystemEventTrigger(

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from up_rig.sticks import StickMove, SticksError, read_sticks
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.crew.uplink import UplinkError, read_link
 from up_simulator.link.settings import LinkSettings
 from up_simulator.radio.axis_map import AxisMap, read_axis_map
@@ -61,7 +62,7 @@ T = TypeVar("T")
 
 def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
     """Return the options; a wrong one ends the program with status 2 and one sentence."""
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up-sim start",
         description=DESCRIPTION,
         epilog=EPILOG,

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.radio.axis_map import read_axis_map
 from up_simulator.radio.game_controller import GameController, controller_device
 from up_simulator.radio.keyboard_radio import KeyboardRadio, status_line
@@ -133,9 +134,7 @@ def _radio(link: RadioLink, options: argparse.Namespace, on_leave: Callable[[], 
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        prog="up-sim radio", description=DESCRIPTION, allow_abbrev=False
-    )
+    parser = OptionParser(prog="up-sim radio", description=DESCRIPTION, allow_abbrev=False)
     parser.add_argument("who", nargs="?", default="keyboard", help="keyboard (default), js0, ...")
     parser.add_argument("--socket", type=Path, default=DEFAULT_SOCKET, help="default %(default)s")
     parser.add_argument(
