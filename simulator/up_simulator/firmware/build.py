@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from up_rig import FirmwareError, RigUnavailableError
-from up_rig.build import ARDUINO, BuildError, build_firmware, make
+from up_rig.build import ARDUINO, BuildError, build_firmware, has_sources, make
 from up_rig.library import load_library
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.direct_board import DirectBoard
@@ -16,6 +16,8 @@ from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.firmware.rig_board import RigBoard
 
 HOST_LIBRARY = ARDUINO / "build" / "libraspilot.so"
+FIRMWARE = ARDUINO / "build" / "raspilot.elf"
+_NOT_REBUILT = "was built before and is not built anew"
 
 
 class BoardUnavailableError(Exception):
@@ -66,36 +68,63 @@ def aboard(
     say: Callable[[str], None] = lambda _text: None,
     elf: Path | None = None,
 ) -> Program:
-    """Return the program for a kind of board, built if need be; raises as ``choose_board``."""
+    """Return the program for a kind of board, built if need be; raises as ``choose_board``.
+
+    Where nothing can be built, what has been built of these sources flies, which ``say`` is told.
+    """
     if kind == "host":
-        return _host_program()
+        return _host_program(say)
     try:
         load_library()
-        return Program(elf or build_firmware(), RigBoard)
+        return Program(elf or _firmware(say), RigBoard)
     except BuildError as error:
         raise BoardUnavailableError(f"the firmware does not compile: {_reason(error)}") from error
     except RigUnavailableError as error:
         if kind == "firmware":
             raise BoardUnavailableError(str(error)) from error
-        program = _host_program()
+        program = _host_program(say)
         say(f"the firmware's sources, built for this computer, fly instead: {error}")
         return program
 
 
-def _host_program() -> Program:
+def _firmware(say: Callable[[str], None]) -> Path:
+    try:
+        return build_firmware()
+    except RigUnavailableError as error:
+        if not _is_ready(FIRMWARE):
+            raise
+        say(f"the firmware {_NOT_REBUILT}: {error}")
+        return FIRMWARE
+
+
+def _host_program(say: Callable[[str], None]) -> Program:
     try:
         make("host-library")
-    except RigUnavailableError as error:
-        raise BoardUnavailableError(str(error)) from error
-    except BuildError as error:
-        raise BoardUnavailableError(
-            f"the firmware's sources do not compile for this computer: {_reason(error)}"
-        ) from error
+    except (RigUnavailableError, BuildError) as error:
+        reason = _reason(error)
+        if isinstance(error, BuildError) and "needs a C++ compiler" not in reason:
+            raise BoardUnavailableError(
+                f"the firmware's sources do not compile for this computer: {reason}"
+            ) from error
+        reason = reason[0].lower() + reason[1:]
+        if not _is_ready(HOST_LIBRARY):
+            raise BoardUnavailableError(reason) from error
+        say(f"the firmware for this computer {_NOT_REBUILT}: {reason}")
     module = importlib.import_module("up_simulator.firmware.host_board")
     return Program(HOST_LIBRARY, module.HostBoard)
 
 
-def _reason(error: BuildError) -> str:
+def _is_ready(program: Path) -> bool:
+    """Return whether a program is there, and no source is newer."""
+    if not has_sources() or not program.is_file():
+        return False
+    folders = (ARDUINO / "raspilot", ARDUINO / "host" / "library")
+    sources = (path for folder in folders for path in folder.rglob("*") if path.is_file())
+    built_s = program.stat().st_mtime
+    return all(path.stat().st_mtime <= built_s for path in sources)
+
+
+def _reason(error: Exception) -> str:
     """Return the line of make's output that says most: the first error, or the last line."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     errors = [line for line in lines if "error:" in line or "needs" in line]

@@ -1,5 +1,7 @@
 """What is aboard, and what is said where it cannot be had."""
 
+import os
+
 import pytest
 
 from tests.support.firmware import build_firmware
@@ -17,6 +19,7 @@ from up_simulator.firmware.rig_board import RigBoard
 def no_avr(monkeypatch, tmp_path):
     """Take the AVR compiler out of the path."""
     monkeypatch.setattr(rig_build, "AVR_LIBC", tmp_path / "io.h")
+    monkeypatch.setattr(build, "FIRMWARE", tmp_path / "raspilot.elf")
 
 
 def test_with_the_tools_the_firmware_flies(monkeypatch):
@@ -42,6 +45,64 @@ def test_without_the_avr_tools_the_host_build_flies_and_that_is_said(no_avr):
 def test_who_asks_for_the_firmware_gets_no_other(no_avr):
     with pytest.raises(BoardUnavailableError, match="Debian packages make gcc-avr avr-libc"):
         choose_board("firmware")
+
+
+@pytest.fixture
+def elf():
+    """Return the firmware's bytes, built while the tools are still there."""
+    return build_firmware().read_bytes()
+
+
+def test_without_the_avr_tools_the_firmware_that_is_built_flies(elf, no_avr):
+    build.FIRMWARE.write_bytes(elf)
+    for kind in ("auto", "firmware"):
+        said = []
+        assert isinstance(choose_board(kind, say=said.append), RigBoard)
+        (sentence,) = said
+        assert sentence.startswith("the firmware was built before and is not built anew: ")
+        assert "gcc-avr" in sentence
+
+
+def test_a_firmware_that_is_older_than_its_sources_does_not_fly(elf, no_avr):
+    build.FIRMWARE.write_bytes(elf)
+    os.utime(build.FIRMWARE, (0, 0))
+    with pytest.raises(BoardUnavailableError, match="gcc-avr"):
+        choose_board("firmware")
+
+
+@pytest.fixture
+def no_compiler(monkeypatch, tmp_path):
+    """Leave no compiler in the path."""
+    need_tool("g++")
+    rig_build.make("host-library")
+    library = tmp_path / "libraspilot.so"
+    library.write_bytes(build.HOST_LIBRARY.read_bytes())
+    monkeypatch.setattr(build, "HOST_LIBRARY", library)
+    programs = tmp_path / "bin"
+    programs.mkdir()
+    for name in ("make", "sh", "mkdir", "cmp", "echo"):
+        (programs / name).symlink_to(need_tool(name))
+    monkeypatch.setenv("PATH", str(programs))
+
+
+def test_without_a_compiler_the_host_build_that_is_there_flies(no_compiler):
+    said = []
+    assert isinstance(choose_board("host", say=said.append), HostBoard)
+    assert said == [
+        "the firmware for this computer was built before and is not built anew: building the"
+        " firmware for this computer needs a C++ compiler: apt-get install g++"
+    ]
+
+
+def test_without_a_compiler_and_a_build_one_sentence_says_what_to_install(
+    no_compiler, monkeypatch, tmp_path
+):
+    monkeypatch.setattr(build, "HOST_LIBRARY", tmp_path / "nothing.so")
+    with pytest.raises(BoardUnavailableError) as error:
+        choose_board("host")
+    assert str(error.value) == (
+        "building the firmware for this computer needs a C++ compiler: apt-get install g++"
+    )
 
 
 def test_without_simavr_the_host_build_flies(monkeypatch):
