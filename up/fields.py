@@ -94,6 +94,8 @@ class Constraint:
 
     def _range_text(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
+        if self.unit[:1].isdigit():
+            unit = f" ({self.unit})"
         if self.minimum is not None and self.maximum is not None:
             return f" between {number_text(self.minimum)} and {number_text(self.maximum)}{unit}"
         if self.minimum is not None:
@@ -261,6 +263,11 @@ def _check_choice(
         try:
             return choices[fold(check_type(value))]
         except (ValueError, KeyError):
-            raise _refusal(constraint, value) from None
+            refusal = _refusal(constraint, value)
+        if isinstance(value, str):
+            for choice in constraint.choices or ():
+                if str(choice).casefold() == value.casefold():
+                    raise ValueError(f"{refusal}, did you mean {show(choice)}?")
+        raise refusal
 
     return check

@@ -113,6 +113,17 @@ def test_null_only_where_it_is_allowed():
     refusal(Constraint(float), None)
 
 
+def test_a_choice_in_another_case_is_told_as_it_is_spelled():
+    light = Constraint(str, choices=("none", "light"))
+    assert refusal(light, "Light").endswith('not "Light", did you mean "light"?')
+    assert refusal(light, "lihgt").endswith('not "lihgt"')
+
+
+def test_a_unit_that_begins_with_a_figure_stands_in_brackets():
+    gain = Constraint(float, minimum=0, maximum=50, unit="1.25 us per deg/s")
+    assert "a number between 0 and 50 (1.25 us per deg/s), not" in refusal(gain, 99.0)
+
+
 def test_choices_may_ignore_case_and_come_back_as_they_are_spelled():
     level = Constraint(str, choices=("debug", "info"), ignore_case=True)
     assert level.check("INFO") == "info"

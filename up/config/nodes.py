@@ -85,12 +85,24 @@ def _syntax_sentence(error: yaml.MarkedYAMLError) -> str:
     problem = printable(str(error.problem or error.context or "cannot be understood"))
     if "'\\t'" in problem:
         return "a tab cannot indent here, use spaces"
+    if "mapping values are not allowed" in problem:
+        advice = "a text with ': ' in it needs quotes; or the indentation is wrong"
+        return f"is not valid YAML: {problem} ({advice})"
     if error.context and error.problem and error.context_mark:
-        return (
-            f"is not valid YAML: {problem} "
-            f"({printable(str(error.context))}, line {error.context_mark.line + 1})"
-        )
-    return f"is not valid YAML: {problem}"
+        context, line = printable(str(error.context)), error.context_mark.line + 1
+        return f"is not valid YAML: {problem} ({context}, line {line}){_advice(error)}"
+    advice = ": is the indentation right?" if "<document start>" in problem else ""
+    return f"is not valid YAML: {problem}{advice}"
+
+
+def _advice(error: yaml.MarkedYAMLError) -> str:
+    """Return what mends it most often."""
+    context = str(error.context)
+    if "block" in context:
+        return ": is the indentation right?"
+    if "simple key" in context:
+        return ": a key needs ': ' behind it, and a text of several lines quotes or '>'"
+    return ""
 
 
 class _Builder:

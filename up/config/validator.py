@@ -34,17 +34,27 @@ class Validator:
 
     With `whole` the file must have all its sections, and a map that is there all its keys.
 
+    With `valued` a key that is there must have a value, where null is none.
+
     `removed` maps the dotted name of an old key to the sentence that tells its replacement.
     """
 
-    def __init__(self, report: Report, removed: dict[str, str], whole: bool = False) -> None:
+    def __init__(
+        self, report: Report, removed: dict[str, str], whole: bool = False, valued: bool = False
+    ) -> None:
         self._report = report
+        self._head = ""
         self._removed = removed
         self._whole = whole
+        self._valued = valued
         self._refused = 0
 
-    def read(self, spec: Spec, node: Node) -> Any:
-        """Return the value; what it is after a reported problem does not matter."""
+    def read(self, spec: Spec, node: Node, head: str = "") -> Any:
+        """Return the value; what it is after a reported problem does not matter.
+
+        `head` is the dotted name of the node where it is part of another file.
+        """
+        self._head = head
         return self._value(spec, node, "")
 
     def _value(self, spec: Spec, node: Node, path: str) -> Any:
@@ -80,7 +90,7 @@ class Validator:
                 values[entry.attribute] = self._value(entry.spec, value_node, inner)
             elif isinstance(entry.spec, Constraint) and entry.spec.nullable:
                 values[entry.attribute] = None
-            elif self._whole:
+            elif self._whole or (self._valued and isinstance(entry.spec, Constraint)):
                 self._refuse(value_node, inner, "must have a value")
         if self._whole:
             self._check_whole(shape, node, places, path)
@@ -166,6 +176,8 @@ class Validator:
 
     def _refuse(self, node: Node, path: str, what: str) -> _Refused:
         self._refused += 1
+        if self._head:
+            path = _join(self._head, path) if path else self._head
         prefix = f"{show(path)[1:-1]}: " if path else ""
         self._report(node.line, node.column, prefix + what)
         return _REFUSED

@@ -41,7 +41,31 @@ def is_value_or_config_errors(file, data):
             "2:1: is not valid YAML: expected ',' or ']', but got '<stream end>' "
             "(while parsing a flow sequence, line 1)",
         ),
-        ("role: a: b\n", "1:8: is not valid YAML: mapping values are not allowed here"),
+        (
+            "role: a: b\n",
+            "1:8: is not valid YAML: mapping values are not allowed here (a text with ': ' in it"
+            " needs quotes; or the indentation is wrong)",
+        ),
+        (
+            "role: pilot\n indented: 3\n",
+            "2:10: is not valid YAML: mapping values are not allowed here (a text with ': ' in it"
+            " needs quotes; or the indentation is wrong)",
+        ),
+        (
+            "hosts:\n  - a\n - b\n",
+            "3:2: is not valid YAML: expected <block end>, but found '<block sequence start>'"
+            " (while parsing a block mapping, line 1): is the indentation right?",
+        ),
+        (
+            "role: pilot\nb\nhosts: a\n",
+            "3:1: is not valid YAML: could not find expected ':' (while scanning a simple key,"
+            " line 2): a key needs ': ' behind it, and a text of several lines quotes or '>'",
+        ),
+        (
+            "role\nhosts: a\n",
+            "2:6: is not valid YAML: mapping values are not allowed here (a text with ': ' in it"
+            " needs quotes; or the indentation is wrong)",
+        ),
         ("remote_server:\n\turl: a\n", "2:1: a tab cannot indent here, use spaces"),
         (
             "role: pilot\n---\nrole: pilot\n",

@@ -4,6 +4,9 @@ import pytest
 
 from tests.up.config.samples import LINK, PATH, Gains, Link, Remote, problems_of
 from up.config import ConfigErrors, ConfigFile, items, key, section
+from up.config.nodes import compose
+from up.config.shape import shape_of
+from up.config.validator import Validator
 
 
 def parse(text):
@@ -37,6 +40,14 @@ def test_values_are_read_into_the_dataclass():
         hosts=("a.b",),
     )
     assert type(link.stop_delay_s) is float
+
+
+def test_a_reader_may_want_a_value_behind_every_key():
+    problems = []
+    root = compose("role:\nlimit:\nremote_server:\n", lambda *one: problems.append(one))
+    validator = Validator(lambda *one: problems.append(one), {}, valued=True)
+    validator.read(shape_of(Link), root, "part")
+    assert problems == [(1, 6, "part.role: must have a value")]
 
 
 def test_an_empty_key_is_its_default_unless_null_means_something():
