@@ -49,13 +49,14 @@ def wait(condition, what):
 
 
 def ours(folder):
-    """Return the processes that work in the folder, or below it."""
+    """Return the processes that work in the folder, or on something in it."""
     found = []
     for path in Path("/proc").glob("[0-9]*"):
         with suppress(OSError):
             is_zombie = (path / "stat").read_text().rpartition(")")[2].split()[0] == "Z"
-            is_there = (path / "cwd").readlink() == folder and int(path.name) != os.getpid()
-            if is_there and not is_zombie:
+            words = (path / "cmdline").read_bytes().decode("utf-8", "replace")
+            is_there = (path / "cwd").readlink() == folder or str(folder) in words
+            if is_there and not is_zombie and int(path.name) != os.getpid():
                 found.append(int(path.name))
     return found
 
@@ -176,6 +177,19 @@ def test_a_closed_terminal_ends_all_flights(in_a_folder):
         os.close(own)
         assert process.wait(LIMIT_S) == 128 + signal.SIGHUP
         wait(lambda: not ours(in_a_folder), "the end of the flight")
+
+
+def test_a_frozen_daemon_goes_with_a_killed_flight(in_a_folder):
+    Path("real.yml").write_text(WITH_DAEMON + "events: [{at_s: 0, raspilot: hung}]\n")
+
+    def is_frozen(pid):
+        stat = Path(f"/proc/{pid}/stat").read_text()
+        return stat.rpartition(")")[2].split()[0] == "T"
+
+    with program(in_a_folder, "fly", "real.yml", "--no-picture") as process:
+        wait(lambda: any(map(is_frozen, ours(in_a_folder))), "the frozen daemon")
+        process.kill()
+        wait(lambda: not ours(in_a_folder), "its end")
 
 
 def test_what_a_killed_flight_left_is_swept_by_the_next(in_a_folder):

@@ -24,12 +24,18 @@ _PR_SET_PDEATHSIG = 1
 class Child:
     """One process in a session of its own, so that Ctrl-C reaches it through us alone.
 
-    Its words are appended to ``<name>.log`` in ``folder``. On Linux it is told to end when we die
-    without a word. ``in_foreground`` leaves it the terminal, and its words are not kept.
+    Its words are appended to ``<name>.log`` in ``folder``. On Linux it is told to end, by ``wish``,
+    when we die without a word. ``in_foreground`` leaves it the terminal; its words are not kept.
     """
 
     def __init__(
-        self, name: str, command: list[str], folder: Path, *, in_foreground: bool = False
+        self,
+        name: str,
+        command: list[str],
+        folder: Path,
+        *,
+        in_foreground: bool = False,
+        wish: int = signal.SIGTERM,
     ) -> None:
         self.name = name
         self.log = folder / f"{name}.log"
@@ -47,7 +53,7 @@ class Child:
                 stderr=subprocess.STDOUT if output else None,
                 env={**os.environ, "PYTHONUNBUFFERED": "1"},
                 start_new_session=not in_foreground,
-                preexec_fn=dying_wish(),
+                preexec_fn=dying_wish(wish),
             )
         finally:
             if output is not None:

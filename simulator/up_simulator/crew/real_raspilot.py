@@ -45,7 +45,8 @@ class RealRaspilot:
         """Make its process; raises ``CrewError`` when it runs already."""
         if self.is_running:
             raise CrewError("raspilot runs already")
-        self._child = Child("raspilot", self._command, self._folder)
+        # A frozen one hears nothing but this when we are killed.
+        self._child = Child("raspilot", self._command, self._folder, wish=signal.SIGKILL)
 
     def wait_for_line(self, text: str, limit_s: float = START_LIMIT_S) -> str:
         """Wait until it has logged a line with a text and return that; raises ``CrewError``."""
