@@ -176,9 +176,10 @@ class Validator:
 
     def _refuse(self, node: Node, path: str, what: str) -> _Refused:
         self._refused += 1
+        shown = show(path)[1:-1] if path else ""
         if self._head:
-            path = _join(self._head, path) if path else self._head
-        prefix = f"{show(path)[1:-1]}: " if path else ""
+            shown = _join(self._head, shown) if shown else self._head
+        prefix = f"{shown}: " if shown else ""
         self._report(node.line, node.column, prefix + what)
         return _REFUSED
 

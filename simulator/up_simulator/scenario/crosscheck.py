@@ -54,6 +54,12 @@ def _airframe(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
 
 
 def _sticks(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
+    for at, point in enumerate(scenario.sticks):
+        if point.at_s > scenario.duration_s:
+            yield place(root, "sticks", at, "at_s"), _too_late(scenario)
+    for at, gust in enumerate(scenario.weather.gusts):
+        if gust.at_s > scenario.duration_s:
+            yield place(root, "weather", "gusts", at, "at_s"), _too_late(scenario)
     modes = set(scenario.switch.positions().values())
     for at, point in enumerate(scenario.sticks):
         if point.mode is not None and point.mode not in modes:
@@ -105,8 +111,11 @@ def _events(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
         if kind in _NEEDS_REAL and not scenario.is_real:
             yield node, "needs real programs: 'raspilot: {runs: real}'"
         if event.at_s > scenario.duration_s:
-            what = f"is after the flight's end at {scenario.duration_s:g} s"
-            yield place(root, "events", at, "at_s"), what
+            yield place(root, "events", at, "at_s"), _too_late(scenario)
+
+
+def _too_late(scenario: Scenario) -> str:
+    return f"is after the flight's end at {scenario.duration_s:g} s"
 
 
 def _expectations(scenario: Scenario, root: MapNode) -> Iterator[Problem]:

@@ -13,6 +13,7 @@ from up.config.reading import decode, read_text
 from up.config.scalars import is_null
 from up.config.shape import shape_of
 from up.config.validator import Validator
+from up.fields import printable
 from up_simulator.aircraft import airframe_names
 from up_simulator.scenario.config_files import daemon_files
 from up_simulator.scenario.crosscheck import cross_problems, guess, is_there
@@ -20,7 +21,7 @@ from up_simulator.scenario.event import Event
 from up_simulator.scenario.override import OverriddenProblems, Override, apply
 from up_simulator.scenario.plain import plain_of
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.scenario.tree import child, items_of
+from up_simulator.scenario.tree import child, items_of, path_of
 
 SHAPE = shape_of(Scenario)
 _HERE = Path()
@@ -59,15 +60,28 @@ def _parse(
             problems.report(1, 1, "must be a map of keys that begins with 'title: ...'")
         problems.raise_if_any()
         raise AssertionError("a problem has been reported")
+    # What is no plain YAML makes no sense as a scenario: nothing is said about that.
+    problems.raise_if_any()
     apply(overrides, root, problems.report)
     free = _Free(root, problems.report)
-    scenario: Scenario = Validator(problems.report, {}).read(SHAPE, root)
+    _check_times(root, problems.report)
+    scenario: Scenario = Validator(problems.report, {}, valued=True).read(SHAPE, root)
     problems.raise_if_any()
     scenario = _with_airframe_beside(free.fill(scenario), folder)
     for node, what in cross_problems(scenario, root):
-        problems.report(node.line, node.column, what)
+        path = path_of(root, node)
+        problems.report(node.line, node.column, f"{path}: {what}" if path else what)
     problems.raise_if_any()
     return scenario
+
+
+def _check_times(root: MapNode, report: Report) -> None:
+    """Refuse what happens at no time: at 0 s is where hardly anybody wants it."""
+    for parent, name in ((root, "sticks"), (child(root, "weather"), "gusts"), (root, "events")):
+        for at, item in enumerate(items_of(parent, name)):
+            if isinstance(item, MapNode) and child(item, "at_s") is None:
+                path = f"weather.{name}" if name == "gusts" else name
+                report(item.line, item.column, f"{path}[{at}]: needs 'at_s': when")
 
 
 def _with_airframe_beside(scenario: Scenario, folder: Path) -> Scenario:
@@ -86,13 +100,13 @@ class _Free:
 
     def __init__(self, root: MapNode, report: Report) -> None:
         self._report = report
-        self._check_config(child(root, "profile"), "airframe.yml")
-        self._check_config(child(root, "gains"), "pids.yml")
+        self._check_config(child(root, "profile"), "airframe.yml", "profile")
+        self._check_config(child(root, "gains"), "pids.yml", "gains")
         config = child(child(root, "raspilot"), "config")
         for name, node in config.pairs if isinstance(config, MapNode) else ():
             if isinstance(name, ScalarNode):
                 self._check_file_name(name)
-                self._check_config(node, name.text)
+                self._check_config(node, name.text, f"raspilot.config.{printable(name.text[:60])}")
         self.profile = self._take(root, "profile")
         self.gains = self._take(root, "gains")
         self.config = self._take(child(root, "raspilot"), "config")
@@ -119,11 +133,11 @@ class _Free:
             what = f"the daemon reads no file {name.text[:60]!r}{guess(name.text, known)}"
             self._report(name.line, name.column, what)
 
-    def _check_config(self, node: Node | None, filename: str) -> None:
+    def _check_config(self, node: Node | None, filename: str, head: str) -> None:
         """Judge part of a configuration file as the daemon would."""
         file = daemon_files().get(filename) if node is not None else None
         if file is not None and node is not None and not is_null(node):
-            Validator(self._report, dict(file.removed)).read(file.shape, node)
+            Validator(self._report, dict(file.removed)).read(file.shape, node, head)
 
     def _take(self, parent: Node | None, name: str) -> dict[str, Any]:
         node = child(parent, name)

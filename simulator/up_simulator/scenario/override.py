@@ -8,6 +8,7 @@ from pathlib import Path
 
 from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode, compose
 from up.config.problems import ConfigProblem, Problems
+from up.fields import printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +21,13 @@ class Override:
     source: str
     key: str
     value: str
+
+
+class _OverrideProblem(ConfigProblem):
+    """A mistake in an option: it has no line."""
+
+    def __str__(self) -> str:
+        return f"{printable(str(self.path))}: {self.what}"
 
 
 class OverriddenProblems(Problems):
@@ -38,7 +46,7 @@ class OverriddenProblems(Problems):
             super().report(line, column, what)
             return
         source = self._overrides[-line - 1].source
-        self.found.append(ConfigProblem(Path(source), 1, 1, what))
+        self.found.append(_OverrideProblem(Path(source), 1, 1, what))
 
 
 def apply(overrides: Sequence[Override], root: MapNode, report: Report) -> None:

@@ -33,3 +33,18 @@ def place(node: Node, *path: str | int) -> Node:
             return node
         node = below
     return node
+
+
+def path_of(node: Node, wanted: Node) -> str:
+    """Return how problems call a node below ``node``: ``sticks[0].mode``; empty where it is not."""
+    below: list[tuple[str, Node]] = []
+    if isinstance(node, MapNode):
+        below = [(key.text, value) for key, value in node.pairs if isinstance(key, ScalarNode)]
+    elif isinstance(node, ListNode):
+        below = [(f"[{at}]", item) for at, item in enumerate(node.items)]
+    for name, inner in below:
+        if inner is wanted:
+            return name
+        if rest := path_of(inner, wanted):
+            return f"{name}{rest}" if rest.startswith("[") else f"{name}.{rest}"
+    return ""

@@ -31,8 +31,9 @@ def test_values_of_the_file_and_missing_ones_are_set():
 @pytest.mark.parametrize(
     ("key", "value", "what"),
     [
-        ("sed", "5", "--set sed=5:1:1: unknown key \"sed\", did you mean 'seed'?"),
-        ("seed", "x", "--set seed=x:1:1: seed: must be a whole number"),
+        ("sed", "5", "--set sed=5: unknown key \"sed\", did you mean 'seed'?"),
+        ("seed", "x", "--set seed=x: seed: must be a whole number"),
+        ("seed", "", "--set seed=: seed: must have a value"),
         ("sticks.9.throttle", "1", "there is no item '9': the list has 2"),
         ("title.x", "1", "must be"),
         ("seed", "[", "is not valid YAML"),
