@@ -108,9 +108,11 @@ class Child:
         return next(line for line in self.lines() if text in line)
 
     def last_words(self, status: int) -> str:
-        """Return the sentence that says how it ended, and the end of its log."""
+        """Return the sentence that says how it ended, and the end of its log if there is any."""
         how = f"signal {-status}" if status < 0 else f"status {status}"
-        return f"{self.name} ended by itself with {how}; its log {self.log} ends:\n{self.tail()}"
+        ended = f"{self.name} ended by itself with {how}"
+        tail = self.tail()
+        return f"{ended}; its log {self.log} ends:\n{tail}" if tail else f"{ended} and said nothing"
 
     def tail(self) -> str:
         """Return its last lines, indented."""

@@ -50,6 +50,11 @@ def test_one_that_dies_before_it_is_ready_says_why(tmp_path):
     assert said.endswith("ends:\n  no port is free")
 
 
+def test_one_that_dies_without_a_word_is_one_line(tmp_path):
+    made = child(tmp_path, "import sys; sys.exit(3)")
+    assert made.last_words(made.wait()) == "part ended by itself with status 3 and said nothing"
+
+
 def test_one_that_never_gets_ready_is_given_up(tmp_path):
     made = child(tmp_path, "import time; print('starting'); time.sleep(600)")
     wait(made.lines, "its first words")
