@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from up.fields import printable
 from up_simulator.scenario.flight import FlightRecord
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.verdict import Verdict
@@ -14,10 +15,17 @@ _NAME_WIDTH = 58
 
 
 def report_lines(name: str, result: Result, files: Iterable[Path] = ()) -> Iterator[str]:
-    """Yield the report: what flew, every expectation with figure and limit, what went wrong."""
+    """Yield the report: what flew, every expectation with figure and limit, what went wrong.
+
+    A line has nothing in it that a terminal would carry out, whatever the scenario's texts hold.
+    """
+    yield from map(printable, _lines(name, result, files))
+
+
+def _lines(name: str, result: Result, files: Iterable[Path]) -> Iterator[str]:
     record = result.record
     scenario = record.scenario
-    yield f"{scenario.title} ({name})"
+    yield f"{scenario.title.strip()} ({name})"
     yield from _interrupted(result)
     yield from _flown("flight", record)
     if result.control is not None:

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from up.config import ConfigErrors
+from up.fields import printable
 from up_simulator.scenario.file import read_scenario
 from up_simulator.verbs.outcome import HELD, WRONG_INPUT
 from up_simulator.verbs.shelf import find
@@ -40,6 +41,7 @@ def main(arguments: Sequence[str]) -> int:
             status = WRONG_INPUT
             continue
         count = len(scenario.expect)
-        what = f"{scenario.title}: {scenario.duration_s:g} s, {count} expectations, no mistake"
+        title = printable(scenario.title.strip())
+        what = f"{title}: {scenario.duration_s:g} s, {count} expectations, no mistake"
         sys.stdout.write(f"{path}: {what}\n")
     return status

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from up.config import ConfigErrors
+from up.fields import printable
 from up_simulator.scenario.file import read_scenario
 from up_simulator.verbs.outcome import HELD, WRONG_INPUT
 from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
@@ -52,9 +53,10 @@ def main(arguments: Sequence[str]) -> int:
         if set(options.tag) <= set(scenario.tags):
             is_empty = False
             pace = "real time" if scenario.is_real else ""
-            line = f"{name_of(path):<{width}}  {scenario.duration_s:>5g} s  {scenario.title}"
+            title = scenario.title.strip()
+            line = f"{name_of(path):<{width}}  {scenario.duration_s:>5g} s  {title}"
             more = "; ".join(part for part in (", ".join(scenario.tags), pace) if part)
-            sys.stdout.write(f"{line}  [{more}]\n" if more else f"{line}\n")
+            sys.stdout.write(printable(f"{line}  [{more}]" if more else line) + "\n")
     if is_empty and options.tag:
         raise no_such_tag(options.tag, tags)
     return status

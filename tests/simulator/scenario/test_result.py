@@ -131,6 +131,13 @@ def test_a_late_answer_and_a_command_that_was_never_sent_do_not_hold():
     assert [verdict.is_held for verdict in verdicts_of(record)] == [True, False, True]
 
 
+def test_what_a_terminal_would_carry_out_is_escaped():
+    text = ROLL.replace("Level", '"a\\e[31m\\a"')
+    record = record_of(text, lambda t: 0.0)
+    told = "".join(report_lines("a", Result(record, verdicts_of(record))))
+    assert told.isprintable() and "a\\x1b[31m" in told
+
+
 def test_a_failure_is_told_with_the_daemons_last_lines():
     record = record_of(ROLL, lambda t: 0.0, failure="the daemon has ended", failure_log=["last"])
     result = Result(record, verdicts_of(record))

@@ -107,6 +107,14 @@ def test_check_tells_mistakes_with_their_places(capsys):
     assert "good.yml" in told.out
 
 
+@pytest.mark.parametrize("verb", ["list", "check"])
+def test_what_a_terminal_would_carry_out_is_escaped(verb, capsys):
+    write("odd.yml", GOOD.replace("title: Good", 'title: "a\\e[31m\\n"'))
+    assert main([verb, "odd.yml" if verb == "check" else "."]) == 0
+    told = capsys.readouterr().out
+    assert told.removesuffix("\n").isprintable() and "a\\x1b[31m" in told
+
+
 def test_a_flight_that_holds_leaves_its_files(capsys, in_a_folder):
     build_firmware()
     assert main(["fly", write("good.yml", GOOD), "--seed", "4"]) == 0
