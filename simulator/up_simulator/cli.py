@@ -13,6 +13,7 @@ from typing import Any
 
 from up.config import ConfigErrors
 from up.version import VERSION
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.ending import ending_in_order
 from up_simulator.verbs.outcome import (
     INTERRUPTED,
@@ -109,7 +110,7 @@ def _module(verb: str) -> Any:
 
 def _parser() -> argparse.ArgumentParser:
     verbs = "\n".join(f"  {name:<9}{about}" for name, (about, _) in VERBS.items())
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up-sim",
         usage="up-sim VERB ...",
         description=f"{DESCRIPTION}\n\nverbs:\n{verbs}",

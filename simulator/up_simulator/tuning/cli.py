@@ -13,6 +13,7 @@ from up.config.writing import write_atomically
 from up.flight_controller.gains import Gains, GainSet
 from up.flight_controller.pids_file import PIDS, PidsConfig, gain_set_of
 from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
@@ -78,7 +79,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up-sim tune",
         description="Flies steps with many gains, measures what is left before the loop rings, and"
         " proposes a set.",

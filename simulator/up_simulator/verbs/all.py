@@ -17,6 +17,7 @@ from typing import TextIO
 
 from up.config import ConfigErrors
 from up_simulator.crew.child import dying_wish
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
 from up_simulator.verbs.fly import try_output
@@ -232,7 +233,7 @@ def _say_failure(job: Job) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up-sim all",
         description="Flies every scenario that is shipped and closes with how many held.",
         epilog=EPILOG,

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from up.config import ConfigErrors
 from up.fields import printable
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
 from up_simulator.verbs.outcome import HELD, WRONG_INPUT
 from up_simulator.verbs.shelf import find
@@ -23,7 +24,7 @@ examples:
 
 def main(arguments: Sequence[str]) -> int:
     """Check files; return the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up-sim check",
         description="Reads scenario files and tells all their mistakes at once.",
         epilog=EPILOG,

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
 from up_simulator.scenario.progress import ProgressLine
@@ -130,7 +131,7 @@ def _say_table(results: list[tuple[str, Result]], count: int) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up-sim fly",
         description="Flies scenarios and reports whether what they expect is true.",
         epilog=EPILOG,

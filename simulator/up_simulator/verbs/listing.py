@@ -9,6 +9,7 @@ from pathlib import Path
 
 from up.config import ConfigErrors
 from up.fields import printable
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
 from up_simulator.verbs.outcome import HELD, WRONG_INPUT
 from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
@@ -22,7 +23,7 @@ examples:
 
 def main(arguments: Sequence[str]) -> int:
     """List scenarios; return the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up-sim list",
         description="Lists scenarios: name, how long, title, tags.",
         epilog=EPILOG,

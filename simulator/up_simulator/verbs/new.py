@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.verbs.outcome import HELD, FailedError, UsageError
 
 TEMPLATE = "template.yml"
@@ -21,7 +22,7 @@ examples:
 
 def main(arguments: Sequence[str]) -> int:
     """Write the file; return the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up-sim new",
         description="Writes a scenario with a comment at every key that it uses.",
         epilog=EPILOG,

@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
+from up_simulator.crew.option_parser import OptionParser
 from up_simulator.scenario.signals import SIGNALS, Kind
 from up_simulator.verbs.outcome import HELD, UsageError
 
@@ -17,7 +18,7 @@ examples:
 
 def main(arguments: Sequence[str]) -> int:
     """List signals; return the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up-sim signals",
         description="Lists the names of everything that can be expected and logged.",
         epilog=EPILOG,

@@ -64,6 +64,26 @@ def test_a_wrong_word_is_one_sentence_and_status_2(words, what, capsys):
     assert what in told and told.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["fly", "save", "--board", "hots"], "did you mean 'host'?"),
+        (["fly", "save", "--sed", "7"], "unrecognized arguments: --sed 7, did you mean --seed?"),
+        (["list", "--tga", "step"], "did you mean --tag?"),
+        (["tune", "--axis", "rol"], "did you mean 'roll'?"),
+        (["all", "--xyzzy"], "('up-sim all --help' lists them)"),
+        (["check"], "required: FILE"),
+        (["--versoin"], "did you mean --version?"),
+    ],
+)
+def test_a_wrong_option_is_one_sentence_and_status_2(words, said, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(words)
+    told = capsys.readouterr().err
+    assert end.value.code == 2
+    assert told.startswith("up-sim") and said in told and told.count("\n") == 1
+
+
 def test_every_verb_of_ours_helps_with_examples(capsys):
     for verb in ("fly", "list", "new", "check", "signals", "all"):
         with pytest.raises(SystemExit) as end:
