@@ -59,7 +59,8 @@ def _rows(entries: Iterable[Entry], above: str, lists: list[tuple[str, Shape]]) 
             continue
         if isinstance(entry.spec, ListOf) and isinstance(entry.spec.item, Shape):
             lists.append((above + entry.name, entry.spec.item))
-        yield f"| {name} | {_default(entry)} | {_bounds(entry)} | {comment} |"
+        default = "required" if entry.name == "at_s" else _default(entry)
+        yield f"| {name} | {default} | {_bounds(entry)} | {comment} |"
 
 
 def _signal_tables() -> Iterator[str]:
