@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -29,7 +30,7 @@ def wait(condition, what, limit_s=LIMIT_S):
 class Showcase:
     """`make run` on any free ports, without the picture."""
 
-    def __init__(self, folder, *options, path=None):
+    def __init__(self, folder, *options, path=None, **environment):
         self.folder = folder
         self.log = folder / "showcase.log"
         with self.log.open("wb") as output:
@@ -37,7 +38,7 @@ class Showcase:
                 [sys.executable, "-m", "up_simulator.showcase", "--folder", str(folder),
                  "--any-ports", "--no-watch", "--state-log", str(folder / "truth.csv"), *options],
                 stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, cwd=folder,
-                env={**os.environ, "PATH": path or os.environ["PATH"]},
+                env={**os.environ, "PATH": path or os.environ["PATH"], **environment},
             )  # fmt: skip
 
     def ready(self):
@@ -284,15 +285,29 @@ def test_a_recorded_flight_stands_in_where_there_is_no_flight_model(tmp_path):
         assert showcase.stop(signal.SIGTERM) == 0
 
 
+def clone_with_nothing_built(folder):
+    """What a user has who never could build the firmware."""
+    ignored = shutil.ignore_patterns("__pycache__", "build", "build-*")
+    for name in ("up", "raspilot", "simulator", "arduino"):
+        shutil.copytree(ROOT / name, folder / name, ignore=ignored)
+    shutil.copy(ROOT / "main.py", folder)
+    return [folder, folder / "simulator", folder / "arduino" / "bench"]
+
+
 def test_without_any_compiler_a_stand_in_flies_and_the_pi_holds_the_attitude(tmp_path):
     """Where neither avr-gcc nor g++ is found; the search path leads to Python alone."""
     tools = tmp_path / "bin"
     tools.mkdir()
-    showcase = Showcase(tmp_path, path=str(tools)).ready()
+    packages = clone_with_nothing_built(tmp_path / "clone")
+    showcase = Showcase(
+        tmp_path, path=str(tools), PYTHONPATH=os.pathsep.join(map(str, packages))
+    ).ready()
     try:
         said = showcase.said()
         assert "no firmware aboard but a stand-in: " in said
         assert "so the attitude is held by Raspilot instead" in said
+        # The stand-in takes Outputs only once its pilot has raised AUX2.
+        wait(lambda: showcase.telemetry(1)[0]["armed"], "armed by AUX2")
         frames = showcase.telemetry(20)
     finally:
         assert showcase.stop(signal.SIGTERM) == 0

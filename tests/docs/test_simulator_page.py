@@ -33,8 +33,9 @@ SAID = {
     "proxy": "the proxy killed",
     "cpu_load_percent": "processor load",
     "command": "",
+    "mark": "",
 }
-"""What the page says of each kind of event; a Command is no fault."""
+"""What the page says of each kind of event; a Command and a mark are no fault."""
 
 
 def test_its_flights_hold(tmp_path, monkeypatch, capsys):

@@ -1,20 +1,8 @@
 """Fixtures of the runner's tests."""
 
-import shutil
-import tempfile
-from pathlib import Path
-
 import pytest
 
 from tests.runner.runners import RunnerProcess
-
-
-@pytest.fixture
-def short_path():
-    """A folder with a path short enough for sockets in it."""
-    folder = Path(tempfile.mkdtemp(prefix="upr-"))
-    yield folder
-    shutil.rmtree(folder, ignore_errors=True)
 
 
 @pytest.fixture
