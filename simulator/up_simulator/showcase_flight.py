@@ -15,8 +15,9 @@ from typing import Any
 
 from up_simulator.aircraft import load_airframe
 from up_simulator.crew.child import Child
+from up_simulator.crew.ports import Ports, choose_ports
 from up_simulator.crew.protocols import CrewError
-from up_simulator.showcase_config import Ports, choose_ports, write_config
+from up_simulator.showcase_config import write_config
 
 START_LIMIT_S = 60.0
 BUILD_LIMIT_S = 900.0

@@ -1,12 +1,10 @@
-import socket
-from dataclasses import astuple
-
 import pytest
 import yaml
 
 from up_simulator.aircraft import load_airframe
+from up_simulator.crew.ports import Ports
 from up_simulator.showcase import main
-from up_simulator.showcase_config import Ports, choose_port_sets, choose_ports, write_config
+from up_simulator.showcase_config import write_config
 
 
 def write(folder, controller="arduino", airframe="glider", **more):
@@ -18,36 +16,6 @@ def write(folder, controller="arduino", airframe="glider", **more):
         airframe=load_airframe(airframe),
         **more,
     )
-
-
-def test_a_port_that_only_udp_has_taken_is_not_chosen(monkeypatch):
-    taken = socket.socket(type=socket.SOCK_DGRAM)
-    taken.bind(("", 0))
-    number = taken.getsockname()[1]
-    monkeypatch.setattr(Ports.__init__, "__defaults__", (number,) * 7)
-    try:
-        assert number not in astuple(choose_ports())
-    finally:
-        taken.close()
-
-
-def test_all_ports_differ():
-    ports = astuple(choose_ports(any_ports=True))
-    assert len(set(ports)) == len(ports)
-
-
-def test_the_ports_of_all_sets_differ_though_the_system_hands_them_out_again(monkeypatch):
-    free = astuple(choose_ports(any_ports=True))
-    more = astuple(choose_ports(any_ports=True))
-    offered = iter([*free, *free, *more, *free, *more] * 3)
-
-    class Socket(socket.socket):
-        def bind(self, address):
-            super().bind((address[0], address[1] or next(offered)))
-
-    monkeypatch.setattr("up_simulator.showcase_config.socket.socket", Socket)
-    chosen = [port for ports in choose_port_sets(2) for port in astuple(ports)]
-    assert len(set(chosen)) == len(chosen) == 14
 
 
 def test_the_gains_are_the_airframes_and_saved_ones_stay(tmp_path):

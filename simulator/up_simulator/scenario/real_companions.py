@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from up_rig.pty_line import PtyLine, PtyLineError
+from up_simulator.crew.ports import choose_port_sets
 from up_simulator.crew.protocols import CrewError
 from up_simulator.crew.real_raspilot import RealRaspilot
 from up_simulator.crew.real_servers import RealProxy, RealRunner
@@ -20,7 +21,6 @@ from up_simulator.scenario.runner_crew import RunnerDaemon, RunnerPhone, write_r
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.settings import merge
 from up_simulator.scenario.workspace import Workspace
-from up_simulator.showcase_config import choose_port_sets
 from up_simulator.world import BYTES_A_STEP
 
 PROXY_AGAIN_S = 10.0

@@ -1,0 +1,34 @@
+import socket
+from dataclasses import astuple
+
+from up_simulator.crew.ports import Ports, choose_port_sets, choose_ports
+
+
+def test_a_port_that_only_udp_has_taken_is_not_chosen(monkeypatch):
+    taken = socket.socket(type=socket.SOCK_DGRAM)
+    taken.bind(("", 0))
+    number = taken.getsockname()[1]
+    monkeypatch.setattr(Ports.__init__, "__defaults__", (number,) * 7)
+    try:
+        assert number not in astuple(choose_ports())
+    finally:
+        taken.close()
+
+
+def test_all_ports_differ():
+    ports = astuple(choose_ports(any_ports=True))
+    assert len(set(ports)) == len(ports)
+
+
+def test_the_ports_of_all_sets_differ_though_the_system_hands_them_out_again(monkeypatch):
+    free = astuple(choose_ports(any_ports=True))
+    more = astuple(choose_ports(any_ports=True))
+    offered = iter([*free, *free, *more, *free, *more] * 3)
+
+    class Socket(socket.socket):
+        def bind(self, address):
+            super().bind((address[0], address[1] or next(offered)))
+
+    monkeypatch.setattr("up_simulator.crew.ports.socket.socket", Socket)
+    chosen = [port for ports in choose_port_sets(2) for port in astuple(ports)]
+    assert len(set(chosen)) == len(chosen) == 14
