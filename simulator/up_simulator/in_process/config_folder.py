@@ -16,8 +16,12 @@ BASE: Mapping[str, Mapping[str, Any]] = {
         "listener": {"port": GROUND_PORT, "address": "127.0.0.1"},
         "role": "pilot",
     },
+    "black_box.yml": {"enabled": False},
 }
-"""A wired Arduino, and a port for a ground station that may do everything."""
+"""A wired Arduino, a port for a ground station that may do everything, and no black box.
+
+The recorder writes from a thread of its own, which knows no simulated time.
+"""
 
 
 def write_config(folder: Path, files: Mapping[str, Mapping[str, Any]] | None = None) -> Path:

@@ -156,6 +156,7 @@ class RealCompanions(CrewCompanions):
         own: dict[str, dict[str, Any]] = {
             "config.yml": {"mode": "black box"},
             "mission_control.yml": {"remote_server": uplink, "role": role},
+            "black_box.yml": self._black_box(),
         }
         own = merge(own, changes)
         proxy = {"airborne port": self._ports.airborne, "ground port": self._ports.ground}
@@ -173,6 +174,7 @@ class RealCompanions(CrewCompanions):
             },
             "discovery.yml": {"port": ports.discovery},
             "mission_control.yml": {"listener": {"port": ports.ground, "address": LOOPBACK}},
+            "black_box.yml": self._black_box(),
         }
         if self._has_proxy:
             uplink = {"url": LOOPBACK, "port": self._before.airborne}
@@ -183,6 +185,10 @@ class RealCompanions(CrewCompanions):
                 "metrics port": ports.metrics,
             }
         return files
+
+    def _black_box(self) -> dict[str, Any]:
+        """Let it record as it does aboard, and nowhere else than here."""
+        return {"enabled": True, "folder": str(self._folder / "flights")}
 
     def _make_ground(self) -> None:
         if self.scenario.ground is None:
