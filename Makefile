@@ -16,6 +16,9 @@ SCENARIO ?=
 CONTROLLER ?=
 RADIO ?=
 ARGS ?=
+# What the ground station's page has from npm. Without npm there is no stamp, and no harm.
+VENDOR := ground/up_ground/web/static/vendor
+WEB := $(VENDOR)/.stamp
 
 .PHONY: help run scenarios test check bench format schemas clean
 
@@ -44,7 +47,11 @@ $(VENV)/.dev-ready: $(SETUPS) | $(PY)
 	@tools/install $(PY) dev,sim
 	@touch $@ $(VENV)/.run-ready
 
-run: $(VENV)/.run-ready
+$(WEB): ground/package-lock.json tools/web_assets
+	@tools/web_assets
+	@if [ -e $@ ]; then touch $@; fi
+
+run: $(VENV)/.run-ready $(WEB)
 	@tools/toolchain
 	@$(PY) -m up_simulator.showcase $(if $(CONTROLLER),--controller $(CONTROLLER)) \
 		$(if $(RADIO),--radio $(RADIO)) $(ARGS)
@@ -52,7 +59,7 @@ run: $(VENV)/.run-ready
 scenarios: $(VENV)/.run-ready
 	@$(PY) -m up_simulator.cli $(if $(SCENARIO),fly $(SCENARIO),all)
 
-test: $(VENV)/.dev-ready
+test: $(VENV)/.dev-ready $(WEB)
 	$(PY) -m pytest -n 2 --dist loadfile $(TEST)
 
 check: $(VENV)/.dev-ready
@@ -68,7 +75,7 @@ $(VENV)/.bench-ready: $(SETUPS) | $(PY)
 	@tools/install $(PY) bench,dev,sim
 	@touch $@ $(VENV)/.run-ready $(VENV)/.dev-ready
 
-bench: $(VENV)/.bench-ready
+bench: $(VENV)/.bench-ready $(WEB)
 	$(PY) -m bench $(BENCH)
 
 format: $(VENV)/.dev-ready
@@ -78,4 +85,5 @@ schemas: $(VENV)/.run-ready
 	$(BIN)/up schemas build/schemas
 
 clean:
-	rm -rf build dist run arduino/build* $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info
+	rm -rf build dist run arduino/build* $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info \
+		ground/node_modules $(VENDOR) $(VENDOR).new.*
