@@ -1,7 +1,8 @@
 """``make run``: the whole system on one machine, in the air, stabilised, until Ctrl-C.
 
-Starts the proxy, the virtual aircraft with its firmware and phone, Raspilot and a ground station,
-each as the process that a user would start, with configuration in a folder of its own.
+Starts the proxy, the virtual aircraft with its firmware and phone, Raspilot and the ground station
+for browser and terminal, each as the process that a user would start, with configuration in a
+folder of its own.
 """
 
 from __future__ import annotations
@@ -118,6 +119,12 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--folder", type=Path, help="for configuration and logs (run/showcase)")
     parser.add_argument("--seconds", type=float, help="end after so long; default: Ctrl-C")
     parser.add_argument("--no-watch", action="store_true", help="do not show the telemetry")
+    parser.add_argument("--no-page", action="store_true", help="no ground station for a browser")
+    parser.add_argument(
+        "--page",
+        metavar="ADDRESS:PORT",
+        help="where the ground station for a browser listens; default 127.0.0.1:8080",
+    )
     parser.add_argument("--replay", type=Path, help="fly a recorded flight, not the model")
     parser.add_argument("--state-log", type=Path, help="write the true state there, as CSV")
     parser.add_argument("--any-ports", action="store_true", help="do not try the usual ports")

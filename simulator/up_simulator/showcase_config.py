@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import yaml
 
 from up_simulator.aircraft import Airframe
 from up_simulator.crew.ports import Ports
+
+FLIGHTS = "flights"
+"""Where, in the folder of a run, the black box writes."""
 
 
 def write_config(
@@ -27,7 +31,8 @@ def write_config(
     folder.mkdir(parents=True, exist_ok=True)
     files = {
         "config.yml": f"flight controller: {controller}\n",
-        "arduino.yml": f"port: {board}\n",
+        "arduino.yml": f"port: {_quoted(board)}\n",
+        "black_box.yml": f"folder: {_quoted(folder.parent / FLIGHTS)}\n",
         "android.yml": f"general port: {ports.general}\norientation port: {ports.orientation}\n",
         "discovery.yml": f"port: {ports.discovery}\n",
         "mission_control.yml": (
@@ -48,6 +53,11 @@ def write_config(
         head = "# Written by 'make run', at every start.\n"
         (folder / name).write_text(head + text, encoding="utf-8")
     _keep_gains(folder, airframe)
+
+
+def _quoted(path: Path) -> str:
+    """Return a path as a text of YAML, whatever signs it has."""
+    return json.dumps(str(path), ensure_ascii=False)
 
 
 def _keep_gains(folder: Path, airframe: Airframe) -> None:

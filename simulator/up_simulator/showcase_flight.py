@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import select
+import shlex
 import sys
 import termios
 import time
@@ -17,7 +18,8 @@ from up_simulator.aircraft import load_airframe
 from up_simulator.crew.child import Child
 from up_simulator.crew.ports import Ports, choose_ports
 from up_simulator.crew.protocols import CrewError
-from up_simulator.showcase_config import write_config
+from up_simulator.showcase_config import FLIGHTS, write_config
+from up_simulator.showcase_page import Page
 
 START_LIMIT_S = 60.0
 BUILD_LIMIT_S = 900.0
@@ -54,6 +56,8 @@ class ShowcaseFlight:
         self._children: list[Child] = []
         self._holder = options.controller
         self._told = 0
+        self._page: Page | None = None
+        self._untold: list[str] = []
         self._airframe = load_airframe(options.airframe)
         self._ports = Ports()
 
@@ -70,6 +74,10 @@ class ShowcaseFlight:
         say(f"  proxy      aircraft on port {ports.airborne}, ground on port {ports.ground}")
         if options.link:
             say(f"  link       from the aircraft to the proxy: {options.link}")
+        if not options.no_page:
+            # Nobody waits for it before all that flies is up.
+            self._page = Page(folder, ports, options.page)
+            self._children.append(self._page.child)
         aircraft.wait_for(self._has_board, "board", BUILD_LIMIT_S)
         self._holder = self._choose_holder(aircraft.lines())
         daemon = self._add("raspilot", self._root / "main.py", "--config", folder / "config")
@@ -78,6 +86,8 @@ class ShowcaseFlight:
         say(f"  raspilot   the daemon; the phone on ports {ports.general}, {ports.orientation}")
         ready = "Controller: flies" if self._holder == "raspberry" else "orientation comes from"
         daemon.wait_for_line(ready, START_LIMIT_S)
+        if self._page is not None:
+            self._show_page(self._page)
         say(f"It flies. {WHO_HOLDS[self._holder]}")
         for line in hints(ports, folder):
             say(line)
@@ -102,9 +112,13 @@ class ShowcaseFlight:
                     self._children.remove(child)
                     watch, wants_watch = None, False
                     self._leave_watch(status, terminal)
+                elif status is not None and self._page is not None and child is self._page.child:
+                    self._leave_page(self._page)
                 elif status is not None:
                     raise CrewError(child.last_words(status))
             if watch is None:
+                while self._untold:
+                    self._say(self._untold.pop(0))
                 self._tell_news(self._children[0])
                 wants_watch = _enter_was_pressed()
             time.sleep(LOOK_S)
@@ -119,7 +133,32 @@ class ShowcaseFlight:
         (self._folder / "board").unlink(missing_ok=True)
         if self._children:
             self._say("Everything is stopped.")
+            self._tell_of_log()
         self._children.clear()
+
+    def _show_page(self, page: Page) -> None:
+        """Say where the ground station for a browser is; without it everything else flies."""
+        address = page.wait_for_address()
+        if address is not None:
+            self._say(f"  page       {address}  the ground station in a browser")
+        else:
+            page.child.terminate()
+            self._children.remove(page.child)
+            self._say(f"  page       no ground station for a browser: {page.why_not}")
+
+    def _leave_page(self, page: Page) -> None:
+        self._children.remove(page.child)
+        # A picture on this terminal would wipe it away.
+        self._untold.append(
+            f"The ground station for a browser is gone: {page.why_not}. It flies on."
+        )
+
+    def _tell_of_log(self) -> None:
+        """Say how to read what the black box has written, if there is anything."""
+        flights = self._folder / FLIGHTS
+        if any(flights.glob("*.mcap")):
+            program = os.path.relpath(Path(sys.executable).parent / "up")
+            self._say(f"The flight's log: {program} log report last --folder {_near(flights)}")
 
     def _has_board(self, lines: list[str]) -> bool:
         """Say what the aircraft has said meanwhile, and return whether its board is chosen."""
@@ -225,6 +264,11 @@ def hints(ports: Ports, folder: Path) -> list[str]:
         f"  {sim} fly save       a scenario: the pilot's last resort",
         "Ctrl-C stops everything.",
     ]
+
+
+def _near(path: Path) -> str:
+    """Return a path as somebody types it here."""
+    return shlex.quote(os.path.relpath(path) if path.is_relative_to(Path.cwd()) else str(path))
 
 
 def _enter_was_pressed() -> bool:

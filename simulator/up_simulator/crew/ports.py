@@ -19,6 +19,7 @@ class Ports:
     discovery: int = 3001
     metrics: int = 9303
     uplink: int = 3005
+    page: int = 8080
 
 
 def choose_ports(any_ports: bool = False) -> Ports:
