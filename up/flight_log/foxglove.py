@@ -1,0 +1,79 @@
+"""The schemas by which Foxglove recognises a text log and a place on the map.
+
+Source: https://docs.foxglove.dev/docs/sdk/schemas (foxglove.Log, foxglove.LocationFix).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+LOG = "foxglove.Log"
+LOCATION_FIX = "foxglove.LocationFix"
+
+LOG_LEVELS = {"debug": 1, "info": 2, "warn": 3, "error": 4, "critical": 5}
+"""A level of twisted.logger to foxglove.Log's; 0 is not known."""
+
+_TIME: dict[str, Any] = {
+    "type": "object",
+    "title": "time",
+    "properties": {
+        "sec": {"type": "integer", "minimum": 0},
+        "nsec": {"type": "integer", "minimum": 0, "maximum": 999_999_999},
+    },
+    "required": ["sec", "nsec"],
+}
+
+LOG_SCHEMA: dict[str, Any] = {
+    "$schema": "https://json-schema.org/draft/2020-12/schema",
+    "title": LOG,
+    "description": "A line of the program's log",
+    "type": "object",
+    "properties": {
+        "timestamp": _TIME,
+        "level": {
+            "type": "integer",
+            "minimum": 0,
+            "maximum": 5,
+            "description": "0 unknown, 1 debug, 2 info, 3 warning, 4 error, 5 fatal",
+        },
+        "message": {"type": "string"},
+        "name": {"type": "string", "description": "who says it"},
+        "file": {"type": "string"},
+        "line": {"type": "integer", "minimum": 0},
+    },
+    "required": ["timestamp", "level", "message"],
+}
+
+LOCATION_FIX_SCHEMA: dict[str, Any] = {
+    "$schema": "https://json-schema.org/draft/2020-12/schema",
+    "title": LOCATION_FIX,
+    "description": "Where the aircraft is, WGS 84",
+    "type": "object",
+    "properties": {
+        "timestamp": _TIME,
+        "frame_id": {"type": "string"},
+        "latitude": {"type": "number", "description": "deg"},
+        "longitude": {"type": "number", "description": "deg"},
+        "altitude": {"type": "number", "description": "m"},
+        "position_covariance": {
+            "type": "array",
+            "items": {"type": "number"},
+            "minItems": 9,
+            "maxItems": 9,
+            "description": "m^2, east, north, up, row by row",
+        },
+        "position_covariance_type": {
+            "type": "integer",
+            "minimum": 0,
+            "maximum": 3,
+            "description": "0 unknown, 1 approximated, 2 diagonal known, 3 known",
+        },
+    },
+    "required": ["timestamp", "latitude", "longitude"],
+}
+
+
+def timestamp(time_ns: int) -> dict[str, int]:
+    """Return nanoseconds since 1970 as the schemas write a time."""
+    sec, nsec = divmod(time_ns, 1_000_000_000)
+    return {"sec": sec, "nsec": nsec}

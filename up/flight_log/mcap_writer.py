@@ -1,0 +1,203 @@
+"""Writes MCAP: whole records, one write each, so that a file may end anywhere."""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Callable, Mapping
+from typing import Any
+from zlib import crc32
+
+from up.flight_log.mcap_format import (
+    ATTACHMENT,
+    ATTACHMENT_INDEX,
+    CHANNEL,
+    COUNT,
+    FOOTER,
+    JSON,
+    JSON_SCHEMA,
+    MAGIC,
+    MESSAGE,
+    MESSAGE_RECORD,
+    METADATA_INDEX,
+    RECORD,
+    STATISTICS,
+    SUMMARY_OFFSET,
+    U16,
+    U32,
+    U64,
+    Opcode,
+)
+from up.version import VERSION
+
+LIBRARY = f"raspilot {VERSION}"
+MOST_IDS = 65535
+_SEQUENCES = 2**32
+_MESSAGE = int(Opcode.MESSAGE)
+_CONTENT = MESSAGE.size
+
+
+class McapWriter:
+    """Writes the records of one file, unchunked: what is written is readable, whenever it ends.
+
+    ``write`` takes the bytes of a whole record (`start` and `finish`: of several) and keeps all or
+    raises; what it raises passes through, and the record does not count. ``size`` is the length
+    of the whole records: who truncates a torn file to it may go on. Times are nanoseconds since
+    1970. Topics are JSON with a JSON Schema. Source: https://mcap.dev/spec.
+    """
+
+    def __init__(
+        self, write: Callable[[bytes], object], profile: str = "", library: str = LIBRARY
+    ) -> None:
+        self.size = 0
+        self.messages = 0
+        self._write = write
+        self._header = _text(profile) + _text(library)
+        self._crc = 0
+        self._first_ns = 0
+        self._last_ns = 0
+        self._counts: dict[int, int] = {}
+        self._schemas: list[bytes] = []
+        self._channels: list[bytes] = []
+        self._attachments: list[bytes] = []
+        self._metadata: list[bytes] = []
+
+    def start(self) -> None:
+        """Write the magic and the header."""
+        self._put(MAGIC + _record(Opcode.HEADER, self._header))
+
+    def add_schema(self, name: str, schema: Mapping[str, Any]) -> int:
+        """Write a JSON Schema and return its identifier; ValueError: there are too many."""
+        number = _next(len(self._schemas), "schemas")
+        text = json.dumps(schema, allow_nan=False, separators=(",", ":")).encode()
+        content = U16.pack(number) + _text(name) + _text(JSON_SCHEMA) + U32.pack(len(text)) + text
+        record = _record(Opcode.SCHEMA, content)
+        self._put(record)
+        self._schemas.append(record)
+        return number
+
+    def add_channel(
+        self, topic: str, schema_id: int, metadata: Mapping[str, str] | None = None
+    ) -> int:
+        """Write a channel and return its identifier.
+
+        ``schema_id`` 0: without a schema. ValueError: an unknown schema, or too many channels.
+        """
+        if not 0 <= schema_id <= len(self._schemas):
+            raise ValueError(f"there is no schema {schema_id} for {topic}")
+        number = _next(len(self._channels), "channels")
+        content = CHANNEL.pack(number, schema_id) + _text(topic) + _text(JSON)
+        record = _record(Opcode.CHANNEL, content + _map(metadata or {}))
+        self._put(record)
+        self._channels.append(record)
+        self._counts[number] = 0
+        return number
+
+    def message(
+        self, channel_id: int, log_time_ns: int, data: bytes, publish_time_ns: int | None = None
+    ) -> None:
+        """Write a message; ValueError: an unknown channel, or a time that MCAP cannot hold."""
+        try:
+            count = self._counts[channel_id]
+            record = (
+                MESSAGE_RECORD.pack(
+                    _MESSAGE,
+                    _CONTENT + len(data),
+                    channel_id,
+                    count % _SEQUENCES,
+                    log_time_ns,
+                    log_time_ns if publish_time_ns is None else publish_time_ns,
+                )
+                + data
+            )
+        except (KeyError, struct.error):
+            raise ValueError(
+                f"no message for channel {channel_id} at {log_time_ns} ns: there is no such"
+                " channel or no such time"
+            ) from None
+        self._write(record)
+        self.size += len(record)
+        self._crc = crc32(record, self._crc)
+        self._counts[channel_id] = count + 1
+        if not self.messages:
+            self._first_ns = self._last_ns = log_time_ns
+        elif log_time_ns > self._last_ns:
+            self._last_ns = log_time_ns
+        elif log_time_ns < self._first_ns:
+            self._first_ns = log_time_ns
+        self.messages += 1
+
+    def add_metadata(self, name: str, values: Mapping[str, str]) -> None:
+        """Write a record of texts by name."""
+        record = _record(Opcode.METADATA, _text(name) + _map(values))
+        index = METADATA_INDEX.pack(self.size, len(record)) + _text(name)
+        self._put(record)
+        self._metadata.append(_record(Opcode.METADATA_INDEX, index))
+
+    def add_attachment(self, name: str, media_type: str, data: bytes, log_time_ns: int) -> None:
+        """Write a file that belongs to the flight; ValueError: a time that MCAP cannot hold."""
+        if not 0 <= log_time_ns < 2**64:
+            raise ValueError(f"no attachment {name} at {log_time_ns} ns: there is no such time")
+        times, names = ATTACHMENT.pack(log_time_ns, 0), _text(name) + _text(media_type)
+        content = times + names + U64.pack(len(data)) + data
+        record = _record(Opcode.ATTACHMENT, content + U32.pack(crc32(content)))
+        place = ATTACHMENT_INDEX.pack(self.size, len(record), log_time_ns, 0, len(data))
+        self._put(record)
+        self._attachments.append(_record(Opcode.ATTACHMENT_INDEX, place + names))
+
+    def finish(self) -> None:
+        """Write the end of the data, the summary with statistics, the footer and the magic."""
+        end = _record(Opcode.DATA_END, U32.pack(self._crc))
+        start = self.size + len(end)
+        summary, offsets = bytearray(), bytearray()
+        for opcode, records in (
+            (Opcode.SCHEMA, self._schemas),
+            (Opcode.CHANNEL, self._channels),
+            (Opcode.STATISTICS, [_record(Opcode.STATISTICS, self._statistics())]),
+            (Opcode.ATTACHMENT_INDEX, self._attachments),
+            (Opcode.METADATA_INDEX, self._metadata),
+        ):
+            group = b"".join(records)
+            if group:
+                place = SUMMARY_OFFSET.pack(opcode, start + len(summary), len(group))
+                offsets += _record(Opcode.SUMMARY_OFFSET, place)
+                summary += group
+        footer = _record(Opcode.FOOTER, FOOTER.pack(start, start + len(summary), 0))[: -U32.size]
+        checked = bytes(summary + offsets + footer)
+        self._put(end + checked + U32.pack(crc32(checked)) + MAGIC)
+
+    def _statistics(self) -> bytes:
+        schemas, channels = len(self._schemas), len(self._channels)
+        attachments, metadata = len(self._attachments), len(self._metadata)
+        head = STATISTICS.pack(
+            *(self.messages, schemas, channels, attachments, metadata, 0),
+            *(self._first_ns, self._last_ns),
+        )
+        counts = b"".join(COUNT.pack(*each) for each in self._counts.items())
+        return head + U32.pack(len(counts)) + counts
+
+    def _put(self, record: bytes) -> None:
+        self._write(record)
+        self.size += len(record)
+        self._crc = crc32(record, self._crc)
+
+
+def _next(count: int, what: str) -> int:
+    if count >= MOST_IDS:
+        raise ValueError(f"a flight log has {MOST_IDS} {what} at most")
+    return count + 1
+
+
+def _record(opcode: Opcode, content: bytes) -> bytes:
+    return RECORD.pack(opcode, len(content)) + content
+
+
+def _text(text: str) -> bytes:
+    # A lone surrogate (a file name, a peer's text) must not end the recording.
+    data = text.encode("utf-8", "replace")
+    return U32.pack(len(data)) + data
+
+
+def _map(values: Mapping[str, str]) -> bytes:
+    data = b"".join(_text(each) for item in values.items() for each in item)
+    return U32.pack(len(data)) + data
