@@ -1,0 +1,25 @@
+"""Where a logged Command came from, as the flight log writes it."""
+
+from __future__ import annotations
+
+from up.commands.origin import INTERNAL, Origin
+
+KEY = "_origin"
+"""The key beside a Command's own fields."""
+
+
+def origin_text(origin: Origin) -> str:
+    """Return ``arduino (board)``: link and role; ``internal`` for what a module published."""
+    if origin.link == INTERNAL.link:
+        return INTERNAL.link
+    return f"{origin.link} ({origin.role.value})"
+
+
+def link_and_role(text: object) -> tuple[str, str]:
+    """Return what `origin_text` wrote; two empty texts for anything else."""
+    if not isinstance(text, str):
+        return "", ""
+    if text == INTERNAL.link:
+        return text, INTERNAL.role.value
+    link, _, role = text.partition(" (")
+    return (link, role[:-1]) if role.endswith(")") else (text, "")
