@@ -1,0 +1,43 @@
+"""The radio of a test: takes the sticks of a showcase and tells what the aircraft does.
+
+Reads JSON lines: ``{"ailerons": 1700, "aux1": 2000}`` moves sticks from then on, ``null`` gives
+them back. Writes a JSON line for every answer of the aircraft: ``unix_s``, ``roll_deg``,
+``pitch_deg``, ``height_m``, ``airspeed_m_s``, ``mode``. Ends with its standard input.
+"""
+
+import json
+import selectors
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+from up_simulator.radio.remote_words import SEEN, write_sticks
+from up_simulator.radio.take_over import PERIOD_S, RadioLink
+
+
+def main(path):
+    link = RadioLink(Path(path))
+    sticks = None
+    base = link.seen.sticks
+    told = None
+    watched = selectors.DefaultSelector()
+    watched.register(sys.stdin, selectors.EVENT_READ)
+    try:
+        while True:
+            if watched.select(PERIOD_S):
+                line = sys.stdin.readline()
+                if not line:
+                    return
+                moved = json.loads(line)
+                sticks = None if moved is None else replace(sticks or base, **moved)
+            seen = link.exchange(write_sticks(sticks))
+            if seen is not told:
+                told = seen
+                values = {name: getattr(seen.state, name) for name in SEEN}
+                print(json.dumps({"unix_s": time.time(), "mode": seen.mode, **values}), flush=True)
+    finally:
+        link.close()
+
+
+main(sys.argv[1])
