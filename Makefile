@@ -20,13 +20,14 @@ ARGS ?=
 VENDOR := ground/up_ground/web/static/vendor
 WEB := $(VENDOR)/.stamp
 
-.PHONY: help run scenarios test check bench format schemas clean
+.PHONY: help run scenarios test test-browser check bench format schemas clean
 
 help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
 	@echo '              (CONTROLLER=raspberry, RADIO=keyboard or js0, ARGS=--help for more)'
 	@echo 'make scenarios  fly every scenario that is shipped and count (SCENARIO=receiver-lost for some)'
 	@echo 'make test     set up everything and run every test (TEST=tests/up for some)'
+	@echo 'make test-browser  only the tests of the page in a headless Chromium'
 	@echo 'make check    lint, types, import contracts'
 	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
 	@echo 'make format   put the code into the project'"'"'s form'
@@ -39,12 +40,12 @@ $(PY):
 
 # What a user needs: the program, the simulator, the cogs of the Cogfile.
 $(VENV)/.run-ready: $(SETUPS) | $(PY)
-	@tools/install $(PY) sim
+	@tools/install $(PY) sim,ground,log
 	@touch $@
 
 # What a developer needs besides.
 $(VENV)/.dev-ready: $(SETUPS) | $(PY)
-	@tools/install $(PY) dev,sim
+	@tools/install $(PY) dev,sim,ground,log
 	@touch $@ $(VENV)/.run-ready
 
 $(WEB): ground/package-lock.json tools/web_assets
@@ -62,6 +63,10 @@ scenarios: $(VENV)/.run-ready
 test: $(VENV)/.dev-ready $(WEB)
 	$(PY) -m pytest -n 2 --dist loadfile $(TEST)
 
+# Part of make test.
+test-browser: $(VENV)/.dev-ready $(WEB)
+	$(PY) -m pytest tests/test_browser.py
+
 check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -72,7 +77,7 @@ check: $(VENV)/.dev-ready
 
 # The peers besides; HAProxy, socat and gcc (Debian) are measured where they are installed.
 $(VENV)/.bench-ready: $(SETUPS) | $(PY)
-	@tools/install $(PY) bench,dev,sim
+	@tools/install $(PY) bench,dev,sim,ground,log
 	@touch $@ $(VENV)/.run-ready $(VENV)/.dev-ready
 
 bench: $(VENV)/.bench-ready $(WEB)
