@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import typing
+from collections.abc import Iterator
 from typing import Any
 
 from up.commands.command import BaseCommand, constraint_of
 from up.flight_log.origin_text import KEY
 
+_ITEMS = {str: "string", int: "integer", float: "number", bool: "boolean"}
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
@@ -17,7 +19,8 @@ def schema_of(cls: type[BaseCommand]) -> dict[str, Any]:
 
     A field's unit stands in its description (and in ``x-unit``). A Command that makes its data
     itself (telemetry, gains) is an object of any fields. Nothing is required but what the Command
-    itself requires.
+    itself requires. A field that may be null says so as OpenAPI 3 does (``nullable``): Foxglove
+    refuses a list of types, an array without items and an object without properties.
     """
     properties: dict[str, Any] = {}
     required: list[str] = []
@@ -25,7 +28,8 @@ def schema_of(cls: type[BaseCommand]) -> dict[str, Any]:
         hints = typing.get_type_hints(cls)
         for field in dataclasses.fields(cls):
             key = field.metadata.get("key") or field.name
-            properties[key] = _property(constraint_of(field, hints).json_schema())
+            schema = constraint_of(field, hints).json_schema()
+            properties[key] = _property(schema, hints[field.name])
             if field.default is dataclasses.MISSING:
                 required.append(key)
     properties[KEY] = {"type": "string", "description": "the link and role that it came from"}
@@ -39,9 +43,24 @@ def schema_of(cls: type[BaseCommand]) -> dict[str, Any]:
     }
 
 
-def _property(schema: dict[str, Any]) -> dict[str, Any]:
-    unit = schema.get("x-unit")
-    return {**schema, "description": unit} if unit else schema
+def _property(schema: dict[str, Any], hint: Any) -> dict[str, Any]:
+    kind = schema["type"]
+    if isinstance(kind, list):
+        kind = kind[0]
+        schema = {**schema, "type": kind, "nullable": True}
+    if kind == "array":
+        schema["items"] = {"type": _ITEMS.get(next(iter(_items_of(hint)), str), "string")}
+    elif kind == "object":
+        schema["properties"] = {}
+    if "x-unit" in schema:
+        schema["description"] = schema["x-unit"]
+    return schema
+
+
+def _items_of(hint: Any) -> Iterator[Any]:
+    for each in (hint, *typing.get_args(hint)):
+        if typing.get_origin(each) in (tuple, list):
+            yield typing.get_args(each)[0]
 
 
 def _sentence(text: str | None) -> str:
