@@ -23,7 +23,8 @@ class FlightState:
     Rates are those of the body axes, as a gyroscope feels them. Altitude is above the sea,
     height above the ground; speed is over the ground, along ``track_deg``. The angles of the air
     are of attack (alpha) and of sideslip (wind from the right positive); the load factor is 1 in
-    level flight; ``north_m`` and ``east_m`` count from the start of the flight.
+    level flight; ``north_m`` and ``east_m`` count from the start of the flight. The wind is where
+    the air around it goes, gusts and turbulence included.
     """
 
     time_s: float
@@ -50,6 +51,9 @@ class FlightState:
     battery_percent: float = 100.0
     motor_rpm: float = 0.0
     motor_w: float = 0.0
+    wind_north_m_s: float = 0.0
+    wind_east_m_s: float = 0.0
+    wind_down_m_s: float = 0.0
 
 
 class Flight(Protocol):

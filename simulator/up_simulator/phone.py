@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from up_simulator.clock import Clock
-from up_simulator.flight import Flight
+from up_simulator.flight import Flight, FlightState
 from up_simulator.general_message import (
     GeneralMessage,
     MalformedError,
@@ -16,6 +16,7 @@ from up_simulator.general_message import (
     write_orientation,
 )
 from up_simulator.phone_sensors import PhoneSensors
+from up_simulator.truth import PERIOD_S as TRUTH_S
 
 ORIENTATION_S = 0.02
 LONGEST_SPEECH = 200
@@ -41,7 +42,8 @@ class Phone:
 
     ``send`` takes lines for the General Message link, ``send_orientation`` frames of 24 bytes;
     ``tick`` is to be called every few milliseconds. In Panic Mode no stream is quicker than the
-    delay that the Raspberry Pi names.
+    delay that the Raspberry Pi names. ``record`` gives what it has the black box write, 20 times
+    a second: the data of ``black_box.record``.
     """
 
     def __init__(
@@ -51,6 +53,7 @@ class Phone:
         *,
         seed: int = 1,
         say: Callable[[str], None] = lambda _text: None,
+        record: Callable[[FlightState], dict[str, Any]] | None = None,
     ) -> None:
         self._flight = flight
         self._clock = clock
@@ -65,6 +68,8 @@ class Phone:
             _Stream("up.heading.change", 0.2, sensors.heading),
             _Stream("android.battery", 10.0, sensors.battery),
         ]
+        if record is not None:
+            self._streams.append(_Stream("black_box.record", TRUTH_S, record))
         self._orientation_due_s = 0.0
 
     def set_battery(self, percent: float) -> None:

@@ -1,7 +1,9 @@
 """What the phone says and answers, in virtual time."""
 
 import json
+import math
 import struct
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -18,6 +20,7 @@ from up_simulator.general_message import (
     write_orientation,
 )
 from up_simulator.phone import Phone
+from up_simulator.truth import RECORDED_NAMES, record_of, truth_of
 
 TICK_S = 0.005
 
@@ -95,6 +98,35 @@ def test_everything_comes_at_once_and_then_in_its_period():
     bench.run(60.0)
     names = [each["name"] for each in bench.take()]
     assert [names.count(name) for name in sorted(set(names))] == [6, 300, 300, 120]
+
+
+def test_it_has_the_truth_recorded_only_where_that_is_asked_and_panic_slows_it():
+    def records(messages):
+        return [each for each in messages if each["name"] == "black_box.record"]
+
+    silent, bench = Bench(), Bench(record=record_of)
+    silent.run(1.0)
+    assert records(silent.take()) == []
+    bench.run(10.0)
+    found = records(bench.take())
+    assert len(found) == 200
+    state = bench.flight.state
+    assert found[0]["data"] == {"topic": "simulator.truth", "content": truth_of(state)}
+    assert found[0]["data"]["content"]["roll_deg"] == state.roll_deg
+    assert found[0]["data"]["content"]["ground_speed_m_s"] == state.speed_m_s
+    bench.hear(name="up.panic", data={"panic": True, "delay_ms": 500})
+    bench.run(1.0)
+    bench.take()
+    bench.run(10.0)
+    assert len(records(bench.take())) == 20
+
+
+def test_truth_that_is_no_number_is_left_out_of_the_log():
+    state = replace(StillFlight().state, roll_deg=math.nan, alpha_deg=math.inf)
+    content = truth_of(state)
+    assert "roll_deg" not in content and "alpha_deg" not in content
+    assert set(truth_of(state, RECORDED_NAMES)) < set(content)
+    assert "wind_north_m_s" not in RECORDED_NAMES, "a recorded flight knows no wind"
 
 
 def test_lines_are_written_as_the_page_says():

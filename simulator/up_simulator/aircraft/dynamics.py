@@ -48,6 +48,9 @@ _READ = {
     "alpha": "aero/alpha-deg",
     "beta": "aero/beta-deg",
     "load": "accelerations/Nz",
+    "wind_north": "atmosphere/total-wind-north-fps",
+    "wind_east": "atmosphere/total-wind-east-fps",
+    "wind_down": "atmosphere/total-wind-down-fps",
     "force_x": "accelerations/a-pilot-x-ft_sec2",
     "force_y": "accelerations/a-pilot-y-ft_sec2",
     "force_z": "accelerations/a-pilot-z-ft_sec2",
@@ -264,4 +267,7 @@ class FlightDynamics:
             battery_percent=self._battery.percent,
             motor_rpm=self._motor.rpm if self._motor else 0.0,
             motor_w=self._motor.power_w if self._motor else 0.0,
+            wind_north_m_s=value["wind_north"] * FOOT_M,
+            wind_east_m_s=value["wind_east"] * FOOT_M,
+            wind_down_m_s=value["wind_down"] * FOOT_M,
         )

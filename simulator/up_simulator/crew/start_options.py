@@ -177,6 +177,11 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
         help="send the phone's orientation at 50 Hz (Black Box Mode needs it; default off)",
     )
     group.add_argument(
+        "--truth",
+        action="store_true",
+        help="let it have the true state written into the flight's log, 20 times a second",
+    )
+    group.add_argument(
         "--discover",
         type=_place,
         nargs="?",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Awaitable, Callable
+from functools import partial
 from typing import Any
 
 from twisted.internet.task import LoopingCall
@@ -13,6 +14,7 @@ from up_simulator.aircraft import Airframe, load_airframe
 from up_simulator.crew.aloft import put_aloft
 from up_simulator.crew.board_aboard import board_aboard
 from up_simulator.crew.firmware_aircraft import FirmwareAircraft
+from up_simulator.crew.replayed import ReplayedFlight
 from up_simulator.crew.stand_in import StandInAircraft
 from up_simulator.crew.uplink import make_uplink
 from up_simulator.firmware.tap import BoardTap
@@ -25,6 +27,7 @@ from up_simulator.radio.choice import choose_radio
 from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.sticks import Radio
 from up_simulator.state_log import StateLog
+from up_simulator.truth import NAMES, RECORDED_NAMES, record_of
 
 TICK_S = 0.004
 MODE_NAMES = {"a": "ACRO", "r": "RATE", "f": "FBW", "s": "SETPOINT", "u": "OUTPUT"}
@@ -167,7 +170,9 @@ class VirtualAircraft:
         def say(text: str) -> None:
             self._say(f"phone: {text}")
 
-        phone = Phone(self.flight, self._reactor, seed=options.seed, say=say)
+        names = RECORDED_NAMES if isinstance(self.flight, ReplayedFlight) else NAMES
+        record = partial(record_of, names=names) if options.truth else None
+        phone = Phone(self.flight, self._reactor, seed=options.seed, say=say, record=record)
         find = _make_find(self._reactor, options)
         self._link = PhoneLink(self._reactor, phone, find, options.orientation, say)
         return phone

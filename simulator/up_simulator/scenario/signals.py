@@ -61,6 +61,9 @@ def _truth() -> Iterator[Signal]:
         ("battery_percent", "%", "what is left in the flight battery"),
         ("motor_rpm", "1/min", "the propeller"),
         ("motor_w", "W", "what the motor takes"),
+        ("wind_north_m_s", "m/s", "how fast the air goes north, with gusts and turbulence"),
+        ("wind_east_m_s", "m/s", "how fast the air goes east"),
+        ("wind_down_m_s", "m/s", "how fast the air sinks"),
     ):
         yield Signal(f"truth.{name}", about, unit)
     yield Signal("truth.crashed", "it has hit the ground or broken", kind=_FLAG)

@@ -57,6 +57,8 @@ def test_wind_carries_it_over_the_ground_and_leaves_the_airspeed(from_deg, headi
     north = through * math.cos(along) + 6.0 * math.cos(to)
     east = through * math.sin(along) + 6.0 * math.sin(to)
     assert state.speed_m_s == pytest.approx(math.hypot(north, east), abs=0.2)
+    wind = state.wind_north_m_s, state.wind_east_m_s, state.wind_down_m_s
+    assert wind == pytest.approx((6.0 * math.cos(to), 6.0 * math.sin(to), 0.0), abs=1e-6)
     off_deg = (state.track_deg - math.degrees(math.atan2(east, north)) + 180) % 360 - 180
     assert abs(off_deg) < 1.5
 
@@ -210,11 +212,7 @@ def test_a_gust_comes_and_goes_as_one_minus_cosine():
     seen = {}
     for step in range(1000):
         flight.step()
-        fdm = flight._fdm
-        seen[step + 1] = (
-            fdm["atmosphere/total-wind-north-fps"] * 0.3048,
-            fdm["atmosphere/total-wind-down-fps"] * 0.3048,
-        )
+        seen[step + 1] = flight.state.wind_north_m_s, flight.state.wind_down_m_s
     assert seen[240] == pytest.approx((0.0, 0.0), abs=1e-9)
     assert seen[375] == pytest.approx((1.0, -2.0), abs=0.05)
     assert seen[500] == pytest.approx((2.0, -4.0), abs=0.05)
