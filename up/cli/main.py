@@ -22,8 +22,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     0: done; 1: not done, with one sentence on stderr; 2: mistakes in configuration or arguments.
     """
-    parser = make_parser()
-    values = parser.parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    parser = make_parser(words)
+    values = parser.parse_args(words)
     if getattr(values, "carry_out", None) is None:
         (getattr(values, "parser", None) or parser).print_help()
         return EXIT_FAILED

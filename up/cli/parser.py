@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import importlib
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from up.cli.plugin_verbs import UP_VERBS, add_plugin_verbs, verb_of
+from up.cli.verb import add_verb
 from up.mode import Mode
 from up.version import VERSION
 
@@ -25,8 +26,12 @@ Nothing starts, or a module is missing?  up check    what is wrong, with file an
 """
 
 
-def make_parser() -> argparse.ArgumentParser:
-    """Return the parser of the whole command line."""
+def make_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentParser:
+    """Return the parser of the whole command line.
+
+    Of the verbs that plug-ins add, ``arguments`` tell which one is wanted: our own verbs wait for
+    none of them.
+    """
     parser = argparse.ArgumentParser(
         prog="up",
         description="Creates, checks and starts applications on Up, and manages their cogs.",
@@ -48,8 +53,11 @@ def make_parser() -> argparse.ArgumentParser:
     _add_register(verbs)
     _add_explore(verbs)
     _add_checks(verbs)
-    update = _verb(verbs, "update", ["u"], "up.cli.update", "upgrade the framework")
+    update = add_verb(verbs, "update", "up.cli.update", "upgrade the framework", aliases=("u",))
     update.add_argument("--dry-run", action="store_true", help="only show the pip command")
+    asked = None if arguments is None else verb_of(arguments)
+    if asked not in verbs.choices:
+        add_plugin_verbs(verbs, UP_VERBS, asked)
     return parser
 
 
@@ -66,12 +74,12 @@ def _add_create(verbs: Any) -> None:
     create.set_defaults(parser=create)
     kinds = create.add_subparsers(title="what", metavar="WHAT")
     for name, aliases, text in (
-        ("new", ["n"], "a runnable application"),
-        ("module", ["m"], "a module in ./modules"),
-        ("handler", ["h"], "a Command and its handler in ./commands"),
-        ("cog", [], "a plug-in with packaging, registrar, manifest, module, test and README"),
+        ("new", ("n",), "a runnable application"),
+        ("module", ("m",), "a module in ./modules"),
+        ("handler", ("h",), "a Command and its handler in ./commands"),
+        ("cog", (), "a plug-in with packaging, registrar, manifest, module, test and README"),
     ):
-        kind = _verb(kinds, name, aliases, "up.cli.create", text)
+        kind = add_verb(kinds, name, "up.cli.create", text, aliases=aliases)
         kind.set_defaults(kind=name)
         kind.add_argument("-n", "--name", required=True, help="its name, like FuelGauge")
         kind.add_argument("-y", "--yes", action="store_true", help="overwrite without asking")
@@ -90,19 +98,21 @@ def _add_create(verbs: Any) -> None:
 
 
 def _add_start(verbs: Any) -> None:
-    start = _verb(verbs, "start", ["s"], "up.cli.start", "run the application until Ctrl-C")
+    start = add_verb(
+        verbs, "start", "up.cli.start", "run the application until Ctrl-C", aliases=("s",)
+    )
     _take_config(start)
 
 
 def _add_gather(verbs: Any) -> None:
-    gather = _verb(
+    gather = add_verb(
         verbs,
         "gather",
-        ["g"],
         "up.cli.gather",
         "install and register the cogs that Cogfile.yml asks for",
-        "Installs what is missing into the environment of this Python, registers every cog of\n"
-        "the Cogfile, and unregisters those that have left it. Configuration files are created\n"
+        aliases=("g",),
+        epilog="Installs what is missing into the environment of this Python, registers every cog\n"
+        "of the Cogfile, and unregisters those that have left it. Configuration files are created\n"
         "where there are none and never changed. Nothing to do is fast.\n\n"
         "Cogfile.yml, each cog from exactly one of:\n"
         "  my_cog: {path: ../cogs/my_cog}\n"
@@ -115,30 +125,30 @@ def _add_gather(verbs: Any) -> None:
 
 
 def _add_register(verbs: Any) -> None:
-    register = _verb(
+    register = add_verb(
         verbs,
         "register",
-        ["r"],
         "up.cli.register",
         "register an installed cog that no Cogfile lists",
-        "example: up register -n my_cog",
+        aliases=("r",),
+        epilog="example: up register -n my_cog",
     )
     register.set_defaults(remove=False)
-    unregister = _verb(verbs, "unregister", [], "up.cli.register", "take a registered cog out")
+    unregister = add_verb(verbs, "unregister", "up.cli.register", "take a registered cog out")
     unregister.set_defaults(remove=True)
     for each in (register, unregister):
         each.add_argument("-n", "--name", required=True, help="the cog's Python package")
 
 
 def _add_explore(verbs: Any) -> None:
-    explore = _verb(
+    explore = add_verb(
         verbs,
         "explore",
-        ["e"],
         "up.cli.explore",
         "list the module classes in ./modules",
-        "In a cog's folder, 'up explore -w' writes registered_modules.yml, the list of what the\n"
-        "cog brings into an application.",
+        aliases=("e",),
+        epilog="In a cog's folder, 'up explore -w' writes registered_modules.yml, the list of\n"
+        "what the cog brings into an application.",
     )
     explore.add_argument(
         "-t",
@@ -151,21 +161,19 @@ def _add_explore(verbs: Any) -> None:
 
 
 def _add_checks(verbs: Any) -> None:
-    check = _verb(
+    check = add_verb(
         verbs,
         "check",
-        [],
         "up.cli.check",
         "find every mistake in configuration and modules, without starting",
-        "Exit status 0: would start; 2: mistakes, each with its place.",
+        epilog="Exit status 0: would start; 2: mistakes, each with its place.",
     )
-    modules = _verb(
+    modules = add_verb(
         verbs,
         "modules",
-        [],
         "up.cli.modules",
         "what would be loaded, in which order, and why the rest would not",
-        'example: up modules --mode "black box"',
+        epilog='example: up modules --mode "black box"',
     )
     for each in (check, modules):
         _take_config(each)
@@ -174,10 +182,9 @@ def _add_checks(verbs: Any) -> None:
             choices=[mode.value for mode in Mode],
             help="as if this mode were configured",
         )
-    schemas = _verb(
+    schemas = add_verb(
         verbs,
         "schemas",
-        [],
         "up.cli.schemas",
         "write the JSON Schema of every configuration file, for editors",
     )
@@ -188,28 +195,3 @@ def _take_config(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--config", type=Path, metavar="DIR", help="folder with the YAML files (default: config)"
     )
-
-
-def _verb(
-    verbs: Any, name: str, aliases: list[str], module: str, text: str, epilog: str = ""
-) -> argparse.ArgumentParser:
-    parser: argparse.ArgumentParser = verbs.add_parser(
-        name,
-        aliases=aliases,
-        help=text,
-        description=f"{text[0].upper()}{text[1:]}.",
-        epilog=epilog,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.set_defaults(carry_out=_from(module))
-    return parser
-
-
-def _from(module: str) -> Callable[[argparse.Namespace], int]:
-    """Import a verb's module when it is used: 'up --help' stays quick."""
-
-    def carry_out(values: argparse.Namespace) -> int:
-        status: int = importlib.import_module(module).run(values)
-        return status
-
-    return carry_out

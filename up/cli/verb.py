@@ -1,0 +1,48 @@
+"""A verb of the command line, whose module is imported when the verb is used."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+from collections.abc import Callable
+from typing import Any
+
+from up.cli.cli_error import CliError
+
+
+def add_verb(
+    verbs: Any,
+    name: str,
+    module: str,
+    text: str,
+    *,
+    aliases: tuple[str, ...] = (),
+    epilog: str = "",
+) -> argparse.ArgumentParser:
+    """Add a verb to what ``add_subparsers`` returned; return its parser, for its options.
+
+    ``module`` is a module's name; its ``run(values) -> exit status`` carries the verb out. It is
+    imported only then, so that ``up --help`` stays quick. ``text`` is one line of help.
+    """
+    parser: argparse.ArgumentParser = verbs.add_parser(
+        name,
+        aliases=list(aliases),
+        help=text,
+        description=f"{text[0].upper()}{text[1:]}.",
+        epilog=epilog,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.set_defaults(carry_out=_from(module, name))
+    return parser
+
+
+def _from(module: str, verb: str) -> Callable[[argparse.Namespace], int]:
+    def carry_out(values: argparse.Namespace) -> int:
+        try:
+            run = importlib.import_module(module).run
+        except ModuleNotFoundError as error:
+            raise CliError(f"'{verb}' needs {error.name}, which is not installed") from error
+        status: int = run(values)
+        return status
+
+    return carry_out
