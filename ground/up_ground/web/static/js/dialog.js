@@ -1,0 +1,41 @@
+/**
+ * Ask before something that matters.
+ * @param {{title: string, text: string, yes?: string, no?: string, isDanger?: boolean}} question
+ * @returns {Promise<boolean>} false also for Escape, and while another question stands open
+ */
+export function confirm({ title, text, yes = "Yes", no = "No", isDanger = false }) {
+  const dialog = document.getElementById("confirm");
+  if (dialog.open) {
+    return Promise.resolve(false);
+  }
+  document.getElementById("confirm-title").textContent = title;
+  document.getElementById("confirm-text").textContent = text;
+  const yesButton = document.getElementById("confirm-yes");
+  const noButton = document.getElementById("confirm-no");
+  yesButton.textContent = yes;
+  noButton.textContent = no;
+  yesButton.classList.toggle("danger", isDanger);
+  const asker = document.activeElement;
+  return new Promise((resolve) => {
+    const quit = new AbortController();
+    let answer = false;
+    const end = (isYes) => {
+      answer = isYes;
+      dialog.close();
+    };
+    const when = { signal: quit.signal };
+    yesButton.addEventListener("click", () => end(true), when);
+    noButton.addEventListener("click", () => end(false), when);
+    dialog.addEventListener(
+      "close",
+      () => {
+        quit.abort();
+        asker?.focus?.();
+        resolve(answer);
+      },
+      when,
+    );
+    dialog.showModal();
+    noButton.focus();
+  });
+}

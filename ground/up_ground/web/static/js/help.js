@@ -1,0 +1,55 @@
+const KEYS = [
+  ["?", "this list"],
+  ["1 2 3 4 5", "go to instruments, map, control, charts, events"],
+  ["T", "dark or daylight"],
+  ["S", "sound on or off"],
+  ["Tab, Shift+Tab", "next, previous control"],
+  ["Space or Enter, held", "arm or disarm, on its button"],
+  ["Escape", "close a question: the answer is no"],
+];
+const PLACES = ["instruments", "panel-map", "panel-control", "panel-charts", "panel-events"];
+
+/** The dialog that lists the keys, and the keys themselves. */
+export function mountHelp() {
+  const dialog = document.getElementById("help");
+  const list = document.getElementById("help-keys");
+  for (const [key, meaning] of KEYS) {
+    const term = document.createElement("dt");
+    const text = document.createElement("dd");
+    term.textContent = key;
+    text.textContent = meaning;
+    list.append(term, text);
+  }
+  const open = () => dialog.open || dialog.showModal();
+  document.getElementById("help-button").addEventListener("click", open);
+  document.getElementById("help-close").addEventListener("click", () => dialog.close());
+  document.addEventListener("keydown", (event) => {
+    if (!isForPage(event)) {
+      return;
+    }
+    if (event.key === "?") {
+      open();
+    } else if (event.key === "t" || event.key === "T") {
+      document.getElementById("theme-button").click();
+    } else if (event.key === "s" || event.key === "S") {
+      document.getElementById("sound-button").click();
+    } else if (event.key >= "1" && event.key <= String(PLACES.length)) {
+      goTo(PLACES[Number(event.key) - 1]);
+    }
+  });
+}
+
+function isForPage(event) {
+  const isPlain = !event.ctrlKey && !event.altKey && !event.metaKey && !event.repeat;
+  const isTyping = event.target.closest?.("input, select, textarea, dialog[open], [contenteditable]");
+  return isPlain && !isTyping && document.querySelector("dialog[open]") === null;
+}
+
+function goTo(id) {
+  const place = document.getElementById(id);
+  if (!place.hasAttribute("tabindex")) {
+    place.tabIndex = -1;
+  }
+  place.focus({ preventScroll: true });
+  place.scrollIntoView({ block: "start" });
+}

@@ -1,0 +1,232 @@
+import { Backoff } from "./backoff.js";
+import { now_s } from "./clock.js";
+import { keepsakeOf } from "./keepsake.js";
+import { PendingAsks } from "./pending_asks.js";
+
+const PING_S = 1;
+const DEAF_S = 4;
+const CONNECT_S = 5;
+const LOST = "the connection to the ground server was lost before an answer came";
+
+/**
+ * The page's line to the ground server: opens, comes back by itself, asks and gets answers.
+ *
+ * `on(type, call)` hears every message of the server by its type, and besides
+ * `open` ({welcome}), `closed` ({reason, retry_s}) and `message` (each one).
+ */
+export class Connection {
+  #url;
+  #key;
+  #socket = null;
+  #backoff = new Backoff();
+  #asks = new PendingAsks();
+  #calls = new Map();
+  #memory;
+  #makeSocket;
+  #now_s;
+  #heard_s = 0;
+  #began_s = 0;
+  #retryAt_s = null;
+  #timer = null;
+  #pinger = null;
+  #pings = new Map();
+  #ping = 0;
+
+  /** The server's `welcome`, null while there is no connection. */
+  welcome = null;
+  /** The page's own round trip in seconds, null until measured. */
+  roundTrip_s = null;
+  /** Which frame the page has shown: set by the page, echoed in Commands. */
+  shownBeacon = () => null;
+
+  /**
+   * @param {string} url of the WebSocket
+   * @param {{key?: string|null, memory?: object, makeSocket?: Function, now_s?: Function}} [parts]
+   */
+  constructor(url, parts = {}) {
+    this.#url = url;
+    this.#key = parts.key ?? null;
+    this.#memory = parts.memory ?? keepsakeOf("sessionStorage");
+    this.#makeSocket = parts.makeSocket ?? ((address) => new WebSocket(address));
+    this.#now_s = parts.now_s ?? now_s;
+  }
+
+  /** @returns {boolean} whether the server has welcomed this page and the line stands */
+  get isOpen() {
+    return this.welcome !== null;
+  }
+
+  /** @returns {number|null} seconds until the next attempt; null: open or trying now */
+  get retry_s() {
+    return this.#retryAt_s === null ? null : Math.max(0, this.#retryAt_s - this.#now_s());
+  }
+
+  /**
+   * @param {string} type of message, or open, closed, message
+   * @param {(message: object) => void} call
+   * @returns {() => void} takes the call away
+   */
+  on(type, call) {
+    const calls = this.#calls.get(type) ?? new Set();
+    this.#calls.set(type, calls.add(call));
+    return () => calls.delete(call);
+  }
+
+  /** Connect, and stay connected. */
+  start() {
+    this.#pinger ??= setInterval(() => this.#tick(), PING_S * 1000);
+    this.#attempt();
+  }
+
+  /** Close, and stay closed. */
+  stop() {
+    clearInterval(this.#pinger);
+    clearTimeout(this.#timer);
+    this.#pinger = null;
+    const socket = this.#socket;
+    this.#socket = null;
+    this.welcome = null;
+    this.#retryAt_s = null;
+    socket?.close();
+    this.#asks.giveUp(LOST);
+  }
+
+  /**
+   * @param {object} message with its `type`
+   * @returns {boolean} whether it went out
+   */
+  send(message) {
+    if (!this.isOpen || this.#socket?.readyState !== 1) {
+      return false;
+    }
+    this.#socket.send(JSON.stringify(message));
+    return true;
+  }
+
+  /**
+   * Send a Command to an aircraft; the promise never fails, its outcome says what happened.
+   * @param {string} name of the Command
+   * @param {object} data
+   * @param {string} aircraft
+   * @returns {Promise<{outcome: string, code: ?string, reason: string, round_trip_ms: ?number, data: ?object}>}
+   */
+  command(name, data, aircraft = this.aircraft) {
+    const { ask, answer } = this.#asks.add();
+    const beacon = this.shownBeacon();
+    if (!this.send({ type: "command", ask, aircraft, name, data, beacon })) {
+      this.#asks.take({
+        ask,
+        outcome: "unsent",
+        reason: "there is no connection to the ground server",
+      });
+    }
+    return answer;
+  }
+
+  /** The aircraft that Commands go to: the one watched. */
+  aircraft = null;
+
+  #attempt() {
+    this.#retryAt_s = null;
+    this.#began_s = this.#heard_s = this.#now_s();
+    let socket;
+    try {
+      socket = this.#makeSocket(this.#url);
+    } catch (error) {
+      this.#lost(`the address does not work: ${error.message}`);
+      return;
+    }
+    this.#socket = socket;
+    socket.onopen = () => this.#hello(socket);
+    socket.onmessage = (event) => socket === this.#socket && this.#heard(event.data);
+    socket.onclose = (event) => socket === this.#socket && this.#lost(event.reason);
+  }
+
+  #hello(socket) {
+    const token = this.#memory.get("token");
+    const name = this.#memory.get("name") ?? "page";
+    socket.send(JSON.stringify({ type: "hello", name, key: this.#key, token }));
+  }
+
+  #heard(text) {
+    this.#heard_s = this.#now_s();
+    let message;
+    try {
+      message = JSON.parse(text);
+    } catch {
+      return;
+    }
+    if (message === null || typeof message !== "object" || typeof message.type !== "string") {
+      return;
+    }
+    if (message.type === "welcome") {
+      this.#welcomed(message);
+    } else if (message.type === "pong") {
+      this.#ponged(message);
+    } else if (message.type === "answer") {
+      this.#asks.take(message);
+    }
+    this.#tell(message.type, message);
+    this.#tell("message", message);
+  }
+
+  #welcomed(message) {
+    this.welcome = message;
+    this.#backoff.reset();
+    if (typeof message.token === "string") {
+      this.#memory.set("token", message.token);
+    }
+    this.#sendPing();
+    this.#tell("open", { welcome: message });
+  }
+
+  #ponged(message) {
+    const sent_s = this.#pings.get(message.ping);
+    if (sent_s !== undefined) {
+      this.roundTrip_s = this.#now_s() - sent_s;
+      this.#pings.clear();
+    }
+  }
+
+  #sendPing() {
+    this.#ping += 1;
+    if (this.#pings.size > 8) {
+      this.#pings.clear();
+    }
+    this.#pings.set(this.#ping, this.#now_s());
+    this.send({ type: "ping", ping: this.#ping });
+  }
+
+  #tick() {
+    if (this.isOpen) {
+      this.#sendPing();
+    }
+    const now = this.#now_s();
+    const isDeaf = this.isOpen && now - this.#heard_s > DEAF_S;
+    const isStuck = !this.isOpen && this.#retryAt_s === null && now - this.#began_s > CONNECT_S;
+    if (this.#socket !== null && (isDeaf || isStuck)) {
+      this.#lost("the ground server said nothing");
+    }
+  }
+
+  #lost(reason) {
+    const socket = this.#socket;
+    this.#socket = null;
+    socket?.close();
+    this.welcome = null;
+    this.roundTrip_s = null;
+    this.#pings.clear();
+    this.#asks.giveUp(LOST);
+    const retry_s = this.#backoff.next_s();
+    this.#retryAt_s = this.#now_s() + retry_s;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#attempt(), retry_s * 1000);
+    this.#tell("closed", { reason: String(reason ?? ""), retry_s });
+  }
+
+  #tell(type, message) {
+    for (const call of this.#calls.get(type) ?? []) {
+      call(message);
+    }
+  }
+}

@@ -1,0 +1,39 @@
+const LONGEST_MS = 15000;
+
+/** Commands that wait for their answers, each by its number. */
+export class PendingAsks {
+  #last = 0;
+  #waiting = new Map();
+
+  /** @returns {{ask: number, answer: Promise<object>}} a new number and its answer to come */
+  add() {
+    this.#last += 1;
+    const ask = this.#last;
+    const answer = new Promise((resolve) => {
+      const timer = setTimeout(
+        () => this.take({ ask, outcome: "timeout", reason: "the ground server did not answer" }),
+        LONGEST_MS,
+      );
+      this.#waiting.set(ask, { resolve, timer });
+    });
+    return { ask, answer };
+  }
+
+  /** @param {object} message the server's `answer`; one that nobody waits for is dropped */
+  take(message) {
+    const waiting = this.#waiting.get(message.ask);
+    if (waiting === undefined) {
+      return;
+    }
+    this.#waiting.delete(message.ask);
+    clearTimeout(waiting.timer);
+    waiting.resolve({ code: null, reason: "", round_trip_ms: null, data: null, ...message });
+  }
+
+  /** @param {string} reason why no answer can come any more: what became of them is unknown */
+  giveUp(reason) {
+    for (const ask of [...this.#waiting.keys()]) {
+      this.take({ ask, outcome: "timeout", reason });
+    }
+  }
+}

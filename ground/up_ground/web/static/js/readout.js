@@ -1,0 +1,83 @@
+import { readingOf } from "./state/ages.js";
+import { ageText, UNKNOWN } from "./state/format.js";
+
+/**
+ * Writes a text into an element, only when it changed.
+ * @param {Element} element
+ * @param {string} text
+ */
+export function setText(element, text) {
+  if (element.shownText !== text) {
+    element.shownText = text;
+    element.textContent = text;
+  }
+}
+
+/**
+ * Sets an attribute, only when it changed.
+ * @param {Element} element
+ * @param {string} name
+ * @param {string} value
+ */
+export function setAttribute(element, name, value) {
+  const shown = (element.shownAttributes ??= {});
+  if (shown[name] !== value) {
+    shown[name] = value;
+    element.setAttribute(name, value);
+  }
+}
+
+/**
+ * Makes a HTML element.
+ * @param {string} tag
+ * @param {Record<string, string>} [attributes]
+ * @param {...(Node|string)} children
+ * @returns {HTMLElement}
+ */
+export function html(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    element.setAttribute(name, value);
+  }
+  element.append(...children);
+  return element;
+}
+
+/**
+ * One value of the telemetry in an element: `data-key`, `data-freshness`, `--` when there is
+ * none, and its age in `ageElement` while it is stale.
+ */
+export class Readout {
+  #path;
+  #format;
+  #reading;
+
+  /**
+   * @param {Element} element
+   * @param {string} path of the value
+   * @param {(value: any) => string} [format]
+   * @param {Element|null} [ageElement]
+   */
+  constructor(element, path, format = String, ageElement = null) {
+    this.element = element;
+    this.ageElement = ageElement;
+    this.#path = path;
+    this.#format = format;
+    this.#reading = readingOf(path);
+    element.setAttribute("data-key", path);
+  }
+
+  /** @param {object} store */
+  update(store) {
+    const value = store.value(this.#path);
+    const freshness = value === null ? "none" : store.freshness(this.#reading);
+    setText(this.element, value === null ? UNKNOWN : this.#format(value));
+    setAttribute(this.element, "data-freshness", freshness);
+    if (this.ageElement !== null) {
+      const isOld = freshness === "stale";
+      const age_s = isOld ? (store.age_s(this.#reading) ?? store.age_s(null)) : null;
+      setText(this.ageElement, isOld ? ageText(age_s) : "");
+    }
+    return value;
+  }
+}

@@ -1,0 +1,95 @@
+import { setAttribute, setText } from "./readout.js";
+import { UNKNOWN } from "./state/format.js";
+import { worstLevel } from "./sound.js";
+
+/**
+ * The frame of the page: bar, banner of the link, choice of the aircraft, silence.
+ * @param {object} store
+ * @param {object} connection
+ * @returns {{update: () => void}}
+ */
+export function mountShell(store, connection) {
+  const at = (id) => document.getElementById(id);
+  const select = at("aircraft-select");
+  let shownNames = "";
+  let reason = "";
+  connection.on("closed", (event) => {
+    reason = event.reason;
+  });
+  select.addEventListener("change", () => store.watch(select.value));
+
+  function showNames() {
+    const names = JSON.stringify(store.names);
+    if (names !== shownNames) {
+      shownNames = names;
+      select.replaceChildren(...store.names.map((name) => new Option(name, name)));
+    }
+    if (store.aircraft !== null && select.value !== store.aircraft) {
+      select.value = store.aircraft;
+    }
+  }
+
+  function showLink() {
+    const banner = at("link-banner");
+    banner.hidden = connection.isOpen;
+    if (!connection.isOpen) {
+      const retry_s = connection.retry_s;
+      const next =
+        retry_s === null ? "trying now" : `next attempt in ${retry_s.toFixed(1)} s`;
+      const why = reason === "" ? "" : ` (${reason})`;
+      setText(banner, `No connection to the ground server${why}: ${next}`);
+    }
+  }
+
+  function showState() {
+    const state = store.aircraftState;
+    const root = document.documentElement;
+    setAttribute(root, "data-link", connection.isOpen ? "open" : "closed");
+    setAttribute(root, "data-aircraft-state", state);
+    const silence = at("silence");
+    silence.hidden = state === "live";
+    if (state !== "live") {
+      setText(silence, silenceText(store, state));
+    }
+    const frame = store.freshness(null);
+    showBar("bar-link", linkWord(connection, state), state === "none" ? "none" : frame);
+    showBar("bar-mode", store.text("flight_mode"), frame);
+    const armed = store.flag("armed");
+    showBar("bar-armed", armed === null ? null : armed ? "ARMED" : "disarmed", frame);
+    setAttribute(at("bar-armed"), "data-armed", String(armed));
+    const level = connection.isOpen ? worstLevel(store.alarms) : "alarm";
+    const count = store.alarms.length;
+    setAttribute(at("bar-alarm"), "data-level", level);
+    const words = count === 0 ? "none" : count === 1 ? store.alarms[0].kind : `${count} alarms`;
+    setText(at("bar-alarm"), connection.isOpen ? words : "no server");
+  }
+
+  function showBar(id, text, freshness) {
+    setText(at(id), text ?? UNKNOWN);
+    setAttribute(at(id), "data-freshness", text === null ? "none" : freshness);
+  }
+
+  return {
+    update() {
+      showNames();
+      showLink();
+      showState();
+    },
+  };
+}
+
+/**
+ * @param {object} store
+ * @param {"silent"|"none"} state
+ * @returns {string} what stands over the instruments
+ */
+export function silenceText(store, state) {
+  return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
+}
+
+function linkWord(connection, state) {
+  if (!connection.isOpen) {
+    return "no server";
+  }
+  return { live: "live", silent: "silent", none: "waiting" }[state];
+}

@@ -1,0 +1,68 @@
+/** A frame that is older looks old on the page, before the second is over. */
+export const SILENT_S = 0.9;
+
+/** Readings that come once a second or more seldom are stale later than SILENT_S. */
+const STALE_S = { location: 1.9, altitude: 1.9, heading: 1.9, battery: 120 };
+
+/** The readings whose ages telemetry tells (its `age_ms`). */
+export const READINGS = [
+  "orientation",
+  "rx",
+  "servo",
+  "location",
+  "altitude",
+  "heading",
+  "battery",
+];
+
+const READING_OF = {
+  orientation: "orientation",
+  rates: "orientation",
+  rx: "rx",
+  servo: "servo",
+  location: "location",
+  home: "location",
+  altitude: "altitude",
+  heading: "heading",
+};
+
+/**
+ * @param {string} path of a value in the telemetry
+ * @returns {string|null} the reading whose age is the value's; null: the frame's own age
+ */
+export function readingOf(path) {
+  if (path === "android.batteryLevel") {
+    return "battery";
+  }
+  const first = path.split(".", 1)[0];
+  return Object.hasOwn(READING_OF, first) ? READING_OF[first] : null;
+}
+
+/**
+ * @param {number|null} frameAge_s age of the newest frame; null: there was none
+ * @returns {boolean} whether nothing on the page can be trusted to be of now
+ */
+export function isSilent(frameAge_s) {
+  return frameAge_s === null || frameAge_s > SILENT_S;
+}
+
+/**
+ * The freshness of a reading, or of the frame itself.
+ * @param {string|null} reading null: the frame's own
+ * @param {number|null} frameAge_s
+ * @param {number|null|undefined} aboard_ms its `age_ms`; null: never came; undefined: not told
+ * @returns {"live"|"stale"|"none"}
+ */
+export function freshnessOf(reading, frameAge_s, aboard_ms) {
+  if (frameAge_s === null || (reading !== null && aboard_ms === null)) {
+    return "none";
+  }
+  if (isSilent(frameAge_s)) {
+    return "stale";
+  }
+  if (reading === null || aboard_ms === undefined) {
+    return "live";
+  }
+  const age_s = frameAge_s + Math.max(0, aboard_ms) / 1000;
+  return age_s > (STALE_S[reading] ?? SILENT_S) ? "stale" : "live";
+}

@@ -1,0 +1,68 @@
+/** What stands where nothing is known. */
+export const UNKNOWN = "--";
+
+/**
+ * @param {number|null} value
+ * @param {number} decimals
+ * @param {{sign?: boolean}} [options] sign: + before what is not negative
+ * @returns {string}
+ */
+export function numberText(value, decimals = 0, { sign = false } = {}) {
+  if (value === null || value === undefined || !Number.isFinite(value)) {
+    return UNKNOWN;
+  }
+  let shown = value.toFixed(decimals);
+  if (Number(shown) === 0) {
+    shown = shown.replace("-", "");
+  }
+  return sign && !shown.startsWith("-") ? `+${shown}` : shown;
+}
+
+/**
+ * @param {number|null} age_s
+ * @returns {string} as `0.03 s`, `12.4 s`, `3 min`, `2 h`
+ */
+export function ageText(age_s) {
+  if (age_s === null || age_s === undefined || !Number.isFinite(age_s)) {
+    return UNKNOWN;
+  }
+  if (age_s < 9.995) {
+    return `${Math.max(0, age_s).toFixed(2)} s`;
+  }
+  if (age_s < 99.95) {
+    return `${age_s.toFixed(1)} s`;
+  }
+  if (age_s < 3600) {
+    return `${(age_s / 60).toFixed(0)} min`;
+  }
+  return age_s < 360000 ? `${(age_s / 3600).toFixed(0)} h` : "days";
+}
+
+/**
+ * @param {boolean|null} value
+ * @param {string} yes
+ * @param {string} no
+ * @returns {string}
+ */
+export function flagText(value, yes = "yes", no = "no") {
+  return value === null || value === undefined ? UNKNOWN : value ? yes : no;
+}
+
+/**
+ * @param {number|null} degrees
+ * @returns {number|null} the same direction in 0 (included) to 360 (not included)
+ */
+export function compassDegrees(degrees) {
+  return degrees === null ? null : ((degrees % 360) + 360) % 360;
+}
+
+/**
+ * @param {number|null} degrees
+ * @returns {string} three figures, 000 to 359
+ */
+export function headingText(degrees) {
+  if (degrees === null) {
+    return UNKNOWN;
+  }
+  return String(Math.round(compassDegrees(degrees)) % 360).padStart(3, "0");
+}

@@ -1,0 +1,59 @@
+const GREATEST = 1e12;
+const LONGEST_TEXT = 400;
+const MOST_TEXTS = 32;
+
+/**
+ * @param {unknown} found
+ * @returns {number|null} a finite number of sane size; null: anything else
+ */
+export function number(found) {
+  return typeof found === "number" && Number.isFinite(found) && Math.abs(found) < GREATEST
+    ? found
+    : null;
+}
+
+/**
+ * @param {unknown} found
+ * @returns {boolean|null}
+ */
+export function flag(found) {
+  return typeof found === "boolean" ? found : null;
+}
+
+/**
+ * @param {unknown} found
+ * @returns {string|null} a text, bounded
+ */
+export function text(found) {
+  return typeof found === "string" ? found.slice(0, LONGEST_TEXT) : null;
+}
+
+/**
+ * @param {unknown} found
+ * @returns {string[]|null} the texts of a list, bounded; null: no list
+ */
+export function texts(found) {
+  if (!Array.isArray(found)) {
+    return null;
+  }
+  return found
+    .slice(0, MOST_TEXTS)
+    .map(text)
+    .filter((each) => each !== null);
+}
+
+/**
+ * @param {unknown} tree
+ * @param {string} path keys with dots between
+ * @returns {unknown} what lies there of its own, undefined where nothing does
+ */
+export function at(tree, path) {
+  let found = tree;
+  for (const key of path.split(".")) {
+    if (found === null || typeof found !== "object" || !Object.hasOwn(found, key)) {
+      return undefined;
+    }
+    found = found[key];
+  }
+  return found;
+}

@@ -1,0 +1,35 @@
+const RANK = { observer: 0, operator: 1, pilot: 2 };
+
+/** The least role that each Command needs (docs/protocols.md 5); what is not here: an operator. */
+const NEEDED = {
+  "arduino.profile.request": "observer",
+  "up.arm": "pilot",
+  "up.disarm": "pilot",
+  "arduino.calibrate": "pilot",
+  "arduino.pids.tunings": "pilot",
+};
+
+/**
+ * @param {string|null} role what the aircraft's link allows; null: unknown, the aircraft refuses
+ * @param {string} name of the Command
+ * @returns {boolean} whether to offer it
+ */
+export function roleAllows(role, name) {
+  if (role === null || !Object.hasOwn(RANK, role)) {
+    return true;
+  }
+  const needed = Object.hasOwn(NEEDED, name) ? NEEDED[name] : "operator";
+  return RANK[role] >= RANK[needed];
+}
+
+/**
+ * @param {string} name
+ * @param {object} [data]
+ * @returns {boolean} whether it only asks, and needs no control
+ */
+export function isOnlyRequest(name, data = {}) {
+  return (
+    name === "arduino.profile.request" ||
+    (name === "arduino.pids.tunings" && data.request === true)
+  );
+}

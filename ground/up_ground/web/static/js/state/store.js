@@ -1,0 +1,271 @@
+import { now_s } from "../link/clock.js";
+import { freshnessOf, isSilent, readingOf } from "./ages.js";
+import { EventList } from "./event_list.js";
+import * as judge from "./judge.js";
+import { isOnlyRequest, roleAllows } from "./roles.js";
+import { Track } from "./track.js";
+
+const REPAINT_MS = 200;
+
+/**
+ * What the page knows of the aircraft watched, and how old it is.
+ *
+ * Fields to read: `aircraft` (the name watched), `names` (all), `data` (the newest frame's tree,
+ * not judged), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
+ * (by name), `alarms` ([{kind, level, text}]), `gains`, `profile`, `replay`, `fault` (text),
+ * `track` (points, version), `events` (list, the newest last), `eventsVersion`.
+ */
+export class Store {
+  #connection;
+  #now_s;
+  #frameAt_s = null;
+  #frameAge_s = 0;
+  #calls = new Set();
+  #requestFrame;
+  #isAsked = false;
+  #events = new EventList();
+
+  aircraft = null;
+  names = [];
+  data = {};
+  frames = 0;
+  beacon = null;
+  shownBeacon = null;
+  statuses = new Map();
+  alarms = [];
+  gains = null;
+  profile = null;
+  replay = null;
+  fault = "";
+  track = new Track();
+
+  /**
+   * @param {object} connection
+   * @param {{now_s?: Function, requestFrame?: Function}} [parts]
+   */
+  constructor(connection, parts = {}) {
+    this.#connection = connection;
+    this.#now_s = parts.now_s ?? now_s;
+    this.#requestFrame = parts.requestFrame ?? ((call) => requestAnimationFrame(call));
+    connection.shownBeacon = () => this.shownBeacon;
+    connection.on("open", ({ welcome }) => this.#opened(welcome));
+    connection.on("closed", () => this.#change());
+    connection.on("message", (message) => this.take(message));
+  }
+
+  /** Repaint for the ages five times a second, whether or not a frame comes. */
+  start() {
+    setInterval(() => this.#change(), REPAINT_MS);
+  }
+
+  /** @param {string} name of the aircraft to look at from now on */
+  watch(name) {
+    if (name !== this.aircraft) {
+      this.aircraft = name;
+      this.#connection.aircraft = name;
+      this.#forget();
+    }
+    this.#events.clear();
+    this.track.replace([]);
+    this.#connection.send({ type: "watch", aircraft: name });
+    this.#change();
+  }
+
+  /**
+   * @param {() => void} call at most once an animation frame when something changed, and at
+   *   least five times a second
+   * @returns {() => void} takes the call away
+   */
+  subscribe(call) {
+    this.#calls.add(call);
+    this.#change();
+    return () => this.#calls.delete(call);
+  }
+
+  /** @returns {object|null} the server's `status` of the aircraft watched */
+  get status() {
+    return this.statuses.get(this.aircraft) ?? null;
+  }
+
+  /** @returns {object[]} events, the newest last: {number, at_s, level, kind, text, is_past} */
+  get events() {
+    return this.#events.all;
+  }
+
+  /** @returns {number} changes with the events */
+  get eventsVersion() {
+    return this.#events.version;
+  }
+
+  /** @returns {number} the clock of all ages, seconds */
+  get now_s() {
+    return this.#now_s();
+  }
+
+  /** @returns {boolean} whether nothing shown can be trusted to be of now */
+  get isSilent() {
+    return isSilent(this.age_s(null));
+  }
+
+  /** @returns {"live"|"silent"|"none"} none: not one frame came yet */
+  get aircraftState() {
+    return this.#frameAt_s === null ? "none" : this.isSilent ? "silent" : "live";
+  }
+
+  /** @returns {number|null} a number at that path; null: absent, or something else */
+  number(path) {
+    return judge.number(judge.at(this.data, path));
+  }
+
+  /** @returns {boolean|null} */
+  flag(path) {
+    return judge.flag(judge.at(this.data, path));
+  }
+
+  /** @returns {string|null} */
+  text(path) {
+    return judge.text(judge.at(this.data, path));
+  }
+
+  /** @returns {string[]|null} */
+  texts(path) {
+    return judge.texts(judge.at(this.data, path));
+  }
+
+  /** @returns {number|boolean|string|string[]|null} what is there, judged */
+  value(path) {
+    return this.number(path) ?? this.flag(path) ?? this.text(path) ?? this.texts(path);
+  }
+
+  /**
+   * @param {string|null} reading of `age_ms`; null: the newest frame itself
+   * @returns {number|null} seconds: on board, on the links, and since; null: unknown
+   */
+  age_s(reading) {
+    if (this.#frameAt_s === null) {
+      return null;
+    }
+    const frame_s = this.#frameAge_s + this.#now_s() - this.#frameAt_s;
+    if (reading === null || reading === undefined) {
+      return frame_s;
+    }
+    const aboard_ms = this.number(`age_ms.${reading}`);
+    return aboard_ms === null ? null : frame_s + Math.max(0, aboard_ms) / 1000;
+  }
+
+  /**
+   * @param {string|null} reading null: the newest frame itself
+   * @returns {"live"|"stale"|"none"}
+   */
+  freshness(reading) {
+    const aboard = judge.at(this.data, `age_ms.${reading}`);
+    return freshnessOf(reading, this.age_s(null), aboard === null ? null : (judge.number(aboard) ?? undefined));
+  }
+
+  /**
+   * @param {string} path of a value
+   * @returns {"live"|"stale"|"none"} none: there is no such value
+   */
+  freshnessAt(path) {
+    return this.value(path) === null ? "none" : this.freshness(readingOf(path));
+  }
+
+  /**
+   * @param {string} name of a Command
+   * @param {object} [data]
+   * @returns {boolean} whether control and role allow it
+   */
+  canCommand(name, data = {}) {
+    if (!this.#connection.isOpen || this.aircraft === null) {
+      return false;
+    }
+    const isMine = this.status?.control?.holder === "you" || isOnlyRequest(name, data);
+    return isMine && roleAllows(judge.text(this.status?.role), name);
+  }
+
+  /** @param {object} message of the server */
+  take(message) {
+    if (message.type === "status") {
+      this.statuses.set(message.aircraft, message);
+    } else if (message.type === "replay") {
+      this.replay = message;
+    } else if (message.type === "fault") {
+      this.fault = judge.text(message.text) ?? "";
+    } else if (message.aircraft !== this.aircraft || this.aircraft === null) {
+      return;
+    } else if (!this.#takeOfAircraft(message)) {
+      return;
+    }
+    this.#change();
+  }
+
+  #takeOfAircraft(message) {
+    const known = {
+      frame: () => this.#takeFrame(message),
+      event: () => this.#events.take(message, this.#now_s()),
+      alarms: () => (this.alarms = Array.isArray(message.active) ? message.active : []),
+      gains: () => (this.gains = message),
+      profile: () => (this.profile = message.profile ?? null),
+      track: () => this.track.replace(message.points),
+    };
+    if (!Object.hasOwn(known, message.type)) {
+      return false;
+    }
+    known[message.type]();
+    return true;
+  }
+
+  #takeFrame(message) {
+    if (message.data === null || typeof message.data !== "object") {
+      return;
+    }
+    this.data = message.data;
+    this.beacon = judge.number(message.beacon);
+    this.frames += 1;
+    this.#frameAt_s = this.#now_s();
+    const way_s = Math.max(0, judge.number(message.age_ms) ?? 0) / 1000;
+    this.#frameAge_s = way_s + (this.#connection.roundTrip_s ?? 0) / 2;
+    if (this.freshness("location") === "live") {
+      this.track.append(
+        this.number("location.latitude"),
+        this.number("location.longitude"),
+        this.number("location.altitude"),
+      );
+    }
+  }
+
+  #opened(welcome) {
+    this.names = judge.texts(welcome.aircraft) ?? [];
+    this.replay = null;
+    this.fault = "";
+    const kept = this.names.includes(this.aircraft) ? this.aircraft : this.names[0];
+    if (kept !== undefined) {
+      this.watch(kept);
+    }
+    this.#change();
+  }
+
+  #forget() {
+    this.data = {};
+    this.beacon = this.shownBeacon = null;
+    this.#frameAt_s = null;
+    this.alarms = [];
+    this.gains = this.profile = null;
+  }
+
+  #change() {
+    if (this.#isAsked) {
+      return;
+    }
+    this.#isAsked = true;
+    this.#requestFrame(() => this.#paint());
+  }
+
+  #paint() {
+    this.#isAsked = false;
+    for (const call of this.#calls) {
+      call();
+    }
+    this.shownBeacon = this.beacon;
+  }
+}
