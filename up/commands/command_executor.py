@@ -6,6 +6,8 @@ import threading
 from collections import Counter, deque
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
+from functools import update_wrapper
+from inspect import iscoroutinefunction
 from time import perf_counter
 from typing import Any
 from uuid import UUID, uuid4
@@ -22,6 +24,7 @@ from up.commands.refusal import CommandRefusedError, UnhandledCommandError
 from up.registrations import note_undo
 
 Handler = Callable[[Any], Any]
+Observe = Callable[[BaseCommand, Origin], object]
 _LOGGED_NAMES_LIMIT = 100
 # sys.exit() in a handler is a fault of that handler, no wish of the program.
 _FAULTS = (Exception, SystemExit)
@@ -34,16 +37,20 @@ class CommandExecutor:
     other the Command is handed to the reactor. A publish from inside a handler waits until the
     current Command's handlers are done. ``dispatching_since`` (perf_counter seconds, 0: idle) and
     ``dispatching`` let a monitor thread see who holds the reactor; one look at the clock a Command
-    is all that the bus can afford (``up.system.reactor_monitor`` does the rest).
+    is all that the bus can afford (``up.system.reactor_monitor`` does the rest). An observer sees
+    every Command, and is no handler of any.
     """
 
     log = Logger()
 
     __slots__ = (
         "_call_from_thread",
+        "_called",
         "_faults",
         "_handlers",
         "_logged_names",
+        "_observers",
+        "_observing",
         "_subscribers",
         "_thread",
         "_waiting",
@@ -66,6 +73,10 @@ class CommandExecutor:
         self._thread = threading.get_ident()
         self._subscribers: dict[str, tuple[tuple[UUID, Handler], ...]] = {}
         self._handlers: dict[str, tuple[Handler, ...]] = {}
+        self._observers: tuple[tuple[UUID, Handler], ...] = ()
+        self._observing: tuple[Handler, ...] = ()
+        # What a Command calls: without observers the handlers themselves, at no cost.
+        self._called = self._handlers
         self._waiting: deque[tuple[BaseCommand | _Asked, Origin]] = deque()
         self._logged_names: set[str] = set()
         self._faults: Counter[tuple[str, str]] = Counter()
@@ -100,12 +111,33 @@ class CommandExecutor:
         if not self._unsubscribe(name, handle):
             raise KeyError(f"no handler {handle} for {name}")
 
+    def add_observer(self, call: Observe) -> UUID:
+        """Let ``call(command, origin)`` see every Command before its handlers; return the handle.
+
+        It sees what nobody handles as well, and a Command that only observers see stays unhandled.
+        It delays nothing and refuses nothing: it returns at once, and what it returns is ignored;
+        a fault of its own is named and counted like a handler's. Raises TypeError when it is not
+        callable, or ``async def``.
+        """
+        if not callable(call) or iscoroutinefunction(call):
+            raise TypeError(f"{call!r} cannot observe: it is no plain callable")
+        handle = uuid4()
+        self._observers = (*self._observers, (handle, self._handing_origin(call)))
+        self._rebuild_called()
+        note_undo(lambda: self._drop_observer(handle))
+        return handle
+
+    def remove_observer(self, handle: UUID) -> None:
+        """Take an observer away; raises KeyError when the handle is none of an observer."""
+        if not self._drop_observer(handle):
+            raise KeyError(f"no observer {handle}")
+
     def has_handlers(self, command: type[BaseCommand] | str) -> bool:
         """Return whether anybody subscribed to a Command."""
         return bool(self._handlers.get(self._name_of(command)))
 
     def handlers_of(self, command: type[BaseCommand] | str) -> tuple[Handler, ...]:
-        """Return what is called for a Command, in order."""
+        """Return who subscribed to a Command, in order; observers are not among them."""
         return self._handlers.get(self._name_of(command), ())
 
     def execute_command(
@@ -119,13 +151,16 @@ class CommandExecutor:
         if self.dispatching_since or _get_ident() != self._thread:
             self._postpone(command, origin)
             return
+        handlers: tuple[Handler, ...]
         try:
-            handlers = self._handlers[command.NAME]
+            handlers = self._called[command.NAME]
         except KeyError:
             # Nobody has to care for what a module says; from outside, or unknown, it is a mistake.
             if origin is not INTERNAL or self.registry.get(command.NAME) is None:
                 self._count_unhandled(command.NAME)
-            return
+            handlers = self._observing
+            if not handlers:
+                return
         self.origin = origin
         self.dispatching = command
         self.dispatching_since = _now()
@@ -163,16 +198,20 @@ class CommandExecutor:
 
     def _execute_asked(self, command: BaseCommand, done: Deferred[None], origin: Origin) -> None:
         handlers = self._handlers.get(command.NAME, ())
-        if not handlers:
-            self._count_unhandled(command.NAME)
-            done.errback(Failure(UnhandledCommandError(command.NAME)))
-            return
         faults: list[Failure] = []
         waiting: list[Deferred[Any]] = []
+        if not handlers:
+            self._count_unhandled(command.NAME)
+            faults.append(Failure(UnhandledCommandError(command.NAME)))
         self.origin = origin
         self.dispatching = command
         self.dispatching_since = perf_counter()
         try:
+            for observer in self._observing:
+                try:
+                    observer(command)
+                except _FAULTS:
+                    self._failed(Failure(), observer, command)
             for handler in handlers:
                 try:
                     result = handler(command)
@@ -226,6 +265,29 @@ class CommandExecutor:
             self._handlers[name] = handlers
         else:
             self._handlers.pop(name, None)
+        self._rebuild_called()
+
+    def _drop_observer(self, handle: UUID) -> bool:
+        left = tuple(each for each in self._observers if each[0] != handle)
+        if len(left) == len(self._observers):
+            return False
+        self._observers = left
+        self._rebuild_called()
+        return True
+
+    def _rebuild_called(self) -> None:
+        observing = self._observing = tuple(call for _, call in self._observers)
+        self._called = (
+            {name: (*observing, *handlers) for name, handlers in self._handlers.items()}
+            if observing
+            else self._handlers
+        )
+
+    def _handing_origin(self, call: Observe) -> Handler:
+        def observe(command: BaseCommand) -> None:
+            call(command, self.origin)
+
+        return update_wrapper(observe, call)
 
     def _count_unhandled(self, name: str) -> None:
         self.counters["unhandled"] += 1
@@ -235,7 +297,7 @@ class CommandExecutor:
 
     def _failed(self, failure: Failure, handler: Handler, command: BaseCommand) -> None:
         owner = owner_of(handler)
-        if failure.check(CommandRefusedError):
+        if failure.check(CommandRefusedError) and handler not in self._observing:
             self.counters["refused"] += 1
             self.log.info(
                 "{owner} refused {name}: {reason}",
@@ -275,8 +337,10 @@ def _ignore(owner: str) -> None:
     """Do nothing about a failed handler but what the bus does itself."""
 
 
-def owner_of(handler: Handler) -> str:
+def owner_of(handler: Callable[..., Any]) -> str:
     """Return the class or function that a handler belongs to, for people."""
+    # An observer is wrapped, to be handed the origin.
+    handler = getattr(handler, "__wrapped__", handler)
     owner = getattr(handler, "__self__", None)
     if owner is not None:
         return type(owner).__name__

@@ -1,0 +1,211 @@
+"""An observer of the bus sees every Command and is no handler of any."""
+
+import pytest
+from twisted.internet.defer import Deferred
+
+from tests.up.commands.samples import Border, Log, NumberCommand, OtherCommand, make_bus
+from up.commands.command import BaseCommand
+from up.commands.origin import INTERNAL, Origin
+from up.commands.refusal import CommandRefusedError, UnhandledCommandError
+from up.commands.roles import Role
+from up.commands.telemetry_commands import TelemetryCommand
+from up.registrations import Registrations
+
+GROUND = Origin("ground", Role.PILOT)
+
+
+@pytest.fixture
+def bus():
+    return make_bus()
+
+
+class Recorder:
+    """Notes what it sees."""
+
+    def __init__(self, bus):
+        self.seen = []
+        self.handle = bus.add_observer(self.observe)
+
+    def observe(self, command, origin):
+        self.seen.append((command, origin))
+
+
+class Clumsy:
+    """An observer that fails."""
+
+    def __init__(self, fault):
+        self.fault = fault
+
+    def observe(self, command, origin):
+        raise self.fault
+
+
+def test_it_sees_what_is_handled_and_what_nobody_handles_with_the_origin(bus):
+    recorder = Recorder(bus)
+    bus.register_command(NumberCommand, lambda _: None)
+    bus.execute_command(NumberCommand(1), GROUND)
+    bus.execute_command(NumberCommand(2))
+    bus.execute_command(OtherCommand(), GROUND)
+    bus.execute_command(OtherCommand())
+    assert recorder.seen == [
+        (NumberCommand(1), GROUND),
+        (NumberCommand(2), INTERNAL),
+        (OtherCommand(), GROUND),
+        (OtherCommand(), INTERNAL),
+    ]
+
+
+def test_it_sees_a_command_before_its_handlers(bus):
+    order = []
+    bus.register_command(NumberCommand, lambda _: order.append("handler"))
+    bus.add_observer(lambda command, origin: order.append("observer"))
+    bus.register_command(NumberCommand, lambda _: order.append("later handler"))
+    bus.execute_command(NumberCommand(1))
+    bus.execute_for_outcome(NumberCommand(1), GROUND)
+    assert order == ["observer", "handler", "later handler"] * 2
+
+
+def test_it_sees_commands_that_come_to_be_handled_or_not_while_it_looks(bus):
+    recorder = Recorder(bus)
+    handle = bus.register_command(NumberCommand, lambda _: None)
+    bus.execute_command(NumberCommand(1))
+    bus.unregister_command(NumberCommand, handle)
+    bus.execute_command(NumberCommand(2))
+    assert [command.number for command, _ in recorder.seen] == [1, 2]
+
+
+def test_a_nested_publish_is_seen_in_its_turn_with_its_own_origin(bus):
+    recorder = Recorder(bus)
+    bus.register_command(NumberCommand, lambda _: bus.execute_command(OtherCommand()))
+    bus.execute_command(NumberCommand(1), GROUND)
+    assert recorder.seen == [(NumberCommand(1), GROUND), (OtherCommand(), INTERNAL)]
+
+
+def test_a_publish_of_an_observer_waits_its_turn(bus):
+    heard = []
+    bus.register_command(OtherCommand, lambda _: heard.append("other"))
+    bus.register_command(NumberCommand, lambda _: heard.append("number"))
+
+    def publish(command, origin):
+        if isinstance(command, NumberCommand):
+            bus.execute_command(OtherCommand())
+
+    bus.add_observer(publish)
+    bus.execute_command(NumberCommand(1))
+    assert heard == ["number", "other"]
+
+
+def test_what_only_an_observer_sees_stays_unhandled(bus):
+    recorder = Recorder(bus)
+    got = []
+    bus.execute_for_outcome(NumberCommand(1), GROUND).addBoth(got.append)
+    assert got[0].check(UnhandledCommandError)
+    bus.execute_command(NumberCommand(2), GROUND)
+    assert bus.counters["unhandled"] == 2
+    assert not bus.has_handlers(NumberCommand)
+    assert bus.handlers_of(NumberCommand) == ()
+    assert len(recorder.seen) == 2
+
+
+def test_a_peer_is_told_that_nobody_handled_what_an_observer_saw():
+    border = Border()
+    recorder = Recorder(border.bus)
+    border.say("test.number", {"number": 1}, "a")
+    assert border.codes == ["unavailable"]
+    assert [command for command, _ in recorder.seen] == [NumberCommand(1)]
+
+
+def test_an_observer_is_no_subscriber_of_telemetry(bus):
+    Recorder(bus)
+    assert bus.handlers_of(TelemetryCommand) == ()
+
+
+@pytest.mark.parametrize("fault", [RuntimeError("clumsy"), CommandRefusedError("no"), SystemExit()])
+@pytest.mark.parametrize("ask", [False, True])
+def test_its_fault_is_named_and_counted_and_harms_nobody(bus, ask, fault):
+    heard, owners, got = [], [], []
+    bus.on_handler_failed = owners.append
+    bus.add_observer(Clumsy(fault).observe)
+    recorder = Recorder(bus)
+    bus.register_command(NumberCommand, heard.append)
+    with Log() as log:
+        if ask:
+            bus.execute_for_outcome(NumberCommand(1), GROUND).addBoth(got.append)
+            assert got == [None]
+        else:
+            bus.execute_command(NumberCommand(1), GROUND)
+    assert heard == [NumberCommand(1)]
+    assert len(recorder.seen) == 1
+    assert owners == ["Clumsy"]
+    assert bus.counters == {"failed_handlers": 1}
+    assert "Clumsy failed while handling test.number" in log.text()
+
+
+def test_a_fault_at_what_nobody_handles_leaves_a_bus_that_delivers(bus):
+    bus.add_observer(Clumsy(RuntimeError()).observe)
+    bus.execute_command(OtherCommand())
+    assert bus.counters == {"failed_handlers": 1}
+    assert not bus.dispatching_since
+
+
+def test_what_it_returns_delays_no_outcome(bus):
+    bus.add_observer(lambda command, origin: Deferred())
+    bus.register_command(NumberCommand, lambda _: None)
+    got = []
+    bus.execute_for_outcome(NumberCommand(1), GROUND).addBoth(got.append)
+    assert got == [None]
+
+
+def test_what_is_no_observer_is_refused(bus):
+    async def later(command, origin):
+        """Never awaited by anybody."""
+
+    for wrong in ("text", later):
+        with pytest.raises(TypeError, match="cannot observe"):
+            bus.add_observer(wrong)
+
+
+def test_removing_takes_the_handle(bus):
+    first, second = Recorder(bus), Recorder(bus)
+    bus.register_command(NumberCommand, lambda _: None)
+    bus.remove_observer(first.handle)
+    bus.execute_command(NumberCommand(1))
+    bus.execute_command(OtherCommand())
+    assert (len(first.seen), len(second.seen)) == (0, 2)
+    with pytest.raises(KeyError, match="no observer"):
+        bus.remove_observer(first.handle)
+
+
+def test_without_observers_a_bus_calls_what_it_called_before(bus):
+    bus.register_command(NumberCommand, lambda _: None)
+    recorder = Recorder(bus)
+    bus.remove_observer(recorder.handle)
+    assert bus._called is bus._handlers
+    bus.register_command(OtherCommand, lambda _: None)
+    assert bus._called is bus._handlers
+
+
+def test_one_that_goes_while_a_command_is_delivered_acts_from_the_next_on(bus):
+    recorders = [Recorder(bus)]
+    bus.register_command(NumberCommand, lambda _: bus.remove_observer(recorders.pop().handle))
+    recorder = recorders[0]
+    bus.execute_command(NumberCommand(1))
+    bus.execute_command(OtherCommand())
+    assert len(recorder.seen) == 1
+
+
+def test_it_is_taken_back_with_its_module(bus):
+    registrations = Registrations()
+    with registrations.noted():
+        recorder = Recorder(bus)
+    registrations.undo()
+    bus.execute_command(NumberCommand(1))
+    assert not recorder.seen
+
+
+def test_unknown_commands_are_seen_too(bus):
+    recorder = Recorder(bus)
+    unknown = type("Unknown", (BaseCommand,), {"NAME": "unknown"})
+    bus.execute_command(unknown())
+    assert recorder.seen[0][0].NAME == "unknown"
+    assert bus.counters["unhandled"] == 1
