@@ -1,0 +1,1 @@
+"""Flights as files of other programs: tables, tracks."""

@@ -1,0 +1,87 @@
+"""Messages as rows: every message of one topic, or everything at one rate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, Protocol
+
+from black_box_cog.export.csv_cells import cell, flat
+from black_box_cog.export.track import utc_text
+
+TIME, WALL_TIME, AGE = "time_s", "time", "age_s"
+
+
+class Message(Protocol):
+    """What a table needs of a message in a log."""
+
+    @property
+    def topic(self) -> str:
+        """Return the topic."""
+
+    @property
+    def time_s(self) -> float:
+        """Return the seconds since the log's first message."""
+
+    @property
+    def data(self) -> Mapping[str, Any]:
+        """Return the content."""
+
+
+def columns_of(messages: Iterable[Message]) -> dict[str, list[str]]:
+    """Return the dotted paths of each topic, in the order in which they came first."""
+    columns: dict[str, dict[str, None]] = {}
+    for message in messages:
+        paths = columns.setdefault(message.topic, {})
+        for path, _ in flat(message.data):
+            paths.setdefault(path)
+    return {topic: list(paths) for topic, paths in columns.items()}
+
+
+def topic_rows(
+    messages: Iterable[Message], paths: list[str], start_unix_s: float
+) -> Iterator[list[str]]:
+    """Yield the head and a row for every message of one topic."""
+    yield [cell(name) for name in (TIME, WALL_TIME, *paths)]
+    for message in messages:
+        found = dict(flat(message.data))
+        yield [*_times(message.time_s, start_unix_s), *(cell(found.get(path)) for path in paths)]
+
+
+def wide_rows(
+    messages: Iterable[Message],
+    columns: Mapping[str, list[str]],
+    start_unix_s: float,
+    length_s: float,
+    rate_hz: float,
+) -> Iterator[list[str]]:
+    """Yield the head and ``rate_hz`` rows a second with the newest values of every topic.
+
+    ``messages`` are in the order of time. Each topic has a column that says how old its values are
+    (seconds): a source that has fallen silent keeps its last values, and its age grows.
+    """
+    head = [TIME, WALL_TIME]
+    for topic, paths in columns.items():
+        head += [f"{topic}.{path}" for path in (*paths, AGE)]
+    yield [cell(name) for name in head]
+    newest: dict[str, tuple[float, list[str]]] = {}
+    waiting = iter(messages)
+    message = next(waiting, None)
+    for number in range(int(length_s * rate_hz) + 1):
+        time_s = number / rate_hz
+        while message is not None and message.time_s <= time_s:
+            found = dict(flat(message.data))
+            cells = [cell(found.get(path)) for path in columns[message.topic]]
+            newest[message.topic] = (message.time_s, cells)
+            message = next(waiting, None)
+        row = _times(time_s, start_unix_s)
+        for topic, paths in columns.items():
+            if topic in newest:
+                came_s, cells = newest[topic]
+                row += [*cells, f"{time_s - came_s:.3f}"]
+            else:
+                row += [""] * (len(paths) + 1)
+        yield row
+
+
+def _times(time_s: float, start_unix_s: float) -> list[str]:
+    return [f"{time_s:.6f}", utc_text(start_unix_s + time_s) or ""]

@@ -1,0 +1,1 @@
+"""Pictures of a flight, drawn with matplotlib where it is installed."""
