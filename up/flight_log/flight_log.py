@@ -1,0 +1,157 @@
+"""One flight as its log tells it: every part, every topic, in the order of time."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from up.flight_log.json_message import decode, number_at
+from up.flight_log.log_files import LogFiles
+from up.flight_log.log_index import LogIndex
+from up.flight_log.log_parts import Attachment, PartReader, TopicNotes
+from up.flight_log.mcap_format import FlightLogError
+
+_NS = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedMessage:
+    """One message; ``time_s`` counts from the first message of the log."""
+
+    topic: str
+    time_s: float
+    data: dict[str, Any]
+
+
+class FlightLog:
+    """The messages of one flight, found by an index and decoded when they are asked for.
+
+    About 30 bytes of memory a message, whatever the messages hold. The files are opened anew for
+    every look, so that nothing is to be closed. ``is_complete``: every part ended as it should.
+    ``start_unix_s`` is 0 for a log without messages. ``topics`` gives the messages by topic.
+    """
+
+    def __init__(self, paths: Sequence[Path], index: LogIndex, parts: Sequence[PartReader]) -> None:
+        """Take what `read` has found."""
+        self.paths = list(paths)
+        self.topics: dict[str, int] = index.counts()
+        self.metadata: dict[str, dict[str, str]] = {}
+        self.attachments: dict[str, Attachment] = {}
+        self.is_complete = all(part.is_complete for part in parts)
+        self._index = index
+        self._names = list(index.topics)
+        self._notes: dict[str, TopicNotes] = {}
+        self._file_problems: list[str] = []
+        for part in parts:
+            self._add(part)
+        times = index.times_ns
+        self._start_ns = times[0] if times else 0
+        self.start_unix_s = self._start_ns * _NS
+        self.length_s = (times[-1] - self._start_ns) * _NS if times else 0.0
+
+    @classmethod
+    def read(cls, paths: Sequence[Path]) -> FlightLog:
+        """Return the flight in these files, its parts in their order.
+
+        What is lost or damaged is told in ``problems``; a part that is no log at all too, as long
+        as another one is. Raises FlightLogError (one sentence) when none can be read.
+        """
+        if not paths:
+            raise FlightLogError("no flight log is named")
+        index, parts = LogIndex(), []
+        for number, path in enumerate(paths):
+            part = PartReader(path, number)
+            part.read(index)
+            parts.append(part)
+        if all(part.fault for part in parts):
+            raise FlightLogError(parts[0].fault)
+        index.finish()
+        return cls(paths, index, parts)
+
+    @property
+    def problems(self) -> list[str]:
+        """Return one sentence for each kind of fault; decoding may add to them."""
+        told = list(self._file_problems)
+        for topic in self.topics:
+            told += self._notes[topic].sentences(topic) if topic in self._notes else []
+        return told
+
+    def schema(self, topic: str) -> dict[str, Any] | None:
+        """Return the JSON Schema of a topic; None: it has none that can be read."""
+        notes = self._notes.get(topic)
+        if notes is None or notes.schema is None:
+            return None
+        try:
+            schema = json.loads(notes.schema.data)
+        except (ValueError, RecursionError):
+            return None
+        return schema if isinstance(schema, dict) else None
+
+    def schema_name(self, topic: str) -> str:
+        """Return the name of a topic's schema; empty: it has none."""
+        notes = self._notes.get(topic)
+        return notes.schema.name if notes is not None and notes.schema is not None else ""
+
+    def messages(self, *topics: str, since_s: float = 0.0) -> Iterator[LoggedMessage]:
+        """Yield the messages of these topics (none named: of all) in the order of time.
+
+        A message that is no JSON object is counted in ``problems`` and left out. Raises
+        FlightLogError when a file cannot be read any more.
+        """
+        names, times, start_ns = self._names, self._index.times_ns, self._start_ns
+        for position, number, data in self._decoded(topics, since_s):
+            yield LoggedMessage(names[number], (times[position] - start_ns) * _NS, data)
+
+    def series(self, topic: str, field: str) -> tuple[list[float], list[float]]:
+        """Return the times, s, and the values of a field, a path with dots between its keys.
+
+        What is no finite number is left out. Raises FlightLogError as `messages` does.
+        """
+        path = tuple(field.split("."))
+        times, start_ns = self._index.times_ns, self._start_ns
+        times_s: list[float] = []
+        values: list[float] = []
+        for position, _, data in self._decoded((topic,), 0.0):
+            value = number_at(data, path)
+            if value is not None:
+                times_s.append((times[position] - start_ns) * _NS)
+                values.append(value)
+        return times_s, values
+
+    def times(self, topic: str) -> list[float]:
+        """Return when the messages of a topic came, s, without looking into them."""
+        times, start_ns = self._index.times_ns, self._start_ns
+        return [(times[each] - start_ns) * _NS for each in self._index.positions((topic,))]
+
+    def _decoded(
+        self, topics: Sequence[str], since_s: float
+    ) -> Iterator[tuple[int, int, dict[str, Any]]]:
+        index = self._index
+        since_ns = self._start_ns + round(since_s / _NS) if since_s > 0 else 0
+        unread: list[Callable[[int, str], None] | None] = [None] * len(self._names)
+        encodings = [self._notes[name].is_json for name in self._names]
+        with LogFiles(self.paths) as files:
+            for position in index.positions(topics, since_ns):
+                number = index.name_of(position)
+                if not encodings[number]:
+                    continue
+                try:
+                    yield position, number, decode(files.read(*index.place_of(position)))
+                except ValueError as error:
+                    note = unread[number]
+                    if note is None:
+                        note = unread[number] = self._notes[self._names[number]].note
+                    note(position, str(error))
+
+    def _add(self, part: PartReader) -> None:
+        self._file_problems += part.problems
+        for name, values in part.metadata.items():
+            # The first part says how the flight began; later parts say the same, or more.
+            self.metadata[name] = {**values, **self.metadata.get(name, {})}
+        for name, attachment in part.attachments.items():
+            self.attachments.setdefault(name, attachment)
+        for topic, notes in part.topics.items():
+            self._notes.setdefault(topic, notes)

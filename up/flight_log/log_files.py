@@ -1,0 +1,74 @@
+"""Reads single messages out of the parts of a log, in the order of their places."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from up.flight_log.mcap_format import FlightLogError
+
+_WINDOW = 64 * 1024
+_NEAR = 4 * 1024
+"""What begins so soon after the last one is read together with what follows it."""
+
+
+class LogFiles:
+    """The parts, opened when they are first asked; close it, or use it as a context.
+
+    Messages that lie close together cost one call of the system for many, scattered ones cost one
+    each and bring nothing else into memory.
+    """
+
+    def __init__(self, paths: Sequence[Path]) -> None:
+        self._paths = paths
+        self._descriptors: dict[int, int] = {}
+        self._part = -1
+        self._begin = 0
+        self._end = 0
+        self._window = b""
+
+    def __enter__(self) -> Self:
+        """Return itself."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close every file."""
+        self.close()
+
+    def read(self, part: int, offset: int, size: int) -> bytes:
+        """Return so many bytes of a part; raises FlightLogError."""
+        begin = offset - self._begin
+        if part != self._part or begin < 0 or offset + size > self._end:
+            is_near = part == self._part and 0 <= offset - self._end <= _NEAR
+            self._fill(part, offset, max(size, _WINDOW) if is_near else size)
+            begin = 0
+            if self._end - offset < size:
+                raise FlightLogError(f"{self._paths[part].name}: it became shorter meanwhile")
+        return self._window[begin : begin + size]
+
+    def close(self) -> None:
+        """Close every file; harmless when they are closed."""
+        descriptors, self._descriptors = self._descriptors, {}
+        for each in descriptors.values():
+            os.close(each)
+
+    def _fill(self, part: int, offset: int, size: int) -> None:
+        try:
+            descriptor = self._descriptors.get(part)
+            if descriptor is None:
+                flags = os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK
+                descriptor = self._descriptors[part] = os.open(self._paths[part], flags)
+            self._window = os.pread(descriptor, size, offset)
+        except OSError as error:
+            raise FlightLogError(
+                f"{self._paths[part].name}: cannot be read: {error.strerror or error}"
+            ) from None
+        self._part, self._begin, self._end = part, offset, offset + len(self._window)

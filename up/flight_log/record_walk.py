@@ -1,0 +1,244 @@
+"""Walks a file of MCAP from record to record, through one window, however the file ends."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+from zlib import crc32
+
+from up.flight_log.mcap_format import (
+    CHUNK,
+    FOOTER,
+    MAGIC,
+    RECORD,
+    U32,
+    U64,
+    FlightLogError,
+    Opcode,
+)
+from up.flight_log.problems import Problems
+
+LONGEST_RECORD = 16 * 1024 * 1024
+"""What is longer (but a chunk, which is walked into) is passed over; the window never is."""
+_WINDOW = 1024 * 1024
+_LONGEST_COMPRESSION = 64
+_HEAD = RECORD.size
+_IN_CHUNKS = frozenset({Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE})
+
+
+class RecordWalk:
+    """Yields (opcode, offset of the content in the file, its start in ``buffer``, its length).
+
+    The content is ``buffer[start:start + length]`` until the walk goes on. Records inside chunks
+    without compression come like all others. What cannot be read is noted in ``problems``;
+    ``is_complete`` says after the walk whether the file ended as it should. Raises FlightLogError
+    for what is no MCAP at all or cannot be read.
+    """
+
+    def __init__(self, file: BinaryIO, problems: Problems) -> None:
+        self.buffer = b""
+        self.is_complete = False
+        self._file = file
+        self._problems = problems
+        self._name = problems.name
+        self._size = os.fstat(file.fileno()).st_size
+        self._base = 0
+        self._pos = 0
+        self._data_sum = _Checksum(0)
+        self._chunk_sum: _Checksum | None = None
+        self._summary_sum: _Checksum | None = None
+        self._limit = self._size
+        self._chunk_end = 0
+        self._chunk_crc = 0
+
+    def __iter__(self) -> Iterator[tuple[int, int, int, int]]:
+        """Walk once."""
+        if not self._has(len(MAGIC)) or not self.buffer.startswith(MAGIC):
+            why = "it does not begin as MCAP does" if self.buffer else "it is empty"
+            raise FlightLogError(f"{self._name}: no flight log: {why}")
+        self._pos = len(MAGIC)
+        while True:
+            place = self._base + self._pos
+            if self._chunk_sum is not None and place + _HEAD > self._limit:
+                self._leave_chunk()
+                continue
+            if not self._has(_HEAD):
+                self._note_end(place)
+                return
+            opcode, length = RECORD.unpack_from(self.buffer, self._pos)
+            if opcode == 0 or place + _HEAD + length > self._limit:
+                if self._chunk_sum is not None:
+                    self._problems.note("a chunk is damaged; the rest of it is lost", place)
+                    self._chunk_crc = 0
+                    self._go_to(self._limit)
+                    continue
+                self._note_broken(opcode, length, place)
+                return
+            if opcode == Opcode.CHUNK:
+                self._enter_chunk(place, length)
+                continue
+            if self._chunk_sum is not None and opcode not in _IN_CHUNKS:
+                self._go_to(place + _HEAD + length)
+                continue
+            if length > LONGEST_RECORD:
+                self._problems.note(f"a record of {length} bytes is passed over", place)
+                self._go_to(place + _HEAD + length)
+                continue
+            if not self._has(_HEAD + length):
+                raise FlightLogError(f"{self._name}: it became shorter while it was read")
+            start = self._pos + _HEAD
+            yield opcode, place + _HEAD, start, length
+            self._pos = start + length
+            if opcode == Opcode.DATA_END:
+                self._end_data(place, length)
+            elif opcode == Opcode.FOOTER:
+                self._end(place, length)
+                return
+
+    def _note_end(self, place: int) -> None:
+        left = self._size - place
+        self._problems.note(
+            "the recording was cut off: it has no end"
+            + (f", and {_bytes(left)} of a last record are lost" if left else ""),
+            place,
+        )
+
+    def _note_broken(self, opcode: int, length: int, place: int) -> None:
+        left = self._size - place
+        if opcode == 0:
+            what = f"no records any more, {_bytes(left)} are lost: cut off or damaged"
+        elif length > LONGEST_RECORD and opcode != Opcode.CHUNK:
+            what = f"a record that says it has {length} bytes: {_bytes(left)} are lost"
+        else:
+            what = f"the recording was cut off: {_bytes(left)} of a last record are lost"
+        self._problems.note(what, place)
+
+    def _enter_chunk(self, place: int, length: int) -> None:
+        end = place + _HEAD + length
+        self._chunk_end = end
+        if self._chunk_sum is not None:
+            self._problems.note("a chunk inside a chunk is passed over", place)
+            self._go_to(end)
+            return
+        self._has(min(_HEAD + length, _HEAD + CHUNK.size + U32.size + _LONGEST_COMPRESSION + 8))
+        at = self._pos + _HEAD
+        head = self.buffer[at : at + min(length, CHUNK.size + U32.size + _LONGEST_COMPRESSION + 8)]
+        fault, begin = _fault_of_chunk(head, length)
+        if fault:
+            self._problems.note(fault, place)
+            self._go_to(end)
+            return
+        self._chunk_crc = CHUNK.unpack_from(head)[3]
+        begin += place + _HEAD
+        self._limit = begin + U64.unpack_from(head, begin - place - _HEAD - U64.size)[0]
+        self._chunk_sum = _Checksum(begin)
+        self._go_to(begin)
+
+    def _leave_chunk(self) -> None:
+        place, self._limit = self._limit, self._size
+        self._go_to(place)
+        assert self._chunk_sum is not None
+        self._chunk_sum.take(self.buffer, self._base, place)
+        if self._chunk_crc and self._chunk_crc != self._chunk_sum.value:
+            self._problems.note("a chunk does not match its checksum: it is damaged", place)
+        self._chunk_sum = None
+        self._go_to(self._chunk_end)
+
+    def _end_data(self, place: int, length: int) -> None:
+        self._data_sum.take(self.buffer, self._base, place)
+        self._summary_sum = _Checksum(self._base + self._pos)
+        if length < U32.size:
+            return
+        (told,) = U32.unpack_from(self.buffer, self._pos - length)
+        if told and told != self._data_sum.value:
+            self._problems.note("it does not match its checksum: something is damaged", place)
+
+    def _end(self, place: int, length: int) -> None:
+        if length < FOOTER.size or not self._has(len(MAGIC)):
+            self._note_end(place)
+            return
+        content = place + _HEAD - self._base
+        summary, _, told = FOOTER.unpack_from(self.buffer, content)
+        checked = self._summary_sum
+        if told and checked is not None and checked.end == summary:
+            checked.take(self.buffer, self._base, self._base + content + FOOTER.size - U32.size)
+            if checked.value != told:
+                self._problems.note("its summary does not match its checksum", place)
+        self.is_complete = self.buffer.startswith(MAGIC, self._pos)
+        if not self.is_complete:
+            self._note_end(place)
+
+    def _has(self, needed: int) -> bool:
+        """Return whether so many bytes follow, and have them in the window."""
+        if len(self.buffer) - self._pos >= needed:
+            return True
+        place = self._base + self._pos
+        for each in (self._data_sum, self._chunk_sum, self._summary_sum):
+            if each is not None:
+                each.take(self.buffer, self._base, place)
+        rest = self.buffer[self._pos :]
+        try:
+            self.buffer = rest + self._file.read(max(_WINDOW, needed - len(rest)))
+        except OSError as error:
+            raise FlightLogError(
+                f"{self._name}: cannot be read at byte {place}: {error.strerror or error}"
+            ) from None
+        self._base, self._pos = place, 0
+        return len(self.buffer) >= needed
+
+    def _go_to(self, place: int) -> None:
+        """Go on at that byte of the file, reading all that lies between for the checksums."""
+        while place - self._base > len(self.buffer):
+            self._pos = len(self.buffer)
+            if not self._has(1):
+                raise FlightLogError(f"{self._name}: it became shorter while it was read")
+        self._pos = place - self._base
+
+
+class _Checksum:
+    """A CRC over the file from one place on; ``end`` is how far it has come."""
+
+    def __init__(self, begin: int) -> None:
+        self.value = 0
+        self.end = begin
+
+    def take(self, buffer: bytes, base: int, until: int) -> None:
+        if until > self.end:
+            self.value = crc32(memoryview(buffer)[self.end - base : until - base], self.value)
+            self.end = until
+
+
+def _fault_of_chunk(head: bytes, length: int) -> tuple[str, int]:
+    """Return what forbids to walk into a chunk, and where in its content the records begin."""
+    damaged = "a chunk is damaged and passed over"
+    at = CHUNK.size + U32.size
+    if len(head) < at:
+        return damaged, 0
+    (size,) = U32.unpack_from(head, CHUNK.size)
+    begin = at + size + U64.size
+    if size > _LONGEST_COMPRESSION or len(head) < begin:
+        return damaged, 0
+    if size:
+        method = head[at : at + size].decode("ascii", "replace")
+        return f"what is compressed ({method!a}) is not read: uncompress it with mcap's tools", 0
+    if begin + U64.unpack_from(head, at)[0] > length:
+        return damaged, 0
+    return "", begin
+
+
+def _bytes(count: int) -> str:
+    return "1 byte" if count == 1 else f"{count} bytes"
+
+
+def open_log(path: Path) -> BinaryIO:
+    """Open a file for a walk; raises FlightLogError."""
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise FlightLogError(f"{path.name}: no flight log: it is no file")
+        return path.open("rb")
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise FlightLogError(f"{path.name}: cannot be opened: {reason}") from None
