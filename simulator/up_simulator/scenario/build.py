@@ -36,7 +36,16 @@ def build_flight(scenario: Scenario, say: Say = lambda _text: None) -> ScenarioF
     world = World(dynamics, board)
     companions = _companions(scenario, airframe, dynamics, board)
     demand = DemandModel(profile_of(scenario, airframe.profile))
-    return ScenarioFlight(scenario, world, board, companions, demand, airframe.imu)
+    flight = ScenarioFlight(scenario, world, board, companions, demand, airframe.imu)
+    flight.record.settings = _settings(scenario, airframe)
+    return flight
+
+
+def _settings(scenario: Scenario, airframe: Airframe) -> dict[str, dict[str, Any]]:
+    return {
+        "airframe.yml": profile_of(scenario, airframe.profile),
+        "pids.yml": gains_of(scenario, airframe.gains),
+    }
 
 
 def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
@@ -61,10 +70,7 @@ def _companions(
 ) -> Companions:
     if not scenario.has_raspilot:
         return Nobody(board)
-    settings: dict[str, dict[str, Any]] = {
-        "airframe.yml": profile_of(scenario, airframe.profile),
-        "pids.yml": gains_of(scenario, airframe.gains),
-    }
+    settings = _settings(scenario, airframe)
     if scenario.ground is not None:
         settings["mission_control.yml"] = {"role": scenario.ground.role}
     # Twisted and the whole daemon: only for those who fly with it.

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from up_rig.imu import motion_at
 from up_simulator.aircraft.airframe_file import ImuConfig
@@ -36,7 +37,8 @@ class FlightRecord:
     """What came out of a flight: the log, and everything that is no signal.
 
     ``crash`` is a sentence about how it ended on the ground, ``failure`` one about what kept it
-    from being flown to its end, with the lines of the daemon's log behind it.
+    from being flown to its end, with the lines of the daemon's log behind it. ``settings`` are the
+    configuration files that the board flies by.
     """
 
     scenario: Scenario
@@ -52,6 +54,7 @@ class FlightRecord:
     is_interrupted: bool = False
     board_title: str = ""
     notes: list[str] = field(default_factory=list)
+    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     @property
     def speed(self) -> float:

@@ -21,6 +21,7 @@ from up_simulator.flight import FlightUnavailableError
 from up_simulator.picture.flight_picture import Failure, PictureError, Wind, draw_flight
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.flight_mcap import write_flight
 from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import (
@@ -33,9 +34,10 @@ from up_simulator.scenario.result import (
 from up_simulator.scenario.scenario import Scenario
 
 FLIGHTS = Path("run") / "flights"
-LOG, CONTROL_LOG, REPORT, PICTURE, SUMMARY = (
+LOG, CONTROL_LOG, FLIGHT_LOG, REPORT, PICTURE, SUMMARY = (
     "log.csv",
     "control.csv",
+    "flight.mcap",
     "report.txt",
     "picture.png",
     "summary.json",
@@ -170,6 +172,9 @@ def write_files(name: str, result: Result, output: Output, say: Say) -> Files:
     for file_name, log in logs:
         if files.put(folder / file_name, log.write):
             files.written.append(folder / file_name)
+    flight_log = folder / FLIGHT_LOG
+    if files.put(flight_log, lambda path: write_flight(name, result, path)):
+        files.written.append(flight_log)
     if output.has_picture and len(result.record.log):
         _draw(result, folder / PICTURE, files, say)
     for path in (folder / CONTROL_LOG, folder / PICTURE):

@@ -46,7 +46,10 @@ def test_gains_that_cannot_be_written_are_not_looked_for(monkeypatch):
         tune(["--write", "/proc/x/pids.yml"])
 
 
-@pytest.mark.parametrize("full", ["log.csv", "picture.png", "summary.json", "report.txt"])
+FILES = ["log.csv", "flight.mcap", "picture.png", "summary.json", "report.txt"]
+
+
+@pytest.mark.parametrize("full", FILES)
 def test_a_full_disk_costs_no_verdict(full, capsys):
     build_firmware()
     Path("out/good").mkdir(parents=True)

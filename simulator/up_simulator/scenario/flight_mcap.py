@@ -1,0 +1,167 @@
+"""A scenario's flight as a flight log, so that every program that reads those reads it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from up.flight_log.command_schema import schema_of
+from up.flight_log.foxglove import LOG, LOG_LEVELS, LOG_SCHEMA, timestamp
+from up.flight_log.mcap_writer import McapWriter
+from up.flight_log.origin_text import KEY as ORIGIN
+from up.version import VERSION
+from up_simulator.scenario.flight_topics import COMMANDS, SIGNALS_TOPIC, FlightTopics
+from up_simulator.scenario.question import Question
+from up_simulator.scenario.result import Result
+from up_simulator.scenario.signals import SIGNALS
+from up_simulator.truth import NAMES, TOPIC
+
+BEGIN_NS = 946_684_800_000_000_000
+"""2000-01-01: a simulated flight has no date, and the same flight is the same file."""
+LOG_TOPIC, EVENT_TOPIC = "log", "simulator.event"
+_BUFFER = 1 << 20
+_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def write_flight(name: str, result: Result, path: Path) -> None:
+    """Write the log of a flight with its verdicts, not of its control run; raises OSError."""
+    with path.open("wb", buffering=_BUFFER) as file:
+        _FlightFile(name, result, file.write).write()
+
+
+class _FlightFile:
+    """One flight on its way into a file."""
+
+    def __init__(self, name: str, result: Result, write: Callable[[bytes], object]) -> None:
+        self._name = name
+        self._result = result
+        self._record = result.record
+        self._writer = McapWriter(write)
+        self._channels: dict[str, int] = {}
+        self._events = result.record.log.events
+        self._questions = sorted(result.record.questions, key=lambda each: each.sent_s)
+
+    def write(self) -> None:
+        """Write everything."""
+        self._writer.start()
+        self._describe()
+        topics = FlightTopics(has_phone=self._record.scenario.phone is not None)
+        columns, time_s = self._record.log.columns, 0.0
+        for values in self._record.log.rows:
+            row = dict(zip(columns, values, strict=True))
+            time_s = float(row["time_s"])
+            self._tell_until(time_s)
+            for topic, data in topics.messages(row):
+                self._message(topic, time_s, data)
+        self._close(time_s)
+        self._writer.finish()
+
+    def _describe(self) -> None:
+        record, scenario = self._record, self._record.scenario
+        controller = scenario.raspilot.config.get("config.yml", {}).get("flight controller")
+        self._writer.add_metadata(
+            "flight",
+            {
+                "aircraft": scenario.airframe,
+                "instance": "simulator",
+                "version": VERSION,
+                "mode": "flight controller",
+                "flight_controller": str(controller or "arduino"),
+                "started": "2000-01-01T00:00:00Z",
+            },
+        )
+        self._writer.add_metadata(
+            "scenario",
+            {
+                "name": self._name,
+                "title": scenario.title,
+                "about": scenario.about,
+                "seed": str(scenario.seed),
+                "board": record.board_title,
+            },
+        )
+        for file, settings in record.settings.items():
+            text = yaml.safe_dump(settings, sort_keys=False, allow_unicode=True)
+            self._writer.add_attachment(f"config/{file}", "text/yaml", text.encode(), BEGIN_NS)
+
+    def _tell_until(self, time_s: float) -> None:
+        """Write what has happened, and which Commands have come up from the ground."""
+        while self._events and self._events[0][0] <= time_s:
+            at_s, event = self._events.pop(0)
+            self._message(EVENT_TOPIC, at_s, {"event": event})
+            self._say(at_s, "info", f"event: {event}")
+        while self._questions and self._questions[0].sent_s <= time_s:
+            self._ask(self._questions.pop(0))
+
+    def _ask(self, question: Question) -> None:
+        command, ground = question.command, self._record.scenario.ground
+        role = "operator" if ground is None else ground.role
+        if question.answer == "":
+            data = {**command.data, ORIGIN: f"ground ({role})"}
+            self._message(command.name, question.sent_s, data)
+        else:
+            answer = "no answer" if question.answer is None else f"refused, {question.answer}"
+            self._say(question.sent_s, "warn", f"{command.name} from the ground: {answer}")
+
+    def _close(self, time_s: float) -> None:
+        """Write how it ended and what is true of it."""
+        record = self._record
+        for trouble in (record.failure, record.crash):
+            if trouble is not None:
+                self._say(time_s, "error", trouble)
+        verdicts: dict[str, str] = {}
+        for verdict in self._result.verdicts:
+            limit = f" ({verdict.limit})" if verdict.limit else ""
+            word = "held" if verdict.is_held else "NOT held"
+            verdicts[verdict.name] = f"{word}: {verdict.figure}{limit}"
+        self._writer.add_metadata("verdicts", verdicts)
+
+    def _say(self, time_s: float, level: str, text: str) -> None:
+        line = {"level": LOG_LEVELS[level], "message": text, "name": "scenario"}
+        stamp = timestamp(_log_ns(time_s))
+        self._message(LOG_TOPIC, time_s, {"timestamp": stamp, **line, "file": "", "line": 0})
+
+    def _message(self, topic: str, time_s: float, data: Mapping[str, Any]) -> None:
+        channel = self._channels.get(topic)
+        if channel is None:
+            title, schema = _schema(topic)
+            number = self._writer.add_schema(title, schema)
+            channel = self._channels[topic] = self._writer.add_channel(topic, number)
+        text = json.dumps(data, allow_nan=False, separators=(",", ":"))
+        self._writer.message(channel, _log_ns(time_s), text.encode())
+
+
+def _log_ns(time_s: float) -> int:
+    return BEGIN_NS + round(time_s * 1e6) * 1000
+
+
+def _schema(topic: str) -> tuple[str, dict[str, Any]]:
+    """Return name and JSON Schema of a topic."""
+    for command in COMMANDS:
+        if topic == command.NAME:
+            return topic, schema_of(command)
+    if topic == LOG_TOPIC:
+        return LOG, LOG_SCHEMA
+    schema: dict[str, Any] = {"$schema": _DIALECT, "title": topic, "type": "object"}
+    if topic == TOPIC:
+        schema["description"] = "the aircraft itself, which nobody aboard knows"
+        schema["properties"] = {"crashed": {"type": "boolean"}} | {
+            name: _property(f"truth.{field}")
+            for name, field in NAMES.items()
+            if f"truth.{field}" in SIGNALS
+        }
+    elif topic == SIGNALS_TOPIC:
+        schema["description"] = "all other signals, as 'up-sim signals' lists them"
+    elif topic == EVENT_TOPIC:
+        schema["description"] = "what the scenario lets happen"
+        schema["properties"] = {"event": {"type": "string"}}
+    return topic, schema
+
+
+def _property(signal: str) -> dict[str, str]:
+    about = SIGNALS[signal]
+    return {"type": "number", "description": f"{about.unit}, {about.about}", "x-unit": about.unit}

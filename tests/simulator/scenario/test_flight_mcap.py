@@ -1,0 +1,201 @@
+"""A scenario's flight log, read by the official reader: what it holds, and that it repeats."""
+
+import json
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mcap.reader import make_reader
+
+from tests.simulator.scenario.minimal import log_of, scenario
+from tests.support.firmware import build_firmware
+from up_simulator.cli import main
+from up_simulator.scenario.event import CommandPart, Event
+from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.flight_mcap import BEGIN_NS, write_flight
+from up_simulator.scenario.question import Question
+from up_simulator.scenario.result import Result
+from up_simulator.scenario.sampler import columns_of
+from up_simulator.scenario.verdict import Verdict
+
+FLOWN = """\
+title: Flown
+duration_s: 4
+weather: {wind_m_s: 5, wind_from_deg: 270}
+sticks: [{at_s: 0, mode: FBW, arm: true, throttle: 0.5}, {at_s: 1, ailerons: 0.6}]
+events: [{at_s: 2, mark: half of it}, {at_s: 2.5, receiver: lost}]
+expect: [{name: It flies, signal: truth.height_m, above: 50}]
+"""
+PHONE = "raspilot: {runs: in process}\nphone: {}\nground: {}\n"
+
+
+class Read:
+    """What the official reader finds in a file."""
+
+    def __init__(self, path):
+        with path.open("rb") as file:
+            reader = make_reader(file, validate_crcs=True)
+            self.messages = {}
+            self.schemas = {}
+            for schema, channel, message in reader.iter_messages():
+                time_s = (message.log_time - BEGIN_NS) / 1e9
+                self.schemas[channel.topic] = (schema.name, json.loads(schema.data))
+                found = self.messages.setdefault(channel.topic, [])
+                found.append((time_s, json.loads(message.data)))
+            self.metadata = {each.name: each.metadata for each in reader.iter_metadata()}
+            self.attachments = {each.name: each.data for each in reader.iter_attachments()}
+
+    def series(self, topic, field):
+        return [data[field] for _, data in self.messages[topic]]
+
+
+def read(tmp_path, columns, text="", **record):
+    flown = FlightRecord(scenario(text), log_of(columns, 100), **record)
+    path = tmp_path / "flight.mcap"
+    write_flight("made-up", Result(flown, [Verdict("It holds", True, "3 deg", "at most 4")]), path)
+    return Read(path)
+
+
+@pytest.fixture(scope="module")
+def flown(tmp_path_factory):
+    """A flight of four seconds and where its files are."""
+    build_firmware()
+    folder = tmp_path_factory.mktemp("flown")
+    (folder / "flown.yml").write_text(FLOWN)
+    for output in ("first", "second"):
+        words = ["fly", str(folder / "flown.yml"), "--no-picture", "--quiet"]
+        assert main([*words, "--output", str(folder / output)]) == 0
+    return folder
+
+
+def test_the_same_flight_is_the_same_file(flown):
+    first, second = (flown / name / "flown/flight.mcap" for name in ("first", "second"))
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_the_estimate_lies_beside_the_truth_at_equal_times(flown):
+    log = Read(flown / "first/flown/flight.mcap")
+    truth = dict(log.messages["simulator.truth"])
+    told = log.messages["up.orientation.update"]
+    assert len(truth) == 201
+    assert len(told) > 190
+    assert max(abs(data["roll"]) for _, data in told) > 20
+    assert max(abs(data["roll"] - truth[time_s]["roll_deg"]) for time_s, data in told) < 3
+    name, schema = log.schemas["up.orientation.update"]
+    assert name == "up.orientation.update"
+    assert schema["properties"]["roll"]["x-unit"] == "deg"
+    units = log.schemas["simulator.truth"][1]["properties"]
+    assert units["wind_east_m_s"]["x-unit"] == "m/s"
+    assert log.series("simulator.truth", "wind_east_m_s")[-1] == pytest.approx(5.0, abs=0.01)
+
+
+def test_the_lost_receiver_is_told_as_the_board_tells_it(flown):
+    log = Read(flown / "first/flown/flight.mcap")
+    assert log.series("up.rx.update", "valid")[0] == 63
+    assert log.series("up.rx.update", "valid")[-1] == 0
+    states = log.messages["up.flight.state"]
+    assert not states[0][1]["failsafe"] and states[0][1]["flight_mode"] == "FBW"
+    first_s = next(time_s for time_s, data in states if data["failsafe"])
+    assert 2.5 < first_s < 3.2
+    events = [(round(time_s, 3), data["event"]) for time_s, data in log.messages["simulator.event"]]
+    assert events == [(2.0, "half of it"), (2.5, "receiver lost")]
+    assert "event: half of it" in log.series("log", "message")
+    assert log.schemas["log"][0] == "foxglove.Log"
+
+
+def test_it_says_what_flew_and_what_was_true_of_it(flown):
+    log = Read(flown / "first/flown/flight.mcap")
+    assert log.metadata["flight"]["aircraft"] == "glider"
+    assert log.metadata["scenario"]["title"] == "Flown"
+    assert log.metadata["verdicts"]["It flies"].startswith("held: ")
+    assert b"units: degrees per second" in log.attachments["config/pids.yml"]
+
+
+def test_without_a_phone_the_place_is_the_true_one_and_says_so(flown):
+    log = Read(flown / "first/flown/flight.mcap")
+    places = log.messages["up.location.update"]
+    assert len(places) == 21
+    truth = dict(log.messages["simulator.truth"])
+    for time_s, data in places:
+        assert data["latitude"] == truth[time_s]["latitude_deg"]
+        assert data["_origin"] == "simulator (sensor)"
+
+
+def test_with_a_phone_only_what_it_told_is_there(tmp_path):
+    columns = {
+        "truth.latitude_deg": lambda _: 1.0,
+        "truth.longitude_deg": lambda _: 2.0,
+        "ground.frames": lambda time_s: time_s // 0.5,
+        "ground.location.latitude": lambda time_s: None if time_s < 0.7 else 50.0,
+        "ground.location.longitude": lambda _: 14.5,
+        "ground.android.batteryLevel": lambda time_s: 90.0 if time_s < 1.2 else 89.0,
+    }
+    log = read(tmp_path, columns, PHONE)
+    places = log.messages["up.location.update"]
+    assert [round(time_s, 2) for time_s, _ in places] == [1.0, 1.5]
+    assert all(data["latitude"] == 50.0 for _, data in places)
+    assert all(data["_origin"] == "android (sensor)" for _, data in places)
+    assert log.series("android.battery", "level") == [90.0, 89.0]
+
+
+def test_an_arduino_that_is_silent_leaves_a_gap(tmp_path):
+    def age_s(time_s):
+        return 0.005 if time_s < 0.5 or time_s > 1.5 else time_s - 0.495
+
+    columns = {"board.orientation_age_s": age_s}
+    for axis in ("roll", "pitch", "yaw"):
+        columns[f"board.{axis}_deg"] = columns[f"board.{axis}_rate_deg_s"] = lambda _: 1.0
+    times_s = [time_s for time_s, _ in read(tmp_path, columns).messages["up.orientation.update"]]
+    gaps = [later - earlier for earlier, later in pairwise(times_s)]
+    assert max(gaps) == pytest.approx(1.04, abs=0.021)
+    assert sorted(gaps)[-2] < 0.021
+
+
+def test_a_command_of_the_ground_is_there_if_it_was_carried_out(tmp_path):
+    def asked(name, at_s, answer):
+        command = CommandPart(name, {"mode": "FBW"})
+        return Question(Event(at_s=at_s, command=command), command, "1", at_s, answer)
+
+    questions = [asked("up.flight_mode.set", 0.5, ""), asked("up.arm", 0.2, "forbidden: no")]
+    log = read(tmp_path, {"truth.roll_deg": lambda _: 0.0}, PHONE, questions=questions)
+    ((time_s, data),) = log.messages["up.flight_mode.set"]
+    assert (round(time_s, 6), data) == (0.5, {"mode": "FBW", "_origin": "ground (pilot)"})
+    assert "up.arm" not in log.messages
+    assert log.series("log", "message") == ["up.arm from the ground: refused, forbidden: no"]
+
+
+def test_how_it_ended_is_its_last_word(tmp_path):
+    columns = {"truth.roll_deg": lambda _: 0.0}
+    log = read(tmp_path, columns, crash="hit the ground", failure="raspilot died")
+    assert [(data["level"], data["message"]) for _, data in log.messages["log"]] == [
+        (4, "raspilot died"),
+        (4, "hit the ground"),
+    ]
+
+
+NUMBERS = st.floats() | st.none()
+FLOWN_WITH_ALL = scenario(PHONE)
+
+
+@given(st.lists(st.tuples(NUMBERS, NUMBERS, st.text(max_size=5)), min_size=1, max_size=4))
+def test_whatever_the_signals_are_the_file_is_whole(tmp_path_factory, rows):
+    path = tmp_path_factory.mktemp("any") / "flight.mcap"
+    columns = columns_of(FLOWN_WITH_ALL)
+    made = log_of({name: [None] for name in columns if name not in ("time_s", "event")}, 1)
+    for at, (first, second, word) in enumerate(rows):
+        values = {name: (first, second)[index % 2] for index, name in enumerate(columns)}
+        words = {name: word for name in columns if made.has_words(name)}
+        made.append({**values, **words, "time_s": 0.02 * (at + 1)})
+    write_flight("any", Result(FlightRecord(FLOWN_WITH_ALL, made), []), path)
+    log = Read(path)
+    assert len(log.messages["simulator.truth"]) == len(rows) + 1
+    assert all(math.isfinite(time_s) for each in log.messages.values() for time_s, _ in each)
+
+
+def test_a_file_that_cannot_be_written_is_an_error_of_the_system():
+    flown = FlightRecord(scenario(), log_of({"truth.roll_deg": lambda _: 0.0}, 5))
+    with pytest.raises(OSError, match="No space left"):
+        write_flight("full", Result(flown, []), Path("/dev/full"))
