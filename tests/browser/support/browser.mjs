@@ -36,9 +36,10 @@ export async function startBrowser(flags = []) {
  * `page.seen` keeps its requests (URLs), its errors and what the Content-Security-Policy stopped.
  * @param {import("playwright-core").Browser} browser
  * @param {string} address
- * @param {object} options of the context, such as LAPTOP and PHONE
+ * @param {object} options of the context, such as LAPTOP and PHONE; `first`: runs before the page's
+ *   own scripts
  */
-export async function openPage(browser, address, options = LAPTOP) {
+export async function openPage(browser, address, { first, ...options } = LAPTOP) {
   const context = await browser.newContext({ reducedMotion: "reduce", ...options });
   const seen = { requests: [], errors: [], violations: [] };
   // Of the whole context: a page that it opened, or a worker, would be seen as well.
@@ -58,6 +59,9 @@ export async function openPage(browser, address, options = LAPTOP) {
       window.tellViolation(`${event.effectiveDirective} ${event.blockedURI} ${event.sample}`);
     });
   });
+  if (first) {
+    await page.addInitScript(first);
+  }
   await page.goto(address);
   return page;
 }

@@ -1,0 +1,148 @@
+// The ground station's page as somebody uses it.
+import assert from "node:assert/strict";
+
+import { LAPTOP, openPage, outsideRequests } from "./browser.mjs";
+import { until } from "./wait.mjs";
+
+/** Keeps what the server says, with the time of the page at which it came. */
+function listen() {
+  window.testMessages = [];
+  const Real = window.WebSocket;
+  window.WebSocket = class extends Real {
+    constructor(...words) {
+      super(...words);
+      this.addEventListener("message", (event) => {
+        const message = JSON.parse(event.data);
+        window.testMessages.push({ at_ms: performance.now(), message });
+        if (window.testMessages.length > 5000) {
+          window.testMessages.splice(0, 1000);
+        }
+      });
+    }
+  };
+}
+
+/** A user in front of the page. */
+export class GroundPage {
+  constructor(page) {
+    this.page = page;
+    this.seen = page.seen;
+  }
+
+  /** Open the page at an address. */
+  static async open(browser, address, options = LAPTOP) {
+    const page = await openPage(browser, address, { ...options, first: listen });
+    return new GroundPage(page);
+  }
+
+  /** Wait until frames of an aircraft are shown. */
+  async isLive() {
+    await this.until(() => document.documentElement.dataset.aircraftState === "live", "live");
+    return this;
+  }
+
+  /** Wait for a condition in the page. */
+  async until(condition, what, argument) {
+    return until(
+      async () => (await this.page.evaluate(condition, argument)) || null,
+      () => `${what}; the page complains of ${JSON.stringify(this.seen.errors.slice(-5))}`,
+    );
+  }
+
+  /** The text of the first element of a selector; null: there is none. */
+  async text(selector) {
+    return this.page.evaluate((s) => document.querySelector(s)?.textContent ?? null, selector);
+  }
+
+  /** An attribute of the first element of a selector. */
+  async attribute(selector, name) {
+    const words = [selector, name];
+    return this.page.evaluate(([s, n]) => document.querySelector(s)?.getAttribute(n) ?? null, words);
+  }
+
+  /** What is shown of a key of the telemetry. */
+  async value(key) {
+    return this.text(`[data-key="${key}"]`);
+  }
+
+  /** Every shown value: {key, freshness, text}. */
+  async values() {
+    return this.page.evaluate(() =>
+      [...document.querySelectorAll("[data-key]")].map((element) => ({
+        key: element.dataset.key,
+        freshness: element.dataset.freshness,
+        text: element.textContent,
+      })),
+    );
+  }
+
+  /** The messages of a type that have come so far: {at_ms, message}. */
+  async messages(type) {
+    return this.page.evaluate(
+      (type) => window.testMessages.filter(({ message }) => message.type === type),
+      type,
+    );
+  }
+
+  /** Telemetry as it came last. */
+  async frame() {
+    const frames = await this.messages("frame");
+    return frames[frames.length - 1]?.message.data;
+  }
+
+  /** Press something, and say yes where the page asks. */
+  async press(selector) {
+    await this.page.click(selector);
+    await this.page.evaluate(() => new Promise(requestAnimationFrame));
+    if (await this.page.$("dialog#confirm[open]")) {
+      await this.page.click("#confirm-yes");
+    }
+  }
+
+  /** Do something and return the answer that the page then shows, in its words. */
+  async answerTo(action) {
+    const before = (await this.messages("answer")).length;
+    await action();
+    const count = () => window.testMessages.filter(({ message }) => message.type === "answer").length;
+    await until(async () => (await this.page.evaluate(count)) > before || null, "an answer");
+    await this.page.evaluate(() => new Promise(requestAnimationFrame));
+    const answers = await this.messages("answer");
+    return { ...answers[answers.length - 1].message, shown: await this.text("#last-answer") };
+  }
+
+  /** Press with the mouse and hold for a time. */
+  async hold(selector, seconds) {
+    await this.page.locator(selector).scrollIntoViewIfNeeded();
+    await this.page.hover(selector);
+    await this.page.mouse.down();
+    await new Promise((resolve) => setTimeout(resolve, seconds * 1000));
+    await this.page.mouse.up();
+  }
+
+  /** Ask for control and wait until the page has it. */
+  async takeControl() {
+    await this.press("#control-request");
+    await this.untilHolder("you");
+  }
+
+  /** Wait until control is in somebody's hands: you, page, ground, nobody. */
+  async untilHolder(holder) {
+    const held = (holder) => {
+      const all = window.testMessages.filter(({ message }) => message.type === "status");
+      return all[all.length - 1]?.message.control.holder === holder;
+    };
+    await this.until(held, `control held by ${holder}`, holder);
+  }
+
+  /** Fail where the page failed, was stopped by its policy, or asked anybody outside. */
+  assertClean() {
+    assert.deepEqual(this.seen.errors, [], "errors of the page");
+    assert.deepEqual(this.seen.violations, [], "what the policy stopped");
+    assert.deepEqual(outsideRequests(this.page), [], "requests that leave the machine");
+  }
+
+  /** Close the page and its context, as a user closes the browser. */
+  async close() {
+    await this.page.context().close();
+  }
+}
