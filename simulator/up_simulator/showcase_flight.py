@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import os
 import select
-import shlex
 import sys
 import termios
 import time
@@ -19,6 +17,7 @@ from up_simulator.crew.child import Child
 from up_simulator.crew.ports import Ports, choose_ports
 from up_simulator.crew.protocols import CrewError
 from up_simulator.showcase_config import FLIGHTS, write_config
+from up_simulator.showcase_hints import hints, log_hint
 from up_simulator.showcase_page import Page
 
 START_LIMIT_S = 60.0
@@ -86,10 +85,9 @@ class ShowcaseFlight:
         say(f"  raspilot   the daemon; the phone on ports {ports.general}, {ports.orientation}")
         ready = "Controller: flies" if self._holder == "raspberry" else "orientation comes from"
         daemon.wait_for_line(ready, START_LIMIT_S)
-        if self._page is not None:
-            self._show_page(self._page)
+        address = None if self._page is None else self._show_page(self._page)
         say(f"It flies. {WHO_HOLDS[self._holder]}")
-        for line in hints(ports, folder):
+        for line in hints(ports, folder, address):
             say(line)
 
     def stay(self) -> None:
@@ -133,10 +131,12 @@ class ShowcaseFlight:
         (self._folder / "board").unlink(missing_ok=True)
         if self._children:
             self._say("Everything is stopped.")
-            self._tell_of_log()
+            hint = log_hint(self._folder / FLIGHTS)
+            if hint is not None:
+                self._say(hint)
         self._children.clear()
 
-    def _show_page(self, page: Page) -> None:
+    def _show_page(self, page: Page) -> str | None:
         """Say where the ground station for a browser is; without it everything else flies."""
         address = page.wait_for_address()
         if address is not None:
@@ -145,6 +145,7 @@ class ShowcaseFlight:
             page.child.terminate()
             self._children.remove(page.child)
             self._say(f"  page       no ground station for a browser: {page.why_not}")
+        return address
 
     def _leave_page(self, page: Page) -> None:
         self._children.remove(page.child)
@@ -152,13 +153,6 @@ class ShowcaseFlight:
         self._untold.append(
             f"The ground station for a browser is gone: {page.why_not}. It flies on."
         )
-
-    def _tell_of_log(self) -> None:
-        """Say how to read what the black box has written, if there is anything."""
-        flights = self._folder / FLIGHTS
-        if any(flights.glob("*.mcap")):
-            program = os.path.relpath(Path(sys.executable).parent / "up")
-            self._say(f"The flight's log: {program} log report last --folder {_near(flights)}")
 
     def _has_board(self, lines: list[str]) -> bool:
         """Say what the aircraft has said meanwhile, and return whether its board is chosen."""
@@ -245,30 +239,6 @@ class ShowcaseFlight:
         for line in lines:
             if any(words in line for words in NEWS):
                 self._say(f"aircraft: {line}")
-
-
-def hints(ports: Ports, folder: Path) -> list[str]:
-    """Return what there is to try, as somebody types it in another terminal."""
-    programs = Path(sys.executable).parent
-    ground, sim = (os.path.relpath(programs / name) for name in ("up-ground", "up-sim"))
-    port = "" if ports.ground == 3004 else f" --port {ports.ground}"
-    socket = "" if folder == Path.cwd() / "run/showcase" else f" --socket {folder / 'radio'}"
-    return [
-        "Try, in another terminal:",
-        f"  {ground} watch{port}",
-        f"  {ground} send{port} up.telemetry.frequency frequency=50",
-        f"  {ground} send{port} arduino.pids.tunings request=true   the gains; see the guide",
-        f"  {ground} send{port} up.flight_mode.set mode=RATE        and mode=FBW",
-        f"  {ground} send{port} android.speak text=hello",
-        f"  {sim} radio{socket}          the sticks on your keyboard: take them, q gives back",
-        f"  {sim} fly save       a scenario: the pilot's last resort",
-        "Ctrl-C stops everything.",
-    ]
-
-
-def _near(path: Path) -> str:
-    """Return a path as somebody types it here."""
-    return shlex.quote(os.path.relpath(path) if path.is_relative_to(Path.cwd()) else str(path))
 
 
 def _enter_was_pressed() -> bool:

@@ -158,7 +158,7 @@ def test_no_file_of_an_earlier_flight_is_left(in_a_folder):
     (folder / "notes.txt").write_text("the user's own")
     assert main(["fly", write("good.yml", GOOD), "--no-picture", "--quiet"]) == 0
     names = {path.name for path in folder.iterdir()}
-    assert names == {"log.csv", "report.txt", "summary.json", "notes.txt"}
+    assert names == {"log.csv", "flight.mcap", "report.txt", "summary.json", "notes.txt"}
     assert "of an earlier" not in (folder / "report.txt").read_text()
 
 

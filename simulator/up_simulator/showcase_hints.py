@@ -1,0 +1,45 @@
+"""What ``make run`` tells its user to try, as somebody types it in another terminal."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sys
+from pathlib import Path
+
+from up_simulator.crew.ports import Ports
+
+
+def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
+    """Return what there is to try; ``page`` is where a browser finds the ground station."""
+    ground, sim = _program("up-ground"), _program("up-sim")
+    port = "" if ports.ground == 3004 else f" --port {ports.ground}"
+    socket = "" if folder == Path.cwd() / "run/showcase" else f" --socket {folder / 'radio'}"
+    in_browser = [
+        f"Open {page} in a browser: everything that flies, live. 'Ask for control' there,",
+        "then choose modes and change gains in flight, which this aircraft allows.",
+    ]
+    return [
+        *(in_browser if page is not None else []),
+        "Try, in another terminal:",
+        f"  {ground} watch{port}",
+        f"  {ground} send{port} up.telemetry.frequency frequency=50",
+        f"  {ground} send{port} arduino.pids.tunings request=true   the gains; see the guide",
+        f"  {ground} send{port} up.flight_mode.set mode=RATE        and mode=FBW",
+        f"  {ground} send{port} android.speak text=hello",
+        f"  {sim} radio{socket}          the sticks on your keyboard: take them, q gives back",
+        f"  {sim} fly save       a scenario: the pilot's last resort",
+        "Ctrl-C stops everything.",
+    ]
+
+
+def log_hint(flights: Path) -> str | None:
+    """Return how to read what the black box has written; None where it has written nothing."""
+    if not any(flights.glob("*.mcap")):
+        return None
+    folder = os.path.relpath(flights) if flights.is_relative_to(Path.cwd()) else str(flights)
+    return f"The flight's log: {_program('up')} log report last --folder {shlex.quote(folder)}"
+
+
+def _program(name: str) -> str:
+    return os.path.relpath(Path(sys.executable).parent / name)
