@@ -31,7 +31,7 @@ export function mountShell(store, connection) {
 
   function showLink() {
     const banner = at("link-banner");
-    banner.hidden = connection.isOpen;
+    setHidden(banner, connection.isOpen);
     if (!connection.isOpen) {
       const retry_s = connection.retry_s;
       const next =
@@ -47,7 +47,7 @@ export function mountShell(store, connection) {
     setAttribute(root, "data-link", connection.isOpen ? "open" : "closed");
     setAttribute(root, "data-aircraft-state", state);
     const silence = at("silence");
-    silence.hidden = state === "live";
+    setHidden(silence, state === "live");
     if (state !== "live") {
       setText(silence, silenceText(store, state));
     }
@@ -85,6 +85,12 @@ export function mountShell(store, connection) {
  */
 export function silenceText(store, state) {
   return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
+}
+
+function setHidden(element, isHidden) {
+  if (element.hidden !== isHidden) {
+    element.hidden = isHidden;
+  }
 }
 
 function linkWord(connection, state) {

@@ -1,11 +1,13 @@
 import { now_s } from "../link/clock.js";
-import { freshnessOf, isSilent, readingOf } from "./ages.js";
+import { freshnessOf, isSilent, READINGS, readingOf } from "./ages.js";
 import { EventList } from "./event_list.js";
 import * as judge from "./judge.js";
+import { Motion } from "./motion.js";
 import { isOnlyRequest, roleAllows } from "./roles.js";
 import { Track } from "./track.js";
 
 const REPAINT_MS = 200;
+const LOOK_MS = 40;
 
 /**
  * What the page knows of the aircraft watched, and how old it is.
@@ -13,7 +15,7 @@ const REPAINT_MS = 200;
  * Fields to read: `aircraft` (the name watched), `names` (all), `data` (the newest frame's tree,
  * not judged), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
  * (by name), `alarms` ([{kind, level, text}]), `gains`, `profile`, `replay`, `fault` (text),
- * `track` (points, version), `events` (list, the newest last), `eventsVersion`.
+ * `track` (points, version, startAltitude_m), `motion` (groundSpeed_m_s, climb_m_s), `events` (list, the newest last), `eventsVersion`.
  */
 export class Store {
   #connection;
@@ -38,6 +40,7 @@ export class Store {
   replay = null;
   fault = "";
   track = new Track();
+  motion = new Motion();
 
   /**
    * @param {object} connection
@@ -53,9 +56,20 @@ export class Store {
     connection.on("message", (message) => this.take(message));
   }
 
-  /** Repaint for the ages five times a second, whether or not a frame comes. */
+  /**
+   * Repaint for the ages five times a second, whether or not a frame comes, and at once when a
+   * reading has become old.
+   */
   start() {
     setInterval(() => this.#change(), REPAINT_MS);
+    let known = "";
+    setInterval(() => {
+      const now = [null, ...READINGS].map((reading) => this.freshness(reading)).join();
+      if (now !== known) {
+        known = now;
+        this.#change();
+      }
+    }, LOOK_MS);
   }
 
   /** @param {string} name of the aircraft to look at from now on */
@@ -225,13 +239,22 @@ export class Store {
     this.#frameAt_s = this.#now_s();
     const way_s = Math.max(0, judge.number(message.age_ms) ?? 0) / 1000;
     this.#frameAge_s = way_s + (this.#connection.roundTrip_s ?? 0) / 2;
+    this.#follow();
+  }
+
+  #follow() {
+    const latitude = this.number("location.latitude");
+    const longitude = this.number("location.longitude");
     if (this.freshness("location") === "live") {
-      this.track.append(
-        this.number("location.latitude"),
-        this.number("location.longitude"),
-        this.number("location.altitude"),
-      );
+      this.track.append(latitude, longitude, this.number("location.altitude"));
     }
+    this.motion.place(latitude, longitude, this.#measuredAt_s("location"));
+    this.motion.height(this.number("altitude"), this.#measuredAt_s("altitude"));
+  }
+
+  #measuredAt_s(reading) {
+    const age_s = this.age_s(reading);
+    return age_s === null ? null : this.#now_s() - age_s;
   }
 
   #opened(welcome) {
@@ -251,6 +274,7 @@ export class Store {
     this.#frameAt_s = null;
     this.alarms = [];
     this.gains = this.profile = null;
+    this.motion = new Motion();
   }
 
   #change() {

@@ -9,10 +9,13 @@ export class Track {
   points = [];
   /** Counts the times it was replaced or emptied; points appended do not change it. */
   version = 0;
+  /** The altitude where it begins, m; null while none is known. */
+  startAltitude_m = null;
 
   /** @param {unknown} points the server's, taken in place of what was here */
   replace(points) {
     this.points = (Array.isArray(points) ? points : []).map(pointOf).filter((each) => each !== null);
+    this.startAltitude_m = this.points.find((each) => each[2] !== null)?.[2] ?? null;
     this.version += 1;
   }
 
@@ -28,6 +31,7 @@ export class Track {
       return;
     }
     this.points.push(point);
+    this.startAltitude_m ??= point[2];
     if (this.points.length > MOST) {
       this.points.splice(0, MOST / 10);
       this.version += 1;

@@ -1,0 +1,49 @@
+import { html, Readout, setAttribute } from "../readout.js";
+import { numberText } from "../state/format.js";
+import { Row } from "./row.js";
+
+const LOW_PERCENT = 20;
+const SCANT_PERCENT = 35;
+
+/** The battery of the phone on board: the only one that telemetry knows of. */
+export function mount(element, store) {
+  const value = html("span", { class: "battery-value" });
+  const age = html("span", { class: "age" });
+  const fill = html("span", { class: "battery-fill" });
+  const cell = html("span", { class: "battery-cell", "aria-hidden": "true" }, fill);
+  const list = html("dl", { class: "rows" });
+  element.append(html("p", { class: "battery-head" }, cell, value, age), list);
+  const readout = new Readout(value, "android.batteryLevel", (level) => `${numberText(level)} %`, age);
+  const phone = new Row(
+    list,
+    "Phone",
+    "android.connected",
+    (isThere) => (isThere ? "connected" : "absent"),
+    (isThere) => (isThere ? "" : "warning"),
+  );
+  return {
+    update() {
+      const level = readout.update(store);
+      phone.update(store);
+      const percent = typeof level === "number" ? Math.max(0, Math.min(100, level)) : 0;
+      const freshness = store.freshnessAt("android.batteryLevel");
+      setAttribute(cell, "data-freshness", freshness);
+      const judged = freshness === "none" ? "" : batteryLevel(percent);
+      setAttribute(cell, "data-level", judged);
+      setAttribute(value, "data-level", judged);
+      const transform = `scaleX(${(percent / 100).toFixed(2)})`;
+      if (fill.shownTransform !== transform) {
+        fill.shownTransform = transform;
+        fill.style.transform = transform;
+      }
+    },
+  };
+}
+
+/**
+ * @param {number} percent
+ * @returns {""|"warning"|"alarm"}
+ */
+export function batteryLevel(percent) {
+  return percent < LOW_PERCENT ? "alarm" : percent < SCANT_PERCENT ? "warning" : "";
+}

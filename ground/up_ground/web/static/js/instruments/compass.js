@@ -1,0 +1,100 @@
+import { setAttribute, setText } from "../readout.js";
+import { headingText, numberText, UNKNOWN } from "../state/format.js";
+import { onCircle } from "./ladder.js";
+import { drawing, hatch, short, svg } from "./svg.js";
+
+const RADIUS = 84;
+const LETTERS = { 0: "N", 90: "E", 180: "S", 270: "W" };
+
+/** The rose, north where it is: heading above, the heading asked for and the way home on it. */
+export function mount(element, store) {
+  const rose = roseOf();
+  const bug = svg("path", { d: "M-7 -85V-93H7V-85L4 -85 0 -80 -4 -85Z", class: "bug" });
+  const home = homeOf();
+  const heading = svg("text", { x: 0, y: -98, class: "compass-heading", "data-key": "heading.actual" });
+  const asked = svg("text", { x: -106, y: -98, class: "compass-side is-left", "data-key": "heading.required" });
+  const distance = svg("text", { x: 106, y: -98, class: "compass-side is-right", "data-key": "home.distance" });
+  const turning = svg("g", {}, rose, bug, home);
+  element.append(
+    drawing(
+      "-108 -114 216 206",
+      "Compass",
+      svg("circle", { cx: 0, cy: 0, r: RADIUS, class: "rose-ground" }),
+      turning,
+      svg("path", { d: "M0 -78 L-5 -90 L5 -90 Z", class: "lubber" }),
+      svg("path", { d: "M0 -20V22M-19 3H19M-8 19H8", class: "compass-aircraft" }),
+      hatch("compass-hatch", { x: -88, y: -88, width: 176, height: 176 }),
+      heading,
+      asked,
+      distance,
+      svg("text", { x: -106, y: -84, class: "compass-name is-left" }, "asked"),
+      svg("text", { x: 106, y: -84, class: "compass-name is-right" }, "home"),
+    ),
+  );
+  return {
+    update() {
+      const actual = store.number("heading.actual");
+      const freshness = store.freshnessAt("heading.actual");
+      setAttribute(element, "data-freshness", freshness);
+      setAttribute(heading, "data-freshness", freshness);
+      setText(heading, actual === null ? UNKNOWN : `${headingText(actual)}°`);
+      setAttribute(turning, "transform", `rotate(${short(-(actual ?? 0))})`);
+      showMark(store, bug, "heading.required");
+      showMark(store, home, "home.bearing");
+      const required = store.number("heading.required");
+      showSide(store, asked, required === null ? UNKNOWN : `${headingText(required)}°`);
+      showSide(store, distance, distanceText(store.number("home.distance")));
+    },
+  };
+}
+
+/**
+ * @param {number|null} distance_m
+ * @returns {string} whole metres below 10 km
+ */
+export function distanceText(distance_m) {
+  if (distance_m === null) {
+    return UNKNOWN;
+  }
+  return distance_m < 9999.5 ? `${numberText(distance_m)} m` : `${numberText(distance_m / 1000, 1)} km`;
+}
+
+function showMark(store, mark, path) {
+  const bearing = store.number(path);
+  setAttribute(mark, "data-freshness", store.freshnessAt(path));
+  if (bearing !== null) {
+    setAttribute(mark, "transform", `rotate(${short(bearing)})`);
+  }
+}
+
+function showSide(store, element, text) {
+  setText(element, text);
+  setAttribute(element, "data-freshness", store.freshnessAt(element.getAttribute("data-key")));
+}
+
+function homeOf() {
+  return svg(
+    "g",
+    { class: "home" },
+    svg("path", { d: "M0 -60V-30", class: "home-way" }),
+    svg("path", { d: "M-7 -61V-69L0 -76L7 -69V-61Z", class: "home-mark" }),
+  );
+}
+
+function roseOf() {
+  const rose = svg("g", { class: "rose" });
+  for (let bearing = 0; bearing < 360; bearing += 5) {
+    const length = bearing % 30 === 0 ? 11 : bearing % 10 === 0 ? 8 : 4;
+    const from = onCircle(bearing, RADIUS).map(short);
+    const to = onCircle(bearing, RADIUS - length).map(short);
+    rose.append(svg("path", { d: `M${from}L${to}` }));
+    if (bearing % 30 === 0) {
+      const letter = LETTERS[bearing];
+      const name = letter ?? String(bearing / 10);
+      const kind = letter === undefined ? "rose-number" : "rose-letter";
+      const transform = `rotate(${bearing})`;
+      rose.append(svg("text", { x: 0, y: -59, transform, class: kind }, name));
+    }
+  }
+  return rose;
+}

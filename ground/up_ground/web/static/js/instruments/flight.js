@@ -1,0 +1,85 @@
+import { html, Readout, setAttribute, setText } from "../readout.js";
+import { flagText, numberText } from "../state/format.js";
+import { Row } from "./row.js";
+
+const MEANINGS = {
+  ACRO: "the pilot's sticks move the servos",
+  RATE: "the sticks ask for rates of rotation",
+  FBW: "the sticks ask for angles",
+  SETPOINT: "the Raspberry Pi asks for angles",
+  OUTPUT: "the Raspberry Pi moves the servos",
+  RTH: "flies home by itself",
+};
+
+/** Who flies, how, and what forbids it: mode, armed, vetoes, panic, failsafe. */
+export function mount(element, store) {
+  const mode = html("span", { id: "flight-mode" });
+  const meaning = html("p", { id: "flight-meaning" });
+  const armed = html("span", { id: "flight-armed" });
+  const age = html("span", { class: "age" });
+  const list = html("dl", { class: "rows" });
+  const vetoes = html("div", { id: "vetoes" });
+  element.append(html("p", { class: "flight-head" }, mode, armed, age), meaning, list, vetoes);
+  const modeReadout = new Readout(mode, "flight_mode", String, age);
+  const armedReadout = new Readout(armed, "armed", (value) => flagText(value, "ARMED", "disarmed"));
+  const rows = [
+    new Row(list, "Attitude held by", "flight_controller", holderText),
+    new Row(list, "Raspilot", "mode"),
+    new Row(list, "Switch", "arduino.switch"),
+    new Row(list, "Failsafe", "arduino.failsafe", yesNo, alarmIfTrue),
+    new Row(list, "Panic", "load.panic", (value) => panicText(value, store), alarmIfTrue),
+  ];
+  return {
+    update() {
+      setText(meaning, MEANINGS[modeReadout.update(store)] ?? "");
+      setAttribute(armed, "data-armed", String(armedReadout.update(store)));
+      for (const row of rows) {
+        row.update(store);
+      }
+      showVetoes(vetoes, store);
+    },
+  };
+}
+
+function yesNo(value) {
+  return flagText(value, "YES", "no");
+}
+
+function alarmIfTrue(value) {
+  return value === true ? "alarm" : "";
+}
+
+function holderText(value) {
+  return { arduino: "Arduino", raspberry: "Raspberry Pi" }[value] ?? String(value);
+}
+
+function panicText(value, store) {
+  const delay_ms = store.number("load.delay_ms");
+  return value === true ? `YES, ${numberText(delay_ms)} ms late` : flagText(value);
+}
+
+function showVetoes(place, store) {
+  const all = store.texts("vetoes");
+  const isArmed = store.flag("armed") === true;
+  const shown = JSON.stringify([all, isArmed]);
+  setAttribute(place, "data-freshness", all === null ? "none" : store.freshness(null));
+  if (place.shownVetoes === shown) {
+    return;
+  }
+  place.shownVetoes = shown;
+  // In the air a veto is no warning: it tells what would have to be so to arm once more.
+  place.classList.toggle("is-warning", !isArmed && all !== null && all.length > 0);
+  const title = vetoTitle(all, isArmed);
+  const items = (all ?? []).map((each) => html("li", {}, each));
+  place.replaceChildren(html("p", {}, title), ...(items.length ? [html("ul", {}, ...items)] : []));
+}
+
+function vetoTitle(all, isArmed) {
+  if (all === null) {
+    return "What forbids arming is not known";
+  }
+  if (all.length === 0) {
+    return isArmed ? "Nothing forbids arming again" : "Nothing forbids arming";
+  }
+  return isArmed ? "Against arming again" : "Arming is forbidden";
+}

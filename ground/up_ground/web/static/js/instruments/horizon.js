@@ -1,0 +1,121 @@
+import { setAttribute, setText } from "../readout.js";
+import { ageText } from "../state/format.js";
+import { ballTransform, onCircle, rollMarks, rungs, UNITS_PER_DEG } from "./ladder.js";
+import { drawing, hatch, short, svg } from "./svg.js";
+
+/** The box of the horizon and of the tapes upon it. */
+export const VIEW = { x: -200, y: -140, width: 400, height: 280 };
+const FAR = 1200;
+const ROLL_RADIUS = 112;
+
+/** The artificial horizon: attitude as one sees it from the seat. */
+export function mount(element, store) {
+  const ball = ballOf();
+  const ladder = ladderOf();
+  const pointer = svg("path", { d: "M0 -110 L-7 -97 L7 -97 Z", class: "roll-pointer" });
+  const rollGroup = svg("g", {}, pointer);
+  const note = svg("text", { x: -7, y: 62, class: "horizon-note" });
+  const picture = drawing(
+    `${VIEW.x} ${VIEW.y} ${VIEW.width} ${VIEW.height}`,
+    "Artificial horizon",
+    svg("rect", { ...VIEW, class: "horizon-empty" }),
+    svg(
+      "g",
+      { transform: "translate(-7 0)" },
+      clipOf(),
+      svg("g", { class: "ball" }, ball, svg("g", { "clip-path": "url(#ladder-clip)" }, ladder)),
+      rollScale(),
+      rollGroup,
+    ),
+    hatch("horizon-hatch", VIEW),
+    aircraftSymbol(),
+    note,
+  );
+  element.append(picture);
+  return {
+    update() {
+      const roll_deg = store.number("orientation.roll");
+      const pitch_deg = store.number("orientation.pitch");
+      const isThere = roll_deg !== null && pitch_deg !== null;
+      const freshness = isThere ? store.freshness("orientation") : "none";
+      setAttribute(element, "data-freshness", freshness);
+      setText(note, noteText(store, freshness));
+      if (!isThere) {
+        return;
+      }
+      const transform = ballTransform(roll_deg, pitch_deg);
+      setAttribute(ball, "transform", transform);
+      setAttribute(ladder, "transform", transform);
+      setAttribute(rollGroup, "transform", `rotate(${short(-roll_deg)})`);
+      setAttribute(ball, "data-roll", short(roll_deg));
+      setAttribute(ball, "data-pitch", short(pitch_deg));
+    },
+  };
+}
+
+function noteText(store, freshness) {
+  if (freshness === "none") {
+    return store.aircraftState === "live" ? "no attitude" : "";
+  }
+  if (freshness === "stale" && !store.isSilent) {
+    return `attitude is ${ageText(store.age_s("orientation"))} old`;
+  }
+  return "";
+}
+
+function ballOf() {
+  return svg(
+    "g",
+    { id: "horizon-ball" },
+    svg("rect", { x: -FAR, y: -FAR, width: 2 * FAR, height: FAR, class: "sky" }),
+    svg("rect", { x: -FAR, y: 0, width: 2 * FAR, height: FAR, class: "earth" }),
+    svg("path", { d: `M${-FAR} 0H${FAR}`, class: "horizon-line" }),
+  );
+}
+
+function ladderOf() {
+  const ladder = svg("g", { class: "ladder" });
+  for (const { pitch_deg, halfWidth, label } of rungs()) {
+    const y = -pitch_deg * UNITS_PER_DEG;
+    const dash = pitch_deg < 0 ? "5 3" : "none";
+    const d = `M${-halfWidth} ${y}H${halfWidth}`;
+    ladder.append(svg("path", { d, "stroke-dasharray": dash }));
+    for (const side of label === "" ? [] : [-1, 1]) {
+      ladder.append(svg("text", { x: side * (halfWidth + 13), y: y + 4 }, label));
+    }
+  }
+  for (const side of [-1, 1]) {
+    const y = -side * 90 * UNITS_PER_DEG;
+    ladder.append(svg("circle", { cx: 0, cy: y, r: 6, class: side > 0 ? "zenith" : "nadir" }));
+  }
+  return ladder;
+}
+
+function clipOf() {
+  const shape = svg("path", { d: "M-90 -50A104 104 0 0 1 90 -50V132H-90Z" });
+  return svg("defs", {}, svg("clipPath", { id: "ladder-clip" }, shape));
+}
+
+function rollScale() {
+  const [x, y] = onCircle(60, ROLL_RADIUS);
+  const group = svg("g", { class: "roll-scale" });
+  group.append(svg("path", { d: `M${-x} ${y}A${ROLL_RADIUS} ${ROLL_RADIUS} 0 0 1 ${x} ${y}` }));
+  for (const { roll_deg, length } of rollMarks()) {
+    const from = onCircle(roll_deg, ROLL_RADIUS).map(short);
+    const to = onCircle(roll_deg, ROLL_RADIUS + length).map(short);
+    group.append(svg("path", { d: `M${from}L${to}` }));
+  }
+  group.append(svg("path", { d: "M0 -112 L-7 -125 L7 -125 Z", class: "roll-zero" }));
+  return group;
+}
+
+function aircraftSymbol() {
+  const wings = "M-90 0h38v9M76 0h-38v9";
+  return svg(
+    "g",
+    { class: "symbol" },
+    svg("path", { d: wings, class: "symbol-edge" }),
+    svg("path", { d: wings, class: "symbol-line" }),
+    svg("rect", { x: -10.5, y: -3.5, width: 7, height: 7, class: "symbol-dot" }),
+  );
+}

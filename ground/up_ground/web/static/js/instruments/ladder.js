@@ -1,0 +1,57 @@
+import { short } from "./svg.js";
+
+/** How far apart one degree of pitch is drawn. */
+export const UNITS_PER_DEG = 5;
+
+/**
+ * The rungs of the pitch ladder to the zenith and the nadir: long and numbered each 10 degrees,
+ * short each 5, and near the horizon each 2.5.
+ * @returns {{pitch_deg: number, halfWidth: number, label: string}[]}
+ */
+export function rungs() {
+  const all = [];
+  for (let pitch_deg = -90; pitch_deg <= 90; pitch_deg += 2.5) {
+    const isNear = Math.abs(pitch_deg) < 20;
+    if (pitch_deg === 0 || (pitch_deg % 5 !== 0 && !isNear)) {
+      continue;
+    }
+    const isTen = pitch_deg % 10 === 0;
+    const halfWidth = isTen ? 34 : pitch_deg % 5 === 0 ? 18 : 9;
+    all.push({ pitch_deg, halfWidth, label: isTen ? String(Math.abs(pitch_deg)) : "" });
+  }
+  return all;
+}
+
+/**
+ * Where the ball stands: right wing down turns the picture to the left, nose up moves it down.
+ * @param {number} roll_deg
+ * @param {number} pitch_deg
+ * @returns {string} of a transform attribute
+ */
+export function ballTransform(roll_deg, pitch_deg) {
+  const shift = Math.max(-90, Math.min(90, pitch_deg)) * UNITS_PER_DEG;
+  return `rotate(${short(-roll_deg)}) translate(0 ${short(shift)})`;
+}
+
+/**
+ * The marks of the roll scale.
+ * @returns {{roll_deg: number, length: number}[]}
+ */
+export function rollMarks() {
+  const lengths = { 10: 6, 20: 6, 30: 12, 45: 7, 60: 12 };
+  return Object.entries(lengths).flatMap(([roll_deg, length]) => [
+    { roll_deg: -Number(roll_deg), length },
+    { roll_deg: Number(roll_deg), length },
+  ]);
+}
+
+/**
+ * A point on a circle around the middle, clockwise from above.
+ * @param {number} angle_deg
+ * @param {number} radius
+ * @returns {[number, number]}
+ */
+export function onCircle(angle_deg, radius) {
+  const angle = (angle_deg * Math.PI) / 180;
+  return [radius * Math.sin(angle), -radius * Math.cos(angle)];
+}

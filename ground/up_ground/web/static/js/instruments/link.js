@@ -1,0 +1,72 @@
+import { html } from "../readout.js";
+import { ageText, numberText } from "../state/format.js";
+import { number, text } from "../state/judge.js";
+import { PlainRow, Row } from "./row.js";
+
+/** Every stretch of the way from the aircraft to this page. */
+export function mount(element, store, connection) {
+  const list = html("dl", { class: "rows" });
+  element.append(list);
+  const plain = {
+    age: new PlainRow(list, "Newest frame", "link.age"),
+    rate: new PlainRow(list, "Rate", "link.rate"),
+    lost: new PlainRow(list, "Lost, dropped", "link.lost"),
+    page: new PlainRow(list, "This page", "link.page"),
+    proxy: new PlainRow(list, "Proxy", "link.proxy"),
+    latency: new PlainRow(list, "Proxy's round trip", "link.latency"),
+    aircraft: new PlainRow(list, "Aircraft", "link.aircraft"),
+  };
+  const rows = [
+    new Row(list, "Board's serial link", "arduino.connected", joined, warnIfGone),
+    new Row(list, "Phone on board", "android.connected", joined, warnIfGone),
+  ];
+  return {
+    update() {
+      const link = store.status?.link ?? {};
+      const isOld = !connection.isOpen;
+      const age_s = store.age_s(null);
+      plain.age.show(age_s === null ? null : ageText(age_s), store.isSilent ? "warning" : "");
+      showPage(plain.page, connection);
+      showProxy(plain.proxy, link, isOld);
+      showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isOld);
+      showNumber(plain.rate, link.rate_hz, (hz) => `${numberText(hz, 1)} frames/s`, isOld);
+      const dropped = number(link.dropped);
+      showNumber(plain.lost, link.lost, (lost) => `${lost}, ${numberText(dropped)}`, isOld);
+      const isOnline = typeof link.aircraft_online === "boolean" ? link.aircraft_online : null;
+      const online = isOnline === null ? null : isOnline ? "at the proxy" : "not at the proxy";
+      plain.aircraft.show(online, isOnline === false ? "warning" : "", isOld);
+      for (const row of rows) {
+        row.update(store);
+      }
+    },
+  };
+}
+
+function joined(isThere) {
+  return isThere ? "connected" : "absent";
+}
+
+function warnIfGone(isThere) {
+  return isThere ? "" : "warning";
+}
+
+function showPage(row, connection) {
+  const trip_s = connection.roundTrip_s;
+  if (!connection.isOpen) {
+    row.show("no ground server", "alarm");
+  } else {
+    row.show(trip_s === null ? "connected" : `connected, ${numberText(trip_s * 1000)} ms`);
+  }
+}
+
+function showProxy(row, link, isOld) {
+  const state = text(link.state);
+  const reason = text(link.reason) ?? "";
+  const words = state === null ? null : reason === "" ? state : `${state}: ${reason}`;
+  row.show(words, state === "connected" ? "" : "warning", isOld);
+}
+
+function showNumber(row, found, format, isOld) {
+  const value = number(found);
+  row.show(value === null ? null : format(value), "", isOld);
+}

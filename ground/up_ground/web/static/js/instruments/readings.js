@@ -1,0 +1,35 @@
+import { html, setAttribute, setText } from "../readout.js";
+import { READINGS } from "../state/ages.js";
+import { ageText, UNKNOWN } from "../state/format.js";
+
+const NAMES = { rx: "receiver", servo: "servos" };
+const WORDS = { live: "live", stale: "old", none: "never came" };
+
+/** Each reading on board: who brings it, how old it is, and whether one may trust it. */
+export function mount(element, store) {
+  const body = html("tbody");
+  const head = ["Reading", "From", "Age", ""].map((name) => html("th", { scope: "col" }, name));
+  element.append(html("table", { class: "readings" }, html("thead", {}, html("tr", {}, ...head)), body));
+  const lines = READINGS.map((reading) => {
+    const source = html("td", { "data-key": `source.${reading}` });
+    const age = html("td", { class: "number", "data-key": `age_ms.${reading}` });
+    const state = html("td", { class: "reading-state" });
+    const row = html("tr", {}, html("th", { scope: "row" }, NAMES[reading] ?? reading), source, age, state);
+    body.append(row);
+    return { reading, source, age, state };
+  });
+  return {
+    update() {
+      for (const { reading, source, age, state } of lines) {
+        const freshness = store.freshness(reading);
+        const age_s = store.age_s(reading);
+        setText(source, store.text(`source.${reading}`) ?? UNKNOWN);
+        setText(age, age_s === null ? UNKNOWN : ageText(age_s));
+        setText(state, WORDS[freshness]);
+        setAttribute(source, "data-freshness", store.freshnessAt(`source.${reading}`));
+        setAttribute(age, "data-freshness", freshness);
+        setAttribute(state, "data-state", freshness);
+      }
+    },
+  };
+}

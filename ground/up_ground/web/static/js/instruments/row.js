@@ -1,0 +1,59 @@
+import { html, Readout, setAttribute, setText } from "../readout.js";
+
+/**
+ * One line of a list: its name, its value, its age while that is old.
+ *
+ * `judge(value)` says how it looks while it is live: "" plain, "warning" or "alarm".
+ */
+export class Row {
+  #readout;
+  #judge;
+
+  /**
+   * @param {HTMLElement} list a `dl`
+   * @param {string} name
+   * @param {string} path
+   * @param {(value: any) => string} [format]
+   * @param {(value: any) => string} [judge]
+   */
+  constructor(list, name, path, format = String, judge = () => "") {
+    const value = html("span", { class: "row-value" });
+    const age = html("span", { class: "age" });
+    list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, value, age)));
+    this.#readout = new Readout(value, path, format, age);
+    this.#judge = judge;
+  }
+
+  /** @param {object} store */
+  update(store) {
+    const value = this.#readout.update(store);
+    const level = value === null ? "" : this.#judge(value);
+    setAttribute(this.#readout.element, "data-level", level);
+  }
+}
+
+/** A line whose text comes from the page or its server, not from telemetry. */
+export class PlainRow {
+  #value;
+
+  /**
+   * @param {HTMLElement} list
+   * @param {string} name
+   * @param {string} key
+   */
+  constructor(list, name, key) {
+    this.#value = html("span", { class: "row-value", "data-key": key });
+    list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, this.#value)));
+  }
+
+  /**
+   * @param {string|null} text null: not known
+   * @param {string} [level]
+   * @param {boolean} [isOld]
+   */
+  show(text, level = "", isOld = false) {
+    setText(this.#value, text ?? "--");
+    setAttribute(this.#value, "data-level", text === null ? "" : level);
+    setAttribute(this.#value, "data-freshness", text === null ? "none" : isOld ? "stale" : "live");
+  }
+}

@@ -1,0 +1,71 @@
+import { html, Readout, setAttribute } from "../readout.js";
+import { numberText } from "../state/format.js";
+import { beyond, share } from "./stick_geometry.js";
+
+const CHANNELS = ["ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"];
+
+/** What the receiver says and what the servos get, channel by channel, 1000 to 2000 us. */
+export function mount(element, store) {
+  const table = html("div", { class: "channel-table" });
+  table.append(
+    html("span", { class: "channel-head" }),
+    html("span", { class: "channel-head" }, "in, us"),
+    html("span", { class: "channel-head" }, "out, us"),
+  );
+  const cells = [];
+  for (const channel of CHANNELS) {
+    table.append(html("span", { class: "channel-name" }, channel));
+    cells.push(new Cell(table, `rx.${channel}`, channel));
+    if (channel.startsWith("aux")) {
+      table.append(html("span"));
+    } else {
+      cells.push(new Cell(table, `servo.${channel}`, channel));
+    }
+  }
+  const rxAge = html("span", { class: "age" });
+  element.append(table, rxAge);
+  return {
+    update() {
+      for (const cell of cells) {
+        cell.update(store);
+      }
+    },
+  };
+}
+
+/** A bar from the middle (the throttle's from its end) and the pulse in figures. */
+class Cell {
+  #path;
+  #bar;
+  #fill;
+  #readout;
+  #isThrottle;
+
+  constructor(table, path, channel) {
+    this.#path = path;
+    this.#isThrottle = channel === "throttle";
+    this.#fill = html("span", { class: "bar-fill" });
+    this.#bar = html("span", { class: "bar", "aria-hidden": "true" }, this.#fill);
+    this.#bar.classList.toggle("is-from-end", this.#isThrottle);
+    const value = html("span", { class: "bar-value" });
+    this.#readout = new Readout(value, path, (pulse_us) => numberText(pulse_us));
+    table.append(html("span", { class: "channel-cell" }, this.#bar, value));
+  }
+
+  update(store) {
+    this.#readout.update(store);
+    const pulse_us = store.number(this.#path);
+    setAttribute(this.#bar, "data-freshness", store.freshnessAt(this.#path));
+    if (pulse_us === null) {
+      return;
+    }
+    const limited = Math.max(-1, Math.min(1, share(pulse_us)));
+    const scale = this.#isThrottle ? (limited + 1) / 2 : limited;
+    const transform = `scaleX(${scale.toFixed(3)})`;
+    if (this.#bar.shownTransform !== transform) {
+      this.#bar.shownTransform = transform;
+      this.#fill.style.transform = transform;
+    }
+    setAttribute(this.#bar, "data-beyond", beyond(pulse_us));
+  }
+}

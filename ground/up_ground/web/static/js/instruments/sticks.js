@@ -1,0 +1,63 @@
+import { html, setAttribute, setText } from "../readout.js";
+import { keepsakeOf } from "../link/keepsake.js";
+import { numberText, UNKNOWN } from "../state/format.js";
+import { drawing, hatch, svg } from "./svg.js";
+import { stickPlace } from "./stick_geometry.js";
+
+/** Which channel moves which way: [across, along] of the left and of the right stick. */
+const MODES = {
+  1: [["rudder", "elevator"], ["ailerons", "throttle"]],
+  2: [["rudder", "throttle"], ["ailerons", "elevator"]],
+};
+
+/** The two sticks as the receiver hears them, in mode 2 or 1. */
+export function mount(element, store) {
+  const memory = keepsakeOf("localStorage");
+  let mode = memory.get("stick-mode") === "1" ? 1 : 2;
+  const button = html("button", { type: "button", id: "stick-mode", class: "quiet" });
+  const gimbals = [gimbalOf("left"), gimbalOf("right")];
+  const pair = html("div", { class: "gimbals" }, ...gimbals.map((each) => each.element));
+  element.append(button, pair);
+  const name = () => setText(button, `Mode ${mode}`);
+  button.addEventListener("click", () => {
+    mode = mode === 1 ? 2 : 1;
+    memory.set("stick-mode", String(mode));
+    name();
+  });
+  name();
+  return {
+    update() {
+      gimbals.forEach((gimbal, side) => gimbal.show(store, MODES[mode][side]));
+    },
+  };
+}
+
+function gimbalOf(side) {
+  const stick = svg("circle", { r: 7, class: "stick" });
+  const across = svg("text", { x: 0, y: 62, class: "stick-name" });
+  const element = drawing(
+    "-52 -52 104 118",
+    `${side} stick`,
+    svg("rect", { x: -50, y: -50, width: 100, height: 100, class: "gimbal" }),
+    svg("path", { d: "M-50 0H50M0 -50V50", class: "gimbal-cross" }),
+    stick,
+    hatch(`stick-hatch-${side}`, { x: -50, y: -50, width: 100, height: 100 }),
+    across,
+  );
+  return {
+    element,
+    show(store, [x, y]) {
+      const x_us = store.number(`rx.${x}`);
+      const y_us = store.number(`rx.${y}`);
+      const place = stickPlace(x_us, y_us, y);
+      const freshness = place === null ? "none" : store.freshness("rx");
+      setAttribute(element, "data-freshness", freshness);
+      setAttribute(element, "data-across", x);
+      setAttribute(element, "data-along", y);
+      setText(across, place === null ? UNKNOWN : `${numberText(x_us)}  ${numberText(y_us)}`);
+      if (place !== null) {
+        setAttribute(stick, "transform", `translate(${place.x} ${place.y})`);
+      }
+    },
+  };
+}

@@ -1,0 +1,104 @@
+import { setAttribute, setText } from "../readout.js";
+import { UNKNOWN } from "../state/format.js";
+import { svg, hatch, short } from "./svg.js";
+import { TapeScale } from "./tape_scale.js";
+
+const HEIGHT = 280;
+
+/** A tape of numbers behind a window that shows the value itself. */
+export class Tape {
+  #scale;
+  #marks;
+  #labels;
+  #moving;
+  #first = null;
+  #number;
+  #label;
+
+  /**
+   * @param {{x: number, width: number, isLeft: boolean, step: number, units: number,
+   *   each: number, title: string, unit: string, key: string, least?: number}} form
+   *   each: how many steps between labels; isLeft: the marks point to the middle of the picture
+   */
+  constructor(form) {
+    const { x, width, isLeft, key } = form;
+    this.#scale = new TapeScale({ step: form.step, units: form.units, height: HEIGHT });
+    this.#label = (value, place) => this.#labelText(value, place, form);
+    const edge = isLeft ? x + width : x;
+    const inward = isLeft ? -1 : 1;
+    this.#marks = [];
+    this.#labels = [];
+    this.#moving = svg("g");
+    for (let place = 0; place < this.#scale.count; place += 1) {
+      const y = this.#scale.y(place);
+      const mark = svg("path", { class: "tape-mark" });
+      const kind = `tape-label ${isLeft ? "is-right" : "is-left"}`;
+      const label = svg("text", { x: edge + inward * 12, y: y + 4, class: kind });
+      this.#marks.push({ mark, edge, inward, y });
+      this.#labels.push(label);
+      this.#moving.append(mark, label);
+    }
+    const clip = `tape-${isLeft ? "left" : "right"}`;
+    const box = { x, y: -HEIGHT / 2, width, height: HEIGHT };
+    this.#number = svg("text", { y: 6, class: "tape-number", "data-key": key });
+    this.#number.setAttribute("x", isLeft ? x + width - 8 : x + width - 6);
+    this.element = svg(
+      "g",
+      { class: "tape" },
+      svg("defs", {}, svg("clipPath", { id: clip }, svg("rect", box))),
+      svg("rect", { ...box, class: "tape-ground" }),
+      svg("g", { "clip-path": `url(#${clip})` }, this.#moving),
+      hatch(`${clip}-hatch`, box),
+      svg("path", { d: windowPath(x, width, isLeft), class: "tape-window" }),
+      this.#number,
+      svg("rect", { x, y: -140, width, height: 32, class: "tape-cap" }),
+      svg("text", { x: x + width / 2, y: -127, class: "tape-title" }, form.title),
+    );
+    this.note = svg("text", { x: x + width / 2, y: -114, class: "tape-unit" }, form.unit);
+    this.foot = svg("text", { x: x + width / 2, y: 133, class: "tape-unit" });
+    const foot = svg("rect", { x, y: 120, width, height: 20, class: "tape-cap" });
+    this.element.append(this.note, foot, this.foot);
+  }
+
+  /**
+   * @param {number|null} value
+   * @param {"live"|"stale"|"none"} freshness
+   * @param {string} text of the window
+   */
+  show(value, freshness, text) {
+    setAttribute(this.element, "data-freshness", freshness);
+    setAttribute(this.#number, "data-freshness", freshness);
+    setText(this.#number, value === null ? UNKNOWN : text);
+    if (value === null) {
+      return;
+    }
+    const { first, shift } = this.#scale.at(value);
+    setAttribute(this.#moving, "transform", `translate(0 ${short(shift)})`);
+    if (first !== this.#first) {
+      this.#first = first;
+      this.#relabel(first);
+    }
+  }
+
+  #relabel(first) {
+    this.#marks.forEach(({ mark, edge, inward, y }, place) => {
+      const text = this.#label(first + place * this.#scale.step, first);
+      const length = text === null ? 0 : text === "" ? 5 : 9;
+      setAttribute(mark, "d", `M${edge} ${y}h${inward * length}`);
+      setText(this.#labels[place], text ?? "");
+    });
+  }
+
+  #labelText(value, _place, { step, each, least = -Infinity }) {
+    if (value < least) {
+      return null;
+    }
+    return Math.round(value / step) % each === 0 ? String(Math.round(value)) : "";
+  }
+}
+
+function windowPath(x, width, isLeft) {
+  return isLeft
+    ? `M${x} -15H${x + width - 5}V-6L${x + width + 3} 0L${x + width - 5} 6V15H${x}Z`
+    : `M${x + width} -15H${x + 5}V-6L${x - 3} 0L${x + 5} 6V15H${x + width}Z`;
+}

@@ -1,0 +1,50 @@
+/**
+ * A scale that moves past a pointer, greater values above.
+ *
+ * Only what changes is told: `first` is the lowest mark drawn, and it stays the same until the
+ * value has moved by a whole step; in between only `shift` moves.
+ */
+export class TapeScale {
+  /**
+   * @param {{step: number, units: number, height: number}} form step: between marks;
+   *   units: of the drawing for a step; height: of the drawing
+   */
+  constructor({ step, units, height }) {
+    this.step = step;
+    this.units = units;
+    this.count = 2 * (Math.ceil(height / 2 / units) + 1) + 1;
+  }
+
+  /**
+   * @param {number} value at the pointer
+   * @returns {{first: number, shift: number}} shift: how far down the marks move
+   */
+  at(value) {
+    const middle = Math.round(value / this.step);
+    const below = (this.count - 1) / 2;
+    return {
+      first: (middle - below) * this.step,
+      shift: (value / this.step - middle) * this.units,
+    };
+  }
+
+  /**
+   * @param {number} place of a mark, counted from the lowest
+   * @returns {number} where it is drawn while the shift is 0
+   */
+  y(place) {
+    return ((this.count - 1) / 2 - place) * this.units;
+  }
+}
+
+/**
+ * The needle of a scale that is finer around zero: the root of the share, with its sign.
+ * @param {number} value
+ * @param {number} most the value at the end
+ * @param {number} length of the scale from its middle
+ * @returns {number} upwards positive, within the length
+ */
+export function rootScale(value, most, length) {
+  const share = Math.min(1, Math.abs(value) / most);
+  return Math.sign(value) * Math.sqrt(share) * length;
+}

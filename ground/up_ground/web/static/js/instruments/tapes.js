@@ -1,0 +1,90 @@
+import { setAttribute, setText } from "../readout.js";
+import { numberText, UNKNOWN } from "../state/format.js";
+import { VIEW } from "./horizon.js";
+import { drawing, short, svg } from "./svg.js";
+import { Tape } from "./tape.js";
+import { rootScale } from "./tape_scale.js";
+
+const CLIMB_MOST_M_S = 10;
+const CLIMB_LENGTH = 96;
+
+/** Speed on the left, altitude and vertical speed on the right of the horizon. */
+export function mount(element, store) {
+  const speed = new Tape({
+    x: -200, width: 56, isLeft: true, step: 1, units: 14, each: 5, least: 0,
+    title: "GS m/s", unit: "by fixes", key: "motion.ground_speed",
+  });
+  const altitude = new Tape({
+    x: 126, width: 58, isLeft: false, step: 5, units: 16, each: 4,
+    title: "ALT m", unit: "sea level", key: "altitude",
+  });
+  const climb = climbOf();
+  element.append(
+    drawing(
+      `${VIEW.x} ${VIEW.y} ${VIEW.width} ${VIEW.height}`,
+      "Speed, altitude and vertical speed",
+      speed.element,
+      altitude.element,
+      climb.element,
+    ),
+  );
+  return {
+    update() {
+      showSpeed(speed, store);
+      showAltitude(altitude, store);
+      climb.show(store.motion.climb_m_s, freshnessOf(store, store.motion.climb_m_s, "altitude"));
+    },
+  };
+}
+
+function freshnessOf(store, value, reading) {
+  return value === null ? "none" : store.freshness(reading);
+}
+
+function showSpeed(tape, store) {
+  const speed_m_s = store.motion.groundSpeed_m_s;
+  const freshness = freshnessOf(store, speed_m_s, "location");
+  tape.show(speed_m_s, freshness, numberText(speed_m_s, 1));
+}
+
+function showAltitude(tape, store) {
+  const altitude_m = store.number("altitude");
+  const freshness = freshnessOf(store, altitude_m, "altitude");
+  tape.show(altitude_m, freshness, numberText(altitude_m, altitude_m >= 1000 ? 0 : 1));
+  const start_m = store.track.startAltitude_m;
+  const here_m = store.number("location.altitude");
+  const height_m = start_m === null || here_m === null ? null : here_m - start_m;
+  const text = height_m === null ? "" : `${numberText(height_m, 0, { sign: true })} m home`;
+  setText(tape.foot, text);
+  setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, "location"));
+}
+
+function climbOf() {
+  const scale = svg("g", { class: "climb-scale" });
+  for (const value of [-10, -5, -2, -1, 0, 1, 2, 5, 10]) {
+    const y = -rootScale(value, CLIMB_MOST_M_S, CLIMB_LENGTH);
+    scale.append(svg("path", { d: `M185 ${short(y)}h${value === 0 ? 15 : 5}` }));
+  }
+  const needle = svg("rect", { x: 186, y: 0, width: 12, height: 1, class: "climb-bar" });
+  const text = svg("text", { x: 192, y: -113, class: "climb-text", "data-key": "motion.climb" });
+  const element = svg(
+    "g",
+    { class: "climb" },
+    svg("rect", { x: 184, y: -140, width: 16, height: 280, class: "tape-ground" }),
+    scale,
+    needle,
+    svg("text", { x: 192, y: -127, class: "climb-title" }, "VS"),
+    text,
+  );
+  return {
+    element,
+    show(climb_m_s, freshness) {
+      const length = climb_m_s === null ? 0 : rootScale(climb_m_s, CLIMB_MOST_M_S, CLIMB_LENGTH);
+      setAttribute(element, "data-freshness", freshness);
+      setAttribute(needle, "y", short(Math.min(0, -length)));
+      setAttribute(needle, "height", short(Math.max(1, Math.abs(length))));
+      setAttribute(text, "data-freshness", freshness);
+      setText(text, climb_m_s === null ? UNKNOWN : numberText(climb_m_s, 0, { sign: true }));
+    },
+  };
+}
