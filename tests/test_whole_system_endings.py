@@ -1,0 +1,47 @@
+"""How the whole system ends: by its user, by its terminal, by a part that dies."""
+
+import os
+import signal
+from pathlib import Path
+
+from tests.support.showcase import Showcase, child_with, wait
+
+
+def test_ctrl_c_stops_everything_and_leaves_nothing(tmp_path):
+    showcase = Showcase(tmp_path).ready()
+    page = child_with(showcase.process.pid, "serve")
+    group = [page, showcase.daemon_pid(), child_with(showcase.process.pid, "up_proxy.main"),
+             child_with(showcase.process.pid, "up_simulator")]  # fmt: skip
+    assert (tmp_path / "radio").is_socket()
+    assert showcase.stop(signal.SIGINT) == 0
+    assert "Everything is stopped." in showcase.said()
+    assert not any(Path(f"/proc/{pid}").exists() for pid in group)
+    assert not (tmp_path / "board").is_symlink()
+    assert not (tmp_path / "radio").exists()
+    assert "Traceback" not in showcase.said()
+
+
+def test_a_terminal_that_closes_leaves_nothing(tmp_path):
+    showcase = Showcase(tmp_path).ready()
+    daemon = showcase.daemon_pid()
+    assert showcase.stop(signal.SIGHUP) == 0
+    assert not Path(f"/proc/{daemon}").exists()
+
+
+def test_a_part_that_dies_is_told_with_its_log_and_without_the_page_it_flies_on(tmp_path):
+    showcase = Showcase(tmp_path).ready()
+    os.kill(child_with(showcase.process.pid, "serve"), signal.SIGKILL)
+    wait(lambda: "The ground station for a browser is gone: " in showcase.said(), "its end is said")
+    assert "it ended by itself with signal 9" in showcase.said()
+    assert "It flies on." in showcase.said()
+    assert showcase.telemetry(1)[0]["armed"]
+    os.kill(showcase.daemon_pid(), signal.SIGKILL)
+    assert showcase.process.wait(20) == 1
+    assert "raspilot ended by itself with signal 9" in showcase.said()
+
+
+def test_a_showcase_that_is_killed_leaves_nothing(tmp_path):
+    showcase = Showcase(tmp_path).ready()
+    daemon = showcase.daemon_pid()
+    showcase.stop(signal.SIGKILL)
+    wait(lambda: not Path(f"/proc/{daemon}").exists(), "the daemon goes, too")

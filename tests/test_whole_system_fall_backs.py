@@ -1,0 +1,84 @@
+"""The whole system with another controller, and where compilers and models are missing."""
+
+import os
+import shutil
+import signal
+from pathlib import Path
+
+from tests.support.firmware import build_firmware
+from tests.support.showcase import Showcase, steepest, wait
+
+ROOT = Path(__file__).parents[1]
+WITHOUT_AUTOBAHN = """
+import sys
+
+
+class Without:
+    def find_spec(self, name, path=None, target=None):
+        if name == "autobahn":
+            raise ModuleNotFoundError("No module named 'autobahn'", name=name)
+
+
+sys.meta_path.insert(0, Without())
+"""
+
+
+def test_moving_the_controller_to_the_pi_is_configuration_only(tmp_path):
+    build_firmware()
+    showcase = Showcase(tmp_path, "--controller", "raspberry").ready()
+    try:
+        assert "Raspilot's controller on the Raspberry Pi holds the attitude" in showcase.said()
+        frames = showcase.telemetry(60)
+    finally:
+        assert showcase.stop(signal.SIGTERM) == 0
+    assert all(frame["flight_mode"] == "OUTPUT" for frame in frames)
+    assert all(frame["flight_control"]["mode"] == "FBW" for frame in frames)
+    assert steepest(frames) < 45
+    before, after = frames[0]["counters"], frames[-1]["counters"]
+    sent = after["flight_control"]["outputs"] - before["flight_control"]["outputs"]
+    assert sent > 60
+
+
+def test_without_flight_model_and_autobahn_a_recorded_flight_flies_and_no_page(tmp_path):
+    recorded = ROOT / "simulator" / "up_simulator" / "recorded_flight.csv.gz"
+    (tmp_path / "sitecustomize.py").write_text(WITHOUT_AUTOBAHN)
+    showcase = Showcase(tmp_path, "--replay", str(recorded), PYTHONPATH=str(tmp_path)).ready()
+    try:
+        (line,) = (each for each in showcase.said().splitlines() if each.startswith("  page "))
+        assert "needs the Python package autobahn, which is not installed" in line
+        assert "in a browser:" not in showcase.said()
+        assert "the servos have no effect" in showcase.said()
+        frames = showcase.telemetry(10)
+        assert len({frame["orientation"]["roll"] for frame in frames}) > 3
+    finally:
+        assert showcase.stop(signal.SIGTERM) == 0
+
+
+def clone_with_nothing_built(folder):
+    """What a user has who never could build the firmware."""
+    ignored = shutil.ignore_patterns("__pycache__", "build", "build-*")
+    for name in ("up", "raspilot", "simulator", "arduino"):
+        shutil.copytree(ROOT / name, folder / name, ignore=ignored)
+    shutil.copy(ROOT / "main.py", folder)
+    return [folder, folder / "simulator", folder / "arduino" / "bench"]
+
+
+def test_without_any_compiler_a_stand_in_flies_and_the_pi_holds_the_attitude(tmp_path):
+    """Where neither avr-gcc nor g++ is found; the search path leads to Python alone."""
+    tools = tmp_path / "bin"
+    tools.mkdir()
+    packages = clone_with_nothing_built(tmp_path / "clone")
+    showcase = Showcase(
+        tmp_path, path=str(tools), PYTHONPATH=os.pathsep.join(map(str, packages))
+    ).ready()
+    try:
+        said = showcase.said()
+        assert "no firmware aboard but a stand-in: " in said
+        assert "so the attitude is held by Raspilot instead" in said
+        # The stand-in takes Outputs only once its pilot has raised AUX2.
+        wait(lambda: showcase.telemetry(1)[0]["armed"], "armed by AUX2")
+        frames = showcase.telemetry(20)
+    finally:
+        assert showcase.stop(signal.SIGTERM) == 0
+    assert all(frame["flight_mode"] == "OUTPUT" for frame in frames)
+    assert steepest(frames) < 45
