@@ -1,5 +1,6 @@
 """What holds for every test."""
 
+import os
 import shutil
 import signal
 import tempfile
@@ -11,6 +12,19 @@ import pytest
 # starts as well: then none of the tests' own programs would end by it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def state_home():
+    """Let the programs that tests start keep their flights in a folder that goes with the tests."""
+    before = {name: os.environ.pop(name, None) for name in ("XDG_STATE_HOME", "STATE_DIRECTORY")}
+    with tempfile.TemporaryDirectory(prefix="up-state-", ignore_cleanup_errors=True) as folder:
+        os.environ["XDG_STATE_HOME"] = folder
+        yield Path(folder)
+    for name, text in before.items():
+        os.environ.pop(name, None)
+        if text is not None:
+            os.environ[name] = text
 
 
 @pytest.fixture

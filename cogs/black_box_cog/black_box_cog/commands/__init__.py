@@ -1,0 +1,1 @@
+"""The Commands of the cog."""

@@ -1,0 +1,22 @@
+"""An event that somebody on the ground wants to find again in the log."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class MarkCommand(BaseCommand):
+    """A mark in the flight log, in the words of whoever sets it."""
+
+    NAME: ClassVar[str] = "black_box.mark"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    text: str = value(max_length=200)
+
+    def __post_init__(self) -> None:
+        if not self.text.strip():
+            raise ValueError("text must have 1 to 200 characters")

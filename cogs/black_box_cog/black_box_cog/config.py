@@ -1,0 +1,83 @@
+"""black_box.yml."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from up.config import ConfigFile, key
+
+MEGABYTE = 1_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class BlackBoxConfig:
+    """The flight recorder: where it writes, and how much of the disk it takes."""
+
+    enabled: bool = key(True, "Whether flights are recorded.")
+    folder: str = key(
+        "",
+        "Folder of the flights. Empty: flights/ in the state directory that systemd gives, else "
+        "raspilot/flights in $XDG_STATE_HOME (~/.local/state).",
+        max_length=1024,
+    )
+    always: bool = key(
+        False,
+        "Whether to record from the start of the program to its end. Otherwise a flight begins "
+        "with the first Command from the Arduino, the phone or the ground, with what was said "
+        "before, and ends when none has come for ten minutes.",
+    )
+    telemetry: bool = key(
+        True,
+        "Whether the recorder asks for telemetry itself while the Arduino or the phone is heard, "
+        "so that a flight without a ground station has it too.",
+    )
+    file_size_mb: float = key(
+        50.0,
+        "Size at which a flight goes on in another file.",
+        name="file size (MB)",
+        unit="MB",
+        minimum=1,
+        maximum=2000,
+    )
+    total_size_mb: float = key(
+        1000.0,
+        "What all flights together may take; beyond it the oldest are deleted.",
+        name="total size (MB)",
+        unit="MB",
+        minimum=2,
+        maximum=1_000_000,
+    )
+    keep_free_mb: float = key(
+        200.0,
+        "What stays free on the disk: the oldest flights are deleted for it, and recording stops "
+        "when that is not enough.",
+        name="keep free (MB)",
+        unit="MB",
+        minimum=0,
+        maximum=1_000_000,
+    )
+    sync_s: float = key(
+        1.0,
+        "How much a power cut may cost: the file is forced onto the disk this often.",
+        name="sync (s)",
+        unit="s",
+        minimum=0.4,
+        maximum=60,
+    )
+    waiting_messages: int = key(
+        20_000,
+        "How many messages may wait in memory while the disk is slow; more are dropped and "
+        "counted.",
+        name="waiting (messages)",
+        minimum=1000,
+        maximum=1_000_000,
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield what does not fit together."""
+        if self.total_size_mb < 2 * self.file_size_mb:
+            yield "total_size_mb", "must be at least twice the file size"
+
+
+BLACK_BOX = ConfigFile("black_box.yml", BlackBoxConfig)

@@ -1,0 +1,65 @@
+"""The name of a file of a flight: number, moment of its start, aircraft, part."""
+
+from __future__ import annotations
+
+import re
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+_NAME = re.compile(
+    r"(?P<number>[0-9]{4,9})-(?P<stamp>[0-9]{8}T[0-9]{6}Z)-(?P<aircraft>[A-Za-z0-9_-]{1,32})"
+    r"(\.(?P<part>[2-9]|[1-9][0-9]{1,5}))?\.mcap",
+    re.ASCII,
+)
+_NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class FlightFile:
+    """One file: ``0007-20260814T093000Z-kite.mcap``, the second part ``...-kite.2.mcap``.
+
+    Numbers run on, as a Raspberry Pi has no clock when it boots; ``stamp`` is UTC as it was known.
+    """
+
+    folder: Path
+    number: int
+    stamp: str
+    aircraft: str
+    part: int = 1
+
+    @classmethod
+    def of(cls, path: Path) -> FlightFile | None:
+        """Return what a path says; None: it is no file of a flight."""
+        found = _NAME.fullmatch(path.name)
+        if found is None:
+            return None
+        part = int(found["part"] or 1)
+        return cls(path.parent, int(found["number"]), found["stamp"], found["aircraft"], part)
+
+    @classmethod
+    def first(cls, folder: Path, number: int, start_unix_s: float, aircraft: str) -> FlightFile:
+        """Return the first file of a flight; what no name may hold becomes ``_``."""
+        stamp = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime(start_unix_s))
+        return cls(folder, number, stamp, _NOT_IN_NAMES.sub("_", aircraft)[:32] or "default")
+
+    @property
+    def path(self) -> Path:
+        """Return where the file lies."""
+        part = "" if self.part == 1 else f".{self.part}"
+        return self.folder / f"{self.number:04d}-{self.stamp}-{self.aircraft}{part}.mcap"
+
+    @property
+    def flight(self) -> tuple[int, str, str]:
+        """Return what the parts of one flight have in common."""
+        return self.number, self.stamp, self.aircraft
+
+    def at_part(self, part: int) -> FlightFile:
+        """Return another part of the same flight."""
+        return FlightFile(self.folder, self.number, self.stamp, self.aircraft, part)
+
+
+def flight_files(folder: Path) -> list[FlightFile]:
+    """Return the files of flights in a folder, the oldest first; raises OSError."""
+    found = [each for each in map(FlightFile.of, Path(folder).iterdir()) if each is not None]
+    return sorted(found, key=lambda each: (each.number, each.stamp, each.aircraft, each.part))

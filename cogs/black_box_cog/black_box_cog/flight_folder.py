@@ -1,0 +1,133 @@
+"""The folder of the flights: numbers for new ones, room for what comes."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from black_box_cog.config import MEGABYTE
+from black_box_cog.disk import Disk
+from black_box_cog.flight_file import FlightFile, flight_files
+
+_LEAF = "flights"
+_ATTEMPTS = 100
+
+
+class NoRoomError(Exception):
+    """Too little is free, and no flight is left to delete; the text is one sentence."""
+
+
+def default_folder(environ: Mapping[str, str] = os.environ) -> Path:
+    """Return where flights are kept unless the configuration says it.
+
+    A service has a state directory of systemd's, a user $XDG_STATE_HOME (XDG Base Directory
+    Specification), which is ~/.local/state.
+    """
+    given = environ.get("STATE_DIRECTORY", "").split(":")[0]
+    if given:
+        return Path(given, _LEAF)
+    home = environ.get("XDG_STATE_HOME", "")
+    state = Path(home) if Path(home).is_absolute() else Path("~/.local/state").expanduser()
+    return state / "raspilot" / _LEAF
+
+
+def folder_of(configured: str, environ: Mapping[str, str] = os.environ) -> Path:
+    """Return the folder that ``folder`` of black_box.yml means."""
+    return Path(configured).expanduser() if configured else default_folder(environ)
+
+
+class FlightFolder:
+    """Makes the files of flights, and deletes old ones; the methods raise OSError."""
+
+    def __init__(self, disk: Disk, path: Path, total_bytes: float, keep_free_bytes: float) -> None:
+        self.path = path
+        self._disk = disk
+        self._total_bytes = total_bytes
+        self._keep_free_bytes = keep_free_bytes
+
+    def create(self, start_unix_s: float, aircraft: str) -> tuple[FlightFile, int]:
+        """Begin a flight with the next number; return its file and an open descriptor."""
+        self._disk.make_folder(self.path)
+        with self._held():
+            number = max((each.number for each in flight_files(self.path)), default=0)
+            for _ in range(_ATTEMPTS):
+                number += 1
+                file = FlightFile.first(self.path, number, start_unix_s, aircraft)
+                with contextlib.suppress(FileExistsError):
+                    return file, self._disk.create(file.path)
+        raise FileExistsError(f"no free number up to {number} in {self.path}")
+
+    def create_part(self, last: FlightFile) -> tuple[FlightFile, int]:
+        """Let a flight go on in another file; return it and an open descriptor."""
+        self._disk.make_folder(self.path)
+        file = last
+        for _ in range(_ATTEMPTS):
+            file = file.at_part(file.part + 1)
+            with contextlib.suppress(FileExistsError):
+                return file, self._disk.create(file.path)
+        raise FileExistsError(f"no free part up to {file.part} of {last.path}")
+
+    def make_room(self, current: FlightFile | None = None) -> list[FlightFile]:
+        """Delete the oldest until the rest fits, and return what was deleted.
+
+        Whole flights go, of the current one its oldest parts, but never a file that anybody
+        records into. Raises NoRoomError when too little is free even so.
+        """
+        self._disk.make_folder(self.path)
+        files = flight_files(self.path)
+        sizes = {file: self._size(file) for file in files}
+        left = sum(sizes.values())
+        deleted: list[FlightFile] = []
+        for group in _oldest_first(files, current):
+            if left <= self._total_bytes and self._is_free_enough():
+                return deleted
+            if any(file == current or self._disk.is_held(file.path) for file in group):
+                continue
+            for file in group:
+                self._disk.remove(file.path)
+                left -= sizes[file]
+            deleted += group
+        if not self._is_free_enough():
+            free_mb = self._disk.free_bytes(self.path) // MEGABYTE
+            keep_mb = self._keep_free_bytes / MEGABYTE
+            raise NoRoomError(
+                f"{free_mb} MB are free in {self.path}, and {keep_mb:g} MB shall stay free"
+                " (black_box.yml: keep free (MB))"
+            )
+        return deleted
+
+    def _is_free_enough(self) -> bool:
+        return self._disk.free_bytes(self.path) >= self._keep_free_bytes
+
+    def _size(self, file: FlightFile) -> int:
+        try:
+            return self._disk.size(file.path)
+        except FileNotFoundError:
+            return 0
+
+    @contextlib.contextmanager
+    def _held(self) -> Iterator[None]:
+        """Hold the folder while a number is chosen: another daemon may be at it."""
+        descriptor = self._disk.open_folder(self.path)
+        try:
+            # Without locks two flights may have one number; their names differ all the same.
+            with contextlib.suppress(OSError):
+                fcntl.flock(descriptor, fcntl.LOCK_EX)
+            yield
+        finally:
+            os.close(descriptor)
+
+
+def _oldest_first(
+    files: list[FlightFile], current: FlightFile | None
+) -> Iterator[list[FlightFile]]:
+    """Yield what is deleted together: whole flights, then the parts of the current one."""
+    flights: dict[tuple[int, str, str], list[FlightFile]] = {}
+    for file in files:
+        flights.setdefault(file.flight, []).append(file)
+    own = [] if current is None else flights.pop(current.flight, [])
+    yield from flights.values()
+    yield from ([file] for file in own)

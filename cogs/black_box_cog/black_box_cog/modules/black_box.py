@@ -1,0 +1,130 @@
+"""Records the flight: everything that goes over the bus, and the log of the program."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any, ClassVar
+
+from black_box_cog.commands.mark_command import MarkCommand
+from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.config import BLACK_BOX, MEGABYTE
+from black_box_cog.disk import Disk
+from black_box_cog.flight_facts import FlightFacts
+from black_box_cog.flight_folder import FlightFolder, folder_of
+from black_box_cog.intake import Intake
+from black_box_cog.log_lines import LogLines
+from black_box_cog.record_policy import RecordPolicy
+from black_box_cog.recorder import Recorder
+from up.base_thread_module import BaseThreadModule
+from up.commands.refusal import CommandRefusedError
+from up.commands.telemetry_commands import TelemetryCommand
+from up.registrations import note_undo
+
+SOURCE_S = 10.0
+"""The recorder asks for telemetry itself for so long after a word of the Arduino or the phone."""
+
+
+class BlackBox(BaseThreadModule):
+    """Observes the bus; its thread writes. The reactor's thread only appends to a queue."""
+
+    CONFIG = BLACK_BOX
+    # First to start and last to stop: what the others say meanwhile is recorded.
+    LOAD_ORDER: ClassVar[int] = -sys.maxsize
+
+    disk: Disk
+
+    def load(self) -> bool:
+        """Return whether flights are to be recorded."""
+        enabled: bool = self.config.enabled
+        return enabled
+
+    @property
+    def wants_telemetry(self) -> bool:
+        """Return whether a flight is recorded and the Arduino or the phone was heard just now."""
+        return (
+            self.config.telemetry
+            and self.recorder.status.recording
+            and time.perf_counter() - self.recorder.last_source_s < SOURCE_S
+        )
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return whether it records, into which file, and what is wrong."""
+        return {"black_box": asdict(self.recorder.status)}
+
+    def _execute_initialization(self) -> None:
+        config = self.config
+        self.disk = Disk()
+        self.intake = Intake(config.waiting_messages)
+        self._log_lines = LogLines(self.intake.note)
+        executor = self.up.command_executor
+        self._policy = RecordPolicy(executor.registry, self.context.reactor)
+        self.folder = FlightFolder(
+            self.disk,
+            folder_of(config.folder),
+            config.total_size_mb * MEGABYTE,
+            config.keep_free_mb * MEGABYTE,
+        )
+        self.recorder = Recorder(self.intake, config, self.folder, self._facts(), self.disk)
+        executor.register_command(TelemetryCommand, self._on_telemetry)
+        executor.register_command(MarkCommand, self._on_mark)
+        executor.register_command(RecordCommand, self._on_record)
+
+    def _execute_start(self) -> bool:
+        self.up.command_executor.add_observer(self.intake.observe)
+        self._log_lines.start()
+        note_undo(self._log_lines.stop)
+        return True
+
+    def _execute_stop(self) -> None:
+        self._log_lines.stop()
+
+    def _loop(self) -> None:
+        self.stop_event.wait(self.recorder.round_s)
+        self.recorder.work()
+
+    def _run(self) -> None:
+        super()._run()
+        try:
+            self.recorder.finish()
+        except Exception:  # noqa: BLE001 - the last words of a thread; nobody else would tell
+            self.logger.failure("{name} failed to finish the flight", name=self.class_name)
+
+    def _on_telemetry(self, command: TelemetryCommand) -> None:
+        """Do nothing: the observer has it; who subscribes is asked whether frames are wanted."""
+
+    def _on_mark(self, command: MarkCommand) -> None:
+        self._refuse_without_file()
+        self._log_info(f"mark: {command.text}")
+
+    def _on_record(self, command: RecordCommand) -> None:
+        self._refuse_without_file()
+        self.intake.note(self._policy.checked(command), self.up.command_executor.origin)
+
+    def _refuse_without_file(self) -> None:
+        problem = self.recorder.status.problem
+        if problem is not None:
+            raise CommandRefusedError(f"the flight is not recorded: {problem}")
+
+    def _facts(self) -> FlightFacts:
+        context = self.context
+        modules = {type(module).__module__.partition(".")[0] for module in self.up.modules}
+        return FlightFacts(
+            self._aircraft(),
+            {
+                "instance": context.instance,
+                "mode": context.mode.value,
+                "flight_controller": context.application.flight_controller,
+            },
+            tuple(sorted(modules)),
+            context.config_folder,
+        )
+
+    def _aircraft(self) -> str:
+        """Return the name that the ground knows this aircraft by."""
+        provider = self.up.mission_control_provider
+        config = None if provider is None or provider.CONFIG is None else provider.config
+        return getattr(config, "aircraft", "") or self.context.instance or "default"

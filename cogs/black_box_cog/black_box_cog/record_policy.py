@@ -1,0 +1,58 @@
+"""What may come into the log under a topic of its own."""
+
+from __future__ import annotations
+
+from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.encoders import json_of
+from black_box_cog.intake import Recorded
+from up.commands.command_registry import CommandRegistry
+from up.commands.refusal import CommandRefusedError
+from up.flight_log.origin_text import KEY
+from up.system.clock import Clock
+
+TOPICS_LIMIT = 64
+LONGEST_BYTES = 4096
+MOST_A_SECOND = 200
+_RESERVED = "up."
+
+
+class RecordPolicy:
+    """Bounds number, size and rate of what a companion records, and keeps others' topics theirs."""
+
+    def __init__(self, registry: CommandRegistry, clock: Clock) -> None:
+        self._registry = registry
+        self._clock = clock
+        self._topics: set[str] = set()
+        self._second = float("-inf")
+        self._count = 0
+
+    def checked(self, command: RecordCommand) -> Recorded:
+        """Return what is recorded; raises CommandRefusedError with the reason."""
+        self._check_topic(command.topic)
+        self._check_rate()
+        if KEY in command.content:
+            raise CommandRefusedError(f"content may not have the key {KEY}")
+        try:
+            text = json_of(command.content)
+        except (ValueError, TypeError, RecursionError):
+            raise CommandRefusedError("content cannot be written as JSON") from None
+        if len(text) > LONGEST_BYTES:
+            raise CommandRefusedError(
+                f"content of {len(text)} bytes as JSON, at most {LONGEST_BYTES} are recorded"
+            )
+        self._topics.add(command.topic)
+        return Recorded(command.topic, text)
+
+    def _check_topic(self, topic: str) -> None:
+        if topic.startswith(_RESERVED) or self._registry.get(topic) is not None:
+            raise CommandRefusedError(f"the topic {topic} is a Command's")
+        if topic not in self._topics and len(self._topics) >= TOPICS_LIMIT:
+            raise CommandRefusedError(f"at most {TOPICS_LIMIT} topics are recorded")
+
+    def _check_rate(self) -> None:
+        second = self._clock.seconds() // 1.0
+        if second != self._second:
+            self._second, self._count = second, 0
+        self._count += 1
+        if self._count > MOST_A_SECOND:
+            raise CommandRefusedError(f"at most {MOST_A_SECOND} records a second")
