@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from struct import Struct
 
+from up.fields import printable
 from up.flight_log.log_files import LogFiles
 from up.flight_log.log_index import LogIndex
 from up.flight_log.mcap_format import JSON, MESSAGE, FlightLogError, Opcode
@@ -64,6 +65,7 @@ class TopicNotes:
 
     def sentences(self, topic: str) -> list[str]:
         """Return what is wrong with the topic."""
+        topic = printable(topic)
         if not self.is_json:
             return [f"{topic}: its messages are no JSON but {self.encoding!a:.40}: only listed"]
         if self._unread:

@@ -91,12 +91,12 @@ class RecordWalk:
                 raise FlightLogError(f"{self._name}: it became shorter while it was read")
             start = self._pos + _HEAD
             yield opcode, place + _HEAD, start, length
+            if opcode == Opcode.FOOTER:
+                self._end(place, length)
+                return
             self._pos = start + length
             if opcode == Opcode.DATA_END:
                 self._end_data(place, length)
-            elif opcode == Opcode.FOOTER:
-                self._end(place, length)
-                return
 
     def _note_end(self, place: int) -> None:
         left = self._size - place
@@ -118,7 +118,6 @@ class RecordWalk:
 
     def _enter_chunk(self, place: int, length: int) -> None:
         end = place + _HEAD + length
-        self._chunk_end = end
         if self._chunk_sum is not None:
             self._problems.note("a chunk inside a chunk is passed over", place)
             self._go_to(end)
@@ -131,6 +130,7 @@ class RecordWalk:
             self._problems.note(fault, place)
             self._go_to(end)
             return
+        self._chunk_end = end
         self._chunk_crc = CHUNK.unpack_from(head)[3]
         begin += place + _HEAD
         self._limit = begin + U64.unpack_from(head, begin - place - _HEAD - U64.size)[0]
@@ -157,17 +157,17 @@ class RecordWalk:
             self._problems.note("it does not match its checksum: something is damaged", place)
 
     def _end(self, place: int, length: int) -> None:
-        if length < FOOTER.size or not self._has(len(MAGIC)):
+        whole = _HEAD + FOOTER.size
+        if length != FOOTER.size or not self._has(whole + len(MAGIC)):
             self._note_end(place)
             return
-        content = place + _HEAD - self._base
-        summary, _, told = FOOTER.unpack_from(self.buffer, content)
+        summary, _, told = FOOTER.unpack_from(self.buffer, self._pos + _HEAD)
         checked = self._summary_sum
-        if told and checked is not None and checked.end == summary:
-            checked.take(self.buffer, self._base, self._base + content + FOOTER.size - U32.size)
+        if told and checked is not None and checked.end <= place and checked.begin == summary:
+            checked.take(self.buffer, self._base, place + whole - U32.size)
             if checked.value != told:
                 self._problems.note("its summary does not match its checksum", place)
-        self.is_complete = self.buffer.startswith(MAGIC, self._pos)
+        self.is_complete = self.buffer.startswith(MAGIC, self._pos + whole)
         if not self.is_complete:
             self._note_end(place)
 
@@ -203,6 +203,7 @@ class _Checksum:
 
     def __init__(self, begin: int) -> None:
         self.value = 0
+        self.begin = begin
         self.end = begin
 
     def take(self, buffer: bytes, base: int, until: int) -> None:
