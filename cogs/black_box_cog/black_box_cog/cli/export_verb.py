@@ -1,0 +1,112 @@
+"""``up log export``."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import io
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from black_box_cog.cli.flights import Flight
+from black_box_cog.cli.near import no_such_topic
+from black_box_cog.cli.open_flight import flight_of, read
+from black_box_cog.cli.wording import duration_text, start_text, tell
+from black_box_cog.export.csv_table import columns_of, topic_rows, wide_rows
+from black_box_cog.export.gpx import gpx_lines
+from black_box_cog.export.kml import kml_lines
+from black_box_cog.export.log_track import track_of
+from black_box_cog.export.output import new_file
+from up.cli.cli_error import CliError
+from up.flight_log.flight_log import FlightLog
+
+RATE_HZ = 10.0
+STDOUT = Path("-")
+_NOT_IN_A_TABLE = ("log", "/location")
+"""Words, which no rate fits, and Foxglove's copy of the position."""
+
+
+def run(values: argparse.Namespace) -> int:
+    """Write a flight in another form."""
+    if values.format != "csv" and (values.topic or values.rate):
+        raise CliError(f"--topic and --rate say what a csv is, not a {values.format}", status=2)
+    flight = flight_of(values)
+    log = read(flight)
+    if values.format == "csv":
+        _export_csv(log, flight, values)
+        return 0
+    track = track_of(log, *_names(log, flight))
+    if not track.segments:
+        raise CliError(f"{flight.paths[0].name} tells no position: there is no track")
+    lines = gpx_lines if values.format == "gpx" else kml_lines
+    _write(lines(track), values.output or Path(f"{flight.name}.{values.format}"), values.force)
+    return 0
+
+
+def _export_csv(log: FlightLog, flight: Flight, values: argparse.Namespace) -> None:
+    for topic in values.topic:
+        if topic not in log.topics:
+            raise no_such_topic(topic, log)
+    topics = list(dict.fromkeys(values.topic))
+    if values.rate or not topics:
+        topics = topics or [topic for topic in log.topics if topic not in _NOT_IN_A_TABLE]
+        path = values.output or Path(f"{flight.name}.csv")
+        _write(_csv(_wide(log, topics, values.rate or RATE_HZ)), path, values.force)
+    elif len(topics) == 1:
+        path = values.output or Path(f"{flight.name}.{_file_name(topics[0])}")
+        _write(_csv(_one(log, topics[0])), path, values.force)
+    else:
+        folder = values.output or Path(flight.name)
+        if folder == STDOUT:
+            raise CliError("several topics are several files: name a folder by -o", status=2)
+        for topic in topics:
+            _write(_csv(_one(log, topic)), folder / _file_name(topic), values.force)
+
+
+def _one(log: FlightLog, topic: str) -> Iterator[list[str]]:
+    paths = columns_of(log.messages(topic)).get(topic, [])
+    return topic_rows(log.messages(topic), paths, log.start_unix_s)
+
+
+def _wide(log: FlightLog, topics: Sequence[str], rate_hz: float) -> Iterator[list[str]]:
+    if not topics:
+        raise CliError("the log has no messages: there is nothing to write")
+    columns = columns_of(log.messages(*topics))
+    return wide_rows(log.messages(*topics), columns, log.start_unix_s, log.length_s, rate_hz)
+
+
+def _csv(rows: Iterable[list[str]]) -> Iterator[str]:
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    for row in rows:
+        writer.writerow(row)
+        yield text.getvalue()
+        text.seek(0)
+        text.truncate()
+
+
+def _write(texts: Iterable[str], path: Path, may_overwrite: bool) -> None:
+    if path == STDOUT:
+        sys.stdout.writelines(texts)
+        return
+    if path.parent != Path():
+        path.parent.mkdir(parents=True, exist_ok=True)
+    count = 0
+    with new_file(path, may_overwrite=may_overwrite) as file:
+        for text in texts:
+            count += file.write(text.encode())
+    tell(f"{path}  {count / 1000:.0f} kB")
+
+
+def _names(log: FlightLog, flight: Flight) -> tuple[str, str]:
+    aircraft = log.metadata.get("flight", {}).get("aircraft", flight.aircraft)
+    number = "" if flight.number is None else f" {flight.number}"
+    begun = start_text(log.start_unix_s)
+    return f"{aircraft} flight{number}", f"{aircraft}, {begun}, {duration_text(log.length_s)}"
+
+
+def _file_name(topic: str) -> str:
+    """Return a topic as the name of a file: no folder, nothing that a shell or a disk dislikes."""
+    plain = "".join(c if c.isascii() and (c.isalnum() or c in "._-") else "_" for c in topic)
+    return f"{plain.strip('._')[:100] or 'topic'}.csv"

@@ -1,0 +1,129 @@
+"""Which recorded flights there are, and which one a user means."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+
+from black_box_cog.flight_file import FlightFile, flight_files
+from up.cli.cli_error import CliError
+from up.fields import printable
+
+SUFFIX = ".mcap"
+LAST = "last"
+
+
+@dataclass(frozen=True, slots=True)
+class Flight:
+    """The files of one flight, in order; ``number`` is None for a file with a name of its own."""
+
+    paths: tuple[Path, ...]
+    number: int | None
+    aircraft: str
+
+    @property
+    def name(self) -> str:
+        """Return what files about this flight are named after."""
+        return self.paths[0].stem
+
+    @property
+    def size(self) -> int:
+        """Return how many bytes it takes; a file that has gone counts nothing."""
+        return sum(path.stat().st_size for path in self.paths if path.is_file())
+
+
+def flights_in(folder: Path) -> list[Flight]:
+    """Return the flights of a folder, the oldest first; files with other names are not looked at.
+
+    Raises CliError where the folder cannot be read.
+    """
+    try:
+        files = flight_files(folder)
+    except OSError as error:
+        raise CliError(f"{folder}: {error.strerror or error}") from error
+    return [
+        Flight(tuple(file.path for file in parts), number, aircraft)
+        for (number, _, aircraft), parts in groupby(files, lambda file: file.flight)
+    ]
+
+
+def find_flight(named: str, folder: Callable[[], Path]) -> Flight:
+    """Return the flight that a user means; raises CliError, in one sentence.
+
+    ``named`` is a number or ``last``, looked up in what ``folder`` returns, or the path of a file
+    or of a folder.
+    """
+    if named == LAST:
+        return _those_in(folder())[-1]
+    if named.isascii() and named.isdigit():
+        return _numbered(int(named), folder())
+    path = Path(named)
+    if path.is_dir():
+        return _only_one(path)
+    if path.exists():
+        return _with_its_parts(path)
+    raise CliError(f"{printable(named)}: no such flight{_hint(named)}")
+
+
+def _those_in(folder: Path) -> list[Flight]:
+    if not folder.is_dir():
+        raise CliError(f"no flight has been recorded: there is no folder {folder}")
+    flights = flights_in(folder)
+    if not flights:
+        raise CliError(f"no flight is in {folder}")
+    return flights
+
+
+def _numbered(number: int, folder: Path) -> Flight:
+    flights = _those_in(folder)
+    found = [flight for flight in flights if flight.number == number]
+    if not found:
+        numbers = [flight.number for flight in flights]
+        raise CliError(
+            f"there is no flight {number} in {folder}: it has {numbers[0]} to {numbers[-1]}"
+            if len(numbers) > 1
+            else f"there is no flight {number} in {folder}: it has {numbers[0]} only"
+        )
+    if len(found) > 1:
+        raise CliError(f"{len(found)} flights have the number {number}: name {_files(found)}")
+    return found[0]
+
+
+def _only_one(folder: Path) -> Flight:
+    flights = flights_in(folder)
+    if len(flights) == 1:
+        return flights[0]
+    if flights:
+        raise CliError(f"{folder} has {len(flights)} flights: say --folder {folder} and a number")
+    # Parts that somebody has renamed are still those of a flight, in the order of their names.
+    paths = sorted(folder.glob(f"*{SUFFIX}"))
+    if not paths:
+        raise CliError(f"no flight is in {folder}: it has no file that ends in {SUFFIX}")
+    return Flight(tuple(paths), None, "")
+
+
+def _with_its_parts(path: Path) -> Flight:
+    """Return the flight that a file begins; a later part named alone is looked at alone."""
+    named = FlightFile.of(path)
+    if named is None:
+        return Flight((path,), None, "")
+    if named.part > 1:
+        return Flight((path,), named.number, named.aircraft)
+    flights = flights_in(path.parent)
+    return next(
+        (flight for flight in flights if path in flight.paths),
+        Flight((path,), named.number, named.aircraft),
+    )
+
+
+def _files(flights: Sequence[Flight]) -> str:
+    return " or ".join(str(flight.paths[0]) for flight in flights)
+
+
+def _hint(named: str) -> str:
+    if difflib.SequenceMatcher(None, named, LAST).ratio() > 0.7:
+        return f", did you mean '{LAST}'?"
+    return f" ('{LAST}', a number that 'up log list' tells, a file or a folder)"

@@ -1,0 +1,30 @@
+"""Where the flights are that a verb looks at."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+
+from black_box_cog.config import BLACK_BOX
+from black_box_cog.flight_folder import default_folder
+from black_box_cog.flight_folder import folder_of as configured_folder
+from up.cli.place import application_of
+from up.loading.application import NoApplicationError
+
+
+def folder_of(values: argparse.Namespace) -> Path:
+    """Return ``--folder``, else what black_box.yml says, else where the black box writes.
+
+    Outside of an application, and without ``--config``, there is no black_box.yml. Raises
+    ConfigErrors, and CliError for a ``--file`` that leads nowhere.
+    """
+    if values.folder is not None:
+        return Path(values.folder)
+    config: Path | None = values.config
+    if config is None:
+        try:
+            config = application_of(values).config_folder
+        except NoApplicationError:
+            return default_folder(os.environ)
+    return configured_folder(BLACK_BOX.load(config).folder, os.environ)
