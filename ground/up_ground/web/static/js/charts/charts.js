@@ -1,0 +1,110 @@
+import { element } from "../panels/element.js";
+import { sayMissing, styleSheet } from "../panels/vendor.js";
+import { rollDemand_deg } from "./demand.js";
+import { History } from "./history.js";
+import { LineChart } from "./line_chart.js";
+
+const MISSING =
+  "There are no charts, as uPlot is not installed: run tools/web_assets (it needs npm) and load this page again.";
+const DRAW_S = 0.1;
+const CHARTS = [
+  {
+    title: "Roll",
+    unit: "°",
+    decimals: 0,
+    leastSpan: 40,
+    lines: [
+      { name: "roll", label: "is", colour: "--accent" },
+      { name: "demand", label: "stick asks", colour: "--warn", dash: [5, 4] },
+    ],
+  },
+  { title: "Pitch", unit: "°", decimals: 0, leastSpan: 20, lines: [{ name: "pitch", label: "is", colour: "--accent" }] },
+  { title: "Altitude", unit: "m", decimals: 0, leastSpan: 20, lines: [{ name: "altitude", label: "is", colour: "--accent" }] },
+  { title: "Age of a frame", unit: "ms", decimals: 0, leastSpan: 50, lines: [{ name: "age", label: "when it came", colour: "--accent" }] },
+];
+
+/**
+ * The last minute of attitude, altitude and the link's delay.
+ * @param {HTMLElement} place
+ * @param {object} store
+ * @param {object} connection
+ * @returns {{update: () => void}}
+ */
+export function mount(place, store, connection) {
+  const notice = element("p.why", { hidden: true });
+  const row = element("div.charts", { id: "charts" });
+  place.append(notice, row);
+  const names = CHARTS.flatMap((chart) => chart.lines.map((line) => line.name));
+  const history = new History(names);
+  let charts = [];
+  let drawn_s = -Infinity;
+  let aircraft = null;
+  let lastReplay = null;
+
+  async function begin() {
+    try {
+      const { default: UPlot } = await import("../../vendor/uplot/uPlot.esm.js");
+      await styleSheet("vendor/uplot/uPlot.min.css");
+      charts = CHARTS.map((each) => new LineChart(UPlot, each));
+      row.append(...charts.map((each) => each.element));
+    } catch (error) {
+      console.warn(error);
+      notice.textContent = MISSING;
+      notice.hidden = false;
+      sayMissing(MISSING);
+    }
+  }
+
+  // The store has taken the frame before: it hears every message first.
+  function take(message) {
+    if (message.aircraft !== store.aircraft) {
+      return;
+    }
+    if (message.aircraft !== aircraft) {
+      aircraft = message.aircraft;
+      history.clear();
+    }
+    const age_s = store.age_s(null) ?? 0;
+    const live = (reading, path) => (store.freshness(reading) === "live" ? store.number(path) : null);
+    history.add(store.now_s - age_s, {
+      roll: live("orientation", "orientation.roll"),
+      demand: rollDemand_deg(store),
+      pitch: live("orientation", "orientation.pitch"),
+      altitude: live("altitude", "altitude"),
+      age: age_s * 1000,
+    });
+  }
+
+  function takeReplay(message) {
+    const isJump = lastReplay !== null && Math.abs(message.time_s - lastReplay.time_s) > 3 * Math.max(1, message.speed);
+    if (isJump) {
+      history.clear();
+    }
+    lastReplay = message;
+  }
+
+  connection.on("message", (message) => {
+    if (message.type === "frame") {
+      take(message);
+    } else if (message.type === "replay") {
+      takeReplay(message);
+    }
+  });
+  begin();
+
+  return {
+    update() {
+      if (document.hidden || store.now_s - drawn_s < DRAW_S) {
+        return;
+      }
+      drawn_s = store.now_s;
+      const [times_s, ...values] = history.columns(store.now_s);
+      let first = 0;
+      CHARTS.forEach((chart, index) => {
+        const own = values.slice(first, first + chart.lines.length);
+        first += chart.lines.length;
+        charts[index]?.show([times_s, ...own]);
+      });
+    },
+  };
+}

@@ -1,0 +1,105 @@
+/** How much of the past a chart shows. */
+export const WINDOW_S = 60;
+
+/** Where nothing came for longer than this, no line is drawn; a slow period makes it longer. */
+const GAP_S = 0.9;
+
+/** How many intervals tell the period; a silence among them does not change their median. */
+const INTERVALS = 5;
+
+/**
+ * The last minute of some values, with holes where nothing came.
+ *
+ * Times are seconds of one clock; they rise. A value that is null or stale is a hole as well.
+ */
+export class History {
+  #names;
+  #times_s = [];
+  #values;
+  #intervals_s = [];
+
+  /** @param {string[]} names of the values */
+  constructor(names) {
+    this.#names = names;
+    this.#values = names.map(() => []);
+  }
+
+  /** @returns {number} how many points are kept, the ones that mark holes included */
+  get length() {
+    return this.#times_s.length;
+  }
+
+  /**
+   * @param {number} time_s when it was so; not after the last one: dropped
+   * @param {Record<string, number|null>} values
+   */
+  add(time_s, values) {
+    const last_s = this.#times_s.at(-1);
+    if (last_s !== undefined) {
+      const since_s = time_s - last_s;
+      if (!(since_s > 0)) {
+        return;
+      }
+      if (since_s > this.gap_s) {
+        this.#push(last_s + since_s / 2, {});
+      }
+      this.#intervals_s = [...this.#intervals_s, since_s].slice(-INTERVALS);
+    }
+    this.#push(time_s, values);
+    this.#forget(time_s - WINDOW_S - GAP_S);
+  }
+
+  /** Draw no line from what came before to what comes next: another flight, another time. */
+  clear() {
+    this.#times_s = [];
+    this.#values = this.#names.map(() => []);
+    this.#intervals_s = [];
+  }
+
+  /** @returns {number} the silence in seconds across which no line goes */
+  get gap_s() {
+    const known = this.#intervals_s;
+    const period_s = known.length < INTERVALS ? 0 : known.toSorted((a, b) => a - b)[INTERVALS >> 1];
+    return Math.max(GAP_S, 2.5 * period_s);
+  }
+
+  /**
+   * @param {number} now_s
+   * @returns {(number|null)[][]} seconds before now (negative), then the values of each name; where
+   *   nothing came up to now a hole ends it
+   */
+  columns(now_s) {
+    const first = this.#times_s.findIndex((time_s) => time_s >= now_s - WINDOW_S);
+    if (first < 0) {
+      return [[], ...this.#names.map(() => [])];
+    }
+    const columns = [
+      this.#times_s.slice(first).map((time_s) => time_s - now_s),
+      ...this.#values.map((each) => each.slice(first)),
+    ];
+    if (now_s - this.#times_s.at(-1) > this.gap_s) {
+      columns[0].push(0);
+      columns.slice(1).forEach((each) => each.push(null));
+    }
+    return columns;
+  }
+
+  #push(time_s, values) {
+    this.#times_s.push(time_s);
+    this.#names.forEach((name, index) => {
+      const value = values[name];
+      this.#values[index].push(
+        typeof value === "number" && Number.isFinite(value) ? value : null,
+      );
+    });
+  }
+
+  #forget(before_s) {
+    const kept = this.#times_s.findIndex((time_s) => time_s >= before_s);
+    // Cut rarely, and then much: cutting at every frame would copy a minute at every frame.
+    if (kept > 256) {
+      this.#times_s = this.#times_s.slice(kept);
+      this.#values = this.#values.map((each) => each.slice(kept));
+    }
+  }
+}

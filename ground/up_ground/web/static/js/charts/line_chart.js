@@ -1,0 +1,142 @@
+import { element } from "../panels/element.js";
+import { setText } from "../readout.js";
+import { WINDOW_S } from "./history.js";
+
+const HEIGHT_PX = 104;
+
+/**
+ * One chart of the last minute by uPlot, with its newest values in words above it.
+ */
+export class LineChart {
+  #UPlot;
+  #lines;
+  #unit;
+  #leastSpan;
+  #decimals;
+  #plot = null;
+  #canvas = element("div.chart-canvas", { role: "img" });
+  #now = [];
+  #title;
+
+  /**
+   * @param {Function} UPlot
+   * @param {{title: string, unit: string, decimals: number, leastSpan: number,
+   *   lines: {name: string, label: string, colour: string, dash?: number[]}[]}} options
+   *   leastSpan: the least that the vertical axis shows
+   */
+  constructor(UPlot, { title, unit, decimals, leastSpan, lines }) {
+    this.#UPlot = UPlot;
+    this.#lines = lines;
+    this.#unit = unit;
+    this.#leastSpan = leastSpan;
+    this.#decimals = decimals;
+    this.#title = title;
+    const head = element("p.chart-head", {}, element("strong", { text: title }));
+    for (const line of lines) {
+      const now = element("span", { "data-line": line.name });
+      this.#now.push(now);
+      head.append(now);
+    }
+    this.element = element("div.chart", {}, head, this.#canvas);
+    document.addEventListener("up-theme", () => this.#rebuild());
+  }
+
+  /** @param {(number|null)[][]} columns seconds before now, then the values of each line */
+  show(columns) {
+    const width = this.#canvas.clientWidth;
+    if (width === 0) {
+      return;
+    }
+    this.#plot ??= this.#make(width, columns);
+    if (this.#plot.width !== width) {
+      this.#plot.setSize({ width, height: HEIGHT_PX });
+    }
+    this.#plot.setData(columns);
+    this.#lines.forEach((line, index) => {
+      setText(this.#now[index], `${line.label} ${this.#text(columns[index + 1].at(-1))}`);
+    });
+    this.#canvas.setAttribute("aria-label", this.#summary(columns[1]));
+  }
+
+  #rebuild() {
+    this.#plot?.destroy();
+    this.#plot = null;
+  }
+
+  #make(width, columns) {
+    const colour = (name) => colourOf(this.element, name);
+    const axis = {
+      stroke: colour("--dim"),
+      grid: { stroke: colour("--line"), width: 1 },
+      ticks: { show: false },
+      font: "11px system-ui, sans-serif",
+    };
+    const series = this.#lines.map((line) => ({
+      stroke: colour(line.colour),
+      width: 1.5,
+      dash: line.dash,
+      spanGaps: false,
+      // A single frame between two silences is a point, else it would not be seen.
+      points: { show: (plot, index, from, to) => to - from < 4, size: 3 },
+    }));
+    return new this.#UPlot(
+      {
+        width,
+        height: HEIGHT_PX,
+        padding: [6, 8, 0, 0],
+        legend: { show: false },
+        cursor: { show: false },
+        select: { show: false },
+        scales: {
+          x: { time: false, range: [-WINDOW_S, 0] },
+          y: { range: (plot, least, most) => span(least, most, this.#leastSpan) },
+        },
+        axes: [
+          { ...axis, size: 22, values: (plot, splits) => splits.map((each) => `${each} s`) },
+          { ...axis, size: 44, space: 24 },
+        ],
+        series: [{}, ...series],
+      },
+      columns,
+      this.#canvas,
+    );
+  }
+
+  #text(value) {
+    return Number.isFinite(value) ? `${value.toFixed(this.#decimals)} ${this.#unit}` : "--";
+  }
+
+  #summary(values) {
+    const known = values.filter((each) => each !== null);
+    if (known.length === 0) {
+      return `${this.#title}: nothing came in the last minute`;
+    }
+    const [least, most] = [Math.min(...known), Math.max(...known)];
+    return `${this.#title} of the last minute: now ${this.#text(values.at(-1))}, between ${this.#text(least)} and ${this.#text(most)}`;
+  }
+}
+
+/**
+ * @param {number|null} least
+ * @param {number|null} most
+ * @param {number} leastSpan
+ * @returns {[number, number]} what the axis shows: all values, and never a sliver
+ */
+export function span(least, most, leastSpan) {
+  if (least === null || most === null || !Number.isFinite(least) || !Number.isFinite(most)) {
+    return [-leastSpan / 2, leastSpan / 2];
+  }
+  const margin = (most - least) * 0.08;
+  const missing = Math.max(0, leastSpan - (most - least) - 2 * margin) / 2;
+  return [least - margin - missing, most + margin + missing];
+}
+
+// A canvas knows no light-dark(): the element tells what the colour is now.
+function colourOf(place, name) {
+  const probe = element("span");
+  probe.style.setProperty("color", `var(${name})`);
+  place.append(probe);
+  const colour = getComputedStyle(probe).color;
+  probe.remove();
+  return colour;
+}

@@ -1,0 +1,188 @@
+import { AircraftSymbol } from "./aircraft_symbol.js";
+import { metreGrid } from "./metre_grid.js";
+import { drawn } from "../panels/element.js";
+import { TrackLine } from "./track_line.js";
+
+const FIRST_ZOOM = 16;
+const CLOSEST = 21;
+const CLOSEST_TILES = 19;
+
+/** The map by Leaflet. It follows the aircraft, or it stays where the user put it. */
+export class LeafletMap {
+  #L;
+  #map;
+  #tiles = null;
+  #grid = null;
+  #symbol = new AircraftSymbol();
+  #aircraft = null;
+  #home = null;
+  #wayHome;
+  #track;
+  #hasView = false;
+  #onFree;
+
+  isFollowing = true;
+
+  /**
+   * @param {object} L Leaflet
+   * @param {HTMLElement} place
+   * @param {{tiles: ?{url: string, attribution: string}, onFree: () => void}} options onFree: the
+   *   user moved the map
+   */
+  constructor(L, place, { tiles, onFree }) {
+    this.#L = L;
+    this.#onFree = onFree;
+    this.#map = L.map(place, {
+      zoomControl: false,
+      attributionControl: tiles !== null,
+      maxZoom: CLOSEST,
+      minZoom: 2,
+      worldCopyJump: true,
+      zoomSnap: 0.5,
+    });
+    this.#map.attributionControl?.setPrefix(false);
+    L.control.scale({ imperial: false, position: "bottomleft" }).addTo(this.#map);
+    if (tiles !== null) {
+      const options = { maxZoom: CLOSEST, maxNativeZoom: CLOSEST_TILES, attribution: escaped(tiles.attribution) };
+      this.#tiles = L.tileLayer(tiles.url, options).addTo(this.#map);
+      this.#tiles.once("tileerror", () => this.#useGrid());
+    }
+    this.#wayHome = L.polyline([], { className: "way-home", interactive: false });
+    this.#track = new TrackLine(L, this.#map);
+    this.#map.on("dragstart", () => this.free());
+    this.#map.getContainer().addEventListener("keydown", (event) => {
+      if (event.key.startsWith("Arrow")) {
+        this.free();
+      }
+    });
+    document.addEventListener("up-theme", () => this.#grid?.redraw());
+    new ResizeObserver(() => this.#map.invalidateSize({ pan: false })).observe(place);
+    this.follow();
+  }
+
+  /** Keep the aircraft in the middle from now on. */
+  follow() {
+    this.isFollowing = true;
+    // Zooming around the pointer would move the aircraft out of the middle.
+    this.#zoomAround("center");
+    if (this.#aircraft !== null) {
+      this.#map.panTo(this.#aircraft.getLatLng(), { animate: false });
+    }
+  }
+
+  /** Leave the map where it is from now on. */
+  free() {
+    if (this.isFollowing) {
+      this.isFollowing = false;
+      this.#zoomAround(true);
+      this.#onFree();
+    }
+  }
+
+  /** @param {number} by levels closer; negative: farther */
+  zoom(by) {
+    if (this.#hasView) {
+      this.#map.setZoom(this.#map.getZoom() + by);
+    }
+  }
+
+  /** Show the whole track and home. */
+  showAll() {
+    const bounds = this.#track.bounds();
+    if (bounds !== null) {
+      this.free();
+      this.#map.fitBounds(bounds, { padding: [30, 30], maxZoom: 18 });
+    }
+  }
+
+  /** @param {import("./picture.js").Picture} picture */
+  show(picture) {
+    const { aircraft, home } = picture;
+    if (!this.#hasView) {
+      const first = aircraft ?? home;
+      if (first === null) {
+        return;
+      }
+      this.#map.setView([first.latitude, first.longitude], FIRST_ZOOM);
+      this.#hasView = true;
+    }
+    this.#showHome(home ?? aircraft, home !== null);
+    if (aircraft !== null) {
+      this.#showAircraft(picture);
+      const ends = home === null ? [] : [latLng(home), latLng(aircraft)];
+      this.#wayHome.setLatLngs(ends).addTo(this.#map);
+    }
+    this.#track.show(picture.track);
+  }
+
+  #showAircraft({ aircraft, heading_deg, freshness }) {
+    if (this.#aircraft === null) {
+      const icon = this.#L.divIcon({
+        html: this.#symbol.element,
+        className: "aircraft-marker",
+        iconSize: [40, 40],
+      });
+      const options = { icon, interactive: false, keyboard: false, zIndexOffset: 1000 };
+      this.#aircraft = this.#L.marker(latLng(aircraft), options).addTo(this.#map);
+    }
+    this.#symbol.show(heading_deg, freshness);
+    this.#aircraft.setLatLng(latLng(aircraft));
+    if (this.isFollowing) {
+      this.#map.panTo(latLng(aircraft), { animate: false });
+    }
+  }
+
+  #showHome(place, isKnown) {
+    if (this.#grid === null && this.#tiles === null) {
+      this.#useGrid(place);
+    }
+    const [latitude, longitude] = latLng(place);
+    const origin = this.#grid?.origin;
+    if (isKnown && origin && (origin.latitude !== latitude || origin.longitude !== longitude)) {
+      this.#grid.setOrigin(place);
+    }
+    if (!isKnown) {
+      return;
+    }
+    if (this.#home === null) {
+      const icon = this.#L.divIcon({ html: homeSymbol(), className: "home-marker", iconSize: [24, 24] });
+      this.#home = this.#L.marker(latLng(place), { icon, interactive: false, keyboard: false });
+      this.#home.addTo(this.#map);
+    }
+    this.#home.setLatLng(latLng(place));
+  }
+
+  #useGrid(place = null) {
+    const middle = this.#hasView ? this.#map.getCenter() : null;
+    const origin = place ?? (middle && { latitude: middle.lat, longitude: middle.lng });
+    if (this.#grid === null && origin !== null) {
+      this.#grid = metreGrid(this.#L, origin).addTo(this.#map);
+      this.#grid.bringToBack();
+    }
+  }
+
+  #zoomAround(what) {
+    for (const way of ["scrollWheelZoom", "touchZoom", "doubleClickZoom"]) {
+      this.#map.options[way] = what;
+    }
+  }
+}
+
+function latLng({ latitude, longitude }) {
+  return [latitude, longitude];
+}
+
+function homeSymbol() {
+  return drawn(
+    "svg.home-symbol",
+    { viewBox: "-12 -12 24 24", width: 24, height: 24, "aria-hidden": "true" },
+    drawn("path", { d: "M0 -9 L9 0 H6 V8 H-6 V0 H-9 Z" }),
+  );
+}
+
+// Leaflet writes an attribution as HTML.
+function escaped(text) {
+  const plain = document.createElement("span");
+  plain.textContent = String(text ?? "");
+  return plain.innerHTML;
+}

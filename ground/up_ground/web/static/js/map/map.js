@@ -1,0 +1,116 @@
+import { element } from "../panels/element.js";
+import { sayMissing, styleSheet } from "../panels/vendor.js";
+import { setAttribute, setText } from "../readout.js";
+import { homeWords, pictureOf } from "./picture.js";
+import { PlainMap } from "./plain_map.js";
+
+const MISSING =
+  "The map is a plain one, as Leaflet is not installed: run tools/web_assets (it needs npm) and load this page again.";
+
+/**
+ * The map: Leaflet where it is installed, a plain one of our own elsewhere.
+ * @param {HTMLElement} place
+ * @param {object} store
+ * @param {object} connection
+ * @returns {{update: () => void}}
+ */
+export function mount(place, store, connection) {
+  const canvas = element("div.map-canvas");
+  const follow = button("Follow", "Keep the aircraft in the middle", () => setFollow(!map?.isFollowing));
+  follow.id = "map-follow";
+  const closer = button("+", "Closer", () => map?.zoom(1));
+  const farther = button("−", "Farther", () => map?.zoom(-1));
+  const whole = button("All", "Show the whole track", () => map?.showAll());
+  const tools = element("div.map-tools", {}, follow, whole, closer, farther);
+  const words = element("p.map-words", { id: "map-home" });
+  const wind = element("p.map-wind", { hidden: true });
+  const notice = element("p.map-notice", { id: "map-notice", hidden: true });
+  place.append(canvas, tools, element("div.map-foot", {}, words, wind), notice);
+  let map = null;
+  place.addEventListener("keydown", onKey);
+
+  function button(text, label, click) {
+    return element("button", { type: "button", text, title: label, "aria-label": label, on: { click } });
+  }
+
+  function setFollow(isWanted) {
+    if (isWanted) {
+      map?.follow();
+    } else {
+      map?.free?.();
+    }
+    showFollow();
+  }
+
+  function showFollow() {
+    setAttribute(follow, "aria-pressed", String(map?.isFollowing ?? false));
+    const isPlain = map instanceof PlainMap;
+    [follow, closer, farther, whole].forEach((each) => (each.hidden = isPlain));
+  }
+
+  function onKey(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) {
+      return;
+    }
+    const keys = {
+      "+": () => map?.zoom(1),
+      "=": () => map?.zoom(1),
+      "-": () => map?.zoom(-1),
+      f: () => setFollow(!map?.isFollowing),
+    };
+    // Leaflet itself hears + and - while it has the focus.
+    const isLeaflets = event.target === canvas && event.key !== "f";
+    if (Object.hasOwn(keys, event.key) && !isLeaflets) {
+      keys[event.key]();
+    }
+  }
+
+  async function begin() {
+    try {
+      const { LeafletMap } = await import("./leaflet_map.js");
+      const L = await import("../../vendor/leaflet/leaflet-src.esm.js");
+      await styleSheet("vendor/leaflet/leaflet.css");
+      map = new LeafletMap(L, canvas, { tiles: connection.welcome?.tiles ?? null, onFree: showFollow });
+    } catch (error) {
+      console.warn(error);
+      map = new PlainMap(canvas);
+      setText(notice, MISSING);
+      notice.hidden = false;
+      sayMissing(MISSING);
+    }
+    showFollow();
+  }
+
+  function showWind() {
+    const from_deg = store.number("wind.from");
+    const speed = store.number("wind.speed");
+    wind.hidden = from_deg === null || speed === null || store.freshness(null) !== "live";
+    if (!wind.hidden) {
+      setText(wind, `wind ${speed.toFixed(1)} m/s from ${from_deg.toFixed(0)}°`);
+    }
+  }
+
+  // What tiles there are is known with the welcome.
+  if (connection.isOpen) {
+    begin();
+  } else {
+    const off = connection.on("open", () => {
+      off();
+      begin();
+    });
+  }
+
+  return {
+    update() {
+      const picture = pictureOf(store);
+      map?.show(picture);
+      const isShown = map !== null && picture.aircraft !== null;
+      setAttribute(place, "data-latitude", isShown ? String(picture.aircraft.latitude) : "");
+      setAttribute(place, "data-longitude", isShown ? String(picture.aircraft.longitude) : "");
+      setAttribute(place, "data-heading", isShown ? String(picture.heading_deg ?? "") : "");
+      setAttribute(words, "data-freshness", picture.freshness);
+      setText(words, homeWords(picture, store.age_s("location") ?? store.age_s(null)));
+      showWind();
+    },
+  };
+}

@@ -1,0 +1,58 @@
+import { bearing_deg, distance_m, distanceText, placeOf } from "./earth.js";
+import { ageText, headingText } from "../state/format.js";
+
+/**
+ * What a map draws: the aircraft where it was seen last, home, the track.
+ * @typedef {{aircraft: ?{latitude: number, longitude: number}, heading_deg: ?number,
+ *   freshness: "live"|"stale"|"none", home: ?{latitude: number, longitude: number},
+ *   track: object}} Picture
+ */
+
+/**
+ * @param {object} store
+ * @returns {Picture} the last position known, and how fresh it is
+ */
+export function pictureOf(store) {
+  const aircraft = placeOf(store.number("location.latitude"), store.number("location.longitude"));
+  const last = store.track.points.at(-1);
+  const seen = aircraft ?? (last === undefined ? null : placeOf(last[0], last[1]));
+  const home = store.status?.home;
+  const isSeen = aircraft !== null;
+  return {
+    aircraft: seen,
+    heading_deg: isSeen ? headingOf(store) : null,
+    freshness: seen === null ? "none" : isSeen ? freshnessOf(store) : "stale",
+    home: placeOf(home?.latitude, home?.longitude),
+    track: store.track,
+  };
+}
+
+/**
+ * @param {Picture} picture
+ * @param {number|null} age_s of the position
+ * @returns {string} how far away it is and where to walk
+ */
+export function homeWords(picture, age_s) {
+  if (picture.aircraft === null) {
+    return "No position yet";
+  }
+  const age = picture.freshness === "live" ? "" : `, seen ${ageText(age_s)} ago`;
+  if (picture.home === null) {
+    return `No home yet${age}`;
+  }
+  const distance = distanceText(distance_m(picture.home, picture.aircraft));
+  const back = headingText(bearing_deg(picture.aircraft, picture.home));
+  const from = headingText(bearing_deg(picture.home, picture.aircraft));
+  return `${distance} from home, seen from there at ${from}°, back by ${back}°${age}`;
+}
+
+function headingOf(store) {
+  return store.freshnessAt("heading.actual") === "live" || store.number("orientation.yaw") === null
+    ? store.number("heading.actual")
+    : store.number("orientation.yaw");
+}
+
+// A position without a known age is as fresh as the frame that brought it.
+function freshnessOf(store) {
+  return store.freshness("location") === "live" ? "live" : "stale";
+}

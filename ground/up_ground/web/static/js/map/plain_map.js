@@ -1,0 +1,90 @@
+import { offsetOf } from "./earth.js";
+import { linesBetween, stepOf, stepText, windowOf } from "./grid.js";
+import { drawn } from "../panels/element.js";
+import { setAttribute, setText } from "../readout.js";
+import { AircraftSymbol } from "./aircraft_symbol.js";
+
+const MOST_POINTS = 1500;
+
+/** A map of our own: track, home and aircraft in metres on a grid. It always shows everything. */
+export class PlainMap {
+  #symbol = new AircraftSymbol();
+  #lines = drawn("path.grid");
+  #track = drawn("polyline.track");
+  #home = drawn("path.home-symbol");
+  #scale = drawn("text.scale", { x: 12, y: 20 });
+  #step_m = 0;
+  #place;
+
+  isFollowing = false;
+
+  /** @param {HTMLElement} place */
+  constructor(place) {
+    this.#place = place;
+    this.element = drawn(
+      "svg.plain-map",
+      { role: "img", "aria-label": "Map: track, home and aircraft on a grid of metres" },
+      this.#lines,
+      this.#track,
+      this.#home,
+      this.#symbol.element,
+      this.#scale,
+    );
+    place.append(this.element);
+  }
+
+  /** @param {import("./picture.js").Picture} picture */
+  show({ aircraft, heading_deg, freshness, home, track }) {
+    const origin = home ?? aircraft;
+    const size = { width_px: this.#place.clientWidth, height_px: this.#place.clientHeight };
+    if (origin === null || size.width_px === 0 || size.height_px === 0) {
+      return;
+    }
+    const every = Math.ceil(track.points.length / MOST_POINTS) || 1;
+    const path = track.points
+      .filter((_, index) => index % every === 0)
+      .map(([latitude, longitude]) => offsetOf(origin, { latitude, longitude }));
+    const craft = aircraft === null ? null : offsetOf(origin, aircraft);
+    const shown = craft === null ? path : [...path, craft];
+    const view = windowOf([...shown, { east_m: 0, north_m: 0 }], size);
+    const x = (each) => size.width_px / 2 + (each.east_m - view.east_m) / view.metresPerPixel;
+    const y = (each) => size.height_px / 2 - (each.north_m - view.north_m) / view.metresPerPixel;
+    setAttribute(this.element, "viewBox", `0 0 ${size.width_px} ${size.height_px}`);
+    this.#drawGrid(view, size, x, y);
+    setAttribute(
+      this.#track,
+      "points",
+      shown.map((each) => `${x(each).toFixed(1)},${y(each).toFixed(1)}`).join(" "),
+    );
+    const at = { east_m: 0, north_m: 0 };
+    const isHome = home !== null;
+    setAttribute(this.#home, "d", isHome ? `M${x(at)} ${y(at) - 9} l9 9 h-3 v8 h-12 v-8 h-3 Z` : "");
+    if (craft !== null) {
+      this.#symbol.show(heading_deg, freshness);
+      setAttribute(this.#symbol.element, "x", (x(craft) - 20).toFixed(1));
+      setAttribute(this.#symbol.element, "y", (y(craft) - 20).toFixed(1));
+    }
+  }
+
+  /** It always shows all: nothing to do. */
+  follow() {}
+
+  /** It has no other scale. */
+  zoom() {}
+
+  /** It always does. */
+  showAll() {}
+
+  #drawGrid(view, size, x, y) {
+    this.#step_m = stepOf(view.metresPerPixel);
+    const half = { east: (size.width_px / 2) * view.metresPerPixel, north: (size.height_px / 2) * view.metresPerPixel };
+    const across = linesBetween(view.east_m - half.east, view.east_m + half.east, this.#step_m);
+    const up = linesBetween(view.north_m - half.north, view.north_m + half.north, this.#step_m);
+    const path = [
+      ...across.map((east_m) => `M${x({ east_m }).toFixed(1)} 0V${size.height_px}`),
+      ...up.map((north_m) => `M0 ${y({ north_m }).toFixed(1)}H${size.width_px}`),
+    ];
+    setAttribute(this.#lines, "d", path.join(""));
+    setText(this.#scale, `a square is ${stepText(this.#step_m)} wide, north is up`);
+  }
+}

@@ -1,0 +1,61 @@
+/** How many of the newest points are drawn bright, and then fainter. */
+const PARTS = [
+  { upTo: 150, opacity: 1, weight: 3 },
+  { upTo: 600, opacity: 0.6, weight: 2 },
+  { upTo: Infinity, opacity: 0.35, weight: 2 },
+];
+
+/** So many new points make it worth to draw the old parts again. */
+const AGAIN = 50;
+
+/** The track on Leaflet's map, the older the fainter. */
+export class TrackLine {
+  #lines;
+  #version = -1;
+  #count = 0;
+  #drawnCount = 0;
+  #points = [];
+
+  constructor(L, map) {
+    const renderer = L.svg({ padding: 0.3 });
+    this.#lines = PARTS.map(({ opacity, weight }) =>
+      L.polyline([], { className: "track", opacity, weight, interactive: false, renderer }).addTo(map),
+    );
+  }
+
+  /** @param {{points: number[][], version: number}} track */
+  show({ points, version }) {
+    if (version === this.#version && points.length === this.#count) {
+      return;
+    }
+    const isOther = version !== this.#version;
+    this.#points = points;
+    this.#version = version;
+    this.#count = points.length;
+    const isDue = isOther || points.length - this.#drawnCount >= AGAIN;
+    if (isDue) {
+      this.#drawnCount = points.length;
+    }
+    // Between two drawings of the whole only the newest part grows.
+    const grown = points.length - this.#drawnCount;
+    let end = points.length;
+    this.#lines.forEach((line, index) => {
+      const upTo = PARTS[index].upTo + grown;
+      const begin = Math.max(0, Number.isFinite(upTo) ? points.length - upTo : 0);
+      if (index === 0 || isDue) {
+        line.setLatLngs(points.slice(begin, end + (index === 0 ? 0 : 1)));
+      }
+      end = begin;
+    });
+  }
+
+  /** @returns {object|null} Leaflet's bounds of the whole track; null: no point yet */
+  bounds() {
+    if (this.#points.length === 0) {
+      return null;
+    }
+    const bounds = this.#lines[0].getBounds();
+    this.#points.forEach(([latitude, longitude]) => bounds.extend([latitude, longitude]));
+    return bounds;
+  }
+}

@@ -1,0 +1,34 @@
+const known = new Set();
+
+/**
+ * Silence an alarm until it is over and comes again.
+ * @param {{kind: string, level: string}} alarm
+ */
+export function acknowledge(alarm) {
+  known.add(keyOf(alarm));
+}
+
+/**
+ * @param {{kind: string, level: string}} alarm
+ * @returns {boolean} whether somebody has seen it and said so
+ */
+export function isAcknowledged(alarm) {
+  return known.has(keyOf(alarm));
+}
+
+/**
+ * Forget what is over: when it comes again, it sounds again.
+ * @param {{kind: string, level: string}[]} alarms that stand now
+ */
+export function forgetOthers(alarms) {
+  const standing = new Set(alarms.map(keyOf));
+  for (const key of known) {
+    if (!standing.has(key)) {
+      known.delete(key);
+    }
+  }
+}
+
+function keyOf(alarm) {
+  return `${alarm.kind} ${alarm.level}`;
+}

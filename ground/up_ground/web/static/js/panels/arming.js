@@ -1,0 +1,77 @@
+import { setAttribute, setText } from "../readout.js";
+import { element } from "./element.js";
+import { heading } from "./flight_modes.js";
+import { HeldButton } from "./held_button.js";
+
+/** Arm and disarm, each by a held press: nothing happens by a slip of the hand. */
+export class Arming {
+  #store;
+  #asker;
+  #arm;
+  #disarm;
+  #state = element("strong");
+  #line = element("p.quiet");
+  #note = element("p.note", { role: "status" });
+
+  constructor(store, asker) {
+    this.#store = store;
+    this.#asker = asker;
+    this.#arm = this.#button("arm-button", "Hold to arm", "up.arm");
+    this.#disarm = this.#button("disarm-button", "Hold to disarm", "up.disarm");
+    const state = element("p.armed-state", {}, "The motor is ", this.#state);
+    this.element = element(
+      "section.part.arming",
+      {},
+      heading("Motor"),
+      state,
+      element("div.buttons", {}, this.#arm.button, this.#disarm.button),
+      this.#arm.how,
+      this.#disarm.how,
+      this.#line,
+      this.#arm.note,
+      this.#disarm.note,
+      this.#note,
+    );
+  }
+
+  update() {
+    const isLive = this.#store.freshness(null) === "live";
+    const armed = isLive ? this.#store.flag("armed") : null;
+    setText(this.#state, armed === null ? "in a state not known" : armed ? "ARMED" : "disarmed");
+    setAttribute(this.#state, "data-armed", String(armed));
+    this.#arm.button.disabled = armed === true || this.#refusal("up.arm") !== "";
+    this.#disarm.button.disabled = armed === false || this.#refusal("up.disarm") !== "";
+    this.#arm.update();
+    this.#disarm.update();
+    setText(this.#line, this.#lineText(isLive, armed));
+  }
+
+  #button(id, text, name) {
+    return new HeldButton({
+      id,
+      text,
+      objection: () => this.#refusal(name),
+      fire: () => this.#asker.ask(name, {}, { note: this.#note }),
+      now_s: () => this.#store.now_s,
+    });
+  }
+
+  #refusal(name) {
+    const why = this.#asker.objection(name);
+    if (why) {
+      return why;
+    }
+    return this.#store.aircraftState === "live" ? "" : "The aircraft is silent.";
+  }
+
+  #lineText(isLive, armed) {
+    if (!isLive) {
+      return "The aircraft is silent: it can neither be armed nor disarmed from here.";
+    }
+    const vetoes = this.#store.texts("vetoes") ?? [];
+    if (armed === false && vetoes.length > 0) {
+      return `It will refuse to arm: ${vetoes.join("; ")}.`;
+    }
+    return armed ? "It disarms only when the throttle has been low for 2 s." : "";
+  }
+}

@@ -1,0 +1,75 @@
+import { setText } from "../readout.js";
+import { element } from "./element.js";
+import { agoWords } from "./words.js";
+
+const WORD = { info: "", warning: "Warning: ", alarm: "Alarm: " };
+
+/** The lines of a list of events: those that are there stay, so that only new ones are read out. */
+export class EventLines {
+  #list;
+  #lines = new Map();
+  #agesAt_s = -Infinity;
+
+  /** @param {HTMLElement} list */
+  constructor(list) {
+    this.#list = list;
+  }
+
+  /** @returns {boolean} whether the newest line is in sight */
+  get isAtNewest() {
+    const { scrollTop, clientHeight, scrollHeight } = this.#list;
+    return scrollHeight - scrollTop - clientHeight < 24;
+  }
+
+  /** Bring the newest line into sight. */
+  toNewest() {
+    this.#list.scrollTop = this.#list.scrollHeight;
+  }
+
+  /**
+   * @param {object[]} events the newest last
+   * @param {number} now_s
+   */
+  show(events, now_s) {
+    const wasAtNewest = this.isAtNewest;
+    const wanted = new Set(events.map((each) => each.number));
+    for (const [number, { line }] of this.#lines) {
+      if (!wanted.has(number)) {
+        line.remove();
+        this.#lines.delete(number);
+      }
+    }
+    let before = null;
+    for (const event of [...events].reverse()) {
+      if (!this.#lines.has(event.number)) {
+        this.#add(event, before);
+      }
+      before = this.#lines.get(event.number).line;
+    }
+    this.#agesAt_s = -Infinity;
+    this.showAges(now_s);
+    if (wasAtNewest) {
+      this.toNewest();
+    }
+  }
+
+  /** Write the ages anew, once a second. */
+  showAges(now_s) {
+    if (now_s - this.#agesAt_s < 1) {
+      return;
+    }
+    this.#agesAt_s = now_s;
+    for (const { age, at_s } of this.#lines.values()) {
+      setText(age, agoWords(now_s - at_s));
+    }
+  }
+
+  #add(event, before) {
+    // Ages change by themselves: they are not for reading out.
+    const age = element("time", { "aria-hidden": "true" });
+    const text = element("span", { text: `${WORD[event.level] ?? ""}${event.text}` });
+    const line = element("li", { "data-level": event.level, "data-kind": event.kind }, text, age);
+    this.#list.insertBefore(line, before);
+    this.#lines.set(event.number, { line, age, at_s: event.at_s });
+  }
+}

@@ -1,0 +1,99 @@
+import { setText } from "../readout.js";
+import { element } from "./element.js";
+
+/** A field with its label, its button, and what is wrong with what stands in it. */
+export class Field {
+  #read;
+  #send;
+  #isOffered = false;
+
+  /**
+   * @param {{id: string, label: string, button: string, input: object,
+   *   read: (text: string) => {value: any, problem: string}, send: (value: any) => void}} parts
+   *   input: attributes; read: judges what was written; send: called with a good value
+   */
+  constructor({ id, label, button, input, read, send }) {
+    this.#read = read;
+    this.#send = send;
+    this.input = element("input", { id, "aria-describedby": `${id}-note`, ...input });
+    this.button = element("button", { type: "submit", id: `${id}-send`, text: button });
+    this.note = element("p.note", { id: `${id}-note`, role: "status" });
+    this.hint = element("p.quiet");
+    this.element = element(
+      "form.field",
+      { novalidate: true, on: { submit: (event) => this.#submit(event), input: () => this.#judge() } },
+      element("label", { for: id, text: label }),
+      element("div.field-row", {}, this.input, this.button),
+      this.hint,
+      this.note,
+    );
+    this.offer(false);
+  }
+
+  /** @param {boolean} isOffered what is not is out of the way of the keyboard too */
+  offer(isOffered) {
+    this.#isOffered = isOffered;
+    this.input.disabled = !isOffered;
+    this.button.disabled = !isOffered;
+  }
+
+  /** @returns {any} the value that stands there; null: none that could be sent */
+  get value() {
+    const { value, problem } = this.#read(this.input.value);
+    return problem ? null : value;
+  }
+
+  #judge() {
+    const { problem } = this.input.value === "" ? { problem: "" } : this.#read(this.input.value);
+    this.#say(problem);
+  }
+
+  #submit(event) {
+    event.preventDefault();
+    const { value, problem } = this.#read(this.input.value);
+    this.#say(problem);
+    if (!problem && this.#isOffered) {
+      this.#send(value);
+    } else {
+      this.input.focus();
+    }
+  }
+
+  #say(problem) {
+    this.input.setAttribute("aria-invalid", String(problem !== ""));
+    this.note.setAttribute("data-look", problem ? "bad" : "plain");
+    setText(this.note, problem);
+  }
+}
+
+/**
+ * @param {number} least
+ * @param {number} most
+ * @param {string} unit
+ * @returns {(text: string) => {value: number, problem: string}}
+ */
+export function numberBetween(least, most, unit) {
+  return (text) => {
+    const value = text.trim() === "" ? NaN : Number(text);
+    if (!Number.isFinite(value)) {
+      return { value, problem: "write a number" };
+    }
+    const isIn = value >= least && value <= most;
+    return { value, problem: isIn ? "" : `must be ${least} to ${most} ${unit}` };
+  };
+}
+
+/**
+ * @param {number} longest
+ * @returns {(text: string) => {value: string, problem: string}}
+ */
+export function textUpTo(longest) {
+  return (text) => {
+    const value = text.trim();
+    if (value === "") {
+      return { value, problem: "write something" };
+    }
+    const isShort = [...value].length <= longest;
+    return { value, problem: isShort ? "" : `must be at most ${longest} characters` };
+  };
+}

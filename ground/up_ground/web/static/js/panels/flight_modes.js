@@ -1,0 +1,86 @@
+import { setAttribute, setText } from "../readout.js";
+import { element } from "./element.js";
+import { switchMode } from "./switch.js";
+import { modeWords } from "./words.js";
+
+/** What the ground may select; the switch of the pilot alone selects ACRO. */
+const MODES = ["RATE", "FBW", "AUTO"];
+const NAME = "up.flight_mode.set";
+
+/** The buttons of the flight modes; the one that is flown is marked. */
+export class FlightModes {
+  #store;
+  #asker;
+  #buttons = new Map();
+  #line = element("p.quiet");
+  #note = element("p.note", { role: "status" });
+
+  constructor(store, asker) {
+    this.#store = store;
+    this.#asker = asker;
+    const row = element("div.buttons.modes", { role: "group", "aria-label": "Flight mode" });
+    for (const mode of MODES) {
+      const button = element(
+        "button",
+        {
+          type: "button",
+          "data-mode": mode,
+          "aria-pressed": "false",
+          on: { click: () => this.#select(mode) },
+        },
+        element("strong", { text: mode }),
+        element("small", { text: modeWords(mode) }),
+      );
+      this.#buttons.set(mode, button);
+      row.append(button);
+    }
+    this.element = element("section.part", {}, heading("Flight mode"), row, this.#line, this.#note);
+  }
+
+  update() {
+    const store = this.#store;
+    const flown = store.freshness(null) === "live" ? store.text("flight_mode") : null;
+    const offered = store.texts("flight_control.offered");
+    for (const [mode, button] of this.#buttons) {
+      const isOffered = offered === null || offered.includes(mode);
+      button.disabled = !isOffered || this.#asker.objection(NAME, { mode }) !== "";
+      setAttribute(button, "aria-pressed", String(mode === flown));
+      setAttribute(button, "data-offered", String(isOffered));
+    }
+    setText(this.#line, this.#lineText(offered));
+  }
+
+  async #select(mode) {
+    const flown = this.#store.text("flight_mode") ?? "an unknown mode";
+    const question = {
+      title: `Fly ${mode}?`,
+      text: `Now it flies ${flown}. In ${mode} ${modeWords(mode)}. The pilot's switch decides: leaving AUTO there takes over at once.`,
+      yes: `Fly ${mode}`,
+      no: "Leave it",
+    };
+    await this.#asker.ask(NAME, { mode }, { note: this.#note, question });
+  }
+
+  #lineText(offered) {
+    const words = [];
+    const selected = switchMode(this.#store);
+    if (selected !== null && selected !== "AUTO") {
+      words.push(`The pilot's switch stands at ${selected}: the aircraft takes a mode only at AUTO.`);
+    }
+    const missing = this.#store.texts("flight_control.missing") ?? [];
+    const lacking = offered === null ? [] : MODES.filter((mode) => !offered.includes(mode));
+    if (lacking.length > 0) {
+      const why = missing.length > 0 ? ` (missing: ${missing.join(", ")})` : "";
+      words.push(`Not offered by the aircraft now: ${lacking.join(", ")}${why}.`);
+    }
+    return words.join(" ");
+  }
+}
+
+/**
+ * @param {string} text
+ * @returns {HTMLElement} the heading of a part of a panel
+ */
+export function heading(text) {
+  return element("h3", { text });
+}

@@ -1,0 +1,24 @@
+/** What surrounds a frame's tree in its message: its name, the beacon, the line's end. */
+const AROUND_BYTES = 52;
+const EVERY = 20;
+
+/** How many bytes a telemetry frame has as it comes from the aircraft: measured now and then. */
+export class FrameSize {
+  #nextAt = 0;
+
+  /** @type {number|null} the mean of the last ones; null: none came */
+  bytes = null;
+
+  /**
+   * @param {object} tree of the newest frame
+   * @param {number} count of all frames so far
+   */
+  look(tree, count) {
+    if (count === 0 || count < this.#nextAt) {
+      return;
+    }
+    this.#nextAt = count + EVERY;
+    const bytes = new TextEncoder().encode(JSON.stringify(tree)).length + AROUND_BYTES;
+    this.bytes = this.bytes === null ? bytes : this.bytes + (bytes - this.bytes) / 4;
+  }
+}

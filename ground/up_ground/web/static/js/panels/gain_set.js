@@ -1,0 +1,121 @@
+/** The greatest gain; the least is 0 (docs/protocols.md 5). */
+export const GREATEST = 50;
+
+/** The loops of a set, in the order of the wire. */
+export const LOOPS = [
+  { key: "ratePIDs", word: "rate", unit: "1.25 us of servo per deg/s" },
+  { key: "stabPIDs", word: "stabilize", unit: "deg/s per deg" },
+  { key: "navPIDs", word: "navigation", unit: "on the Raspberry Pi" },
+];
+
+/** The axes of a loop. */
+export const AXES = [
+  { key: "ailerons", word: "roll" },
+  { key: "elevator", word: "pitch" },
+  { key: "rudder", word: "yaw" },
+];
+
+/** The gains of an axis. */
+export const TERMS = ["p", "i", "d"];
+
+/**
+ * @param {object|null} set `{ratePIDs, stabPIDs, navPIDs?}`
+ * @returns {Map<string, number>} each gain that it has by its path, as `ratePIDs.ailerons.p`
+ */
+export function cellsOf(set) {
+  const cells = new Map();
+  for (const loop of LOOPS) {
+    for (const axis of AXES) {
+      for (const term of TERMS) {
+        const value = set?.[loop.key]?.[axis.key]?.[term];
+        if (typeof value === "number" && Number.isFinite(value)) {
+          cells.set(`${loop.key}.${axis.key}.${term}`, value);
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+/**
+ * @param {Map<string, number>} cells
+ * @returns {object} the set, whole as it is sent
+ */
+export function setOf(cells) {
+  const set = {};
+  for (const [path, value] of cells) {
+    const [loop, axis, term] = path.split(".");
+    set[loop] ??= {};
+    set[loop][axis] ??= {};
+    set[loop][axis][term] = value;
+  }
+  return set;
+}
+
+/**
+ * @param {string} path
+ * @returns {string} as `rate roll P`
+ */
+export function cellWords(path) {
+  const [loop, axis, term] = path.split(".");
+  const word = (list, key) => list.find((each) => each.key === key)?.word ?? key;
+  return `${word(LOOPS, loop)} ${word(AXES, axis)} ${term.toUpperCase()}`;
+}
+
+/**
+ * @param {number} value single precision comes with figures that nobody wrote
+ * @returns {string} six figures at most, one decimal at least
+ */
+export function gainText(value) {
+  const short = String(Number(value.toPrecision(6)));
+  return /^-?\d+$/.test(short) ? `${short}.0` : short;
+}
+
+/**
+ * @param {string} written
+ * @returns {{value: number, problem: string}} problem: why it is no gain, empty when it is one
+ */
+export function readGain(written) {
+  const text = written.trim();
+  if (text === "") {
+    return { value: NaN, problem: "is empty" };
+  }
+  if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text)) {
+    const hint = text.includes(",") ? "; write a point, as in 2.4" : "";
+    return { value: NaN, problem: `is not a number${hint}` };
+  }
+  const value = Number(text);
+  if (value < 0 || value > GREATEST) {
+    return { value: NaN, problem: `must be 0 to ${GREATEST}` };
+  }
+  return { value, problem: "" };
+}
+
+/**
+ * @param {Map<string, number>} before
+ * @param {Map<string, number>} after
+ * @returns {{path: string, before: number, after: number, words: string}[]} what differs
+ */
+export function difference(before, after) {
+  const found = [];
+  for (const [path, value] of after) {
+    const old = before.get(path);
+    if (old !== undefined && gainText(old) !== gainText(value)) {
+      found.push({ path, before: old, after: value, words: changeWords(path, old, value) });
+    }
+  }
+  return found;
+}
+
+function changeWords(path, before, after) {
+  const change = `${cellWords(path)} ${gainText(before)} → ${gainText(after)}`;
+  if (before === 0) {
+    return `${change}, was off`;
+  }
+  if (after === 0) {
+    return `${change}, off`;
+  }
+  const percent = (after / before - 1) * 100;
+  const figures = Math.abs(percent) < 9.95 && !Number.isInteger(Number(percent.toFixed(1))) ? 1 : 0;
+  return `${change}, ${percent > 0 ? "+" : "−"}${Math.abs(percent).toFixed(figures)} %`;
+}

@@ -1,0 +1,157 @@
+import { confirm } from "../dialog.js";
+import { setAttribute, setText } from "../readout.js";
+import { ageText } from "../state/format.js";
+import { Asker } from "./asker.js";
+import { element } from "./element.js";
+import { cellsOf, difference } from "./gain_set.js";
+import { GainsEditor, setBefore } from "./gains_editor.js";
+import { entriesOf, GainsHistory } from "./gains_history.js";
+import { GainsTable } from "./gains_table.js";
+import { gainsObjection, gainsWarning } from "./gains_why.js";
+
+const NAME = "arduino.pids.tunings";
+
+/**
+ * The gains that fly, editing them, and sending whole sets.
+ * @param {HTMLElement} place
+ * @param {object} store
+ * @param {object} connection
+ * @returns {{update: () => void}}
+ */
+export function mount(place, store, connection) {
+  return new GainsPanel(place, store, connection);
+}
+
+class GainsPanel {
+  #store;
+  #asker;
+  #editor = new GainsEditor();
+  #history = new GainsHistory();
+  #table = new GainsTable(this.#editor, () => this.update());
+  #state = element("p.quiet", { id: "gains-state" });
+  #why = element("p.why", { id: "gains-why" });
+  #conflict = element("ul.conflict", { id: "gains-conflict", role: "alert" });
+  #difference = element("ul.difference", { id: "gains-difference", "aria-live": "polite" });
+  #note = element("p.note", { id: "gains-note", role: "status" });
+  #buttons;
+  #shown = undefined;
+  #shownAircraft = null;
+  #came_s = 0;
+
+  constructor(place, store, connection) {
+    this.#store = store;
+    this.#asker = new Asker(store, connection);
+    const button = (id, text, click) => element("button", { type: "button", id, text, on: { click } });
+    this.#buttons = {
+      send: button("gains-send", "Send these gains", () => this.#send()),
+      discard: button("gains-discard", "Discard", () => this.#discard()),
+      undo: button("gains-undo", "Undo", () => this.#undo()),
+      ask: button("gains-ask", "Ask the aircraft", () => this.#ask({ request: true })),
+    };
+    const { send, discard, undo, ask } = this.#buttons;
+    const row = element("div.buttons", {}, ask, undo, discard, send);
+    place.append(this.#state, this.#why, this.#table.element, this.#conflict, this.#difference);
+    place.append(row, this.#note, this.#history.element);
+  }
+
+  update() {
+    this.#take();
+    const store = this.#store;
+    const why = gainsObjection(store, this.#asker);
+    const warning = why === "" ? gainsWarning(store) : "";
+    setText(this.#why, why || warning);
+    this.#why.hidden = this.#why.textContent === "";
+    setText(this.#state, this.#stateText());
+    this.#table.show(why === "");
+    this.#showLists();
+    const { send, discard, undo, ask } = this.#buttons;
+    send.disabled = why !== "" || this.#editor.wanted === null;
+    discard.hidden = !this.#editor.isEdited;
+    undo.disabled = why !== "" || this.#before() === null;
+    ask.disabled = this.#asker.objection(NAME, { request: true }) !== "";
+    this.#history.show(store.gains, store.now_s - this.#came_s);
+  }
+
+  // What flies elsewhere never touches what is being written here.
+  #take() {
+    const { aircraft, gains } = this.#store;
+    if (aircraft !== this.#shownAircraft) {
+      this.#shownAircraft = aircraft;
+      this.#editor.discard();
+      setText(this.#note, "");
+    }
+    if (gains !== this.#shown) {
+      this.#shown = gains;
+      this.#came_s = this.#store.now_s;
+      this.#editor.takeFlying(gains?.flying ?? null);
+    }
+  }
+
+  #showLists() {
+    const editor = this.#editor;
+    const problems = editor.problems.map(({ words }) => words);
+    const changes = editor.difference.map(({ words }) => words);
+    showLines(this.#difference, [...problems, ...changes]);
+    setAttribute(this.#difference, "data-problems", String(problems.length));
+    showLines(this.#conflict, editor.conflicts.map(({ words }) => words));
+  }
+
+  #stateText() {
+    const gains = this.#store.gains;
+    if (!gains?.flying) {
+      return "The gains that fly are not known yet.";
+    }
+    const told_s = (Number(gains.age_ms) || 0) / 1000 + this.#store.now_s - this.#came_s;
+    return `What flies, as the aircraft told it ${ageText(told_s)} ago.`;
+  }
+
+  async #send() {
+    const { wanted, conflicts } = this.#editor;
+    if (wanted === null) {
+      return;
+    }
+    const changed = this.#editor.difference.map(({ words }) => words);
+    const found = conflicts.map(({ words }) => `Changed meanwhile: ${words}.`);
+    const text = [...changed, ...found, gainsWarning(this.#store)].filter(Boolean).join("\n");
+    const isYes = await confirm({ title: "Send these gains?", text, yes: "Send", no: "Not yet" });
+    if (isYes) {
+      this.#editor.accept();
+      await this.#ask({ pids: wanted });
+    }
+  }
+
+  async #undo() {
+    const before = this.#before();
+    if (before === null) {
+      return;
+    }
+    const changes = difference(this.#editor.flying, cellsOf(before)).map(({ words }) => words);
+    const text = [...changes, gainsWarning(this.#store)].filter(Boolean).join("\n");
+    const question = { title: "Send the set before?", text, yes: "Send", no: "Leave it" };
+    if (await confirm(question)) {
+      await this.#ask({ pids: before });
+    }
+  }
+
+  #discard() {
+    this.#editor.discard();
+    setText(this.#note, "");
+    this.update();
+  }
+
+  #before() {
+    return setBefore(entriesOf(this.#store.gains), this.#editor.flying);
+  }
+
+  #ask(data) {
+    return this.#asker.ask(NAME, data, { note: this.#note });
+  }
+}
+
+function showLines(list, lines) {
+  const shown = [...list.children].map((each) => each.textContent);
+  if (shown.join("\n") !== lines.join("\n")) {
+    list.replaceChildren(...lines.map((text) => element("li", { text })));
+  }
+  list.hidden = lines.length === 0;
+}

@@ -1,0 +1,48 @@
+import { switchMode } from "./switch.js";
+
+const NAME = "arduino.pids.tunings";
+
+/**
+ * Why gains are not sent now, as far as it is known before trying.
+ * @param {object} store
+ * @param {import("./asker.js").Asker} asker
+ * @returns {string} one sentence; empty: nothing is known against it
+ */
+export function gainsObjection(store, asker) {
+  const why = asker.objection(NAME);
+  if (why) {
+    return why;
+  }
+  if (store.aircraftState !== "live") {
+    return "The aircraft is silent.";
+  }
+  if (store.status?.tune_in_flight === true) {
+    return "";
+  }
+  const rule = "tune_in_flight in the aircraft's mission_control.yml allows it";
+  const state =
+    store.flag("armed") === true
+      ? "the aircraft is armed"
+      : switchMode(store) === "AUTO"
+        ? "the pilot's switch stands at AUTO"
+        : "";
+  if (!state) {
+    return "";
+  }
+  return store.status?.tune_in_flight === false
+    ? `Gains are refused while ${state}, unless ${rule}.`
+    : "";
+}
+
+/**
+ * @param {object} store
+ * @returns {string} what is to be known before changing gains in flight; empty: nothing
+ */
+export function gainsWarning(store) {
+  if (store.flag("armed") !== true) {
+    return "";
+  }
+  return store.status?.tune_in_flight === true
+    ? "The aircraft is armed: what you send flies at once."
+    : "The aircraft is armed: it may refuse gains.";
+}

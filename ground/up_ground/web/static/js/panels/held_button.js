@@ -1,0 +1,165 @@
+import { setAttribute, setText } from "../readout.js";
+import { drawn, element } from "./element.js";
+import { HOLD_S, HeldPress } from "./held_press.js";
+
+const ROUND = 2 * Math.PI * 15;
+const KEYS = new Set([" ", "Enter"]);
+
+/**
+ * A button that does what it says only when it is held, by pointer, touch or key.
+ *
+ * `objection()` tells why it may not be pressed now; it is asked all the while it is held. `fire()`
+ * is called once when the press has lasted. What became of a press that did not is said in `note`.
+ */
+export class HeldButton {
+  #press = new HeldPress();
+  #objection;
+  #fire;
+  #clock_s;
+  #ring;
+  #isLooking = false;
+
+  /**
+   * @param {{id: string, text: string, objection: () => string, fire: () => void,
+   *   now_s: () => number}} parts
+   */
+  constructor({ id, text, objection, fire, now_s }) {
+    this.#objection = objection;
+    this.#fire = fire;
+    this.#clock_s = now_s;
+    this.#ring = drawn("circle.ring-done", { cx: 18, cy: 18, r: 15, "stroke-dasharray": ROUND });
+    const ring = drawn(
+      "svg.ring",
+      { viewBox: "0 0 36 36", "aria-hidden": "true" },
+      drawn("circle.ring-whole", { cx: 18, cy: 18, r: 15 }),
+      this.#ring,
+    );
+    this.button = element(
+      "button.held",
+      { id, type: "button", "aria-describedby": `${id}-how` },
+      ring,
+      element("span", { text }),
+    );
+    this.how = element("span.hidden-text", {
+      id: `${id}-how`,
+      text: `Hold for ${HOLD_S} seconds; with the keyboard hold Space or Enter. Letting go before that does nothing.`,
+    });
+    this.note = element("p.note", { id: `${id}-note`, role: "status" });
+    this.#listen();
+    this.#show();
+  }
+
+  /** Take a press under way back when something speaks against it, and show how it stands. */
+  update() {
+    if (this.#press.state === "pressed") {
+      this.#look();
+    }
+    this.#show();
+  }
+
+  #listen() {
+    const button = this.button;
+    const now_s = () => this.#clock_s();
+    button.addEventListener("pointerdown", (event) => {
+      if (event.button === 0 || event.pointerType === "touch") {
+        this.#begin(`pointer ${event.pointerId}`, now_s());
+      }
+    });
+    // A finger is captured by what it touched first: that it left only its place tells.
+    button.addEventListener("pointermove", (event) => {
+      if (this.#press.state === "pressed" && !isWithin(event, button)) {
+        this.#end(() => this.#press.void("the pointer left the button"));
+      }
+    });
+    button.addEventListener("pointerleave", () => this.#abandon("the pointer left the button"));
+    button.addEventListener("pointercancel", () => this.#abandon("the touch was interrupted"));
+    button.addEventListener("pointerup", (event) =>
+      this.#end(() => this.#press.release(`pointer ${event.pointerId}`)),
+    );
+    button.addEventListener("contextmenu", (event) => event.preventDefault());
+    button.addEventListener("keydown", (event) => {
+      if (KEYS.has(event.key)) {
+        event.preventDefault();
+        if (!event.repeat) {
+          this.#begin(`key ${event.key}`, now_s());
+        }
+      } else if (event.key === "Escape") {
+        this.#end(() => this.#press.void("Escape was pressed"));
+      }
+    });
+    button.addEventListener("keyup", (event) => {
+      if (KEYS.has(event.key)) {
+        event.preventDefault();
+        this.#end(() => this.#press.release(`key ${event.key}`));
+      }
+    });
+    button.addEventListener("blur", () => this.#abandon("the focus went elsewhere"));
+    window.addEventListener("blur", () => this.#abandon("the window lost the focus"));
+    document.addEventListener("visibilitychange", () => {
+      if (document.hidden) {
+        this.#abandon("the page was hidden");
+      }
+    });
+  }
+
+  #begin(by, now_s) {
+    const why = this.#objection();
+    this.#press.press(by, now_s, why);
+    setText(
+      this.note,
+      this.#press.state === "pressed" ? "keep holding" : `not sent: ${this.#press.why}`,
+    );
+    if (this.#press.state === "pressed" && !this.#isLooking) {
+      this.#isLooking = true;
+      requestAnimationFrame(() => this.#tick());
+    }
+    this.#show();
+  }
+
+  #tick() {
+    this.#look();
+    this.#show();
+    this.#isLooking = this.#press.state === "pressed";
+    if (this.#isLooking) {
+      requestAnimationFrame(() => this.#tick());
+    }
+  }
+
+  #look() {
+    this.#end(() => {
+      if (this.#press.look(this.#clock_s(), this.#objection())) {
+        setText(this.note, "");
+        this.#fire();
+      }
+    });
+  }
+
+  #abandon(why) {
+    if (this.#press.state !== "idle") {
+      this.#end(() => this.#press.abandon(why));
+    }
+  }
+
+  #end(change) {
+    const wasPressed = this.#press.state === "pressed";
+    change();
+    if (wasPressed && this.#press.state !== "pressed" && this.#press.state !== "done") {
+      setText(this.note, `not sent: ${this.#press.why}`);
+    }
+    this.#show();
+  }
+
+  #show() {
+    const progress = this.#press.progress(this.#clock_s());
+    setAttribute(this.button, "data-press", this.#press.state);
+    setAttribute(this.button, "data-progress", progress.toFixed(2));
+    setAttribute(this.#ring, "stroke-dashoffset", (ROUND * (1 - progress)).toFixed(1));
+  }
+}
+
+function isWithin(event, button) {
+  const { left, right, top, bottom } = button.getBoundingClientRect();
+  return (
+    event.clientX >= left && event.clientX <= right && event.clientY >= top && event.clientY <= bottom
+  );
+}

@@ -1,0 +1,104 @@
+/** How long a press must last. */
+export const HOLD_S = 1.5;
+
+/** Between two looks at the clock of one press: a page that hung must not fire when it wakes. */
+const LONGEST_LOOK_S = 0.5;
+
+/**
+ * A press that does something only when it is held: idle -> pressed -> done, or void.
+ *
+ * Nothing leads back to idle but letting go of everything that presses, so one press fires once,
+ * and a press that became void stays void however long it is still held.
+ */
+export class HeldPress {
+  #by = new Set();
+  #began_s = 0;
+  #looked_s = 0;
+
+  /** @type {"idle"|"pressed"|"done"|"void"} */
+  state = "idle";
+  /** Why the last press became void, in words; empty while it did not. */
+  why = "";
+
+  /**
+   * @param {string} by what presses: a pointer or a key, by name
+   * @param {number} now_s
+   * @param {string} [objection] why it may not be pressed now
+   */
+  press(by, now_s, objection = "") {
+    if (this.#by.has(by)) {
+      return;
+    }
+    this.#by.add(by);
+    if (this.state === "idle") {
+      this.state = "pressed";
+      this.why = "";
+      this.#began_s = this.#looked_s = now_s;
+      if (objection) {
+        this.void(objection);
+      }
+    } else {
+      this.void("something else pressed as well");
+    }
+  }
+
+  /** @param {string} by what lets go */
+  release(by) {
+    if (!this.#by.delete(by)) {
+      return;
+    }
+    this.void("it was let go too early");
+    if (this.#by.size === 0) {
+      this.state = "idle";
+    }
+  }
+
+  /** Let go of everything: the pointer was taken away, the focus went elsewhere. */
+  abandon(why) {
+    this.void(why);
+    this.#by.clear();
+    this.state = "idle";
+  }
+
+  /** @param {string} why a press under way counts no more; any other stays as it is */
+  void(why) {
+    if (this.state === "pressed") {
+      this.state = "void";
+      this.why = why;
+    }
+  }
+
+  /**
+   * Look at the clock.
+   * @param {number} now_s
+   * @param {string} [objection] why it may not be pressed now
+   * @returns {boolean} true once, when the press has lasted
+   */
+  look(now_s, objection = "") {
+    if (this.state !== "pressed") {
+      return false;
+    }
+    const since_s = now_s - this.#looked_s;
+    this.#looked_s = now_s;
+    if (objection) {
+      this.void(objection);
+    } else if (since_s > LONGEST_LOOK_S || since_s < 0) {
+      this.void("the page was held up");
+    } else if (now_s - this.#began_s >= HOLD_S) {
+      this.state = "done";
+      return true;
+    }
+    return false;
+  }
+
+  /**
+   * @param {number} now_s
+   * @returns {number} how much of the press is done, 0 to 1
+   */
+  progress(now_s) {
+    if (this.state === "done") {
+      return 1;
+    }
+    return this.state === "pressed" ? Math.min(1, Math.max(0, now_s - this.#began_s) / HOLD_S) : 0;
+  }
+}

@@ -1,0 +1,69 @@
+import { isOnlyRequest, roleAllows } from "../state/roles.js";
+
+/**
+ * Why a Command is not offered.
+ * @param {object} store
+ * @param {object} connection
+ * @param {string} name of the Command
+ * @param {object} [data]
+ * @returns {string} one sentence; empty: it is offered
+ */
+export function objection(store, connection, name, data = {}) {
+  if (!connection.isOpen || store.aircraft === null) {
+    return "There is no connection to the ground server.";
+  }
+  if (connection.welcome.is_replay) {
+    return "This is a replay: there is nothing to command.";
+  }
+  if (!isOnlyRequest(name, data)) {
+    const control = controlObjection(store, connection);
+    if (control) {
+      return control;
+    }
+  }
+  const role = store.status?.role ?? null;
+  if (!isOnlyRequest(name, data) && !roleAllows(role, name)) {
+    return `The aircraft's link has the role ${role}, which does not allow it (role in its mission_control.yml).`;
+  }
+  return "";
+}
+
+/**
+ * Why this page does not command.
+ * @param {object} store
+ * @param {object} connection
+ * @returns {string} one sentence; empty: it does
+ */
+export function controlObjection(store, connection) {
+  if (!connection.isOpen) {
+    return "There is no connection to the ground server.";
+  }
+  if (connection.welcome.is_replay) {
+    return "This is a replay: there is nothing to command.";
+  }
+  if (connection.welcome.may_control === false) {
+    return sentence(connection.welcome.why_not || "this page may only watch");
+  }
+  const control = store.status?.control;
+  switch (control?.holder) {
+    case "you":
+      return "";
+    case "page":
+      return `${control.holder_name || "Another page"} has control: this page watches.`;
+    case "ground":
+      return "Another ground station has control: this page watches.";
+    case "nobody":
+      return "Nobody has control: ask for it to command.";
+    default:
+      return "Who has control is not known yet.";
+  }
+}
+
+/**
+ * @param {string} text
+ * @returns {string} with a capital and a full stop
+ */
+export function sentence(text) {
+  const trimmed = String(text).trim().replace(/\.$/, "");
+  return trimmed === "" ? "" : `${trimmed[0].toUpperCase()}${trimmed.slice(1)}.`;
+}

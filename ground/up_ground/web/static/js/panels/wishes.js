@@ -1,0 +1,116 @@
+import { headingText, numberText } from "../state/format.js";
+import { setText } from "../readout.js";
+import { element } from "./element.js";
+import { Field, numberBetween, textUpTo } from "./field.js";
+import { heading } from "./flight_modes.js";
+import { FrameSize } from "./frame_size.js";
+import { costWords } from "./words.js";
+
+/** Heading and altitude asked for, telemetry's period, the phone's voice, a mark in the log. */
+export class Wishes {
+  #store;
+  #asker;
+  #size = new FrameSize();
+  #heading;
+  #altitude;
+  #period;
+  #speak;
+  #mark;
+
+  constructor(store, asker) {
+    this.#store = store;
+    this.#asker = asker;
+    this.#heading = this.#number("wish-heading", "Heading, degrees", [0, 360], "deg", (value) =>
+      this.#fly("up.heading.change", { heading: value, mode: "required" }, this.#heading),
+    );
+    this.#altitude = this.#number(
+      "wish-altitude",
+      "Altitude above sea level, metres",
+      [-1000, 30000],
+      "m",
+      (value) => this.#fly("up.altitude.change", { altitude: value, mode: "required" }, this.#altitude),
+    );
+    this.#period = this.#number(
+      "telemetry-period",
+      "Telemetry every, milliseconds",
+      [20, 10000],
+      "ms",
+      (value) => this.#send("up.telemetry.frequency", { frequency: value }, this.#period),
+    );
+    this.#speak = this.#text("speak", "Say on the phone", "Say", (text) =>
+      this.#send("android.speak", { text }, this.#speak),
+    );
+    this.#mark = this.#text("mark", "Mark in the flight log", "Mark", (text) =>
+      this.#send("black_box.mark", { text }, this.#mark),
+    );
+    this.#period.input.addEventListener("input", () => this.#showCost());
+    this.element = element(
+      "section.part.wishes",
+      {},
+      heading("Where to, and what to tell"),
+      ...this.#fields.map(([field]) => field.element),
+    );
+  }
+
+  update() {
+    for (const [field, name, data] of this.#fields) {
+      field.offer(this.#asker.objection(name, data) === "");
+    }
+    const store = this.#store;
+    this.#size.look(store.data, store.frames);
+    const wanted = store.number("heading.required");
+    const asked = wanted === null ? "" : `, asked ${headingText(wanted)}°`;
+    setText(this.#heading.hint, `now ${headingText(store.number("heading.actual"))}°${asked}`);
+    setText(this.#altitude.hint, `now ${numberText(store.number("altitude"), 0)} m`);
+    this.#showCost();
+  }
+
+  get #fields() {
+    return [
+      [this.#heading, "up.heading.change", { mode: "required" }],
+      [this.#altitude, "up.altitude.change", { mode: "required" }],
+      [this.#period, "up.telemetry.frequency", {}],
+      [this.#speak, "android.speak", {}],
+      [this.#mark, "black_box.mark", {}],
+    ];
+  }
+
+  #showCost() {
+    const written = this.#period.value;
+    const rate_hz = this.#store.status?.link?.rate_hz;
+    const now_ms = typeof rate_hz === "number" && rate_hz > 0 ? 1000 / rate_hz : null;
+    if (written !== null) {
+      setText(this.#period.hint, costWords(written, this.#size.bytes));
+    } else if (now_ms !== null) {
+      setText(this.#period.hint, `now ${costWords(now_ms, this.#size.bytes)}`);
+    } else {
+      setText(this.#period.hint, "");
+    }
+  }
+
+  #fly(name, data, field) {
+    const isHeading = name === "up.heading.change";
+    const what = isHeading ? `heading ${data.heading}°` : `altitude ${data.altitude} m`;
+    const question = {
+      title: `Ask for ${what}?`,
+      text: "An aircraft that navigates by itself turns to it; in other modes it is only noted.",
+      yes: "Ask for it",
+      no: "Leave it",
+    };
+    return this.#asker.ask(name, data, { note: field.note, question });
+  }
+
+  #send(name, data, field) {
+    return this.#asker.ask(name, data, { note: field.note });
+  }
+
+  #number(id, label, [least, most], unit, send) {
+    const input = { type: "number", inputmode: "decimal", min: least, max: most, step: "any" };
+    return new Field({ id, label, button: "Ask", input, read: numberBetween(least, most, unit), send });
+  }
+
+  #text(id, label, button, send) {
+    const input = { type: "text", maxlength: 200, autocomplete: "off" };
+    return new Field({ id, label, button, input, read: textUpTo(200), send });
+  }
+}

@@ -1,0 +1,140 @@
+const MODES = {
+  RATE: "the sticks ask for rotation",
+  FBW: "the sticks ask for attitude, within limits",
+  AUTO: "the aircraft flies by itself",
+};
+
+/**
+ * @param {string} mode
+ * @returns {string} what a flight mode does, in a few words; empty for one that is not known
+ */
+export function modeWords(mode) {
+  return Object.hasOwn(MODES, mode) ? MODES[mode] : "";
+}
+
+/**
+ * @param {string} name of a Command
+ * @param {object} [data]
+ * @returns {string} what a Command asks for, as a heading
+ */
+export function commandWords(name, data = {}) {
+  switch (name) {
+    case "up.flight_mode.set":
+      return `Flight mode ${data.mode}`;
+    case "up.arm":
+      return "Arm";
+    case "up.disarm":
+      return "Disarm";
+    case "up.telemetry.frequency":
+      return `Telemetry every ${data.frequency} ms`;
+    case "up.heading.change":
+      return `Heading ${data.heading}°`;
+    case "up.altitude.change":
+      return `Altitude ${data.altitude} m`;
+    case "android.speak":
+      return `Say "${data.text}"`;
+    case "black_box.mark":
+      return `Mark "${data.text}"`;
+    case "arduino.pids.tunings":
+      return data.request ? "Ask for the gains" : "New gains";
+    case "arduino.profile.request":
+      return "Ask for the profile";
+    case "arduino.calibrate":
+      return `Calibrate ${String(data.what).replace("_", " ")}`;
+    default:
+      return name;
+  }
+}
+
+/**
+ * @param {{outcome: string, code?: ?string, reason?: ?string, round_trip_ms?: ?number}} answer
+ * @returns {string} what became of a Command, in plain words
+ */
+export function answerWords(answer) {
+  const reason = String(answer.reason ?? "").replace(/[.\s]+$/, "");
+  const after_ms = answer.round_trip_ms;
+  switch (answer.outcome) {
+    case "ack":
+      return Number.isFinite(after_ms)
+        ? `carried out after ${Math.round(after_ms)} ms`
+        : "carried out";
+    case "nack":
+      return `refused by the aircraft: ${reason || "no reason given"}${codeWords(answer.code, reason)}`;
+    case "timeout":
+      return `no answer${reason ? ` (${reason})` : ""}: nobody knows whether it was carried out`;
+    case "unsent":
+      return `not sent: ${reason || "no connection"}`;
+    case "refused":
+      return `refused by the ground server: ${reason || "no reason given"}`;
+    default:
+      return `an answer that this page does not know: ${answer.outcome}`;
+  }
+}
+
+/**
+ * @param {{outcome: string}} answer
+ * @returns {"good"|"bad"} how it looks
+ */
+export function answerLook(answer) {
+  return answer.outcome === "ack" ? "good" : "bad";
+}
+
+/**
+ * What a period of telemetry costs.
+ * @param {number} period_ms
+ * @param {number|null} frame_bytes measured; null: unknown
+ * @returns {string}
+ */
+export function costWords(period_ms, frame_bytes) {
+  if (frame_bytes === null || !(period_ms > 0)) {
+    return "what it costs is not known yet: no frame came";
+  }
+  const kilobytes = (3600 * frame_bytes) / period_ms;
+  const rate = 1000 / period_ms;
+  const often = rate >= 1 ? `${trimmed(rate)} a second` : `one every ${trimmed(1 / rate)} s`;
+  return `${often}, about ${grouped(kilobytes)} KB an hour at ${Math.round(frame_bytes)} bytes a frame`;
+}
+
+/**
+ * @param {number} age_s
+ * @returns {string} how long ago, short
+ */
+export function agoWords(age_s) {
+  if (!Number.isFinite(age_s)) {
+    return "";
+  }
+  const whole_s = Math.max(0, Math.floor(age_s));
+  if (whole_s < 60) {
+    return `${whole_s} s ago`;
+  }
+  if (whole_s < 3600) {
+    return `${Math.floor(whole_s / 60)} min ago`;
+  }
+  return `${Math.floor(whole_s / 3600)} h ${Math.floor((whole_s % 3600) / 60)} min ago`;
+}
+
+/**
+ * @param {number} time_s
+ * @returns {string} as 3:07 or 1:02:07
+ */
+export function clockWords(time_s) {
+  const whole_s = Math.max(0, Math.floor(Number.isFinite(time_s) ? time_s : 0));
+  const minutes = Math.floor(whole_s / 60) % 60;
+  const seconds = String(whole_s % 60).padStart(2, "0");
+  const hours = Math.floor(whole_s / 3600);
+  return hours > 0
+    ? `${hours}:${String(minutes).padStart(2, "0")}:${seconds}`
+    : `${minutes}:${seconds}`;
+}
+
+function codeWords(code, reason) {
+  return code && code !== reason ? ` (${code})` : "";
+}
+
+function trimmed(value) {
+  return String(Number(value.toFixed(value < 10 ? 1 : 0)));
+}
+
+function grouped(value) {
+  return String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, " ");
+}
