@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from up_simulator.aircraft import AirframeError, airframe_names
+from up_simulator.crew.option_parser import WRONG_INPUT, OptionParser
 from up_simulator.crew.protocols import CrewError
 from up_simulator.crew.start_options import BOARDS, TURBULENCE, link_settings, wind_m_s
 from up_simulator.showcase_flight import ShowcaseFlight
@@ -28,11 +29,11 @@ class Stopped(Exception):  # noqa: N818 - a signal is no error
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run everything; return 0 after Ctrl-C, 1 when a part failed."""
+    """Run everything; return 0 after Ctrl-C, 1 when a part failed, 2 for wrong input."""
     options = _options(arguments)
     folder = (options.folder or ROOT / "run" / "showcase").resolve()
     if not (ROOT / "main.py").is_file():
-        return _fail("the showcase runs from a clone of the project: make run", 2)
+        return _fail("the showcase runs from a clone of the project: make run", WRONG_INPUT)
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "lock").open("w") as lock:
         try:
@@ -61,7 +62,10 @@ def _fly(options: argparse.Namespace, folder: Path) -> int:
         flight.stay()
     except (KeyboardInterrupt, Stopped):
         pass
-    except (AirframeError, CrewError, OSError) as error:
+    except AirframeError as error:
+        # Before anything was started.
+        return _fail(f"make run: {error}", WRONG_INPUT)
+    except (CrewError, OSError) as error:
         last_words = str(error)
     finally:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -75,8 +79,9 @@ def _fly(options: argparse.Namespace, folder: Path) -> int:
 
 
 def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="make run",
+        allow_abbrev=False,
         description="Flies the virtual aircraft with the real firmware, daemon, proxy and ground"
         " station. From make: make run CONTROLLER=raspberry RADIO=keyboard ARGS='--wind 6'",
     )

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from tests.arduino.rig.firmware import make_rig
 from tests.support.firmware import build_firmware
 from up_rig.imu import motion_at
+from up_simulator.firmware.tap import BoardStatus
 from up_simulator.wire import checked_frame, cobs_decode, crc16
 
 LOW, MIDDLE, HIGH = 1000, 1500, 2000
@@ -26,33 +27,6 @@ class Message:
     payload: bytes
     sequence: int
     cycle: int
-
-
-@dataclass(frozen=True)
-class Status:
-    """The fields of `x` (docs/protocols.md 2.7)."""
-
-    version: int
-    mode: str
-    switch: int
-    flags: int
-    vetoes: int
-    cause: int
-    loop_us: int
-    late_us: int
-    dropped: int
-    missing: int
-    seconds: int
-    receiver_age_ms: int
-    imu_age_ms: int
-
-    @property
-    def is_armed(self):
-        return bool(self.flags & ARMED)
-
-    @property
-    def is_failsafe(self):
-        return bool(self.flags & FAILSAFE)
 
 
 class Flight:
@@ -133,7 +107,7 @@ class Flight:
     def status(self):
         """Return the newest status, asked for by a Start Command if need be."""
         self.send("s")
-        return Status(
+        return BoardStatus(
             *(
                 chr(each[0]) if isinstance(each, bytes) else each
                 for each in struct.unpack(">BcBBBBHHHHHHH", self.newest("x").payload)

@@ -1,3 +1,5 @@
+import signal
+
 import pytest
 import yaml
 
@@ -5,6 +7,8 @@ from up_simulator.aircraft import load_airframe
 from up_simulator.crew.ports import Ports
 from up_simulator.showcase import main
 from up_simulator.showcase_config import write_config
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def write(folder, controller="arduino", airframe="glider", **more):
@@ -82,6 +86,7 @@ def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
         (["--wind", "99"], "wind is 0 to 25 m/s"),
         (["--radio", "script"], "is not circle, keyboard or js0"),
         (["--board", "chip"], "invalid choice: 'chip'"),
+        (["--nowatch"], "unrecognized arguments: --nowatch, did you mean --no-watch?"),
         (["--link", "dealy=5"], "'dealy=5' is not understood"),
     ],
 )
@@ -89,4 +94,28 @@ def test_what_the_aircraft_would_refuse_is_refused_before_anything_starts(words,
     with pytest.raises(SystemExit) as end:
         main(words)
     assert end.value.code == 2
-    assert what in capsys.readouterr().err.splitlines()[-1]
+    told = capsys.readouterr().err
+    assert what in told and told.count("\n") == 1
+
+
+def test_an_airframe_that_is_none_is_one_sentence_with_a_suggestion(tmp_path, capsys):
+    before = {number: signal.getsignal(number) for number in SIGNALS}
+    try:
+        assert main(["--folder", str(tmp_path), "--airframe", "glidr"]) == 2
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    told = capsys.readouterr()
+    assert told.err.startswith("make run: glidr: is no airframe (glider, wing)")
+    assert told.err.endswith("did you mean 'glider'?\n") and told.err.count("\n") == 1
+    assert told.out == ""
+
+
+def test_the_black_box_writes_into_the_folder_of_the_run(tmp_path):
+    folder = tmp_path / 'a: "b" # c'
+    folder.mkdir()
+    write(folder / "config")
+    black_box = yaml.safe_load((folder / "config" / "black_box.yml").read_text())
+    assert black_box == {"folder": str(folder / "flights")}
+    board = yaml.safe_load((folder / "config" / "arduino.yml").read_text())
+    assert board == {"port": str(folder / "config" / "board")}

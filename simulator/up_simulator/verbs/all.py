@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TextIO
 
 from up.config import ConfigErrors
+from up.fields import printable
 from up_simulator.crew.child import dying_wish
 from up_simulator.crew.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
@@ -225,9 +226,11 @@ def _say_failure(job: Job) -> None:
         if not verdict["held"]:
             limit = f" ({verdict['limit']})" if verdict["limit"] else ""
             why = f": {verdict['why']}" if verdict["why"] else ""
-            sys.stdout.write(f"  {job.name}: {verdict['name']}: {verdict['figure']}{limit}{why}\n")
+            line = f"  {job.name}: {verdict['name']}: {verdict['figure']}{limit}{why}"
+            sys.stdout.write(f"{printable(line)}\n")
     if summary.get("failure"):
-        sys.stdout.write(f"  {job.name}: {summary['failure']}\n")
+        line = f"  {job.name}: {summary['failure']}"
+        sys.stdout.write(f"{printable(line)}\n")
     if summary:
         sys.stdout.write(f"  {job.name}: {job.folder / REPORT}\n")
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
+from up.fields import printable
 from up_simulator.crew.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
@@ -125,7 +126,8 @@ def _say_table(results: list[tuple[str, Result]], count: int) -> None:
     for name, result in results:
         held = sum(verdict.is_held for verdict in result.verdicts)
         word = "held" if result.is_held else "NOT held"
-        sys.stdout.write(f"{name:<40} {word:<9} {held} of {len(result.verdicts)}\n")
+        line = f"{name:<40} {word:<9} {held} of {len(result.verdicts)}"
+        sys.stdout.write(f"{printable(line)}\n")
     held = sum(result.is_held for _, result in results)
     sys.stdout.write(f"{held} of {count} scenarios held\n")
 
