@@ -57,11 +57,9 @@ export function mountShell(store, connection) {
     const armed = store.flag("armed");
     showBar("bar-armed", armed === null ? null : armed ? "ARMED" : "disarmed", frame);
     setAttribute(at("bar-armed"), "data-armed", String(armed));
-    const level = connection.isOpen ? worstLevel(store.alarms) : "alarm";
-    const count = store.alarms.length;
-    setAttribute(at("bar-alarm"), "data-level", level);
-    const words = count === 0 ? "none" : count === 1 ? store.alarms[0].kind : `${count} alarms`;
-    setText(at("bar-alarm"), connection.isOpen ? words : "no server");
+    const alarm = alarmOf(store, connection);
+    setAttribute(at("bar-alarm"), "data-level", alarm.level);
+    setText(at("bar-alarm"), alarm.text);
   }
 
   function showBar(id, text, freshness) {
@@ -85,6 +83,27 @@ export function mountShell(store, connection) {
  */
 export function silenceText(store, state) {
   return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
+}
+
+/**
+ * What the bar says of alarms; what the page notices itself stands before what it was told.
+ * @param {object} store
+ * @param {object} connection
+ * @returns {{level: string, text: string}}
+ */
+export function alarmOf(store, connection) {
+  if (!connection.isOpen) {
+    return { level: "alarm", text: "no server" };
+  }
+  const level = worstLevel(store.alarms);
+  const worst = store.alarms.filter((each) => each.level === level);
+  if (level !== "alarm" && store.aircraftState === "silent") {
+    return { level: "alarm", text: "silent" };
+  }
+  if (level === "none") {
+    return { level, text: store.aircraftState === "live" ? "none" : UNKNOWN };
+  }
+  return { level, text: worst.length === 1 ? String(worst[0].kind) : `${worst.length} alarms` };
 }
 
 function setHidden(element, isHidden) {

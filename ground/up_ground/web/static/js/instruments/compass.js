@@ -76,8 +76,8 @@ function homeOf() {
   return svg(
     "g",
     { class: "home" },
-    svg("path", { d: "M0 -60V-30", class: "home-way" }),
-    svg("path", { d: "M-7 -61V-69L0 -76L7 -69V-61Z", class: "home-mark" }),
+    svg("path", { d: "M0 -36V-26", class: "home-way" }),
+    svg("path", { d: "M-7 -37V-46L0 -53L7 -46V-37Z", class: "home-mark" }),
   );
 }
 

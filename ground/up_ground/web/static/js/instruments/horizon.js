@@ -92,7 +92,7 @@ function ladderOf() {
 }
 
 function clipOf() {
-  const shape = svg("path", { d: "M-90 -50A104 104 0 0 1 90 -50V132H-90Z" });
+  const shape = svg("path", { d: "M-90 -50A104 104 0 0 1 90 -50L116 -20V140H-116V-20Z" });
   return svg("defs", {}, svg("clipPath", { id: "ladder-clip" }, shape));
 }
 

@@ -1,7 +1,8 @@
 import { html, Readout, setAttribute, setText } from "../readout.js";
+import { readingOf } from "../state/ages.js";
 
 /**
- * One line of a list: its name, its value, its age while that is old.
+ * One line of a list: its name, its value, its age while its reading is old.
  *
  * `judge(value)` says how it looks while it is live: "" plain, "warning" or "alarm".
  */
@@ -20,7 +21,7 @@ export class Row {
     const value = html("span", { class: "row-value" });
     const age = html("span", { class: "age" });
     list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, value, age)));
-    this.#readout = new Readout(value, path, format, age);
+    this.#readout = new Readout(value, path, format, readingOf(path) === null ? null : age);
     this.#judge = judge;
   }
 

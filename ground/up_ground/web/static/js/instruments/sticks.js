@@ -1,6 +1,5 @@
 import { html, setAttribute, setText } from "../readout.js";
 import { keepsakeOf } from "../link/keepsake.js";
-import { numberText, UNKNOWN } from "../state/format.js";
 import { drawing, hatch, svg } from "./svg.js";
 import { stickPlace } from "./stick_geometry.js";
 
@@ -16,7 +15,7 @@ export function mount(element, store) {
   let mode = memory.get("stick-mode") === "1" ? 1 : 2;
   const button = html("button", { type: "button", id: "stick-mode", class: "quiet" });
   const gimbals = [gimbalOf("left"), gimbalOf("right")];
-  const pair = html("div", { class: "gimbals" }, ...gimbals.map((each) => each.element));
+  const pair = html("div", { class: "gimbals" }, ...gimbals.map((each) => each.place));
   element.append(button, pair);
   const name = () => setText(button, `Mode ${mode}`);
   button.addEventListener("click", () => {
@@ -34,18 +33,17 @@ export function mount(element, store) {
 
 function gimbalOf(side) {
   const stick = svg("circle", { r: 7, class: "stick" });
-  const across = svg("text", { x: 0, y: 62, class: "stick-name" });
+  const name = html("p", { class: "stick-name" });
   const element = drawing(
-    "-52 -52 104 118",
+    "-52 -52 104 104",
     `${side} stick`,
     svg("rect", { x: -50, y: -50, width: 100, height: 100, class: "gimbal" }),
     svg("path", { d: "M-50 0H50M0 -50V50", class: "gimbal-cross" }),
     stick,
     hatch(`stick-hatch-${side}`, { x: -50, y: -50, width: 100, height: 100 }),
-    across,
   );
   return {
-    element,
+    place: html("div", {}, element, name),
     show(store, [x, y]) {
       const x_us = store.number(`rx.${x}`);
       const y_us = store.number(`rx.${y}`);
@@ -54,7 +52,7 @@ function gimbalOf(side) {
       setAttribute(element, "data-freshness", freshness);
       setAttribute(element, "data-across", x);
       setAttribute(element, "data-along", y);
-      setText(across, place === null ? UNKNOWN : `${numberText(x_us)}  ${numberText(y_us)}`);
+      setText(name, `${y}, ${x}`);
       if (place !== null) {
         setAttribute(stick, "transform", `translate(${place.x} ${place.y})`);
       }

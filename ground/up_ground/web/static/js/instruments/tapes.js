@@ -1,5 +1,7 @@
 import { setAttribute, setText } from "../readout.js";
 import { numberText, UNKNOWN } from "../state/format.js";
+import { number } from "../state/judge.js";
+import { distance_m } from "../state/motion.js";
 import { VIEW } from "./horizon.js";
 import { drawing, short, svg } from "./svg.js";
 import { Tape } from "./tape.js";
@@ -7,6 +9,7 @@ import { rootScale } from "./tape_scale.js";
 
 const CLIMB_MOST_M_S = 10;
 const CLIMB_LENGTH = 96;
+const NEAR_HOME_M = 30;
 
 /** Speed on the left, altitude and vertical speed on the right of the horizon. */
 export function mount(element, store) {
@@ -51,12 +54,29 @@ function showAltitude(tape, store) {
   const altitude_m = store.number("altitude");
   const freshness = freshnessOf(store, altitude_m, "altitude");
   tape.show(altitude_m, freshness, numberText(altitude_m, altitude_m >= 1000 ? 0 : 1));
+  const height_m = heightOverStart_m(store);
+  const where = startsAtHome(store) ? "home" : "start";
+  setText(tape.foot, height_m === null ? "" : `${numberText(height_m, 0, { sign: true })} m ${where}`);
+  setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, "location"));
+}
+
+/** Over the place where the track begins: nothing tells the altitude of home itself. */
+function heightOverStart_m(store) {
   const start_m = store.track.startAltitude_m;
   const here_m = store.number("location.altitude");
-  const height_m = start_m === null || here_m === null ? null : here_m - start_m;
-  const text = height_m === null ? "" : `${numberText(height_m, 0, { sign: true })} m home`;
-  setText(tape.foot, text);
-  setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, "location"));
+  return start_m === null || here_m === null ? null : here_m - start_m;
+}
+
+function startsAtHome(store) {
+  const start = store.track.points[0];
+  const home = store.status?.home;
+  const latitude = number(home?.latitude);
+  const longitude = number(home?.longitude);
+  if (start === undefined || latitude === null || longitude === null) {
+    return false;
+  }
+  const from = { latitude: start[0], longitude: start[1] };
+  return distance_m(from, { latitude, longitude }) < NEAR_HOME_M;
 }
 
 function climbOf() {
