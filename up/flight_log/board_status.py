@@ -1,0 +1,64 @@
+"""What a logged ``arduino.status`` says, in words (docs/protocols.md 2.7).
+
+A log may be read where the cog that wrote it is not installed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+TOPIC = "arduino.status"
+_SWITCH = {0: "low", 1: "middle", 2: "high"}
+_VETOES = (
+    "the throttle is not low",
+    "the receiver is invalid",
+    "the IMU is invalid",
+    "AUX2 is low",
+    "the Raspberry Pi vetoes",
+    "calibrating",
+    "the profile is invalid",
+    "a veto that this program does not know",
+)
+_RESET_CAUSES = ("power-on", "external", "brown-out", "watchdog")
+_RESTORED = 7
+ARMED, AT_AUTO, RECEIVER_VALID, IMU_VALID, FAILSAFE, BIAS_STORED, GAINS_STORED, PI_HEARD = range(8)
+"""Bits of the flags."""
+WATCHDOG, BROWN_OUT = 3, 2
+"""Bits of the reset cause."""
+
+
+def has_bit(status: Mapping[str, Any], key: str, bit: int) -> bool | None:
+    """Return whether a bit is set; None: the status does not say."""
+    bits = status.get(key)
+    return bool(bits >> bit & 1) if type(bits) is int and 0 <= bits <= 255 else None
+
+
+def vetoes_of(status: Mapping[str, Any]) -> list[str]:
+    """Return what forbids arming, in words."""
+    return [name for bit, name in enumerate(_VETOES) if has_bit(status, "vetoes", bit)]
+
+
+def reset_causes_of(status: Mapping[str, Any]) -> str:
+    """Return why the board started last, in words."""
+    named = [name for bit, name in enumerate(_RESET_CAUSES) if has_bit(status, "reset_cause", bit)]
+    if has_bit(status, "reset_cause", _RESTORED):
+        named.append("state restored")
+    return ", ".join(named) or "unknown"
+
+
+def telemetry_of(status: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the ``arduino`` part of telemetry (docs/protocols.md 6), as far as a status goes."""
+    switch = status.get("switch")
+    return {
+        "switch": _SWITCH.get(switch) if isinstance(switch, int) else None,
+        "failsafe": has_bit(status, "flags", FAILSAFE),
+        "loop_us": status.get("loop_us"),
+        "late_us": status.get("late_us"),
+        "frame_errors": status.get("frame_errors"),
+        "reset_cause": reset_causes_of(status),
+        "restored": has_bit(status, "reset_cause", _RESTORED),
+        "bias_stored": has_bit(status, "flags", BIAS_STORED),
+        "receiver_valid": has_bit(status, "flags", RECEIVER_VALID),
+        "imu_valid": has_bit(status, "flags", IMU_VALID),
+    }
