@@ -83,7 +83,7 @@ export class LineChart {
       {
         width,
         height: HEIGHT_PX,
-        padding: [6, 8, 0, 0],
+        padding: [6, 14, 0, 0],
         legend: { show: false },
         cursor: { show: false },
         select: { show: false },

@@ -65,16 +65,18 @@ export function metreGrid(L, origin) {
     label(pen, ink, { northWest, southEast, step, pixel, size }) {
       pen.fillStyle = ink.text;
       const axis = pixel({ east_m: 0, north_m: 0 });
+      // A text may begin in the tile beside: each tile draws its part of it.
+      const [west_m, south_m] = [northWest.east_m - step, southEast.north_m - step];
       if (axis.y >= -14 && axis.y < size.y) {
-        for (const east_m of linesBetween(northWest.east_m, southEast.east_m, step)) {
+        for (const east_m of linesBetween(west_m, southEast.east_m, step)) {
           if (east_m !== 0) {
             const { x } = pixel({ east_m, north_m: 0 });
             pen.fillText(`${stepText(Math.abs(east_m))} ${east_m > 0 ? "E" : "W"}`, x + 3, axis.y + 12);
           }
         }
       }
-      if (axis.x >= -50 && axis.x < size.x) {
-        for (const north_m of linesBetween(southEast.north_m, northWest.north_m, step)) {
+      if (axis.x >= -60 && axis.x < size.x) {
+        for (const north_m of linesBetween(south_m, northWest.north_m, step)) {
           if (north_m !== 0) {
             const { y } = pixel({ east_m: 0, north_m });
             pen.fillText(`${stepText(Math.abs(north_m))} ${north_m > 0 ? "N" : "S"}`, axis.x + 3, y - 3);

@@ -92,7 +92,7 @@ export function costWords(period_ms, frame_bytes) {
   const kilobytes = (3600 * frame_bytes) / period_ms;
   const rate = 1000 / period_ms;
   const often = rate >= 1 ? `${trimmed(rate)} a second` : `one every ${trimmed(1 / rate)} s`;
-  return `${often}, about ${grouped(kilobytes)} KB an hour at ${Math.round(frame_bytes)} bytes a frame`;
+  return `${often}, about ${amount(kilobytes)} an hour at ${Math.round(frame_bytes)} bytes a frame`;
 }
 
 /**
@@ -135,6 +135,6 @@ function trimmed(value) {
   return String(Number(value.toFixed(value < 10 ? 1 : 0)));
 }
 
-function grouped(value) {
-  return String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, " ");
+function amount(kilobytes) {
+  return kilobytes < 10000 ? `${Math.round(kilobytes)} KB` : `${trimmed(kilobytes / 1000)} MB`;
 }
