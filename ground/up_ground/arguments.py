@@ -11,7 +11,10 @@ from up.version import VERSION
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
 
 _AIRCRAFT = re.compile(r"[A-Za-z0-9_.-]{1,32}", re.ASCII)
+_HOST_NAME = re.compile(r"[A-Za-z0-9.-]{1,253}", re.ASCII)
+_KEY = re.compile(r"[A-Za-z0-9_-]{8,64}", re.ASCII)
 _LONGEST_S = 1e7
+DEFAULT_LISTEN = "127.0.0.1:8080"
 
 _EPILOG = """\
 examples
@@ -21,6 +24,7 @@ examples
   up-ground commands                                   what can be sent
   up-ground send up.flight_mode.set mode=FBW
   up-ground send arduino.pids.tunings request=true     prints the gains that fly
+  up-ground serve                                      the page for browsers, on this machine
   up-ground seat request                               asks whoever commands to hand over
 
 environment
@@ -48,6 +52,23 @@ exit status
 """
 
 
+_SERVE_EPILOG = """\
+The page shows everything that 'watch' shows, and a map, charts, events and gains; a page that has
+control sends Commands. One page controls an aircraft, the others watch. Several aircraft are
+chosen from in the page. A proxy that is not there is tried for ever.
+
+On another address than loopback a page controls only when it was opened with the key that is
+printed as part of the address; whoever opens the address without it watches.
+
+examples
+  up-ground serve                                        the aircraft 'default' of a proxy here
+  up-ground --host proxy.example serve --aircraft glider-1 --aircraft glider-2
+  up-ground serve --aircraft glider-1@192.168.1.5:50002/direct
+  up-ground serve --listen 0.0.0.0:8080                  for the phones on this network
+  up-ground serve --listen 0.0.0.0:8080 --watch-only     for spectators
+"""
+
+
 class _Parser(argparse.ArgumentParser):
     def __init__(self, *args: object, **more: object) -> None:
         more.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
@@ -65,8 +86,8 @@ def make_parser(environ: Mapping[str, str]) -> argparse.ArgumentParser:
         parser,
         environ.get("UP_GROUND_HOST") or DEFAULT_HOST,
         environ.get("UP_GROUND_PORT") or DEFAULT_PORT,
-        environ.get("UP_GROUND_AIRCRAFT") or DEFAULT_AIRCRAFT,
         environ.get("UP_GROUND_DIRECT", "") not in ("", "0"),
+        environ.get("UP_GROUND_AIRCRAFT") or DEFAULT_AIRCRAFT,
     )
     parser.add_argument("--version", action="version", version=f"up-ground {VERSION}")
     verbs = parser.add_subparsers(dest="verb", metavar="VERB", parser_class=_Parser)
@@ -76,13 +97,18 @@ def make_parser(environ: Mapping[str, str]) -> argparse.ArgumentParser:
     for verb in verbs.choices.values():
         # People write them behind the verb as well; there an absent one must change nothing.
         _add_connection(verb, *(argparse.SUPPRESS,) * 4)
+    _add_serve(verbs, environ)
     commands = verbs.add_parser("commands", help="list the Commands that a ground may send")
     commands.add_argument("name", nargs="?", help="only this one")
     return parser
 
 
 def _add_connection(
-    parser: argparse.ArgumentParser, host: object, port: object, aircraft: object, direct: object
+    parser: argparse.ArgumentParser,
+    host: object,
+    port: object,
+    direct: object,
+    aircraft: object = None,
 ) -> None:
     """Add the options that say whom to talk to, with their defaults."""
     now = "" if host is argparse.SUPPRESS else " (now %(default)s)"
@@ -97,13 +123,14 @@ def _add_connection(
         metavar="N",
         help=f"its port: 3004 of a proxy, 50002 of an aircraft{now}",
     )
-    group.add_argument(
-        "--aircraft",
-        type=_aircraft,
-        default=aircraft,
-        metavar="NAME",
-        help=f"which aircraft of the proxy{now}",
-    )
+    if aircraft is not None:
+        group.add_argument(
+            "--aircraft",
+            type=_aircraft,
+            default=aircraft,
+            metavar="NAME",
+            help=f"which aircraft of the proxy{now}",
+        )
     group.add_argument(
         "--direct",
         action="store_true",
@@ -179,6 +206,64 @@ def _add_seat(verbs: argparse._SubParsersAction[_Parser]) -> None:
     give = actions.add_parser("give", help="hand the seat to a listener")
     give.add_argument("to", type=_count, metavar="N", help="the listener's number")
     actions.add_parser("release", help="leave the seat free")
+
+
+def _add_serve(verbs: argparse._SubParsersAction[_Parser], environ: Mapping[str, str]) -> None:
+    serve = verbs.add_parser(
+        "serve",
+        help="serve the ground station as a page for browsers",
+        description="Serve the ground station as a page for browsers.",
+        epilog=_SERVE_EPILOG,
+    )
+    serve.add_argument(
+        "--aircraft",
+        action="append",
+        dest="fleet",
+        metavar="NAME[@HOST:PORT[/direct]]",
+        help="an aircraft, of the proxy that --host and --port name or at an address of its own;"
+        " again for each one",
+    )
+    _add_connection(serve, *(argparse.SUPPRESS,) * 3)
+    _add_page(serve, environ)
+
+
+def _add_page(parser: argparse.ArgumentParser, environ: Mapping[str, str]) -> None:
+    """Add the options of everything that serves a page."""
+    parser.add_argument(
+        "--listen",
+        default=DEFAULT_LISTEN,
+        metavar="ADDRESS:PORT",
+        help="where browsers find the page; 0.0.0.0 is every interface (default %(default)s)",
+    )
+    parser.add_argument(
+        "--name",
+        action="append",
+        type=_host_name,
+        metavar="HOST",
+        help="another name under which the page is opened, besides this machine's own",
+    )
+    parser.add_argument(
+        "--watch-only", action="store_true", help="no page may control, whatever it brings"
+    )
+    parser.add_argument(
+        "--key",
+        type=_key,
+        default=environ.get("UP_GROUND_KEY") or None,
+        help="the key that lets a page control, of 8 to 64 letters, digits, _ and - (default: a"
+        " fresh one at each start, none on loopback; UP_GROUND_KEY hides it from others here)",
+    )
+
+
+def _host_name(text: str) -> str:
+    if not _HOST_NAME.fullmatch(text):
+        raise argparse.ArgumentTypeError(f"a name is letters, digits, dots and -, not {text!r}")
+    return text
+
+
+def _key(text: str) -> str:
+    if not _KEY.fullmatch(text):
+        raise argparse.ArgumentTypeError("a key is 8 to 64 letters, digits, _ and -")
+    return text
 
 
 def _port(text: str) -> int:

@@ -8,6 +8,8 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
+from up_ground.ground_link import GroundLink
+
 EXIT_DONE = 0
 EXIT_REFUSED = 1
 EXIT_USAGE = 2
@@ -23,6 +25,8 @@ class Errand:
     ``say`` takes lines for the user, ``complain`` lines for stderr.
     """
 
+    link: GroundLink
+
     def __init__(self, say: Say, complain: Say) -> None:
         self.finished: Deferred[int] = Deferred()
         self.complain = complain
@@ -36,6 +40,10 @@ class Errand:
                 timer.cancel()
         if not self.finished.called:
             self.finished.callback(status)
+
+    async def stop(self) -> None:
+        """Leave what was opened; returns when it is closed."""
+        await self.link.stop()
 
     def say(self, text: str) -> None:
         """Give the user a line; a reader that has gone away ends the errand."""

@@ -49,7 +49,7 @@ def run(make: MakeErrand) -> int:
     async def do() -> None:
         errand.start()
         status[0] = await errand.finished
-        await errand.link.stop()
+        await errand.stop()
         loop.stop()
 
     def begin() -> None:
@@ -159,6 +159,41 @@ def commands(options: argparse.Namespace) -> int:
     return EXIT_DONE
 
 
+def serve(options: argparse.Namespace) -> int:
+    """Serve the ground station in a browser."""
+    # Only here: what it needs besides is an extra, and every other verb starts without it.
+    try:
+        from up_ground.web.server import Server
+    except ModuleNotFoundError as error:
+        return _usage([_missing(error)])
+    from up_ground.web import serve as web
+
+    try:
+        chosen, listen = web.fleet_of(options), web.listen_of(options)
+    except web.ServeError as error:
+        return _usage([printable(str(error))])
+    access = web.access_of(options, listen)
+
+    def make(reactor: Any) -> Server:
+        return Server(
+            reactor,
+            listen,
+            access,
+            lambda audience: web.make_stations(reactor, chosen, os.environ, audience),
+            say=say,
+            complain=complain,
+        )
+
+    return run(make)
+
+
+def _missing(error: ModuleNotFoundError) -> str:
+    return (
+        f"the page needs the Python package {error.name}, which is not installed:"
+        " pip install 'raspilot[ground]'"
+    )
+
+
 def _unknown(catalogue: Catalogue, name: str) -> list[str]:
     lines = [f"no Command is called {printable(name)}"]
     near = catalogue.suggestions(name)
@@ -197,6 +232,7 @@ _VERBS: dict[str, Callable[[argparse.Namespace], int]] = {
     "send": send,
     "seat": seat,
     "commands": commands,
+    "serve": serve,
 }
 
 

@@ -41,8 +41,25 @@ class MalformedMessage(ValueError):  # noqa: N818 - a message that is malformed,
 
 def decode(line: bytes) -> GeneralMessage:
     """Return the message in `line`, with or without its line end; raises MalformedMessage."""
-    if len(line) > LONGEST_LINE:
-        raise MalformedMessage(f"longer than {LONGEST_LINE} bytes")
+    fields, may_hold_surrogates = _decode(line, LONGEST_LINE)
+    return _message_of(fields, may_hold_surrogates=may_hold_surrogates)
+
+
+def decode_object(line: bytes, longest: int) -> dict[str, Any]:
+    """Return a JSON object of at most `longest` bytes, as strictly read as a General Message.
+
+    Raises MalformedMessage.
+    """
+    fields, may_hold_surrogates = _decode(line, longest)
+    if may_hold_surrogates and _has_lone_surrogate(fields):
+        raise MalformedMessage("text with a lone surrogate")
+    return fields
+
+
+def _decode(line: bytes, longest: int) -> tuple[dict[str, Any], bool]:
+    """Return the object, and whether its texts may hold surrogates."""
+    if len(line) > longest:
+        raise MalformedMessage(f"longer than {longest} bytes")
     try:
         text = line.decode("utf-8")
     except UnicodeDecodeError:
@@ -59,7 +76,7 @@ def decode(line: bytes) -> GeneralMessage:
         raise MalformedMessage(f"nested deeper than {DEEPEST_NESTING}") from None
     if not isinstance(fields, dict):
         raise MalformedMessage("not a JSON object")
-    return _message_of(fields, may_hold_surrogates="\\ud" in text or "\\uD" in text)
+    return fields, "\\ud" in text or "\\uD" in text
 
 
 def encode(

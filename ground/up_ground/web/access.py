@@ -1,0 +1,73 @@
+"""Who may look at the page, and which pages may control."""
+
+from __future__ import annotations
+
+import hmac
+import re
+import socket
+from collections.abc import Iterable
+from dataclasses import dataclass
+from ipaddress import ip_address
+
+_AUTHORITY = re.compile(r"(?:\[([0-9A-Fa-f:.%]{2,60})\]|([A-Za-z0-9._-]{1,255}))(?::([0-9]{1,5}))?")
+_ORIGIN = re.compile(r"https?://([^/?#@\\]{1,300})", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Access:
+    """The rules of one server.
+
+    ``names``: what this machine is called, in small letters. ``key``: what a page must know to
+    control; None: nothing. ``is_watch_only``: no page may control at all.
+    """
+
+    names: frozenset[str] = frozenset({"localhost"})
+    key: str | None = None
+    is_watch_only: bool = False
+
+    def permits_host(self, host: str | None) -> bool:
+        """Say whether a request's Host names this machine by an address or one of its names.
+
+        A page of somebody else that lets its own name point here (DNS rebinding) names another.
+        """
+        match = _AUTHORITY.fullmatch(host or "")
+        if match is None:
+            return False
+        address, name = match[1], match[2]
+        if address is not None:
+            return _is_address(address.partition("%")[0])
+        return _is_address(name) or name.casefold().rstrip(".") in self.names
+
+    def permits_origin(self, origin: str | None, host: str | None) -> bool:
+        """Say whether the page that opens a link came from here; a program names no origin."""
+        if origin is None:
+            return True
+        match = _ORIGIN.fullmatch(origin)
+        return match is not None and host is not None and match[1].casefold() == host.casefold()
+
+    def why_not(self, key: object) -> str:
+        """Return why a page that brings ``key`` may not control; empty: it may."""
+        if self.is_watch_only:
+            return "this server was started with --watch-only"
+        if self.key is None:
+            return ""
+        if not isinstance(key, str):
+            return "this page was opened without the key, which is part of the address"
+        given, due = key.encode("utf-8", "replace"), self.key.encode()
+        return "" if hmac.compare_digest(given, due) else "the key in the address is a wrong one"
+
+
+def machine_names(more: Iterable[str] = ()) -> frozenset[str]:
+    """Return what this machine is called on its own network, and the names besides."""
+    own = socket.gethostname().casefold().rstrip(".")
+    short = own.partition(".")[0]
+    found = {"localhost", own, short, f"{short}.local", *(name.casefold() for name in more)}
+    return frozenset(name for name in found if name and name != ".local")
+
+
+def _is_address(text: str) -> bool:
+    try:
+        ip_address(text)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,40 @@
+"""What the server says to pages, as bytes that a WebSocket carries."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from up_ground.web.websocket_frame import text_frame
+
+_ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
+
+
+def message_bytes(fields: Mapping[str, Any]) -> bytes:
+    """Return a message as one text frame."""
+    return text_frame(_ENCODER.encode(fields).encode("ascii"))
+
+
+class FrameMessage:
+    """A frame of telemetry: put into JSON once for all pages, its age at the moment it leaves.
+
+    ``age_s`` returns the age now.
+    """
+
+    __slots__ = ("_age_s", "_body")
+
+    def __init__(
+        self,
+        aircraft: str,
+        beacon: int | None,
+        data: Mapping[str, Any],
+        age_s: Callable[[], float],
+    ) -> None:
+        fields = {"type": "frame", "aircraft": aircraft, "beacon": beacon, "data": data}
+        self._body = _ENCODER.encode(fields)[:-1].encode("ascii") + b',"age_ms":'
+        self._age_s = age_s
+
+    def __call__(self) -> bytes:
+        """Return the message as it is true now."""
+        return text_frame(b"%b%.1f}" % (self._body, self._age_s() * 1000))

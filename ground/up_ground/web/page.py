@@ -1,0 +1,56 @@
+"""One page of the browser, over the connections that it makes one after the other."""
+
+from __future__ import annotations
+
+from typing import Any
+from typing import Protocol as Interface
+
+from up_ground.web.messages import message_bytes
+from up_ground.web.page_output import PageOutput
+
+
+class PageConnection(Interface):
+    """The WebSocket of a page."""
+
+    output: PageOutput
+
+    def close(self, code: int, reason: str) -> None:
+        """Close it; ``code`` is one of RFC 6455."""
+
+    def is_alive(self, within_s: float, tell: Any) -> None:
+        """Ask for a sign of life; ``tell`` hears whether one came in time."""
+
+
+class Page:
+    """A page with its name and what it may do; ``link`` is None while it is away."""
+
+    def __init__(self, number: int, name: str, token: str, why_not: str) -> None:
+        self.number = number
+        self.name = name
+        self.token = token
+        self.why_not = why_not
+        self.watched = ""
+        self.link: PageConnection | None = None
+
+    @property
+    def may_control(self) -> bool:
+        """Say whether it may ask for control."""
+        return not self.why_not
+
+    def tell(self, message: dict[str, Any]) -> None:
+        """Say something in order; lost while the page is away."""
+        self.tell_bytes(message_bytes(message))
+
+    def tell_bytes(self, message: bytes) -> None:
+        """Say something that is put together already."""
+        if self.link is not None:
+            self.link.output.send(message)
+
+    def news(self, kind: str, make: Any) -> None:
+        """Say something that only counts until the next of its kind."""
+        if self.link is not None:
+            self.link.output.send_newest(kind, make)
+
+    def fault(self, text: str) -> None:
+        """Say what the page did wrong."""
+        self.tell({"type": "fault", "text": text})

@@ -1,0 +1,130 @@
+"""A page's WebSocket."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+from typing import Protocol as Interface
+
+from autobahn.twisted.resource import WebSocketResource
+from autobahn.twisted.websocket import WebSocketServerFactory, WebSocketServerProtocol
+from twisted.internet.interfaces import IAddress
+
+from up.protocols.tcp_options import watch_peer
+from up_ground.web.page_message import LONGEST_MESSAGE
+from up_ground.web.page_output import PageOutput
+
+USER_TIMEOUT_MS = 5000
+PING_S = 5.0
+
+
+class LinkOwner(Interface):
+    """Who hears of the pages' links."""
+
+    def on_opened(self, link: PageLink) -> None:
+        """Hear of a new one."""
+
+    def on_said(self, link: PageLink, payload: bytes) -> None:
+        """Hear what it says."""
+
+    def on_closed(self, link: PageLink) -> None:
+        """Hear that it is gone."""
+
+
+class PageLink(WebSocketServerProtocol):
+    """Text messages both ways; what leaves goes by ``output``, past the library's own queue."""
+
+    transport: Any
+
+    def __init__(self, owner: LinkOwner, clock: Any) -> None:
+        super().__init__()
+        self.output = PageOutput(self._on_overrun)
+        self._owner = owner
+        self._clock = clock
+        self._is_open = False
+        self._asked: dict[bytes, Callable[[bool], object]] = {}
+
+    def onOpen(self) -> None:  # noqa: N802 - the library's name
+        """Take the transport."""
+        # What carried the HTTP request is still registered there.
+        self.transport.unregisterProducer()
+        watch_peer(self.transport, USER_TIMEOUT_MS)
+        self.output.start(self.transport)
+        self._is_open = True
+        self._owner.on_opened(self)
+
+    def onMessage(self, payload: bytes, isBinary: bool) -> None:  # noqa: N802, N803
+        """Hand a message on."""
+        if isBinary:
+            self.close(1003, "only text messages")
+        elif self._is_open:
+            self._owner.on_said(self, payload)
+
+    def onPong(self, payload: bytes) -> None:  # noqa: N802 - the library's name
+        """Take a sign of life."""
+        tell = self._asked.pop(payload, None)
+        if tell is not None:
+            tell(True)
+
+    def onClose(self, wasClean: bool, code: int | None, reason: str | None) -> None:  # noqa: N802, N803
+        """Tell that it is gone."""
+        self.output.stopProducing()
+        asked, self._asked = self._asked, {}
+        for tell in asked.values():
+            tell(False)
+        if self._is_open:
+            self._is_open = False
+            self._owner.on_closed(self)
+
+    def is_alive(self, within_s: float, tell: Callable[[bool], object]) -> None:
+        """Ask for a sign of life; ``tell`` hears once whether one came in time."""
+        mark = b"%d" % id(tell)
+        self._asked[mark] = tell
+
+        def on_time_over() -> None:
+            if self._asked.pop(mark, None) is not None:
+                tell(False)
+
+        self._clock.callLater(within_s, on_time_over)
+        self.sendPing(mark)
+
+    def close(self, code: int, reason: str) -> None:
+        """Say why, and close."""
+        self.output.finish()
+        self.sendClose(code, reason)
+
+    def _on_overrun(self) -> None:
+        # It has not read for long: a closing handshake would wait behind all of that.
+        self.transport.abortConnection()
+
+
+class _Factory(WebSocketServerFactory):
+    noisy = False
+
+    def __init__(self, reactor: Any, owner: LinkOwner) -> None:
+        super().__init__(  # type: ignore[no-untyped-call]
+            reactor=reactor, server="up-ground"
+        )
+        self._owner = owner
+        configure: Any = self.setProtocolOptions
+        configure(
+            webStatus=False,
+            versions=[13],
+            maxFramePayloadSize=LONGEST_MESSAGE,
+            maxMessagePayloadSize=LONGEST_MESSAGE,
+            openHandshakeTimeout=5.0,
+            closeHandshakeTimeout=1.0,
+            autoPingInterval=PING_S,
+            autoPingTimeout=2 * PING_S,
+            tcpNoDelay=True,
+        )
+
+    def buildProtocol(self, addr: IAddress | None) -> PageLink:  # noqa: N802 - Twisted's name
+        link = PageLink(self._owner, self.reactor)
+        link.factory = self
+        return link
+
+
+def link_resource(reactor: Any, owner: LinkOwner) -> WebSocketResource:
+    """Return what turns a request for the link into one; Host and Origin are checked before."""
+    return WebSocketResource(_Factory(reactor, owner))

@@ -1,0 +1,283 @@
+"""All the pages that are open, and what each of them says."""
+
+from __future__ import annotations
+
+import hmac
+import secrets
+from collections.abc import Mapping
+from typing import Any
+
+from up.system.clock import Clock, Timer
+from up.version import VERSION
+from up_ground.safe_text import safe_text
+from up_ground.web.access import Access
+from up_ground.web.allowance import Allowance
+from up_ground.web.messages import FrameMessage, message_bytes
+from up_ground.web.page import Page, PageConnection
+from up_ground.web.page_message import PageFault, Reader, read_message
+from up_ground.web.watched import WatchedAircraft
+
+PAGES_LIMIT = 16
+HELLO_S = 10.0
+KEPT_S = 5.0
+"""A page that vanishes is expected back for so long."""
+ALIVE_S = 1.0
+FAULTS_LIMIT = 20
+VIOLATION = 1008
+LATER = 1013
+
+
+class _Visit:
+    """One connection: whose it is, and how well it behaves."""
+
+    def __init__(self, clock: Clock, timer: Timer) -> None:
+        self.page: Page | None = None
+        self.timer = timer
+        self.is_greeting = False
+        self.faults = 0
+        self.allowance = Allowance(clock, rate_hz=100.0, most=300.0)
+
+
+class Pages:
+    """Knows who is there, gives each page what it watches, and hands on what it says."""
+
+    def __init__(
+        self,
+        clock: Clock,
+        access: Access,
+        *,
+        tiles: Mapping[str, Any] | None = None,
+        is_replay: bool = False,
+    ) -> None:
+        self.fleet: dict[str, WatchedAircraft] = {}
+        self._clock = clock
+        self._access = access
+        self._tiles = tiles
+        self._is_replay = is_replay
+        self._visits: dict[PageConnection, _Visit] = {}
+        self._pages: dict[int, Page] = {}
+        self._timers: dict[int, Timer] = {}
+        self._number = 0
+        self._beat: Timer | None = None
+
+    def start(self) -> None:
+        """Begin to say once a second how things are."""
+        self._beat = self._clock.callLater(1.0, self._on_second)
+
+    def stop(self) -> None:
+        """Close every page's link."""
+        timers = [self._beat, *self._timers.values()]
+        for timer in timers:
+            if timer is not None and timer.active():
+                timer.cancel()
+        for link in list(self._visits):
+            link.close(1001, "the server ends")
+
+    def is_full(self) -> bool:
+        """Say whether no more pages are let in."""
+        return len(self._visits) >= PAGES_LIMIT
+
+    # What an aircraft asks.
+
+    def all(self) -> list[Page]:
+        """Return the pages that are here."""
+        return [page for page in self._pages.values() if page.link is not None]
+
+    def get(self, number: int) -> Page | None:
+        """Return the page with that number that is here."""
+        page = self._pages.get(number)
+        return None if page is None or page.link is None else page
+
+    def show_frame(self, aircraft: str, frame: FrameMessage) -> None:
+        """Give a frame to the pages that watch the aircraft."""
+        for page in self._pages.values():
+            if page.watched == aircraft:
+                page.news("frame", frame)
+
+    def tell(self, aircraft: str, message: dict[str, Any]) -> None:
+        """Say something to the pages that watch the aircraft."""
+        encoded = b""
+        for page in self._pages.values():
+            if page.watched == aircraft:
+                encoded = encoded or message_bytes(message)
+                page.tell_bytes(encoded)
+
+    def show_status(self, aircraft: str) -> None:
+        """Give the aircraft's status to every page."""
+        for page in self._pages.values():
+            self._show_status(page, self.fleet[aircraft])
+
+    # What a page's link tells.
+
+    def on_opened(self, link: PageConnection) -> None:
+        """Wait for the page's hello."""
+        timer = self._clock.callLater(HELLO_S, link.close, VIOLATION, "no hello")
+        self._visits[link] = _Visit(self._clock, timer)
+        if len(self._visits) > PAGES_LIMIT:
+            link.close(LATER, "too many pages are open")
+
+    def on_said(self, link: PageConnection, payload: bytes) -> None:
+        """Do what a page says; nonsense is told to it, and after too much of it the page goes."""
+        visit = self._visits.get(link)
+        if visit is None:
+            return
+        if not visit.allowance.take():
+            link.close(VIOLATION, "too many messages")
+            return
+        try:
+            kind, message = read_message(payload)
+            self._obey(link, visit, kind, message)
+        except PageFault as fault:
+            visit.faults += 1
+            text = safe_text(str(fault), 300)
+            link.output.send(message_bytes({"type": "fault", "text": text}))
+            if visit.faults >= FAULTS_LIMIT:
+                link.close(VIOLATION, "too many faults")
+
+    def on_closed(self, link: PageConnection) -> None:
+        """Keep a page's place for a moment."""
+        visit = self._visits.pop(link, None)
+        if visit is None:
+            return
+        if visit.timer.active():
+            visit.timer.cancel()
+        page = visit.page
+        if page is not None and page.link is link:
+            page.link = None
+            self._timers[page.number] = self._clock.callLater(KEPT_S, self._forget, page)
+            for aircraft in self.fleet.values():
+                aircraft.on_away(page)
+
+    def _obey(self, link: PageConnection, visit: _Visit, kind: str, message: Reader) -> None:
+        page = visit.page
+        if kind == "hello":
+            if page is not None or visit.is_greeting:
+                raise PageFault("hello was said already")
+            self._on_hello(link, visit, message)
+        elif kind == "ping":
+            ping = message.fields.get("ping")
+            if isinstance(ping, str | dict | list):
+                raise PageFault("ping is no number")
+            link.output.send(message_bytes({"type": "pong", "ping": ping}))
+        elif page is None:
+            raise PageFault("the first message must be hello")
+        elif kind == "watch":
+            self._on_watch(page, self._aircraft(message))
+        elif kind == "control":
+            action = message.choice("action", "request", "give", "deny", "release")
+            self._aircraft(message).on_control(page, action, message.optional_whole("to"))
+        elif kind == "command":
+            self._aircraft(message).on_command(page, message)
+        elif kind == "replay":
+            action = message.choice("action", "play", "pause", "seek", "speed")
+            for aircraft in self.fleet.values():
+                aircraft.on_replay(page, action, message)
+        else:
+            raise PageFault(f"no message is called {kind}")
+
+    def _aircraft(self, message: Reader) -> WatchedAircraft:
+        found = self.fleet.get(message.text("aircraft", 64))
+        if found is None:
+            raise PageFault("there is no such aircraft")
+        return found
+
+    def _on_hello(self, link: PageConnection, visit: _Visit, message: Reader) -> None:
+        name = " ".join(safe_text(message.optional_text("name") or "", 40).split())
+        key = message.optional_text("key", 200)
+        token = message.optional_text("token", 64) or ""
+        visit.timer.cancel()
+        visit.is_greeting = True
+        why_not = self._access.why_not(key)
+        former = self._with_token(token)
+        if former is None:
+            self._welcome_new(link, name, why_not)
+        elif former.link is None:
+            self._welcome_back(link, former, name, why_not)
+        else:
+            # A tab that was doubled brings its original's token; a page whose old link hangs too.
+            old = former.link
+
+            def decide(is_alive: bool) -> None:
+                if link not in self._visits:
+                    return
+                if is_alive or former.number not in self._pages:
+                    self._welcome_new(link, name, why_not)
+                    return
+                if former.link is old:
+                    self._visits.pop(old, None)
+                    former.link = None
+                    old.close(1001, "this page has another link")
+                self._welcome_back(link, former, name, why_not)
+
+            old.is_alive(ALIVE_S, decide)
+
+    def _with_token(self, token: str) -> Page | None:
+        given = token.encode("utf-8", "replace")
+        found = None
+        for page in self._pages.values():
+            if hmac.compare_digest(given, page.token.encode()):
+                found = page
+        return found
+
+    def _welcome_new(self, link: PageConnection, name: str, why_not: str) -> None:
+        self._number += 1
+        number = self._number
+        page = Page(number, name or f"page {number}", secrets.token_hex(16), why_not)
+        self._pages[number] = page
+        self._welcome(link, page)
+
+    def _welcome_back(self, link: PageConnection, page: Page, name: str, why_not: str) -> None:
+        timer = self._timers.pop(page.number, None)
+        if timer is not None and timer.active():
+            timer.cancel()
+        page.name = name or page.name
+        page.why_not = why_not
+        page.watched = ""
+        self._welcome(link, page)
+
+    def _welcome(self, link: PageConnection, page: Page) -> None:
+        page.link = link
+        self._visits[link].page = page
+        page.tell(
+            {
+                "type": "welcome",
+                "page": page.number,
+                "name": page.name,
+                "token": page.token,
+                "version": VERSION,
+                "aircraft": list(self.fleet),
+                "may_control": page.may_control,
+                "why_not": page.why_not,
+                "tiles": self._tiles,
+                "is_replay": self._is_replay,
+            }
+        )
+        for aircraft in self.fleet.values():
+            aircraft.on_back(page)
+            self.show_status(aircraft.name)
+
+    def _on_watch(self, page: Page, aircraft: WatchedAircraft) -> None:
+        page.watched = aircraft.name
+        if page.link is not None:
+            page.link.output.forget("frame")
+        for message in aircraft.past():
+            page.tell(message)
+        frame = aircraft.frame()
+        if frame is not None:
+            page.news("frame", frame)
+        self._show_status(page, aircraft)
+
+    def _show_status(self, page: Page, aircraft: WatchedAircraft) -> None:
+        page.news(f"status {aircraft.name}", lambda: message_bytes(aircraft.status(page)))
+
+    def _forget(self, page: Page) -> None:
+        self._timers.pop(page.number, None)
+        self._pages.pop(page.number, None)
+        for aircraft in self.fleet.values():
+            aircraft.on_gone(page)
+
+    def _on_second(self) -> None:
+        self._beat = self._clock.callLater(1.0, self._on_second)
+        for aircraft in self.fleet.values():
+            aircraft.on_second()
+            self.show_status(aircraft.name)

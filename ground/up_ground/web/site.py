@@ -1,0 +1,168 @@
+"""What the server answers over HTTP: the page's files, the map's tiles, the link."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+from typing import Protocol as Interface
+
+from twisted.web import http
+from twisted.web.resource import Resource
+from twisted.web.server import NOT_DONE_YET, Request, Site
+
+from up_ground.web.access import Access
+from up_ground.web.static_files import StaticFiles
+
+IDLE_S = 20.0
+"""A connection that sends no line for so long is closed, as are half requests."""
+HEADERS = {
+    b"server": b"up-ground",
+    b"content-security-policy": (
+        b"default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:;"
+        b" connect-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none';"
+        b" frame-ancestors 'none'"
+    ),
+    b"x-content-type-options": b"nosniff",
+    b"referrer-policy": b"no-referrer",
+    b"cache-control": b"no-cache",
+    b"cross-origin-opener-policy": b"same-origin",
+    b"cross-origin-resource-policy": b"same-origin",
+}
+MISDIRECTED_REQUEST = 421
+UPGRADE_REQUIRED = 426
+LINK = b"/link"
+TILES = b"/tiles/"
+_PLAIN = b"text/plain; charset=utf-8"
+
+
+class Tiles(Interface):
+    """Who has the map's pictures."""
+
+    def render(self, request: Any) -> Any:
+        """Answer a request for one."""
+
+
+class GroundResource(Resource):
+    """The one resource of the site: every request passes its checks and gets its headers."""
+
+    isLeaf = True  # noqa: N815 - Twisted's name
+
+    def __init__(
+        self,
+        access: Access,
+        files: StaticFiles,
+        link: Any,
+        is_full: Callable[[], bool],
+        tiles: Tiles | None = None,
+    ) -> None:
+        super().__init__()  # type: ignore[no-untyped-call]
+        self._access = access
+        self._files = files
+        self._link = link
+        self._is_full = is_full
+        self._tiles = tiles
+
+    def render(self, request: Any) -> Any:
+        """Answer one request."""
+        for name, value in HEADERS.items():
+            request.setHeader(name, value)
+        if not self._access.permits_host(_only(request, b"host")):
+            return refuse(
+                request,
+                MISDIRECTED_REQUEST,
+                "this server is not called so: open it by its address, or start it with --name",
+            )
+        if request.method not in (b"GET", b"HEAD"):
+            request.setHeader(b"allow", b"GET, HEAD")
+            return refuse(request, http.NOT_ALLOWED, "only GET and HEAD")
+        if request.path == LINK:
+            return self._render_link(request)
+        if request.path.startswith(TILES) and self._tiles is not None:
+            return self._tiles.render(request)
+        return self._render_file(request)
+
+    def _render_link(self, request: Any) -> Any:
+        upgrade = _only(request, b"upgrade") or ""
+        if request.method != b"GET" or upgrade.casefold() != "websocket":
+            request.setHeader(b"upgrade", b"websocket")
+            return refuse(request, UPGRADE_REQUIRED, "this address is a WebSocket's")
+        origins = request.requestHeaders.getRawHeaders(b"origin", [])
+        origin = _only(request, b"origin")
+        if (origins and origin is None) or not self._access.permits_origin(
+            origin, _only(request, b"host")
+        ):
+            return refuse(request, http.FORBIDDEN, "a page of another site may not connect")
+        if self._is_full():
+            return refuse(request, http.SERVICE_UNAVAILABLE, "too many pages are open")
+        return self._link.render(request)
+
+    def _render_file(self, request: Any) -> Any:
+        found = self._files.get(request.path)
+        if found is None:
+            return refuse(request, http.NOT_FOUND, "there is nothing here")
+        request.setHeader(b"content-type", found.media_type.encode("ascii"))
+        if request.setETag(found.etag.encode("ascii")) is http.CACHED:
+            return b""
+        return send(request, found.content)
+
+
+class GroundRequest(Request):
+    """A request without a body: a longer one is cut off before it is stored anywhere."""
+
+    def gotLength(self, length: int | None) -> None:  # noqa: N802 - Twisted's name
+        """Refuse a body."""
+        if length != 0:
+            channel: Any = self.channel
+            channel.transport.abortConnection()
+            length = 0
+        super().gotLength(length)  # type: ignore[no-untyped-call]
+
+
+class _Site(Site):
+    noisy = False
+
+    def log(self, request: Any) -> None:
+        """Write no line for a request."""
+
+
+def make_site(reactor: Any, resource: GroundResource) -> Site:
+    """Return the factory that listens; nothing of it is logged."""
+    make: Any = _Site
+    site: Site = make(resource, requestFactory=GroundRequest, timeout=IDLE_S, reactor=reactor)
+    site.displayTracebacks = False
+    return site
+
+
+def refuse(request: Any, code: int, sentence: str) -> bytes:
+    """Return an answer that says why there is nothing else."""
+    request.setResponseCode(code)
+    request.setHeader(b"content-type", _PLAIN)
+    return send(request, f"{sentence}\n".encode())
+
+
+def send(request: Any, content: bytes) -> bytes:
+    """Return an answer's body, or nothing where only its head was asked for."""
+    request.setHeader(b"content-length", b"%d" % len(content))
+    return b"" if request.method == b"HEAD" else content
+
+
+def finish(request: Any, content: bytes) -> None:
+    """Answer a request that was left open."""
+    body = send(request, content)
+    if body:
+        request.write(body)
+    request.finish()
+
+
+def _only(request: Any, name: bytes) -> str | None:
+    """Return a header that came once; None: absent, repeated, or no text."""
+    values = request.requestHeaders.getRawHeaders(name, [])
+    if len(values) != 1:
+        return None
+    try:
+        return str(values[0].decode("ascii").strip())
+    except UnicodeDecodeError:
+        return None
+
+
+__all__ = ["NOT_DONE_YET", "GroundResource", "finish", "make_site", "refuse", "send"]

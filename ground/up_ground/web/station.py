@@ -1,0 +1,130 @@
+"""One aircraft of the server: its link, what it says, what the pages make of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from up.protocols.general_message import GeneralMessage
+from up_ground.ground_link import GroundLink
+from up_ground.settings import Settings
+from up_ground.telemetry import Telemetry
+from up_ground.token_store import TokenStore
+from up_ground.web.messages import FrameMessage
+from up_ground.web.page import Page
+from up_ground.web.page_message import PageFault, Reader
+from up_ground.web.watched import Audience
+
+
+class Station:
+    """Forwards telemetry the moment it comes, and keeps what a page that comes later must know."""
+
+    def __init__(
+        self, reactor: Any, name: str, settings: Settings, tokens: TokenStore, audience: Audience
+    ) -> None:
+        self.name = name
+        self.link = GroundLink(reactor, settings, self, tokens)
+        self.telemetry = Telemetry()
+        self._reactor = reactor
+        self._settings = settings
+        self._audience = audience
+        self._frame: FrameMessage | None = None
+
+    @property
+    def summary(self) -> str:
+        """Return whom this is about, in a line."""
+        way = "directly" if self._settings.direct else "by way of the proxy"
+        return f"{self.name} {way} at {self._settings.address}"
+
+    def start(self) -> None:
+        """Begin to connect."""
+        self.link.start()
+
+    async def stop(self) -> None:
+        """Give the link up."""
+        await self.link.stop()
+
+    def on_message(self, message: GeneralMessage) -> None:
+        """Take what the aircraft says."""
+        came_s = self._reactor.seconds()
+        if self.telemetry.take(message, came_s):
+            frame = FrameMessage(
+                self.name,
+                message.beacon,
+                message.data,
+                lambda: self._reactor.seconds() - came_s + self.telemetry.delay_s,
+            )
+            self._frame = frame
+            self._audience.show_frame(self.name, frame)
+
+    def on_link(self) -> None:
+        """Hear of the link."""
+        self._audience.show_status(self.name)
+
+    def frame(self) -> FrameMessage | None:
+        """Return the newest frame."""
+        return self._frame
+
+    def past(self) -> Iterable[dict[str, Any]]:
+        """Return what a page is told that begins to watch."""
+        return []
+
+    def on_second(self) -> None:
+        """Measure the link."""
+        self.link.measure()
+        # Half of the way there and back to the proxy is known; what lies beyond is not.
+        self.telemetry.delay_s = (self.link.status.round_trip_ms or 0.0) / 2000
+
+    def status(self, page: Page) -> dict[str, Any]:
+        """Return the status as this page sees it."""
+        now_s, status, telemetry = self._reactor.seconds(), self.link.status, self.telemetry
+        age_s, rate_hz = telemetry.age_s(now_s), telemetry.rate_hz(now_s)
+        role = telemetry.text("ground", "role")
+        return {
+            "type": "status",
+            "aircraft": self.name,
+            "link": {
+                "state": status.state.value,
+                "reason": status.reason,
+                "since_s": round(now_s - status.since_s, 3),
+                "aircraft_online": status.is_aircraft_online,
+                "round_trip_ms": status.round_trip_ms,
+                "connections": status.connections,
+                "frames": telemetry.frames,
+                "lost": telemetry.lost,
+                "dropped": status.dropped,
+                "rate_hz": None if rate_hz is None else round(rate_hz, 2),
+                "frame_age_ms": None if age_s is None else round(age_s * 1000, 1),
+            },
+            "control": {
+                "holder": "unknown",
+                "holder_name": "",
+                "asked_by": None,
+                "asks_you": False,
+                "pages": [
+                    {"page": each.number, "name": each.name} for each in self._audience.all()
+                ],
+            },
+            "role": role if role in ("observer", "operator", "pilot") else None,
+            "tune_in_flight": telemetry.flag("ground", "tune_in_flight"),
+            "home": None,
+        }
+
+    def on_control(self, page: Page, action: str, to: int | None) -> None:
+        """Let a page ask for control, give, deny or release it."""
+
+    def on_command(self, page: Page, message: Reader) -> None:
+        """Let a page send a Command."""
+
+    def on_replay(self, page: Page, action: str, message: Reader) -> None:
+        """Refuse: this is no replay."""
+        raise PageFault("this is no replay")
+
+    def on_away(self, page: Page) -> None:
+        """Hear that a page's link was lost; it may come back."""
+
+    def on_back(self, page: Page) -> None:
+        """Hear that it came back."""
+
+    def on_gone(self, page: Page) -> None:
+        """Hear that it will not come back."""

@@ -1,0 +1,75 @@
+"""What pages and the aircraft that they watch ask of each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Protocol
+
+from up_ground.web.messages import FrameMessage
+from up_ground.web.page import Page
+from up_ground.web.page_message import Reader
+
+
+class WatchedAircraft(Protocol):
+    """An aircraft as the server knows it: a real one, or a flight of the past."""
+
+    name: str
+
+    @property
+    def summary(self) -> str:
+        """Return whom this is about, in a line."""
+
+    def start(self) -> None:
+        """Begin."""
+
+    async def stop(self) -> None:
+        """End."""
+
+    def past(self) -> Iterable[dict[str, Any]]:
+        """Return what a page is told that begins to watch."""
+
+    def frame(self) -> FrameMessage | None:
+        """Return the newest frame."""
+
+    def status(self, page: Page) -> dict[str, Any]:
+        """Return the status as this page sees it."""
+
+    def on_second(self) -> None:
+        """Hear that a second is over."""
+
+    def on_control(self, page: Page, action: str, to: int | None) -> None:
+        """Let a page ask for control, give, deny or release it."""
+
+    def on_command(self, page: Page, message: Reader) -> None:
+        """Let a page send a Command."""
+
+    def on_replay(self, page: Page, action: str, message: Reader) -> None:
+        """Let a page play a flight of the past."""
+
+    def on_away(self, page: Page) -> None:
+        """Hear that a page's link was lost; it may come back."""
+
+    def on_back(self, page: Page) -> None:
+        """Hear that it came back."""
+
+    def on_gone(self, page: Page) -> None:
+        """Hear that it will not come back."""
+
+
+class Audience(Protocol):
+    """The pages, as an aircraft sees them."""
+
+    def show_frame(self, aircraft: str, frame: FrameMessage) -> None:
+        """Give a frame to the pages that watch the aircraft."""
+
+    def tell(self, aircraft: str, message: dict[str, Any]) -> None:
+        """Say something to the pages that watch the aircraft."""
+
+    def show_status(self, aircraft: str) -> None:
+        """Give the aircraft's status to every page."""
+
+    def all(self) -> list[Page]:
+        """Return the pages that are here."""
+
+    def get(self, number: int) -> Page | None:
+        """Return the page with that number that is here."""

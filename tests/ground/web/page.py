@@ -1,0 +1,133 @@
+"""A page as the server sees one (autobahn's own client), and the server as users start it."""
+
+import json
+import re
+import urllib.error
+import urllib.request
+
+from autobahn.twisted.websocket import WebSocketClientFactory, WebSocketClientProtocol
+from twisted.internet.endpoints import HostnameEndpoint
+
+from tests.ground.aircraft import Ground
+from tests.support.reactor import reactor, until
+
+
+class _Client(WebSocketClientProtocol):
+    def onOpen(self):  # noqa: N802
+        self.factory.page.is_open = True
+
+    def onMessage(self, payload, isBinary):  # noqa: N802, N803
+        self.factory.page.take(payload)
+
+    def onClose(self, wasClean, code, reason):  # noqa: N802, N803
+        page = self.factory.page
+        page.is_closed, page.code, page.why = True, code, reason
+
+
+class Page:
+    """Keeps what it was told; `say` sends, the coroutines wait."""
+
+    def __init__(self, port, origin=None, host="127.0.0.1"):
+        self.port, self.told = port, []
+        self.is_open = self.is_closed = False
+        self.code, self.why = None, ""
+        self.factory = WebSocketClientFactory(
+            f"ws://{host}:{port}/link", origin=origin, reactor=reactor
+        )
+        self.factory.noisy = False
+        self.factory.protocol = _Client
+        self.factory.page = self
+        self.asks = 0
+
+    async def open(self):
+        endpoint = HostnameEndpoint(reactor, "127.0.0.1", self.port)
+        self.client = await endpoint.connect(self.factory)
+        await until(lambda: self.is_open or self.is_closed, what="the link")
+        return self
+
+    async def hello(self, name="test", watch="default", **more):
+        """Open the link, say hello and watch; return the welcome."""
+        await self.open()
+        self.say("hello", name=name, **more)
+        welcome = await self.next("welcome")
+        if watch:
+            self.say("watch", aircraft=watch)
+        return welcome
+
+    def take(self, payload):
+        self.told.append(json.loads(payload))
+
+    def say(self, kind, **fields):
+        self.raw(json.dumps({"type": kind, **fields}))
+
+    def raw(self, text):
+        self.client.sendMessage(text.encode() if isinstance(text, str) else text)
+
+    def of(self, kind):
+        return [each for each in self.told if each["type"] == kind]
+
+    def newest(self, kind):
+        found = self.of(kind)
+        return found[-1] if found else None
+
+    async def next(self, kind, test=lambda message: True):
+        """Wait for a message of a kind that passes a test, and return it."""
+
+        def find():
+            return next((each for each in self.of(kind) if test(each)), None)
+
+        return await until(find, what=f"{kind}; told {self.told[-8:]}, {self.why}")
+
+    async def status(self, test):
+        """Wait until the newest status passes a test."""
+
+        def find():
+            newest = self.newest("status")
+            return newest if newest and test(newest) else None
+
+        return await until(find, what=f"a status; the newest is {self.newest('status')}")
+
+    async def command(self, name, data=None, aircraft="default", **more):
+        """Send a Command and return its answer."""
+        self.asks += 1
+        ask = self.asks
+        self.say("command", ask=ask, aircraft=aircraft, name=name, data=data or {}, **more)
+        return await self.next("answer", lambda each: each["ask"] == ask)
+
+    async def control(self):
+        self.say("control", aircraft="default", action="request")
+        return await self.status(lambda each: each["control"]["holder"] == "you")
+
+    async def leave(self):
+        if not self.is_closed:
+            self.client.transport.abortConnection()
+            await until(lambda: self.is_closed, what="the end of the link")
+
+
+class Serve(Ground):
+    """A running `up-ground serve` for one proxy."""
+
+    def __init__(self, folder, ground_port, *arguments, before=()):
+        words = [*before, "serve", "--listen", "127.0.0.1:0", *arguments]
+        super().__init__(folder, ground_port, *words)
+
+    def __enter__(self):
+        self.expect("Ctrl-C")
+        return self
+
+    @property
+    def port(self):
+        return int(re.search(r"open http://[^/]*:(\d+)/", self.said)[1])
+
+
+def get(port, path, method="GET", **headers):
+    """Return (status, headers, body) of a request."""
+    request = urllib.request.Request(
+        f"http://127.0.0.1:{port}{path}", method=method, headers=headers
+    )
+    try:
+        with urllib.request.urlopen(request, timeout=30) as answer:
+            return answer.status, answer.headers, answer.read()
+    except urllib.error.HTTPError as error:
+        with error:
+            return error.code, error.headers, error.read()
