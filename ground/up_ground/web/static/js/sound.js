@@ -1,4 +1,5 @@
 import { keepsakeOf } from "./link/keepsake.js";
+import { isAcknowledged } from "./panels/acknowledged.js";
 
 const LEVELS = ["none", "info", "warning", "alarm"];
 const TONES = {
@@ -41,7 +42,7 @@ export function mountSound(button, store) {
   document.addEventListener("pointerdown", unlock);
   document.addEventListener("keydown", unlock);
   store.subscribe(() => {
-    const level = worstLevel(store.alarms);
+    const level = worstLevel(store.alarms.filter((each) => !isAcknowledged(each)));
     const now = new Set(store.alarms.map((each) => `${each.kind} ${each.level}`));
     const isNew = [...now].some((each) => !known.has(each));
     known = now;

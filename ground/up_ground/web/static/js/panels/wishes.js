@@ -25,14 +25,14 @@ export class Wishes {
     );
     this.#altitude = this.#number(
       "wish-altitude",
-      "Altitude above sea level, metres",
+      "Altitude (sea level), m",
       [-1000, 30000],
       "m",
       (value) => this.#fly("up.altitude.change", { altitude: value, mode: "required" }, this.#altitude),
     );
     this.#period = this.#number(
       "telemetry-period",
-      "Telemetry every, milliseconds",
+      "Telemetry every so many ms",
       [20, 10000],
       "ms",
       (value) => this.#send("up.telemetry.frequency", { frequency: value }, this.#period),
@@ -50,6 +50,9 @@ export class Wishes {
       heading("Where to, and what to tell"),
       ...this.#fields.map(([field]) => field.element),
     );
+    for (const field of [this.#period, this.#speak, this.#mark]) {
+      field.element.classList.add("wide");
+    }
   }
 
   update() {
