@@ -14,6 +14,7 @@ SUBJECTS = {
     "latency": "sensor to actuator through the running daemon",
     "startup": "start to ports bound, and memory",
     "load": "CPU of the daemon in flight and idle",
+    "recorder": "what recording the flight costs",
     "relay": "the proxy beside HAProxy and socat",
     "firmware": "the compiled firmware in the AVR simulator",
     "simulator": "the virtual aircraft against the clock",

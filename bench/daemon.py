@@ -1,5 +1,6 @@
 """Raspilot as a user runs it, ``python main.py --config DIR``, in a configuration of its own."""
 
+import json
 import socket
 import sys
 import tempfile
@@ -12,6 +13,7 @@ from bench.processes import running
 
 ROOT = Path(__file__).resolve().parents[1]
 MAIN = ROOT / "main.py"
+FLIGHTS = "flights"
 CONTROL = Path(__file__).with_name("control_run.py")
 
 
@@ -26,11 +28,12 @@ class Ports:
 
 @dataclass(frozen=True, slots=True)
 class Daemon:
-    """A running daemon: its pid, its ports and where it logs."""
+    """A running daemon: its pid, its ports, where it logs and where it records its flights."""
 
     pid: int
     ports: Ports
     log: Path
+    flights: Path
 
 
 def free_ports() -> Ports:
@@ -41,14 +44,21 @@ def free_ports() -> Ports:
 
 
 def write_config(
-    folder: Path, ports: Ports, serial: str = "", proxy_port: int = 0, priority: int = 0
+    folder: Path,
+    ports: Ports,
+    serial: str = "",
+    proxy_port: int = 0,
+    priority: int = 0,
+    is_recorded: bool = True,
 ) -> None:
     """Write a configuration: the Raspberry Pi flies, everything else as it is shipped."""
+    recorder = {"enabled": is_recorded, "folder": str(folder / FLIGHTS)}
     files = {
         "config.yml": f"flight controller: raspberry\nrealtime priority: {priority}\n",
         "android.yml": f"general port: {ports.general}\norientation port: {ports.orientation}\n",
         "discovery.yml": f"port: {ports.discovery}\n",
         "arduino.yml": f"port: {serial!r}\n",
+        "black_box.yml": json.dumps(recorder),
         # Other people's load must not turn this into a measurement of Panic Mode.
         "load_guard.yml": "panic threshold: 100.0\ncalm down threshold: 99.0\n",
     }
@@ -61,16 +71,20 @@ def write_config(
 
 @contextmanager
 def daemon(
-    serial: str = "", proxy_port: int = 0, priority: int = 0, program: Path = MAIN
+    serial: str = "",
+    proxy_port: int = 0,
+    priority: int = 0,
+    program: Path = MAIN,
+    is_recorded: bool = True,
 ) -> Iterator[Daemon]:
     """Run the daemon on a serial port until the block ends."""
     ports = free_ports()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        write_config(folder, ports, serial, proxy_port, priority)
+        write_config(folder, ports, serial, proxy_port, priority, is_recorded)
         log = folder / "log"
         with (
             log.open("w") as stream,
             running((sys.executable, program, "--config", folder), stream, ROOT) as process,
         ):
-            yield Daemon(process.pid, ports, log)
+            yield Daemon(process.pid, ports, log, folder / FLIGHTS)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Iterable
+from pathlib import Path
 
 from bench.board import Board, terminal
 from bench.daemon import daemon
@@ -21,12 +22,15 @@ FLIGHT_TARGET, IDLE_TARGET = 0.025, 0.001
 PROTOTYPE, MAVPROXY = "thesis: prototype on a Pi B+, 20 + 20 Hz", "MAVProxy idle (seen once)"
 
 
-def flight_row(seconds: float) -> Row:
-    """Return the share with receiver, orientation and Outputs at 50 Hz and telemetry sent."""
+def flight_share(seconds: float, is_recorded: bool = True) -> tuple[float, float, float]:
+    """Return the share of a core with receiver, orientation and Outputs at 50 Hz.
+
+    And how many frames of telemetry came in a second, how many bytes were recorded in one.
+    """
     with (
         Ground() as ground,
         terminal() as (board_end, port),
-        daemon(port, proxy_port=ground.port) as running,
+        daemon(port, proxy_port=ground.port, is_recorded=is_recorded) as running,
     ):
         board = Board(board_end)
         board.greet(GREET_S)
@@ -34,10 +38,23 @@ def flight_row(seconds: float) -> Row:
         flying = threading.Thread(target=board.measure, args=(RATE_HZ, SETTLE_S + seconds + 1.0))
         flying.start()
         time.sleep(SETTLE_S)
+        before = recorded_bytes(running.flights)
         share, frames = _share(running.pid, seconds, ground)
+        written = recorded_bytes(running.flights) - before
         flying.join()
+    return share, frames / seconds, written / seconds
+
+
+def recorded_bytes(folder: Path) -> int:
+    """Return the size of all flights in a folder."""
+    return sum(path.stat().st_size for path in folder.glob("*.mcap"))
+
+
+def flight_row(seconds: float) -> Row:
+    """Return the share in flight, recorded as it is shipped."""
+    share, frames_hz, _ = flight_share(seconds)
     return Row(
-        f"CPU at {RATE_HZ} Hz RX + {RATE_HZ} Hz orientation + {frames / seconds:.0f} Hz telemetry",
+        f"CPU at {RATE_HZ} Hz RX + {RATE_HZ} Hz orientation + {frames_hz:.0f} Hz telemetry",
         f"{share:.2%}",
         PROTOTYPE,
         "40%",

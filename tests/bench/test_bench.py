@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from bench import __main__ as program
-from bench import bus, cascade, codecs, firmware, latency, load, simulator, startup
+from bench import bus, cascade, codecs, firmware, latency, load, recorder, simulator, startup
 from bench.board import Board, terminal
 from bench.processes import running
 from bench.table import Row
@@ -21,6 +21,7 @@ SUBJECTS = {
     "latency": (latency, 5),
     "startup": (startup, 2),
     "load": (load, 2),
+    "recorder": (recorder, 5),
 }
 
 

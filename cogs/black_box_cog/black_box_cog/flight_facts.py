@@ -40,8 +40,8 @@ class FlightFacts:
     def versions(self) -> dict[str, str]:
         """Return the metadata record ``versions``: of Up and of every cog."""
         found = {"up": VERSION}
-        for package in self.packages:
-            found[package] = version_of(package) or found.get(package, "")
+        for package in sorted({*self.packages} - {*found}):
+            found[package] = version_of(package)
         return found
 
     def config_files(self) -> list[tuple[str, bytes]]:
@@ -52,16 +52,17 @@ class FlightFacts:
 def version_of(package: str) -> str:
     """Return the version of the distribution that an imported package came with, or ''.
 
-    Read from the metadata beside it: importing importlib.metadata takes more memory than all else.
+    Read from the metadata beside it, as importlib.metadata would take more memory than all else.
     """
     origin = getattr(sys.modules.get(package), "__file__", None)
     if origin is None:
         return ""
-    place = Path(origin).resolve().parent.parent
-    for pattern, name in (("*.dist-info", "METADATA"), ("*.egg-info", "PKG-INFO")):
-        for folder in place.glob(pattern):
-            if package in _text(folder / "top_level.txt").split():
-                return _field(_text(folder / name), "Version")
+    # What is installed editable has its metadata elsewhere on the path.
+    for place in (Path(origin).resolve().parent.parent, *map(Path, sys.path)):
+        for pattern, name in (("*.dist-info", "METADATA"), ("*.egg-info", "PKG-INFO")):
+            for folder in place.glob(pattern):
+                if package in _text(folder / "top_level.txt").split():
+                    return _field(_text(folder / name), "Version")
     return ""
 
 
