@@ -5,3 +5,13 @@
 export function now_s() {
   return performance.now() / 1000;
 }
+
+/** The browser's timers, for those parts that a test gives others. */
+export const TIMERS = {
+  /** @param {() => void} call @param {number} wait_s @returns {*} */
+  once: (call, wait_s) => setTimeout(call, wait_s * 1000),
+  /** @param {() => void} call @param {number} period_s @returns {*} */
+  each: (call, period_s) => setInterval(call, period_s * 1000),
+  /** @param {*} timer of either kind; null and undefined do no harm */
+  cancel: (timer) => clearTimeout(timer),
+};

@@ -1,5 +1,5 @@
 import { Backoff } from "./backoff.js";
-import { now_s } from "./clock.js";
+import { now_s, TIMERS } from "./clock.js";
 import { keepsakeOf } from "./keepsake.js";
 import { PendingAsks } from "./pending_asks.js";
 
@@ -19,11 +19,12 @@ export class Connection {
   #key;
   #socket = null;
   #backoff = new Backoff();
-  #asks = new PendingAsks();
+  #asks;
   #calls = new Map();
   #memory;
   #makeSocket;
   #now_s;
+  #timers;
   #heard_s = 0;
   #began_s = 0;
   #retryAt_s = null;
@@ -41,7 +42,8 @@ export class Connection {
 
   /**
    * @param {string} url of the WebSocket
-   * @param {{key?: string|null, memory?: object, makeSocket?: Function, now_s?: Function}} [parts]
+   * @param {{key?: string|null, memory?: object, makeSocket?: Function, now_s?: Function,
+   *   timers?: object}} [parts] timers: as TIMERS
    */
   constructor(url, parts = {}) {
     this.#url = url;
@@ -49,6 +51,8 @@ export class Connection {
     this.#memory = parts.memory ?? keepsakeOf("sessionStorage");
     this.#makeSocket = parts.makeSocket ?? ((address) => new WebSocket(address));
     this.#now_s = parts.now_s ?? now_s;
+    this.#timers = parts.timers ?? TIMERS;
+    this.#asks = new PendingAsks(this.#timers);
   }
 
   /** @returns {boolean} whether the server has welcomed this page and the line stands */
@@ -74,14 +78,14 @@ export class Connection {
 
   /** Connect, and stay connected. */
   start() {
-    this.#pinger ??= setInterval(() => this.#tick(), PING_S * 1000);
+    this.#pinger ??= this.#timers.each(() => this.#tick(), PING_S);
     this.#attempt();
   }
 
   /** Close, and stay closed. */
   stop() {
-    clearInterval(this.#pinger);
-    clearTimeout(this.#timer);
+    this.#timers.cancel(this.#pinger);
+    this.#timers.cancel(this.#timer);
     this.#pinger = null;
     const socket = this.#socket;
     this.#socket = null;
@@ -219,8 +223,8 @@ export class Connection {
     this.#asks.giveUp(LOST);
     const retry_s = this.#backoff.next_s();
     this.#retryAt_s = this.#now_s() + retry_s;
-    clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.#attempt(), retry_s * 1000);
+    this.#timers.cancel(this.#timer);
+    this.#timer = this.#timers.once(() => this.#attempt(), retry_s);
     this.#tell("closed", { reason: String(reason ?? ""), retry_s });
   }
 

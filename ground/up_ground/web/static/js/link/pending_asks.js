@@ -1,18 +1,26 @@
-const LONGEST_MS = 15000;
+import { TIMERS } from "./clock.js";
+
+const LONGEST_S = 15;
 
 /** Commands that wait for their answers, each by its number. */
 export class PendingAsks {
   #last = 0;
   #waiting = new Map();
+  #timers;
+
+  /** @param {object} [timers] as TIMERS */
+  constructor(timers = TIMERS) {
+    this.#timers = timers;
+  }
 
   /** @returns {{ask: number, answer: Promise<object>}} a new number and its answer to come */
   add() {
     this.#last += 1;
     const ask = this.#last;
     const answer = new Promise((resolve) => {
-      const timer = setTimeout(
+      const timer = this.#timers.once(
         () => this.take({ ask, outcome: "timeout", reason: "the ground server did not answer" }),
-        LONGEST_MS,
+        LONGEST_S,
       );
       this.#waiting.set(ask, { resolve, timer });
     });
@@ -26,7 +34,7 @@ export class PendingAsks {
       return;
     }
     this.#waiting.delete(message.ask);
-    clearTimeout(waiting.timer);
+    this.#timers.cancel(waiting.timer);
     waiting.resolve({ code: null, reason: "", round_trip_ms: null, data: null, ...message });
   }
 

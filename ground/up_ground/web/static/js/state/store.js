@@ -1,4 +1,4 @@
-import { now_s } from "../link/clock.js";
+import { now_s, TIMERS } from "../link/clock.js";
 import { freshnessOf, isSilent, READINGS, readingOf } from "./ages.js";
 import { EventList } from "./event_list.js";
 import * as judge from "./judge.js";
@@ -6,8 +6,8 @@ import { Motion } from "./motion.js";
 import { isOnlyRequest, roleAllows } from "./roles.js";
 import { Track } from "./track.js";
 
-const REPAINT_MS = 200;
-const LOOK_MS = 40;
+const REPAINT_S = 0.2;
+const LOOK_S = 0.04;
 
 /**
  * What the page knows of the aircraft watched, and how old it is.
@@ -24,6 +24,7 @@ export class Store {
   #frameAge_s = 0;
   #calls = new Set();
   #requestFrame;
+  #timers;
   #isAsked = false;
   #events = new EventList();
 
@@ -44,11 +45,12 @@ export class Store {
 
   /**
    * @param {object} connection
-   * @param {{now_s?: Function, requestFrame?: Function}} [parts]
+   * @param {{now_s?: Function, requestFrame?: Function, timers?: object}} [parts]
    */
   constructor(connection, parts = {}) {
     this.#connection = connection;
     this.#now_s = parts.now_s ?? now_s;
+    this.#timers = parts.timers ?? TIMERS;
     this.#requestFrame = parts.requestFrame ?? ((call) => requestAnimationFrame(call));
     connection.shownBeacon = () => this.shownBeacon;
     connection.on("open", ({ welcome }) => this.#opened(welcome));
@@ -61,15 +63,15 @@ export class Store {
    * reading has become old.
    */
   start() {
-    setInterval(() => this.#change(), REPAINT_MS);
+    this.#timers.each(() => this.#change(), REPAINT_S);
     let known = "";
-    setInterval(() => {
+    this.#timers.each(() => {
       const now = [null, ...READINGS].map((reading) => this.freshness(reading)).join();
       if (now !== known) {
         known = now;
         this.#change();
       }
-    }, LOOK_MS);
+    }, LOOK_S);
   }
 
   /** @param {string} name of the aircraft to look at from now on */

@@ -1,0 +1,69 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { ballTransform, onCircle, rollMarks, rungs } from "../../../../ground/up_ground/web/static/js/instruments/ladder.js";
+import { beyond, share, stickPlace } from "../../../../ground/up_ground/web/static/js/instruments/stick_geometry.js";
+import { rootScale, TapeScale } from "../../../../ground/up_ground/web/static/js/instruments/tape_scale.js";
+
+test("the ladder reaches from the nadir to the zenith and is the same on both sides", () => {
+  const all = rungs().map((each) => each.pitch_deg);
+  assert.equal(Math.min(...all), -90);
+  assert.equal(Math.max(...all), 90);
+  assert.equal(all.includes(0), false);
+  assert.deepEqual(all.map((each) => -each).reverse(), all);
+  const tens = rungs().filter((each) => each.label !== "");
+  assert.equal(tens.length, 18);
+  assert.ok(tens.every((each) => each.label === String(Math.abs(each.pitch_deg))));
+});
+
+test("right wing down turns the picture left, nose up moves it down", () => {
+  assert.equal(ballTransform(30, 0), "rotate(-30.00) translate(0 0.00)");
+  assert.match(ballTransform(0, 10), /translate\(0 50\.00\)/);
+  assert.match(ballTransform(0, 400), /translate\(0 450\.00\)/);
+});
+
+test("the roll scale has the same marks left and right", () => {
+  const marks = rollMarks().map((each) => each.roll_deg).sort((one, other) => one - other);
+  assert.deepEqual(marks, [-60, -45, -30, -20, -10, 10, 20, 30, 45, 60]);
+});
+
+test("angles on a circle go clockwise from above", () => {
+  const near = ([x, y], [ex, ey]) => assert.ok(Math.hypot(x - ex, y - ey) < 1e-9);
+  near(onCircle(0, 10), [0, -10]);
+  near(onCircle(90, 10), [10, 0]);
+});
+
+test("a tape's mark stands at the pointer when the value is the mark's", () => {
+  const scale = new TapeScale({ step: 5, units: 16, height: 280 });
+  for (const value of [-3, 0, 0.1, 2.49, 2.5, 7.5, 365.93, -1000]) {
+    const { first, shift } = scale.at(value);
+    for (let place = 0; place < scale.count; place += 1) {
+      const mark = first + place * scale.step;
+      const y = scale.y(place) + shift;
+      assert.ok(Math.abs(y - ((value - mark) / 5) * 16) < 1e-6, `${value} ${mark} ${y}`);
+    }
+    assert.ok(scale.y(0) + shift >= 140 && scale.y(scale.count - 1) + shift <= -140);
+  }
+});
+
+test("a tape's labels change only when the value has moved by a step", () => {
+  const scale = new TapeScale({ step: 1, units: 14, height: 280 });
+  assert.equal(scale.at(10.4).first, scale.at(9.6).first);
+  assert.notEqual(scale.at(10.4).first, scale.at(10.6).first);
+});
+
+test("a root scale keeps its sign and its end", () => {
+  assert.equal(rootScale(0, 10, 96), 0);
+  assert.equal(rootScale(10, 10, 96), 96);
+  assert.equal(rootScale(-50, 10, 96), -96);
+  assert.equal(rootScale(2.5, 10, 96), 48);
+});
+
+test("a pulled elevator is a stick drawn down, more throttle one drawn up", () => {
+  assert.deepEqual(stickPlace(2000, 2000, "elevator"), { x: "44.0", y: "44.0" });
+  assert.deepEqual(stickPlace(1000, 2000, "throttle"), { x: "-44.0", y: "-44.0" });
+  assert.equal(stickPlace(null, 1500, "throttle"), null);
+  assert.equal(share(9999), 1.1);
+  assert.equal(beyond(999), "low");
+  assert.equal(beyond(2001), "high");
+  assert.equal(beyond(2000), "within");
+});

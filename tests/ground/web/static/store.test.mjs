@@ -1,0 +1,201 @@
+import assert from "node:assert/strict";
+import { beforeEach, test } from "node:test";
+import { Connection } from "../../../../ground/up_ground/web/static/js/link/connection.js";
+import { Keepsake } from "../../../../ground/up_ground/web/static/js/link/keepsake.js";
+import { Store } from "../../../../ground/up_ground/web/static/js/state/store.js";
+import { FakeClock } from "./support/fake_clock.mjs";
+import { FakeServer } from "./support/fake_server.mjs";
+
+let clock, server, store, frames;
+
+beforeEach(() => {
+  clock = new FakeClock();
+  server = new FakeServer();
+  frames = [];
+  const { now_s, timers } = clock;
+  const memory = new Keepsake(null);
+  const connection = new Connection("ws://x/link", { memory, now_s, timers, makeSocket: server.makeSocket });
+  store = new Store(connection, { now_s, timers, requestFrame: (call) => frames.push(call) });
+  connection.start();
+  server.welcome();
+});
+
+function paint() {
+  frames.splice(0).forEach((call) => call());
+}
+
+function frame(data, fields = {}) {
+  server.socket.say({ type: "frame", aircraft: "one", beacon: 7, age_ms: 20, data, ...fields });
+}
+
+test("it watches the first aircraft", () => {
+  assert.equal(store.aircraft, "one");
+  assert.deepEqual(server.socket.of("watch"), [{ type: "watch", aircraft: "one" }]);
+});
+
+test("an age is that on board, on the link, half the page's round trip, and since", () => {
+  const [ping] = server.socket.of("ping");
+  clock.advance(0.06);
+  server.socket.say({ type: "pong", ping: ping.ping });
+  frame({ age_ms: { orientation: 100 } });
+  clock.advance(0.5);
+  assert.ok(Math.abs(store.age_s(null) - (0.02 + 0.03 + 0.5)) < 1e-9);
+  assert.ok(Math.abs(store.age_s("orientation") - (0.1 + 0.02 + 0.03 + 0.5)) < 1e-9);
+  assert.equal(store.age_s("rx"), null);
+});
+
+test("every value of a frame is judged", () => {
+  const odd = { roll: "1", pitch: null, yaw: [1] };
+  frame({ orientation: odd, altitude: 1e300, armed: "yes", vetoes: "no", flight_mode: 3 });
+  assert.equal(store.number("orientation.roll"), null);
+  assert.equal(store.value("orientation.pitch"), null);
+  assert.equal(store.number("orientation.yaw"), null);
+  assert.equal(store.value("altitude"), null);
+  assert.equal(store.freshnessAt("altitude"), "none");
+  assert.equal(store.flag("armed"), null);
+  assert.equal(store.texts("vetoes"), null);
+  assert.equal(store.text("flight_mode"), null);
+  assert.equal(store.number("constructor.length"), null);
+});
+
+test("a frame that is no tree changes nothing", () => {
+  frame({ altitude: 5 });
+  frame(null);
+  frame("x");
+  assert.equal(store.number("altitude"), 5);
+  assert.equal(store.frames, 1);
+});
+
+test("it is silent after 0.9 s, and everything stale with it", () => {
+  frame({ altitude: 5, age_ms: { altitude: 0 } });
+  assert.equal(store.aircraftState, "live");
+  assert.equal(store.freshnessAt("altitude"), "live");
+  clock.advance(0.89);
+  assert.equal(store.isSilent, true);
+  assert.equal(store.aircraftState, "silent");
+  assert.equal(store.freshnessAt("altitude"), "stale");
+});
+
+test("a lost connection turns everything stale as time goes by", () => {
+  frame({ altitude: 5 });
+  server.socket.fail();
+  assert.equal(store.aircraftState, "live");
+  clock.advance(0.95);
+  assert.equal(store.aircraftState, "silent");
+});
+
+test("becoming silent is painted within 50 ms, without any frame", () => {
+  store.start();
+  const states = [];
+  store.subscribe(() => states.push(store.aircraftState));
+  frame({ altitude: 5 }, { age_ms: 0 });
+  paint();
+  clock.advance(0.88);
+  paint();
+  assert.deepEqual(new Set(states), new Set(["live"]));
+  clock.advance(0.06);
+  paint();
+  assert.equal(states.at(-1), "silent");
+});
+
+test("ages are painted five times a second", () => {
+  store.start();
+  let paints = 0;
+  store.subscribe(() => (paints += 1));
+  paint();
+  for (let step = 0; step < 100; step += 1) {
+    clock.advance(0.01);
+    paint();
+  }
+  assert.ok(paints >= 5 && paints <= 8, String(paints));
+});
+
+test("many messages are one painting", () => {
+  let paints = 0;
+  store.subscribe(() => (paints += 1));
+  paint();
+  for (let count = 0; count < 50; count += 1) {
+    frame({ altitude: count });
+  }
+  paint();
+  assert.equal(paints, 2);
+  assert.equal(store.frames, 50);
+});
+
+test("a Command echoes the newest frame that was painted, not the newest that came", () => {
+  frame({}, { beacon: 1 });
+  assert.equal(store.shownBeacon, null);
+  paint();
+  assert.equal(store.shownBeacon, 1);
+  frame({}, { beacon: 2 });
+  assert.equal(store.shownBeacon, 1);
+});
+
+test("frames of another aircraft are not shown", () => {
+  frame({ altitude: 5 }, { aircraft: "two" });
+  assert.equal(store.aircraftState, "none");
+});
+
+test("another aircraft begins with nothing", () => {
+  frame({ altitude: 5 });
+  server.socket.say({ type: "alarms", aircraft: "one", active: [{ kind: "x", level: "alarm" }] });
+  store.watch("two");
+  assert.equal(store.aircraftState, "none");
+  assert.equal(store.value("altitude"), null);
+  assert.deepEqual(store.alarms, []);
+  assert.equal(store.shownBeacon, null);
+});
+
+test("a page that comes back watches the same aircraft", () => {
+  store.watch("two");
+  server.socket.fail();
+  clock.advance(0.25);
+  server.welcome();
+  assert.deepEqual(server.socket.of("watch"), [{ type: "watch", aircraft: "two" }]);
+});
+
+test("events come once each, in order, with the time they happened", () => {
+  const event = (number, fields) =>
+    server.socket.say({ type: "event", aircraft: "one", number, age_ms: 2000, text: "t", level: "info", ...fields });
+  event(2);
+  event(1, { is_past: true });
+  event(2);
+  event(3, { level: "strange" });
+  event(4, { text: 7 });
+  event("5");
+  assert.deepEqual(store.events.map((each) => each.number), [1, 2, 3]);
+  assert.deepEqual(store.events.map((each) => each.level), ["info", "info", "info"]);
+  assert.equal(store.events[0].at_s, clock.seconds - 2);
+});
+
+test("a Command needs control and a role", () => {
+  const status = (holder, role) =>
+    server.socket.say({ type: "status", aircraft: "one", link: {}, control: { holder }, role });
+  assert.equal(store.canCommand("up.flight_mode.set"), false);
+  status("page", "pilot");
+  assert.equal(store.canCommand("up.flight_mode.set"), false);
+  assert.equal(store.canCommand("arduino.pids.tunings", { request: true }), true);
+  status("you", "operator");
+  assert.equal(store.canCommand("up.flight_mode.set"), true);
+  assert.equal(store.canCommand("up.arm"), false);
+  assert.equal(store.canCommand("arduino.pids.tunings", { pids: {} }), false);
+  status("you", "pilot");
+  assert.equal(store.canCommand("up.arm"), true);
+  status("you", null);
+  assert.equal(store.canCommand("up.arm"), true);
+  server.socket.fail();
+  assert.equal(store.canCommand("up.arm"), false);
+});
+
+test("the track grows by live fixes only", () => {
+  server.socket.say({ type: "track", aircraft: "one", points: [[50, 8, 100], "odd", [95, 8, 0]] });
+  assert.deepEqual(store.track.points, [[50, 8, 100]]);
+  assert.equal(store.track.startAltitude_m, 100);
+  const location = { latitude: 50.001, longitude: 8, altitude: 120 };
+  frame({ location, age_ms: { location: 5000 } });
+  assert.equal(store.track.points.length, 1);
+  frame({ location, age_ms: { location: 100 } });
+  frame({ location, age_ms: { location: 200 } });
+  assert.deepEqual(store.track.points.at(-1), [50.001, 8, 120]);
+  assert.equal(store.track.points.length, 2);
+});
