@@ -126,6 +126,21 @@ class FlightLog:
         times, start_ns = self._index.times_ns, self._start_ns
         return [(times[each] - start_ns) * _NS for each in self._index.positions((topic,))]
 
+    def gaps(self, longer_than_s: float, *topics: str) -> Iterator[tuple[float, float]]:
+        """Yield when (s) no message of these topics (none named: of any) came, and for how long.
+
+        Looked for from their first message to the end of the log, without looking into them.
+        """
+        times, start_ns, limit_ns = self._index.times_ns, self._start_ns, longer_than_s / _NS
+        before = None
+        for position in self._index.positions(topics):
+            now = times[position]
+            if before is not None and now - before > limit_ns:
+                yield (before - start_ns) * _NS, (now - before) * _NS
+            before = now
+        if before is not None and times[-1] - before > limit_ns:
+            yield (before - start_ns) * _NS, (times[-1] - before) * _NS
+
     def _decoded(
         self, topics: Sequence[str], since_s: float
     ) -> Iterator[tuple[int, int, dict[str, Any]]]:

@@ -1,0 +1,73 @@
+"""What went wrong on the links: the ground's, the phone's, and the readings that they bring."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from statistics import median
+
+from up.flight_log.facts import Facts
+from up.flight_log.json_message import number_at
+from up.flight_log.spans import Span, duration_text
+from up.flight_log.wrong import Judge, Wrong
+
+GROUND_LINKS = ("mission_control", "ground")
+PHONE_LINK = "android"
+READINGS: dict[str, tuple[str, float]] = {
+    "up.orientation.update": ("attitude", 0.5),
+    "up.location.update": ("location", 2.5),
+}
+"""What it is called, and how long (s) it may stay away at least."""
+_PATIENCE = 4
+"""So many of its usual intervals a reading may stay away."""
+_LOOKED_AT = 1000
+
+
+def ground_lost(facts: Facts) -> Iterator[Wrong]:
+    """The link to the ground; switched off after landing is no loss."""
+    for link in GROUND_LINKS:
+        for span in facts.link_lost(lambda name, link=link: name == link):  # type: ignore[misc]
+            flies = facts.was_armed(span) or not span.is_open
+            text = f"the link to the ground was lost {span.length_text}"
+            yield Wrong(span.begin_s, "warning" if flies else "info", text)
+
+
+def phone_lost(facts: Facts) -> Iterator[Wrong]:
+    """The airborne phone: its sensors and, where it carries them, the uplink."""
+    for span in facts.link_lost(lambda link: link == PHONE_LINK):
+        flies = facts.was_armed(span) or not span.is_open
+        text = f"the phone was gone {span.length_text}"
+        yield Wrong(span.begin_s, "warning" if flies else "info", text)
+
+
+def reading_missing(facts: Facts) -> Iterator[Wrong]:
+    """A reading that came and then stayed away."""
+    for topic, (name, least_s) in READINGS.items():
+        limit_s = max(least_s, _PATIENCE * _interval_s(facts, topic))
+        for begin_s, length_s in facts.log.gaps(limit_s, topic):
+            span = Span(begin_s, begin_s + length_s)
+            is_open = span.end_s >= facts.log.length_s
+            level = "alarm" if topic == "up.orientation.update" else "warning"
+            if not facts.was_armed(span):
+                level = "info" if is_open else "warning"
+            until = " until the end" if is_open else ""
+            text = f"no {name} came for {duration_text(length_s)}{until}"
+            yield Wrong(begin_s, level, text)  # type: ignore[arg-type]
+
+
+def battery_low(facts: Facts) -> Iterator[Wrong]:
+    """The phone's battery: losing the phone is losing its sensors and the uplink."""
+    for each in facts.log.messages("android.battery.low"):
+        if each.data.get("low") is True:
+            level = number_at(each.data, ("level",))
+            percent = "" if level is None else f": {level:g} percent"
+            yield Wrong(each.time_s, "alarm", f"the phone's battery was low{percent}")
+
+
+def _interval_s(facts: Facts, topic: str) -> float:
+    """Return the usual time between two messages, by the first of them."""
+    times_s = facts.log.times(topic)[:_LOOKED_AT]
+    return median(b - a for a, b in pairwise(times_s)) if times_s[1:] else 0.0
+
+
+LINK_JUDGMENTS: tuple[Judge, ...] = (ground_lost, phone_lost, reading_missing, battery_low)

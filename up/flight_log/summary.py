@@ -1,0 +1,177 @@
+"""A flight on one page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from up.flight_log import board_status
+from up.flight_log.facts import TELEMETRY, Facts
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.json_message import number_at
+from up.flight_log.spans import Span
+from up.flight_log.way import way_of
+from up.flight_log.wrong import Wrong
+from up.flight_log.wrongs import wrongs
+
+__all__ = ["FlightSummary", "Mark", "ModeSpan", "Wrong", "summarise", "wrongs"]
+
+SOURCES: dict[str, str] = {
+    "orientation": "up.orientation.update",
+    "rx": "up.rx.update",
+    "servo": "up.servo.update",
+    "location": "up.location.update",
+    "altitude": "up.altitude.change",
+    "heading": "up.heading.change",
+    "battery": "android.battery",
+    "telemetry": TELEMETRY,
+}
+"""Whose longest gap is told, by the names that telemetry has for readings."""
+ALTITUDE = "up.altitude.change"
+BATTERY = "android.battery"
+MARK = "black_box.mark"
+WARNING, ERROR = 3, 4
+_MOST_VETOES = 100
+
+
+@dataclass(frozen=True, slots=True)
+class ModeSpan:
+    """A stretch that was flown in one mode; times in s."""
+
+    mode: str
+    begin_s: float
+    end_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """An event that somebody on the ground noted."""
+
+    time_s: float
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class FlightSummary:
+    """What a flight was; what the log does not tell is None or empty.
+
+    Altitudes are above sea level. ``gaps_s`` is the longest silence of each source that spoke.
+    ``vetoes`` are what forbade arming at some time. ``warnings`` and ``errors`` count lines of the
+    program's log.
+    """
+
+    start_unix_s: float
+    length_s: float
+    aircraft: str
+    version: str
+    mode: str
+    flight_controller: str
+    armed: list[Span]
+    modes: list[ModeSpan]
+    highest_m: float | None
+    lowest_m: float | None
+    top_speed_m_s: float | None
+    track_m: float | None
+    farthest_m: float | None
+    lowest_battery_percent: float | None
+    gaps_s: dict[str, float]
+    failsafes: list[Span]
+    vetoes: list[str]
+    marks: list[Mark]
+    warnings: int
+    errors: int
+    messages: int
+    is_complete: bool
+
+    @property
+    def armed_s(self) -> float:
+        """Return for how long it was armed, s."""
+        return sum(span.length_s for span in self.armed)
+
+    @property
+    def mode_times_s(self) -> dict[str, float]:
+        """Return for how long each mode was flown, s, the longest first."""
+        times_s: dict[str, float] = {}
+        for span in self.modes:
+            times_s[span.mode] = times_s.get(span.mode, 0.0) + span.end_s - span.begin_s
+        return dict(sorted(times_s.items(), key=lambda item: -item[1]))
+
+
+def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
+    """Return the summary of a flight; ``facts`` spares a second look (see `wrongs`)."""
+    facts = facts or Facts(log)
+    flight = log.metadata.get("flight", {})
+    way = way_of(log)
+    altitudes_m = list(_altitudes_m(log)) or [
+        each for each in (way.lowest_m, way.highest_m) if each is not None
+    ]
+    levels = [line.level for line in facts.log_lines]
+    return FlightSummary(
+        start_unix_s=log.start_unix_s,
+        length_s=log.length_s,
+        aircraft=flight.get("aircraft", ""),
+        version=flight.get("version", ""),
+        mode=flight.get("mode", ""),
+        flight_controller=flight.get("flight_controller", ""),
+        armed=facts.armed,
+        modes=list(_modes(facts)),
+        highest_m=max(altitudes_m, default=None),
+        lowest_m=min(altitudes_m, default=None),
+        top_speed_m_s=way.top_speed_m_s,
+        track_m=way.length_m,
+        farthest_m=way.farthest_m,
+        lowest_battery_percent=min(log.series(BATTERY, "level")[1], default=None),
+        gaps_s=dict(_gaps_s(log)),
+        failsafes=facts.spans((each.time_s, each.is_failsafe is True) for each in facts.states),
+        vetoes=_vetoes(facts),
+        marks=[Mark(each.time_s, str(each.data.get("text"))) for each in log.messages(MARK)],
+        warnings=levels.count(WARNING),
+        errors=sum(level >= ERROR for level in levels),
+        messages=sum(log.topics.values()),
+        is_complete=log.is_complete,
+    )
+
+
+def _modes(facts: Facts) -> Iterator[ModeSpan]:
+    mode, begin_s = None, 0.0
+    for state in facts.states:
+        if state.flight_mode == mode:
+            continue
+        if mode is not None:
+            yield ModeSpan(mode, begin_s, state.time_s)
+        mode, begin_s = state.flight_mode, state.time_s
+    if mode is not None:
+        yield ModeSpan(mode, begin_s, facts.log.length_s)
+
+
+def _altitudes_m(log: FlightLog) -> Iterator[float]:
+    for message in log.messages(ALTITUDE):
+        altitude_m = number_at(message.data, ("altitude",))
+        # What is required is not where it was.
+        if altitude_m is not None and message.data.get("mode", "actual") == "actual":
+            yield altitude_m
+
+
+def _gaps_s(log: FlightLog) -> Iterator[tuple[str, float]]:
+    for name, topic in SOURCES.items():
+        if log.topics.get(topic):
+            yield name, max((length_s for _, length_s in log.gaps(0.0, topic)), default=0.0)
+
+
+def _vetoes(facts: Facts) -> list[str]:
+    """Return the board's and the program's vetoes in the order in which they were first told."""
+    seen: dict[str, None] = {}
+    for each in _told_vetoes(facts):
+        seen[each] = None
+        if len(seen) >= _MOST_VETOES:
+            break
+    return list(seen)
+
+
+def _told_vetoes(facts: Facts) -> Iterator[str]:
+    for message in facts.log.messages(TELEMETRY):
+        told = message.data.get("vetoes")
+        if isinstance(told, list):
+            yield from (each for each in told if isinstance(each, str))
+    for status in facts.statuses():
+        yield from (f"arduino: {each}" for each in board_status.vetoes_of(status.data))

@@ -1,0 +1,24 @@
+"""Something that went wrong in a flight."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from up.flight_log.facts import Facts
+
+Level = Literal["info", "warning", "alarm"]
+
+
+@dataclass(frozen=True, slots=True)
+class Wrong:
+    """What went wrong, in plain words; ``time_s`` counts from the log's first message."""
+
+    time_s: float
+    level: Level
+    text: str
+
+
+Judge = Callable[[Facts], Iterator[Wrong]]
+"""Looks at a flight for one kind of thing; a new kind is a function and its entry in a table."""
