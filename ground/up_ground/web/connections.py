@@ -6,7 +6,7 @@ from collections import Counter
 from typing import Any
 
 from twisted.internet.interfaces import IAddress
-from twisted.internet.protocol import Protocol, connectionDone
+from twisted.internet.protocol import connectionDone
 from twisted.protocols.policies import ProtocolWrapper, WrappingFactory
 from twisted.python.failure import Failure
 
@@ -19,19 +19,22 @@ HTTP_LIMIT_S = 60.0
 class Connection(ProtocolWrapper):
     """One connection; what it carries is replaced when it becomes a WebSocket."""
 
+    transport: Any
+    factory: Any
+
     def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
         """Begin to count and to wait."""
         self._http = self.wrappedProtocol
         reactor = self.factory.reactor
         self._timer = reactor.callLater(HTTP_LIMIT_S, self._on_time_over)
-        super().makeConnection(transport)
+        super().makeConnection(transport)  # type: ignore[no-untyped-call]
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
         """Stop counting."""
         if self._timer.active():
             self._timer.cancel()
         self.factory.peers[_host(self.transport.getPeer())] -= 1
-        super().connectionLost(reason)
+        super().connectionLost(reason)  # type: ignore[no-untyped-call]
 
     def _on_time_over(self) -> None:
         if self.wrappedProtocol is self._http:
@@ -45,18 +48,20 @@ class Connections(WrappingFactory):
     noisy = False
 
     def __init__(self, reactor: Any, wrapped: Any) -> None:
-        super().__init__(wrapped)
+        super().__init__(wrapped)  # type: ignore[no-untyped-call]
         self.reactor = reactor
         self.peers: Counter[str] = Counter()
 
-    def buildProtocol(self, addr: IAddress | None) -> Protocol | None:  # noqa: N802 - Twisted's name
+    def buildProtocol(  # type: ignore[override]  # noqa: N802
+        self, addr: IAddress | None
+    ) -> ProtocolWrapper | None:
         """Return what carries the connection; None closes it."""
         peers = self.peers = +self.peers
         host = _host(addr)
         if peers.total() >= CONNECTIONS_LIMIT or peers[host] >= PER_PEER_LIMIT:
             return None
         peers[host] += 1
-        made: Protocol | None = super().buildProtocol(addr)
+        made: ProtocolWrapper | None = super().buildProtocol(addr)
         return made
 
 

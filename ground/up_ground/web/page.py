@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 from typing import Protocol as Interface
 
@@ -21,8 +22,19 @@ class PageConnection(Interface):
         """Ask for a sign of life; ``tell`` hears whether one came in time."""
 
 
+@dataclass(slots=True)
+class Ask:
+    """A Command that a page has asked for, and its answer as soon as there is one."""
+
+    content: str
+    answer: dict[str, Any] | None = None
+
+
 class Page:
-    """A page with its name and what it may do; ``link`` is None while it is away."""
+    """A page with its name and what it may do; ``link`` is None while it is away.
+
+    ``asks`` holds the Commands of its present link by the numbers that it gave them.
+    """
 
     def __init__(self, number: int, name: str, token: str, why_not: str) -> None:
         self.number = number
@@ -31,6 +43,7 @@ class Page:
         self.why_not = why_not
         self.watched = ""
         self.link: PageConnection | None = None
+        self.asks: dict[int, Ask] = {}
 
     @property
     def may_control(self) -> bool:

@@ -237,6 +237,8 @@ class Pages:
 
     def _welcome(self, link: PageConnection, page: Page) -> None:
         page.link = link
+        # A page that was loaded anew begins to count anew; its old numbers mean nothing.
+        page.asks = {}
         self._visits[link].page = page
         page.tell(
             {

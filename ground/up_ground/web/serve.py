@@ -7,9 +7,11 @@ import secrets
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from up_ground.catalogue import Catalogue
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
+from up_ground.web.commands import Checks
 from up_ground.web.fleet import AIRCRAFT_LIMIT, parse_aircraft
 from up_ground.web.listen_address import ListenAddress, parse_listen
 from up_ground.web.station import Station
@@ -54,6 +56,7 @@ def make_stations(
     reactor: Any, chosen: Iterable[Settings], environ: Mapping[str, str], audience: Audience
 ) -> Iterable[WatchedAircraft]:
     """Yield an aircraft for each of the settings."""
+    checks = Checks(Catalogue.installed())
     for settings in chosen:
         tokens = TokenStore(state_folder(environ), settings)
-        yield Station(reactor, settings.aircraft, settings, tokens, audience)
+        yield Station(reactor, settings.aircraft, settings, tokens, checks, audience)

@@ -10,9 +10,13 @@ from up_ground.ground_link import GroundLink
 from up_ground.settings import Settings
 from up_ground.telemetry import Telemetry
 from up_ground.token_store import TokenStore
+from up_ground.web.command_desk import CommandDesk
+from up_ground.web.commands import Checks
+from up_ground.web.control import Control
 from up_ground.web.messages import FrameMessage
 from up_ground.web.page import Page
 from up_ground.web.page_message import PageFault, Reader
+from up_ground.web.seat_at_proxy import SeatAtProxy
 from up_ground.web.watched import Audience
 
 
@@ -20,7 +24,13 @@ class Station:
     """Forwards telemetry the moment it comes, and keeps what a page that comes later must know."""
 
     def __init__(
-        self, reactor: Any, name: str, settings: Settings, tokens: TokenStore, audience: Audience
+        self,
+        reactor: Any,
+        name: str,
+        settings: Settings,
+        tokens: TokenStore,
+        checks: Checks,
+        audience: Audience,
     ) -> None:
         self.name = name
         self.link = GroundLink(reactor, settings, self, tokens)
@@ -29,6 +39,21 @@ class Station:
         self._settings = settings
         self._audience = audience
         self._frame: FrameMessage | None = None
+        self._seat = SeatAtProxy(self.link, settings.direct)
+        self.control = Control(reactor, self._seat, self._on_control_news, self._show_status)
+        self.desk = CommandDesk(
+            reactor,
+            name,
+            self.link,
+            self._seat,
+            self.control,
+            self.telemetry,
+            checks,
+            lambda message: audience.tell(name, message),
+            self._on_outcome,
+        )
+        self._was_open = False
+        self._was_online: bool | None = None
 
     @property
     def summary(self) -> str:
@@ -41,7 +66,9 @@ class Station:
         self.link.start()
 
     async def stop(self) -> None:
-        """Give the link up."""
+        """Leave the seat and give the link up."""
+        self.control.stop()
+        self.desk.stop()
         await self.link.stop()
 
     def on_message(self, message: GeneralMessage) -> None:
@@ -56,10 +83,21 @@ class Station:
             )
             self._frame = frame
             self._audience.show_frame(self.name, frame)
+            self.desk.on_moment()
+        else:
+            self.desk.on_message(message)
 
     def on_link(self) -> None:
         """Hear of the link."""
-        self._audience.show_status(self.name)
+        status = self.link.status
+        if self._was_open and not status.is_open:
+            self.desk.on_lost()
+        if status.is_aircraft_online and not self._was_online:
+            self.desk.want_gains()
+        self._was_open, self._was_online = status.is_open, status.is_aircraft_online
+        self.control.on_seat()
+        self.desk.on_moment()
+        self._show_status()
 
     def frame(self) -> FrameMessage | None:
         """Return the newest frame."""
@@ -67,7 +105,9 @@ class Station:
 
     def past(self) -> Iterable[dict[str, Any]]:
         """Return what a page is told that begins to watch."""
-        return []
+        yield self.desk.gains_message()
+        if self.desk.profile is not None:
+            yield self.desk.profile_message()
 
     def on_second(self) -> None:
         """Measure the link."""
@@ -97,10 +137,7 @@ class Station:
                 "frame_age_ms": None if age_s is None else round(age_s * 1000, 1),
             },
             "control": {
-                "holder": "unknown",
-                "holder_name": "",
-                "asked_by": None,
-                "asks_you": False,
+                **self.control.describe(page),
                 "pages": [
                     {"page": each.number, "name": each.name} for each in self._audience.all()
                 ],
@@ -112,9 +149,21 @@ class Station:
 
     def on_control(self, page: Page, action: str, to: int | None) -> None:
         """Let a page ask for control, give, deny or release it."""
+        if action == "give":
+            taker = None if to is None else self._audience.get(to)
+            if to is not None and taker is None:
+                raise PageFault(f"there is no page {to}")
+            self.control.give(page, taker)
+        else:
+            {
+                "request": self.control.request,
+                "deny": self.control.deny,
+                "release": self.control.release,
+            }[action](page)
 
     def on_command(self, page: Page, message: Reader) -> None:
         """Let a page send a Command."""
+        self.desk.on_command(page, message)
 
     def on_replay(self, page: Page, action: str, message: Reader) -> None:
         """Refuse: this is no replay."""
@@ -122,9 +171,20 @@ class Station:
 
     def on_away(self, page: Page) -> None:
         """Hear that a page's link was lost; it may come back."""
+        self.control.on_away(page)
 
     def on_back(self, page: Page) -> None:
-        """Hear that it came back."""
+        """Hear that a page is here."""
 
     def on_gone(self, page: Page) -> None:
         """Hear that it will not come back."""
+        self.control.on_gone(page)
+
+    def _on_control_news(self, text: str) -> None:
+        """Hear who controls now."""
+
+    def _on_outcome(self, text: str, is_good: bool) -> None:
+        """Hear what became of a Command."""
+
+    def _show_status(self) -> None:
+        self._audience.show_status(self.name)

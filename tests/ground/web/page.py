@@ -6,7 +6,7 @@ import urllib.error
 import urllib.request
 
 from autobahn.twisted.websocket import WebSocketClientFactory, WebSocketClientProtocol
-from twisted.internet.endpoints import HostnameEndpoint
+from twisted.internet.endpoints import TCP4ClientEndpoint
 
 from tests.ground.aircraft import Ground
 from tests.support.reactor import reactor, until
@@ -40,7 +40,7 @@ class Page:
         self.asks = 0
 
     async def open(self):
-        endpoint = HostnameEndpoint(reactor, "127.0.0.1", self.port)
+        endpoint = TCP4ClientEndpoint(reactor, "127.0.0.1", self.port)
         self.client = await endpoint.connect(self.factory)
         await until(lambda: self.is_open or self.is_closed, what="the link")
         return self

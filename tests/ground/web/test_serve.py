@@ -20,3 +20,26 @@ def test_a_page_sees_the_aircraft(proxy, tmp_path):
 
     with Aircraft(proxy.airborne_port), Serve(tmp_path, proxy.ground_port) as server:
         run_in_reactor(look, server.port)
+
+
+def test_the_page_with_control_commands(proxy, tmp_path):
+    async def fly(port):
+        first, second = Page(port), Page(port)
+        await first.hello("first")
+        await second.hello("second")
+        answer = await first.command("up.flight_mode.set", {"mode": "FBW"})
+        assert (answer["outcome"], answer["code"]) == ("refused", "no_control")
+        await first.control()
+        frame = await first.next("frame")
+        answer = await first.command("up.flight_mode.set", {"mode": "FBW"}, beacon=frame["beacon"])
+        assert answer["outcome"] == "ack"
+        answer = await second.command("up.flight_mode.set", {"mode": "FBW"})
+        assert answer["code"] == "no_control"
+        await first.leave()
+        await second.leave()
+        return frame["beacon"]
+
+    with Aircraft(proxy.airborne_port) as aircraft, Serve(tmp_path, proxy.ground_port) as server:
+        beacon = run_in_reactor(fly, server.port)
+    sent = [each for each in aircraft.received if each["name"] == "up.flight_mode.set"]
+    assert [each["beacon"] for each in sent] == [beacon]

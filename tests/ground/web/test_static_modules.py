@@ -14,7 +14,7 @@ from tests.support.tools import need_tool
 STATIC = Path(__file__).parents[3] / "ground/up_ground/web/static"
 MODULES = sorted((STATIC / "js").rglob("*.js"))
 STYLES = sorted((STATIC / "css").glob("*.css"))
-UNIT_TESTS = sorted((Path(__file__).parent / "static").glob("*.test.mjs"))
+UNIT_TESTS = sorted((Path(__file__).parent / "static").rglob("*.test.mjs"))
 _IMPORT = re.compile(
     r"""^(?:import|export)\b[^;"']*?\bfrom\s*["']([^"']+)["']"""
     r"""|^import\s*["']([^"']+)["']|\bimport\(\s*["']([^"']+)["']""",

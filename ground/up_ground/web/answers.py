@@ -1,0 +1,124 @@
+"""Commands that were sent, and what became of them."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from up.protocols.general_message import GeneralMessage
+from up.system.clock import Clock, Timer
+
+ANSWER_LIMIT_S = 5.0
+CONTENT_OF = {
+    "arduino.pids.tunings": "arduino.pids.values",
+    "arduino.profile.request": "arduino.profile.values",
+}
+"""What comes besides the ack when a Command asks for something."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What became of a Command.
+
+    ``outcome``: ack, nack, timeout (sent, and nothing is known), unsent, refused (here).
+    """
+
+    outcome: str
+    code: str = ""
+    reason: str = ""
+    round_trip_ms: float | None = None
+    data: dict[str, Any] | None = None
+
+
+Tell = Callable[[Answer], object]
+
+
+@dataclass(slots=True)
+class _Sent:
+    tell: Tell
+    sent_s: float
+    timer: Timer
+    awaited: str
+    data: dict[str, Any] | None = None
+    acked_ms: float | None = None
+
+
+class Answers:
+    """Matches answers by their id; each Command ends once, whatever comes twice or late."""
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self._sent: dict[str, _Sent] = {}
+
+    def __len__(self) -> int:
+        """Return how many Commands wait for their answer."""
+        return len(self._sent)
+
+    def expect(self, name: str, data: dict[str, Any], tell: Tell) -> str:
+        """Return the id with which to send a Command; ``tell`` hears what becomes of it."""
+        id_ = secrets.token_hex(8)
+        is_asking = name != "arduino.pids.tunings" or data.get("request") is True
+        awaited = CONTENT_OF.get(name, "") if is_asking else ""
+        timer = self._clock.callLater(ANSWER_LIMIT_S, self._on_time_over, id_)
+        self._sent[id_] = _Sent(tell, self._clock.seconds(), timer, awaited)
+        return id_
+
+    def take(self, message: GeneralMessage) -> None:
+        """Take what the aircraft says, where it answers something."""
+        if message.name in ("up.ack", "up.nack"):
+            id_ = message.data.get("id")
+            sent = self._sent.get(id_) if isinstance(id_, str) else None
+            if sent is not None and isinstance(id_, str):
+                self._on_answer(id_, sent, message)
+            return
+        for id_, sent in list(self._sent.items()):
+            if sent.awaited == message.name:
+                sent.awaited, sent.data = "", message.data
+                if sent.acked_ms is not None:
+                    self.end(id_, Answer("ack", round_trip_ms=sent.acked_ms, data=sent.data))
+
+    def lost(self) -> None:
+        """Hear that the link is gone: what was sent may or may not have arrived."""
+        for id_, sent in list(self._sent.items()):
+            self.end(id_, _timed_out(sent, "the link was lost before an answer came"))
+
+    def stop(self) -> None:
+        """Wait for nothing any more."""
+        for sent in self._sent.values():
+            sent.timer.cancel()
+        self._sent.clear()
+
+    def _on_answer(self, id_: str, sent: _Sent, message: GeneralMessage) -> None:
+        took_ms = round((self._clock.seconds() - sent.sent_s) * 1000, 1)
+        if message.name == "up.nack":
+            code, reason = _text(message.data, "code"), _text(message.data, "reason")
+            self.end(id_, Answer("nack", code, reason, took_ms))
+        elif sent.awaited:
+            sent.acked_ms = took_ms
+        else:
+            self.end(id_, Answer("ack", round_trip_ms=took_ms, data=sent.data))
+
+    def _on_time_over(self, id_: str) -> None:
+        sent = self._sent[id_]
+        self.end(id_, _timed_out(sent, f"no answer within {ANSWER_LIMIT_S:g} s"))
+
+    def end(self, id_: str, answer: Answer) -> None:
+        """End waiting with that answer."""
+        sent = self._sent.pop(id_)
+        if sent.timer.active():
+            sent.timer.cancel()
+        sent.tell(answer)
+
+
+def _timed_out(sent: _Sent, why: str) -> Answer:
+    if sent.acked_ms is not None:
+        reason = "carried out, but what was asked for did not come"
+        return Answer("ack", reason=reason, round_trip_ms=sent.acked_ms)
+    return Answer("timeout", reason=f"{why}; it is not known whether it was carried out")
+
+
+def _text(data: dict[str, Any], key: str) -> str:
+    found = data.get(key)
+    return found[:500] if isinstance(found, str) else ""

@@ -1,0 +1,221 @@
+"""Commands of the pages: checked, sent once, answered."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+from up.protocols.general_message import GeneralMessage, encode
+from up.system.clock import Clock
+from up_ground.ground_link import GroundLink
+from up_ground.seat_wait import Standing
+from up_ground.telemetry import Telemetry
+from up_ground.web.answers import Answer, Answers
+from up_ground.web.commands import Checked, Checks
+from up_ground.web.control import Control
+from up_ground.web.gains_history import GainsHistory
+from up_ground.web.page import Ask, Page
+from up_ground.web.page_message import PageFault, Reader
+from up_ground.web.seat_at_proxy import SeatAtProxy
+
+ASKS_KEPT = 256
+UNANSWERED_LIMIT = 32
+GAINS = "arduino.pids.tunings"
+_VALUES = "arduino.pids.values"
+_PROFILE = "arduino.profile.values"
+
+
+class CommandDesk:
+    """Sends what may be sent now or says why it is not; nothing waits for a better moment.
+
+    ``tell_all`` says something to the pages that watch the aircraft; ``report`` hears of every
+    outcome in words, with whether it was what was wanted.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        name: str,
+        link: GroundLink,
+        seat: SeatAtProxy,
+        control: Control,
+        telemetry: Telemetry,
+        checks: Checks,
+        tell_all: Callable[[dict[str, Any]], object],
+        report: Callable[[str, bool], object],
+    ) -> None:
+        self.gains = GainsHistory()
+        self.profile: dict[str, Any] | None = None
+        self._clock = clock
+        self._name = name
+        self._link = link
+        self._seat = seat
+        self._control = control
+        self._telemetry = telemetry
+        self._checks = checks
+        self._tell_all = tell_all
+        self._report = report
+        self._answers = Answers(clock)
+        self._are_gains_due = True
+
+    def stop(self) -> None:
+        """Wait for no answer any more."""
+        self._answers.stop()
+
+    def on_command(self, page: Page, message: Reader) -> None:
+        """Answer a page's Command, at once or when the aircraft has answered."""
+        number = message.whole("ask")
+        name = message.text("name", 128)
+        data = message.object("data")
+        beacon = message.optional_whole("beacon")
+        content = json.dumps([self._name, name, data], sort_keys=True)
+        known = page.asks.get(number)
+        if known is not None:
+            if known.content != content:
+                raise PageFault(f"ask {number} was another Command")
+            if known.answer is not None:
+                page.tell(known.answer)
+            return
+        ask = page.asks[number] = Ask(content)
+        while len(page.asks) > ASKS_KEPT:
+            del page.asks[next(iter(page.asks))]
+        asks = page.asks
+
+        def tell(answer: Answer) -> None:
+            ask.answer = {
+                "type": "answer",
+                "ask": number,
+                "outcome": answer.outcome,
+                "code": answer.code,
+                "reason": answer.reason,
+                "round_trip_ms": answer.round_trip_ms,
+                "data": answer.data,
+            }
+            # A page that was loaded anew since then asks with the same numbers for other things.
+            if page.asks is asks:
+                page.tell(ask.answer)
+
+        self._carry_out(page, name, data, beacon, tell)
+
+    def on_message(self, message: GeneralMessage) -> None:
+        """Take what the aircraft says besides telemetry."""
+        self._answers.take(message)
+        if message.name == _VALUES:
+            self.gains.told(message.data, self._clock.seconds())
+            self._show_gains()
+        elif message.name == _PROFILE:
+            self.profile = message.data
+            self._tell_all(self.profile_message())
+
+    def on_lost(self) -> None:
+        """Hear that the link is gone."""
+        self._answers.lost()
+
+    def want_gains(self) -> None:
+        """Ask for the gains as soon as it can be."""
+        self._are_gains_due = True
+        self.on_moment()
+
+    def on_moment(self) -> None:
+        """Ask for the gains when they are due and somebody here has control."""
+        if not self._are_gains_due or self._control.holder is None or self._unsent():
+            return
+        if self._telemetry.is_silent(self._clock.seconds()):
+            return
+        self._are_gains_due = False
+        self._send(GAINS, {"request": True}, self._telemetry.beacon, lambda answer: None)
+
+    def gains_message(self) -> dict[str, Any]:
+        """Return what pages are told of the gains."""
+        return self.gains.message(self._name, self._clock.seconds())
+
+    def profile_message(self) -> dict[str, Any]:
+        """Return what pages are told of the profile."""
+        return {"type": "profile", "aircraft": self._name, "profile": self.profile}
+
+    def _carry_out(
+        self,
+        page: Page,
+        name: str,
+        data: dict[str, Any],
+        beacon: int | None,
+        tell: Callable[[Answer], object],
+    ) -> None:
+        role = self._telemetry.text("ground", "role")
+        checked = self._checks.check(name, data, beacon, role)
+        refused = checked if isinstance(checked, Answer) else self._refusal(page, checked)
+        if refused is not None:
+            tell(refused)
+            return
+        before = self.gains.flying
+
+        def on_answer(answer: Answer) -> None:
+            if name == GAINS and data.get("request") is not True:
+                self._on_gains_answer(page, before, data.get("pids") or {}, answer)
+            self._report(_in_words(page, name, answer), answer.outcome == "ack")
+            tell(answer)
+
+        self._send(name, data, beacon, on_answer)
+
+    def _refusal(self, page: Page, checked: Checked) -> Answer | None:
+        if checked.needs_control and page is not self._control.holder:
+            reason = "this page has no control: ask for it first"
+            if not page.may_control:
+                reason = f"this page may only watch: {page.why_not}"
+            return Answer("refused", "no_control", reason)
+        if len(self._answers) >= UNANSWERED_LIMIT:
+            return Answer("refused", "busy", "too many Commands wait for their answer")
+        return self._unsent()
+
+    def _unsent(self) -> Answer | None:
+        """Return why nothing can be sent now."""
+        status = self._link.status
+        if not status.is_open:
+            reason = status.reason or "there is no link"
+            return Answer("unsent", "no_link", f"not sent: {reason}")
+        if status.is_aircraft_online is False:
+            reason = f"not sent: the aircraft {self._name} is not connected to the proxy"
+            return Answer("unsent", "no_aircraft", reason)
+        if self._seat.standing is not Standing.OURS:
+            reason = "not sent: this ground only listens, a page must ask for control first"
+            return Answer("unsent", "no_seat", reason)
+        return None
+
+    def _send(
+        self,
+        name: str,
+        data: dict[str, Any],
+        beacon: int | None,
+        tell: Callable[[Answer], object],
+    ) -> None:
+        id_ = self._answers.expect(name, data, tell)
+        try:
+            line = encode(name, data, id_, beacon)
+        except ValueError as error:
+            self._answers.end(id_, Answer("refused", "invalid", str(error)[:500]))
+            return
+        if not self._link.send(line):
+            self._answers.end(id_, Answer("unsent", "no_link", "not sent: there is no link"))
+
+    def _on_gains_answer(
+        self, page: Page, before: dict[str, Any] | None, after: dict[str, Any], answer: Answer
+    ) -> None:
+        now_s = self._clock.seconds()
+        reason = answer.reason
+        self.gains.changed(page.name, before, after, answer.outcome, reason, now_s)
+        self._show_gains()
+        # After a timeout nobody knows which gains fly, until the aircraft has told.
+        if answer.outcome in ("ack", "timeout"):
+            self.want_gains()
+
+    def _show_gains(self) -> None:
+        self._tell_all(self.gains_message())
+
+
+def _in_words(page: Page, name: str, answer: Answer) -> str:
+    if answer.outcome == "ack":
+        return f"{page.name}: {name} carried out"
+    if answer.outcome == "nack":
+        return f"{page.name}: {name} refused: {answer.reason} ({answer.code})"
+    return f"{page.name}: {name}: {answer.reason}"

@@ -1,0 +1,59 @@
+"""What of a page's Command is checked before it is sent."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from up.commands.command import BaseCommand
+from up.commands.roles import Role
+from up_ground.catalogue import Catalogue, fault_of, role_of
+from up_ground.web.answers import Answer
+
+_ROLES = {role.value: role for role in (Role.OBSERVER, Role.OPERATOR, Role.PILOT, Role.ADMIN)}
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """A Command that can be sent; ``needs_control``: only by the page that has control."""
+
+    needs_control: bool
+
+
+class Checks:
+    """Refuses what no aircraft of this version would take, with the reason."""
+
+    def __init__(self, catalogue: Catalogue) -> None:
+        self._catalogue = catalogue
+
+    def check(
+        self, name: str, data: dict[str, Any], beacon: int | None, role: str | None
+    ) -> Checked | Answer:
+        """Return what to know about a Command, or why it is not sent.
+
+        ``role`` is what the aircraft's link permits; None: not known, the aircraft decides.
+        """
+        cls = self._catalogue.get(name)
+        if cls is None:
+            near = self._catalogue.suggestions(name)
+            more = f"; did you mean {' or '.join(near)}?" if near else ""
+            return Answer("refused", "unknown", f"no Command is called {name[:60]}{more}")
+        if cls not in self._catalogue.sendable():
+            return Answer("refused", "forbidden", f"no ground may send {name}")
+        fault = fault_of(cls, data)
+        if fault:
+            return Answer("refused", "invalid", fault[:500])
+        if cls.NEEDS_BEACON and beacon is None:
+            reason = f"{name} is only taken with a fresh beacon, and no telemetry was seen"
+            return Answer("refused", "no_beacon", reason)
+        roles = _roles(cls, data)
+        given = _ROLES.get(role or "")
+        if given is not None and not roles & given.includes:
+            least = role_of(cls) if len(roles) != 1 else next(iter(roles)).value
+            reason = f"{name} takes the role {least}, and this aircraft's link is {role}"
+            return Answer("refused", "forbidden", f"{reason} (mission_control.yml: role)")
+        return Checked(Role.OBSERVER not in roles)
+
+
+def _roles(cls: type[BaseCommand], data: dict[str, Any]) -> frozenset[Role]:
+    return cls.from_data(data).roles()

@@ -1,0 +1,286 @@
+"""Which page controls an aircraft, and the seat at the proxy that goes with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from up.system.clock import Clock, Timer
+from up_ground.seat_wait import ASK_INTERVAL_S, Standing
+from up_ground.web.page import Page
+from up_ground.web.page_message import PageFault
+
+ASK_LIMIT_S = 30.0
+"""Who asks for control asks for so long."""
+DENIED_S = 5.0
+"""A ground that was denied asks anew when it has been quiet for so long."""
+
+
+class SeatLink(Protocol):
+    """The seat of the proxy, as far as it concerns control."""
+
+    @property
+    def standing(self) -> Standing:
+        """Return who has it."""
+
+    @property
+    def holder(self) -> int | None:
+        """Return the number of the ground that has it."""
+
+    def take_ask(self) -> int | None:
+        """Return which ground has asked for it since the last time."""
+
+    def request(self) -> None:
+        """Ask for it."""
+
+    def give(self, to: int) -> None:
+        """Hand it to another ground."""
+
+    def release(self) -> None:
+        """Leave it free."""
+
+
+class Control:
+    """One page at most has control, and the seat is only held while one wants it.
+
+    ``tell`` hears in words what has changed, ``on_change`` that something has.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        seat: SeatLink,
+        tell: Callable[[str], object],
+        on_change: Callable[[], object],
+    ) -> None:
+        self.holder: Page | None = None
+        self._clock = clock
+        self._seat = seat
+        self._tell = tell
+        self._on_change = on_change
+        self._wanting: Page | None = None
+        self._want_until_s = 0.0
+        self._askers: dict[Page, Timer] = {}
+        self._ground: int | None = None
+        self._ground_timer: Timer | None = None
+        self._denied: dict[int, float] = {}
+        self._asking: Timer | None = None
+
+    def stop(self) -> None:
+        """Forget everybody and leave the seat."""
+        for timer in (self._asking, self._ground_timer, *self._askers.values()):
+            _cancel(timer)
+        self._askers.clear()
+        self.holder = self._wanting = None
+        if self._seat.standing is Standing.OURS:
+            self._seat.release()
+
+    def request(self, page: Page) -> None:
+        """Let a page have control, or ask for it whoever has it."""
+        if not page.may_control:
+            raise PageFault(f"this page may only watch: {page.why_not}")
+        if page in (self.holder, self._wanting):
+            return
+        if self.holder is None and self._wanting is None:
+            self._wanting = page
+            self._want_until_s = self._clock.seconds() + ASK_LIMIT_S
+            self._pursue()
+        else:
+            _cancel(self._askers.get(page))
+            self._askers[page] = self._clock.callLater(ASK_LIMIT_S, self._withdraw, page)
+        self._on_change()
+
+    def give(self, page: Page, to: Page | None) -> None:
+        """Hand control to ``to``, or to whoever asks first."""
+        self._must_hold(page)
+        if to is None and not self._askers:
+            if self._ground is None:
+                raise PageFault("nobody asks for control")
+            self._give_to_ground()
+            return
+        if to is None:
+            to = next(iter(self._askers))
+        if not to.may_control:
+            raise PageFault(f"{to.name} may only watch: {to.why_not}")
+        if to is not page:
+            self._grant(to)
+
+    def deny(self, page: Page) -> None:
+        """Keep control; whoever asks first is told."""
+        self._must_hold(page)
+        if self._askers:
+            asker = next(iter(self._askers))
+            _cancel(self._askers.pop(asker))
+            asker.fault(f"{page.name} keeps control")
+        elif self._ground is not None:
+            self._denied[self._ground] = self._clock.seconds()
+            self._forget_ground()
+        else:
+            raise PageFault("nobody asks for control")
+        self._on_change()
+
+    def release(self, page: Page) -> None:
+        """Leave control to whoever asks, or free; or ask no more."""
+        if page is self.holder:
+            self._free()
+        elif page is self._wanting:
+            self._stop_wanting()
+        elif page in self._askers:
+            _cancel(self._askers.pop(page))
+        else:
+            raise PageFault("this page has no control to release")
+        self._on_change()
+
+    def on_away(self, page: Page) -> None:
+        """Ask no more for a page whose link was lost; control is kept for it."""
+        if page in self._askers:
+            _cancel(self._askers.pop(page))
+            self._on_change()
+
+    def on_gone(self, page: Page) -> None:
+        """Take control back from a page that is gone."""
+        if page in (self.holder, self._wanting) or page in self._askers:
+            self.release(page)
+
+    def on_seat(self) -> None:
+        """Hear of the link: the seat may have come, gone, or been asked for."""
+        standing = self._seat.standing
+        if self._wanting is not None:
+            if standing is Standing.OURS:
+                self._grant(self._wanting)
+        elif standing is Standing.OURS and self.holder is None:
+            # It came too late, or by its token: nobody here wants it any more.
+            self._seat.release()
+        elif self.holder is not None and standing is Standing.HELD:
+            self._tell(f"ground {self._seat.holder} commands, {self.holder.name} has lost control")
+            self.holder = None
+            self._forget_ground()
+        elif self.holder is not None and standing is not Standing.OURS:
+            self._pursue()
+        self._hear_ground()
+
+    def describe(self, page: Page) -> dict[str, Any]:
+        """Return the part of a status that tells ``page`` who has control."""
+        holder, holder_name = "unknown", ""
+        standing = self._seat.standing
+        if self.holder is not None:
+            holder, holder_name = "you" if page is self.holder else "page", self.holder.name
+        elif standing is Standing.HELD:
+            holder, holder_name = "ground", f"ground {self._seat.holder}"
+        elif standing in (Standing.FREE, Standing.OURS):
+            holder = "nobody"
+        asker = self._wanting or next(iter(self._askers), None)
+        asked_by: dict[str, Any] | None = None
+        if asker is not None:
+            asked_by = {"page": asker.number, "name": asker.name}
+        elif self._ground is not None and self.holder is not None:
+            asked_by = {"page": None, "name": f"ground {self._ground}"}
+        return {
+            "holder": holder,
+            "holder_name": holder_name,
+            "asked_by": asked_by,
+            "asks_you": asked_by is not None and page is self.holder,
+        }
+
+    def _pursue(self) -> None:
+        """Ask for the seat until it is there or the one who wants it has waited long enough."""
+        _cancel(self._asking)
+        standing = self._seat.standing
+        if standing is Standing.OURS:
+            if self._wanting is not None:
+                self._grant(self._wanting)
+            return
+        if self._wanting is not None and self._clock.seconds() >= self._want_until_s:
+            page = self._wanting
+            self._stop_wanting()
+            page.fault(f"{self._who(standing)} within {ASK_LIMIT_S:g} s")
+            self._on_change()
+            return
+        if self._wanting is None and self.holder is None:
+            return
+        is_free = standing is Standing.FREE
+        if is_free or (self._wanting is not None and standing is not Standing.UNKNOWN):
+            self._seat.request()
+        self._asking = self._clock.callLater(ASK_INTERVAL_S, self._pursue)
+
+    def _who(self, standing: Standing) -> str:
+        if standing is Standing.HELD:
+            return f"ground {self._seat.holder} has not given the seat"
+        if standing is Standing.UNKNOWN:
+            return "there was no link"
+        return "the proxy has not given the seat"
+
+    def _grant(self, page: Page) -> None:
+        _cancel(self._asking)
+        _cancel(self._askers.pop(page, None))
+        self._wanting = None
+        self.holder = page
+        self._tell(f"{page.name} has control")
+        self._on_change()
+
+    def _free(self) -> None:
+        holder, self.holder = self.holder, None
+        _cancel(self._asking)
+        if self._askers:
+            self._grant(next(iter(self._askers)))
+        elif self._ground is not None:
+            self._give_to_ground()
+        else:
+            self._seat.release()
+            if holder is not None:
+                self._tell(f"{holder.name} has left control, nobody has it")
+
+    def _give_to_ground(self) -> None:
+        ground = self._ground
+        self.holder = None
+        self._forget_ground()
+        if ground is not None:
+            self._seat.give(ground)
+            self._tell(f"control was given to ground {ground}")
+        self._on_change()
+
+    def _stop_wanting(self) -> None:
+        self._wanting = None
+        _cancel(self._asking)
+        if self._askers:
+            self._request_next()
+        elif self._seat.standing is Standing.OURS:
+            self._seat.release()
+
+    def _request_next(self) -> None:
+        """Let the first who asks want the seat."""
+        page = next(iter(self._askers))
+        _cancel(self._askers.pop(page))
+        self.request(page)
+
+    def _withdraw(self, page: Page) -> None:
+        self._askers.pop(page, None)
+        page.fault(f"control was not given within {ASK_LIMIT_S:g} s")
+        self._on_change()
+
+    def _hear_ground(self) -> None:
+        ground = self._seat.take_ask()
+        if ground is None:
+            return
+        now_s = self._clock.seconds()
+        if now_s - self._denied.get(ground, -DENIED_S) < DENIED_S:
+            self._denied[ground] = now_s
+            return
+        self._denied.clear()
+        self._ground = ground
+        _cancel(self._ground_timer)
+        self._ground_timer = self._clock.callLater(ASK_LIMIT_S, self._forget_ground)
+
+    def _forget_ground(self) -> None:
+        self._ground = None
+        _cancel(self._ground_timer)
+        self._on_change()
+
+    def _must_hold(self, page: Page) -> None:
+        if page is not self.holder:
+            raise PageFault("this page has no control to give")
+
+
+def _cancel(timer: Timer | None) -> None:
+    if timer is not None and timer.active():
+        timer.cancel()

@@ -1,0 +1,42 @@
+"""The seat of a link, as `Control` asks of it."""
+
+from __future__ import annotations
+
+from up_ground.ground_link import GroundLink
+from up_ground.seat_wait import Standing, standing
+
+
+class SeatAtProxy:
+    """The seat that a link to a proxy has or has not; a direct link always has one."""
+
+    def __init__(self, link: GroundLink, is_direct: bool) -> None:
+        self._link = link
+        self._is_direct = is_direct
+
+    @property
+    def standing(self) -> Standing:
+        """Return who has it."""
+        return standing(self._link.status, self._is_direct)
+
+    @property
+    def holder(self) -> int | None:
+        """Return the number of the ground that has it."""
+        return self._link.status.holder
+
+    def take_ask(self) -> int | None:
+        """Return which ground has asked for it since the last time."""
+        status = self._link.status
+        asked, status.asked_by = status.asked_by, None
+        return asked
+
+    def request(self) -> None:
+        """Ask for it."""
+        self._link.request_seat()
+
+    def give(self, to: int) -> None:
+        """Hand it to another ground."""
+        self._link.give_seat(to)
+
+    def release(self) -> None:
+        """Leave it free."""
+        self._link.release_seat()
