@@ -75,7 +75,7 @@ def test_a_ground_station_that_is_killed_ends_no_flight(terminal):
     terminal.wait_for("or with Enter; q leaves it.")
     os.write(terminal.own, b"\n")
     terminal.wait_for(ENTERS)
-    os.kill(terminal.child("up_ground.main"), signal.SIGKILL)
+    os.kill(terminal.child("\0watch\0"), signal.SIGKILL)
     said = terminal.wait_for("Ctrl-C: stop all.")
     assert said.index(LEAVES) < said.index("The ground station ended by itself with signal 9. It")
     assert SHOWS_CURSOR in said

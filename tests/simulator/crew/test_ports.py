@@ -1,5 +1,5 @@
 import socket
-from dataclasses import astuple
+from dataclasses import astuple, fields
 
 from up_simulator.crew.ports import Ports, choose_port_sets, choose_ports
 
@@ -8,7 +8,7 @@ def test_a_port_that_only_udp_has_taken_is_not_chosen(monkeypatch):
     taken = socket.socket(type=socket.SOCK_DGRAM)
     taken.bind(("", 0))
     number = taken.getsockname()[1]
-    monkeypatch.setattr(Ports.__init__, "__defaults__", (number,) * 7)
+    monkeypatch.setattr(Ports.__init__, "__defaults__", (number,) * len(fields(Ports)))
     try:
         assert number not in astuple(choose_ports())
     finally:
@@ -31,4 +31,4 @@ def test_the_ports_of_all_sets_differ_though_the_system_hands_them_out_again(mon
 
     monkeypatch.setattr("up_simulator.crew.ports.socket.socket", Socket)
     chosen = [port for ports in choose_port_sets(2) for port in astuple(ports)]
-    assert len(set(chosen)) == len(chosen) == 14
+    assert len(set(chosen)) == len(chosen) == 2 * len(fields(Ports))
