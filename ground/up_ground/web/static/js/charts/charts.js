@@ -15,12 +15,12 @@ const CHARTS = [
     leastSpan: 40,
     lines: [
       { name: "roll", label: "is", colour: "--accent" },
-      { name: "demand", label: "stick asks", colour: "--warn", dash: [5, 4] },
+      { name: "demand", label: "stick asks", colour: "--text", dash: [4, 4] },
     ],
   },
   { title: "Pitch", unit: "°", decimals: 0, leastSpan: 20, lines: [{ name: "pitch", label: "is", colour: "--accent" }] },
-  { title: "Altitude", unit: "m", decimals: 0, leastSpan: 20, lines: [{ name: "altitude", label: "is", colour: "--accent" }] },
-  { title: "Age of a frame", unit: "ms", decimals: 0, leastSpan: 50, lines: [{ name: "age", label: "when it came", colour: "--accent" }] },
+  { title: "Altitude", unit: " m", decimals: 0, leastSpan: 20, lines: [{ name: "altitude", label: "is", colour: "--accent" }] },
+  { title: "Age of a frame", unit: " ms", decimals: 0, leastSpan: 50, lines: [{ name: "age", label: "when it came", colour: "--accent" }] },
 ];
 
 /**

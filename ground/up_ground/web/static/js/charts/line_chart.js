@@ -1,5 +1,6 @@
 import { element } from "../panels/element.js";
 import { setText } from "../readout.js";
+import { numberText } from "../state/format.js";
 import { WINDOW_S } from "./history.js";
 
 const HEIGHT_PX = 104;
@@ -103,7 +104,7 @@ export class LineChart {
   }
 
   #text(value) {
-    return Number.isFinite(value) ? `${value.toFixed(this.#decimals)} ${this.#unit}` : "--";
+    return Number.isFinite(value) ? `${numberText(value, this.#decimals)}${this.#unit}` : "--";
   }
 
   #summary(values) {

@@ -11,7 +11,7 @@ export class Arming {
   #disarm;
   #state = element("strong");
   #line = element("p.quiet");
-  #note = element("p.note", { role: "status" });
+  #note = element("p.note", { id: "arming-note", role: "status" });
 
   constructor(store, asker) {
     this.#store = store;
@@ -28,8 +28,6 @@ export class Arming {
       this.#arm.how,
       this.#disarm.how,
       this.#line,
-      this.#arm.note,
-      this.#disarm.note,
       this.#note,
     );
   }
@@ -53,6 +51,7 @@ export class Arming {
       objection: () => this.#refusal(name),
       fire: () => this.#asker.ask(name, {}, { note: this.#note }),
       now_s: () => this.#store.now_s,
+      note: this.#note,
     });
   }
 

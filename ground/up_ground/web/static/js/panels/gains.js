@@ -43,14 +43,14 @@ class GainsPanel {
     this.#asker = new Asker(store, connection);
     const button = (id, text, click) => element("button", { type: "button", id, text, on: { click } });
     this.#buttons = {
-      send: button("gains-send", "Send these gains", () => this.#send()),
+      send: button("gains-send", "Send gains", () => this.#send()),
       discard: button("gains-discard", "Discard", () => this.#discard()),
       undo: button("gains-undo", "Undo", () => this.#undo()),
       ask: button("gains-ask", "Ask the aircraft", () => this.#ask({ request: true })),
     };
     const { send, discard, undo, ask } = this.#buttons;
-    const row = element("div.buttons", {}, ask, undo, discard, send);
-    place.append(this.#state, this.#why, this.#table.element, this.#conflict, this.#difference);
+    const row = element("div.buttons", {}, undo, discard, send);
+    place.append(this.#state, element("div.row", {}, ask), this.#why, this.#table.element, this.#conflict, this.#difference);
     place.append(row, this.#note, this.#history.element);
   }
 

@@ -1,4 +1,5 @@
-import { setAttribute, setText } from "../readout.js";
+import { setAttribute } from "../readout.js";
+import { tell } from "./asker.js";
 import { drawn, element } from "./element.js";
 import { HOLD_S, HeldPress } from "./held_press.js";
 
@@ -17,13 +18,15 @@ export class HeldButton {
   #fire;
   #clock_s;
   #ring;
+  #note;
   #isLooking = false;
 
   /**
    * @param {{id: string, text: string, objection: () => string, fire: () => void,
-   *   now_s: () => number}} parts
+   *   now_s: () => number, note: HTMLElement}} parts
    */
-  constructor({ id, text, objection, fire, now_s }) {
+  constructor({ id, text, objection, fire, now_s, note }) {
+    this.#note = note;
     this.#objection = objection;
     this.#fire = fire;
     this.#clock_s = now_s;
@@ -44,7 +47,6 @@ export class HeldButton {
       id: `${id}-how`,
       text: `Hold for ${HOLD_S} seconds; with the keyboard hold Space or Enter. Letting go before that does nothing.`,
     });
-    this.note = element("p.note", { id: `${id}-note`, role: "status" });
     this.#listen();
     this.#show();
   }
@@ -105,11 +107,9 @@ export class HeldButton {
   #begin(by, now_s) {
     const why = this.#objection();
     this.#press.press(by, now_s, why);
-    setText(
-      this.note,
-      this.#press.state === "pressed" ? "keep holding" : `not sent: ${this.#press.why}`,
-    );
-    if (this.#press.state === "pressed" && !this.#isLooking) {
+    const isPressed = this.#press.state === "pressed";
+    tell(this.#note, isPressed ? "keep holding" : `not sent: ${this.#press.why}`, "plain");
+    if (isPressed && !this.#isLooking) {
       this.#isLooking = true;
       requestAnimationFrame(() => this.#tick());
     }
@@ -128,7 +128,6 @@ export class HeldButton {
   #look() {
     this.#end(() => {
       if (this.#press.look(this.#clock_s(), this.#objection())) {
-        setText(this.note, "");
         this.#fire();
       }
     });
@@ -144,7 +143,7 @@ export class HeldButton {
     const wasPressed = this.#press.state === "pressed";
     change();
     if (wasPressed && this.#press.state !== "pressed" && this.#press.state !== "done") {
-      setText(this.note, `not sent: ${this.#press.why}`);
+      tell(this.#note, `not sent: ${this.#press.why}`, "plain");
     }
     this.#show();
   }
