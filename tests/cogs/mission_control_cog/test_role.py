@@ -75,3 +75,27 @@ def test_the_role_is_judged_anew_at_every_connection(tmp_path, monkeypatch):
         await server.close()
 
     run_in_reactor(fly)
+
+
+@pytest.mark.parametrize(
+    ("text", "private", "role"),
+    [
+        ("role: observer\n", True, "observer"),
+        ("role: pilot\n", True, "pilot"),
+        ("role: pilot\n", False, "operator"),
+        ("role: pilot\ni_accept_plain: true\n", False, "pilot"),
+    ],
+)
+def test_telemetry_tells_the_role_that_holds(tmp_path, monkeypatch, text, private, role):
+    monkeypatch.setattr(PUBLIC, lambda host: private)
+
+    async def fly():
+        server = Server(reactor)
+        port = await server.open()
+        async with Aircraft(tmp_path, port, text + "tune_in_flight: true\n"):
+            peer = await accepted(server)
+            (frame, *_) = await until(lambda: peer.named("up.telemetry.update"))
+        await server.close()
+        return frame["data"]["ground"]
+
+    assert run_in_reactor(fly) == {"role": role, "tune_in_flight": True}

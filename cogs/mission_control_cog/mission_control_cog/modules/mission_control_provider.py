@@ -88,14 +88,17 @@ class MissionControlProvider(BaseMissionControlProvider):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the counters of the link."""
+        """Return the counters of the link, and what a ground may do over it."""
         connects = 0 if self._uplink is None else self._uplink.connects
         counters = {
             "connects": connects,
             "unsent": self.unsent,
             "telemetry_faults": self._telemetry_faults,
         }
-        return {"counters": {"mission_control": counters}}
+        # A proxy's link that proves nothing may grant less than what is configured.
+        role = self._link.origin.role if self.connected else self._role
+        ground = {"role": role.value, "tune_in_flight": self.config.tune_in_flight}
+        return {"counters": {"mission_control": counters}, "ground": ground}
 
     def transmit_telemetry(self, command: TelemetryCommand) -> None:
         """Send a frame of telemetry; one that cannot be encoded is said once and counted."""
