@@ -12,16 +12,19 @@ from pathlib import Path
 from black_box_cog.cli.flights import Flight
 from black_box_cog.cli.near import no_such_topic
 from black_box_cog.cli.open_flight import flight_of, read
-from black_box_cog.cli.wording import duration_text, start_text, tell
+from black_box_cog.cli.terminal import tell, warn
 from black_box_cog.export.csv_table import columns_of, topic_rows, wide_rows
 from black_box_cog.export.gpx import gpx_lines
 from black_box_cog.export.kml import kml_lines
 from black_box_cog.export.log_track import track_of
 from black_box_cog.export.output import new_file
+from black_box_cog.report.wording import is_clock_right, start_text
 from up.cli.cli_error import CliError
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.spans import duration_text
 
 RATE_HZ = 10.0
+MOST_ROWS = 10_000_000
 STDOUT = Path("-")
 _NOT_IN_A_TABLE = ("log", "/location")
 """Words, which no rate fits, and Foxglove's copy of the position."""
@@ -39,6 +42,8 @@ def run(values: argparse.Namespace) -> int:
     track = track_of(log, *_names(log, flight))
     if not track.segments:
         raise CliError(f"{flight.paths[0].name} tells no position: there is no track")
+    if not is_clock_right(log.start_unix_s):
+        warn("the clock was wrong when this was recorded: so are the times in the file")
     lines = gpx_lines if values.format == "gpx" else kml_lines
     _write(lines(track), values.output or Path(f"{flight.name}.{values.format}"), values.force)
     return 0
@@ -72,6 +77,10 @@ def _one(log: FlightLog, topic: str) -> Iterator[list[str]]:
 def _wide(log: FlightLog, topics: Sequence[str], rate_hz: float) -> Iterator[list[str]]:
     if not topics:
         raise CliError("the log has no messages: there is nothing to write")
+    if log.length_s * rate_hz > MOST_ROWS:
+        raise CliError(
+            f"a table of {log.length_s * rate_hz:.0f} rows is too long: say a lower --rate"
+        )
     columns = columns_of(log.messages(*topics))
     return wide_rows(log.messages(*topics), columns, log.start_unix_s, log.length_s, rate_hz)
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import fcntl
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from black_box_cog.cli.flights import Flight
+from up.flight_log.facts import Facts
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.mcap_format import FlightLogError
 
@@ -42,7 +42,7 @@ def overview_of(flight: Flight) -> Overview:
             aircraft=log.metadata.get("flight", {}).get("aircraft", flight.aircraft),
             start_unix_s=log.start_unix_s,
             length_s=log.length_s,
-            armed_s=_armed_s(log),
+            armed_s=sum(span.length_s for span in Facts(log).armed),
             highest_m=_highest_m(log),
             is_complete=log.is_complete,
         )
@@ -60,32 +60,6 @@ def is_being_recorded(path: Path) -> bool:
     except OSError:
         return False
     return False
-
-
-def _armed_s(log: FlightLog) -> float:
-    topic = "up.flight.state" if "up.flight.state" in log.topics else "up.telemetry.update"
-    spans = _true_for(
-        (message.time_s, message.data.get("armed") is True) for message in log.messages(topic)
-    )
-    return sum(end_s - begin_s for begin_s, end_s in _closed(spans, log.length_s))
-
-
-def _true_for(states: Iterable[tuple[float, bool]]) -> Iterable[tuple[float, float | None]]:
-    begin_s: float | None = None
-    for time_s, is_true in states:
-        if is_true and begin_s is None:
-            begin_s = time_s
-        elif not is_true and begin_s is not None:
-            yield begin_s, time_s
-            begin_s = None
-    if begin_s is not None:
-        yield begin_s, None
-
-
-def _closed(
-    spans: Iterable[tuple[float, float | None]], end_s: float
-) -> Iterable[tuple[float, float]]:
-    return ((begin_s, end_s if last_s is None else last_s) for begin_s, last_s in spans)
 
 
 def _highest_m(log: FlightLog) -> float | None:

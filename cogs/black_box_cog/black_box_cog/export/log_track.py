@@ -2,35 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 from black_box_cog.export.track import Place, Track, TrackPoint, segments_of
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.frame_state import place_of
 from up.flight_log.json_message import number_at
+from up.flight_log.way import fixes
 
 LOCATION, TELEMETRY, MARK = "up.location.update", "up.telemetry.update", "black_box.mark"
 
 
 def points_of(log: FlightLog) -> Iterator[TrackPoint]:
-    """Yield the positions in the order of time, as the aircraft's sources told them.
+    """Yield the positions in the order of time: of several sources the one that was followed.
 
     Where no source was logged, those of telemetry; a place that was told twice counts once.
     """
+    start = log.start_unix_s
     if LOCATION in log.topics:
-        for message in log.messages(LOCATION):
-            point = _point(message.data, log.start_unix_s + message.time_s)
-            if point is not None:
-                yield point
+        for fix in fixes(log):
+            place = (fix.latitude_deg, fix.longitude_deg, fix.altitude_m, fix.speed_m_s)
+            yield TrackPoint(start + fix.time_s, *place)
         return
     last = None
-    for message in log.messages(TELEMETRY):
-        place = message.data.get("location")
-        if isinstance(place, dict) and place != last:
-            last = place
-            point = _point(place, log.start_unix_s + message.time_s)
-            if point is not None:
-                yield point
+    for message in log.messages(TELEMETRY) if TELEMETRY in log.topics else ():
+        told = message.data.get("location")
+        found = place_of(told) if isinstance(told, dict) and told != last else None
+        if found is not None:
+            last = told
+            yield TrackPoint(start + message.time_s, *found, number_at(told, ("altitude",)))
 
 
 def track_of(log: FlightLog, name: str, description: str) -> Track:
@@ -43,20 +43,6 @@ def track_of(log: FlightLog, name: str, description: str) -> Track:
     return Track(name, description, segments, places)
 
 
-def _point(data: Mapping[str, Any], unix_s: float) -> TrackPoint | None:
-    latitude_deg, longitude_deg = _number(data, "latitude"), _number(data, "longitude")
-    if latitude_deg is None or longitude_deg is None:
-        return None
-    return TrackPoint(
-        unix_s,
-        latitude_deg,
-        longitude_deg,
-        _number(data, "altitude"),
-        _number(data, "speed"),
-        _number(data, "bearing"),
-    )
-
-
 def _marks(log: FlightLog, points: list[TrackPoint]) -> Iterator[Place]:
     at = 0
     for message in log.messages(MARK) if MARK in log.topics else ():
@@ -65,7 +51,3 @@ def _marks(log: FlightLog, points: list[TrackPoint]) -> Iterator[Place]:
             at += 1
         text = message.data.get("text")
         yield Place(points[at], text if isinstance(text, str) and text else "mark")
-
-
-def _number(data: Mapping[str, Any], key: str) -> float | None:
-    return number_at(data, (key,))

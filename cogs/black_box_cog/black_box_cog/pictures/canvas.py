@@ -1,0 +1,114 @@
+"""The paper that is drawn on: the only place that knows how matplotlib is had and how it saves."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import io
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from black_box_cog.pictures.theme import Theme
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+MISSING = "matplotlib is not installed: pip install 'raspilot[log]' brings it"
+_COLOURS = 128
+"""A picture of lines has few; a palette makes its file a third as large."""
+
+
+class PictureError(Exception):
+    """There is no picture: the text is one sentence for the user."""
+
+
+class Sheet:
+    """A figure on which everything is placed in inches from its upper left corner."""
+
+    def __init__(self, figure: Figure, theme: Theme) -> None:
+        self.theme = theme
+        self._figure = figure
+        self.width, self.height = map(float, figure.get_size_inches())
+
+    def axes(self, left: float, top: float, width: float, height: float) -> Axes:
+        """Return new axes at a place."""
+        return self._figure.add_axes(
+            (
+                left / self.width,
+                1 - (top + height) / self.height,
+                width / self.width,
+                height / self.height,
+            )
+        )
+
+    def text_width(self, words: str, size: float) -> float:
+        """Return how many inches wide words are."""
+        text = self._figure.text(0, 0, words, size=size)
+        extent = text.get_window_extent(renderer=self._figure.canvas.get_renderer())  # type: ignore[attr-defined]
+        text.remove()
+        return float(extent.width) / float(self._figure.dpi)
+
+
+def has_matplotlib() -> bool:
+    """Return whether pictures can be drawn here, without the cost of drawing one."""
+    return importlib.util.find_spec("matplotlib") is not None
+
+
+def png_of(
+    paint: Callable[[Sheet], None], width_in: float, height_in: float, dpi: int, theme: Theme
+) -> bytes:
+    """Return what ``paint`` draws as a PNG, without a date: the same drawing is the same bytes.
+
+    The user's own style and matplotlib's global state stay out of it. Raises PictureError where
+    matplotlib is missing.
+    """
+    try:
+        matplotlib = importlib.import_module("matplotlib")
+        figures = importlib.import_module("matplotlib.figure")
+        agg = importlib.import_module("matplotlib.backends.backend_agg")
+        images = importlib.import_module("PIL.Image")
+    except ImportError as error:
+        raise PictureError(MISSING) from error
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(_style(theme))
+        figure = figures.Figure(figsize=(width_in, height_in), dpi=dpi)
+        canvas = agg.FigureCanvasAgg(figure)
+        paint(Sheet(figure, theme))
+        canvas.draw()
+        width, height = canvas.get_width_height()
+        image = images.frombuffer(
+            "RGBA", (width, height), canvas.buffer_rgba(), "raw", "RGBA", 0, 1
+        )
+        data = io.BytesIO()
+        image.convert("RGB").quantize(_COLOURS, dither=0).save(data, "PNG", optimize=True)
+    return data.getvalue()
+
+
+def _style(theme: Theme) -> dict[str, Any]:
+    return {
+        "font.family": "DejaVu Sans",
+        "font.size": 9.0,
+        "axes.facecolor": theme.paper,
+        "axes.edgecolor": theme.muted,
+        "axes.labelcolor": theme.muted,
+        "axes.linewidth": 0.7,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.axisbelow": True,
+        "axes.grid": True,
+        "grid.color": theme.grid,
+        "grid.linewidth": 0.6,
+        "xtick.color": theme.muted,
+        "ytick.color": theme.muted,
+        "xtick.labelcolor": theme.muted,
+        "ytick.labelcolor": theme.muted,
+        "text.color": theme.ink,
+        # A dollar sign from a log begins no formula.
+        "text.parse_math": False,
+        "legend.frameon": False,
+        "legend.fontsize": 8.5,
+        "lines.linewidth": 1.3,
+        "figure.facecolor": theme.paper,
+    }

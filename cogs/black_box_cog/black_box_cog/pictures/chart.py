@@ -1,0 +1,123 @@
+"""What is drawn over time: values, without any drawing."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+MOST_POINTS = 4000
+GAP_S = 1.0
+_LAPSES = 6.0
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """One line: ``colour`` is one of a theme's names, ``gap_s`` after what silence it breaks.
+
+    Without ``gap_s`` that is a second, or six of its own usual periods if that is longer.
+    """
+
+    label: str
+    times_s: Sequence[float]
+    values: Sequence[float]
+    colour: str
+    style: str = "-"
+    width: float = 1.3
+    is_right: bool = False
+    is_step: bool = False
+    gap_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """Curves over one axis; ``least_range`` keeps noise from looking like movement."""
+
+    title: str
+    unit: str
+    curves: Sequence[Curve]
+    right_unit: str = ""
+    about: float | None = None
+    """A level that gets a thin line."""
+    least_range: float = 0.0
+    share: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """A part of the flight with a name: its mode."""
+
+    begin_s: float
+    end_s: float
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A moment at which something happened."""
+
+    at_s: float
+    is_bad: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """What all panels of a flight have behind them."""
+
+    length_s: float
+    bands: Sequence[Band] = ()
+    marks: Sequence[Mark] = ()
+
+
+def drawable(curve: Curve, most: int = MOST_POINTS) -> tuple[list[float], list[float]]:
+    """Return the points to draw: no more than needed, every peak kept, silences left open."""
+    return thinned(*broken(curve.times_s, curve.values, curve.gap_s), most)
+
+
+def broken(
+    times_s: Sequence[float], values: Sequence[float], gap_s: float | None = None
+) -> tuple[list[float], list[float]]:
+    """Return the points with a gap (nan) wherever nothing came for ``gap_s``."""
+    limit_s = usual_gap_s(times_s) if gap_s is None else gap_s
+    found_s: list[float] = []
+    found: list[float] = []
+    last_s = math.inf
+    for time_s, value in zip(times_s, values, strict=True):
+        if time_s - last_s > limit_s:
+            found_s.append(last_s)
+            found.append(math.nan)
+        found_s.append(time_s)
+        found.append(value)
+        last_s = time_s
+    return found_s, found
+
+
+def usual_gap_s(times_s: Sequence[float]) -> float:
+    """Return after what time without a value a source is silent: by its own median period."""
+    if len(times_s) < 3:
+        return GAP_S
+    periods = sorted(after - before for before, after in itertools.pairwise(times_s))
+    return max(GAP_S, _LAPSES * periods[len(periods) // 2])
+
+
+def thinned(
+    times_s: Sequence[float], values: Sequence[float], most: int = MOST_POINTS
+) -> tuple[list[float], list[float]]:
+    """Return about ``most`` points at most: of each short stretch the least and the greatest."""
+    if len(values) <= most:
+        return list(times_s), list(values)
+    width = math.ceil(2 * len(values) / most)
+    chosen: list[int] = []
+    for begin in range(0, len(values), width):
+        stretch = range(begin, min(begin + width, len(values)))
+        known = [at for at in stretch if not math.isnan(values[at])]
+        # Of a stretch with a silence in it one open point is enough to break the line.
+        silent = [at for at in stretch if math.isnan(values[at])][:1]
+        extremes = (
+            {min(known, key=values.__getitem__), max(known, key=values.__getitem__)}
+            if known
+            else set()
+        )
+        chosen += sorted({*extremes, *silent})
+    return [times_s[at] for at in chosen], [values[at] for at in chosen]

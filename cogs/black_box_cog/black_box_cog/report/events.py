@@ -1,0 +1,135 @@
+"""What happened in a flight, one line each, in the order of time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from up.flight_log.facts import Facts
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.origin_text import KEY, link_and_role
+
+MOST = 400
+_LINKS = {
+    "arduino": "the Arduino",
+    "android": "the phone",
+    "mission_control": "the ground (through the proxy)",
+    "ground": "a ground station",
+}
+_TEXT_FIELDS = {"black_box.mark": "text", "simulator.event": "event"}
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happened, in plain words."""
+
+    time_s: float
+    text: str
+    level: str = "info"
+
+
+def events_of(log: FlightLog, facts: Facts) -> list[Event]:
+    """Return what happened, at most 400 events and then a word about the rest."""
+    found = [*_states(facts), *_told(log), *_lines(facts)]
+    found.sort(key=lambda event: event.time_s)
+    if len(found) > MOST:
+        more = f"{len(found) - MOST} more events are not shown"
+        found = [*found[:MOST], Event(found[MOST].time_s, more)]
+    return found
+
+
+def _states(facts: Facts) -> Iterator[Event]:
+    mode: object = None
+    is_armed: bool | None = None
+    is_failsafe: bool | None = None
+    for state in facts.states:
+        if state.flight_mode != mode and state.flight_mode is not None:
+            yield Event(state.time_s, f"flight mode {state.flight_mode}")
+        if state.is_armed is not None and state.is_armed != is_armed:
+            if is_armed is not None or state.is_armed:
+                yield Event(state.time_s, "armed" if state.is_armed else "disarmed")
+            is_armed = state.is_armed
+        if state.is_failsafe is not None and state.is_failsafe != is_failsafe:
+            if state.is_failsafe:
+                yield Event(state.time_s, "failsafe: the receiver is lost", "bad")
+            elif is_failsafe is not None:
+                yield Event(state.time_s, "the receiver is back")
+            is_failsafe = state.is_failsafe
+        mode = state.flight_mode
+
+
+def _told(log: FlightLog) -> Iterator[Event]:
+    takers: dict[str, Callable[[Mapping[str, Any]], tuple[str, str] | None]] = {
+        "up.link.state": _link,
+        "up.panic": _panic,
+        "up.arm": lambda data: (f"arming was asked for by {_origin(data)}", "info"),
+        "up.disarm": lambda data: (f"disarming was asked for by {_origin(data)}", "info"),
+        "up.flight_mode.set": lambda data: (
+            f"flight mode {_word(data.get('mode'))} was asked for by {_origin(data)}",
+            "info",
+        ),
+        "up.altitude.change": _altitude,
+        "arduino.pids.tunings": _gains,
+        "android.battery.low": lambda data: (
+            ("the phone's battery is low", "warning") if data.get("low") is True else None
+        ),
+    }
+    known = [topic for topic in (*takers, *_TEXT_FIELDS) if topic in log.topics]
+    before: tuple[str, str] | None = None
+    for message in log.messages(*known) if known else ():
+        if message.topic in _TEXT_FIELDS:
+            text = _word(message.data.get(_TEXT_FIELDS[message.topic]))
+            who = "mark" if message.topic == "black_box.mark" else "scenario"
+            yield Event(message.time_s, f"{who}: {text}")
+            continue
+        told = takers[message.topic](message.data)
+        # What is said again and again (panic, a link that stays) happened once.
+        if told is not None and told != before:
+            before = told
+            yield Event(message.time_s, *told)
+
+
+def _link(data: Mapping[str, Any]) -> tuple[str, str] | None:
+    link = _word(data.get("link"))
+    name = _LINKS.get(link, f"the link {link}")
+    return (
+        (f"{name} is there", "info")
+        if data.get("connected") is True
+        else (f"{name} is gone", "warning")
+    )
+
+
+def _panic(data: Mapping[str, Any]) -> tuple[str, str] | None:
+    if data.get("panic") is True:
+        return f"Panic Mode: every {_word(data.get('delay_ms'))} ms only", "warning"
+    return "Panic Mode ends", "info"
+
+
+def _altitude(data: Mapping[str, Any]) -> tuple[str, str] | None:
+    if data.get("mode") != "required":
+        return None
+    return f"altitude {_word(data.get('altitude'))} m was asked for by {_origin(data)}", "info"
+
+
+def _gains(data: Mapping[str, Any]) -> tuple[str, str] | None:
+    if data.get("request") is True:
+        return None
+    return f"gains were set by {_origin(data)}", "info"
+
+
+def _lines(facts: Facts) -> Iterator[Event]:
+    for line in facts.log_lines:
+        level = "bad" if line.level >= 4 else "warning" if line.level == 3 else "info"
+        yield Event(line.time_s, f"{line.name}: {line.text}" if line.name else line.text, level)
+
+
+def _origin(data: Mapping[str, Any]) -> str:
+    link, _ = link_and_role(data.get(KEY))
+    return _LINKS.get(link, link or "somebody")
+
+
+def _word(value: object) -> str:
+    if isinstance(value, float):
+        return f"{value:g}"
+    return "?" if value is None else str(value)[:500]

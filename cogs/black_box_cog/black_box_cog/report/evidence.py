@@ -1,0 +1,182 @@
+"""All that a report needs of a log, read in a few passes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from typing import Any
+
+from black_box_cog.pictures.chart import Band
+from black_box_cog.report.demand import Demand
+from black_box_cog.report.series import Series, columns
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.origin_text import KEY, link_and_role
+from up.flight_log.telemetry_frames import frames
+
+ORIENTATION, STICKS, SERVOS = "up.orientation.update", "up.rx.update", "up.servo.update"
+STATUS, STATE, TRUTH = "arduino.status", "up.flight.state", "simulator.truth"
+ALTITUDE, LOCATION, LINK_STATE = "up.altitude.change", "up.location.update", "up.link.state"
+ANGLES = ("roll", "pitch", "yaw")
+CHANNELS = ("ailerons", "elevator", "throttle", "rudder")
+INPUTS = (*CHANNELS, "aux1", "aux2")
+TRUTHS = (
+    *("roll_deg", "pitch_deg", "yaw_deg", "altitude_m", "latitude_deg", "longitude_deg"),
+    *("airspeed_m_s", "ground_speed_m_s", "wind_north_m_s", "wind_east_m_s"),
+)
+FRAME_FIELDS = (
+    *(f"orientation.{name}" for name in ANGLES),
+    *(f"rx.{name}" for name in INPUTS),
+    *(f"servo.{name}" for name in CHANNELS),
+    *("altitude", "android.batteryLevel", "load.cpu", "load.ram", "load.delay_ms"),
+    *("arduino.loop_us", "arduino.late_us"),
+)
+BOARD_TOPICS = (STATUS, STICKS, SERVOS, STATE)
+PHONE_TOPICS = (LOCATION, ALTITUDE, "up.heading.change", "android.battery")
+GROUND_LINKS = ("ground", "mission_control")
+
+
+@dataclass(slots=True)
+class Evidence:
+    """Series by their names; what the log does not tell is empty."""
+
+    log: FlightLog
+    attitude: dict[str, Series]
+    demand: Demand
+    sticks: dict[str, Series]
+    servos: dict[str, Series]
+    status: dict[str, Series]
+    frames: dict[str, Series]
+    altitude: Series
+    required_altitude: Series
+    speed: Series
+    truth: dict[str, Series]
+    bands: list[Band]
+    held_up: Series
+    silences: dict[str, Series]
+
+
+def evidence_of(log: FlightLog) -> Evidence:
+    """Read it; raises FlightLogError when a file cannot be read any more."""
+    told = partial(_told, log)
+    frame_list = [(frame.time_s, frame.data) for frame in frames(log)]
+    known = columns(frame_list, FRAME_FIELDS)
+    attitude = columns(told(ORIENTATION), ANGLES, _best_source(log, ORIENTATION))
+    sticks, servos = columns(told(STICKS), INPUTS), columns(told(SERVOS), CHANNELS)
+    altitude = columns(told(ALTITUDE), ("altitude",), lambda data: data.get("mode") != "required")
+    required = columns(told(ALTITUDE), ("altitude",), lambda data: data.get("mode") == "required")
+    return Evidence(
+        log=log,
+        attitude={name: attitude[name] or known[f"orientation.{name}"] for name in ANGLES},
+        demand=Demand(log),
+        sticks={name: sticks[name] or known[f"rx.{name}"] for name in INPUTS},
+        servos={name: servos[name] or known[f"servo.{name}"] for name in CHANNELS},
+        status=columns(told(STATUS), ("loop_us", "late_us")),
+        frames=known,
+        altitude=altitude["altitude"] or known["altitude"],
+        required_altitude=required["altitude"],
+        speed=columns(told(LOCATION), ("speed",))["speed"],
+        truth=columns(told(TRUTH), TRUTHS),
+        bands=list(_bands(log, frame_list)),
+        held_up=_held_up(frame_list),
+        silences=_silences(log),
+    )
+
+
+def _told(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
+    known = [topic for topic in topics if topic in log.topics]
+    if known:
+        for message in log.messages(*known):
+            yield message.time_s, message.data
+
+
+def _best_source(log: FlightLog, topic: str) -> Any:
+    """Return what accepts one source alone: the board's, else the one that speaks first."""
+    links = []
+    for _, data in _told(log, topic):
+        link, role = link_and_role(data.get(KEY))
+        if role == "board":
+            return lambda data: link_and_role(data.get(KEY))[0] == link
+        if link not in links:
+            links.append(link)
+    first = links[0] if links else ""
+    return lambda data: link_and_role(data.get(KEY))[0] == first
+
+
+def _bands(log: FlightLog, frame_list: list[tuple[float, dict[str, Any]]]) -> Iterator[Band]:
+    """Yield which mode flew when; a lost receiver's circle is a mode of its own."""
+    told: list[tuple[float, Mapping[str, Any]]] = list(_told(log, STATE)) or list(frame_list)
+    begin_s, name = 0.0, ""
+    for time_s, data in told:
+        arduino = data.get("arduino")
+        is_failsafe = data.get(
+            "failsafe", arduino.get("failsafe") if isinstance(arduino, dict) else None
+        )
+        mode = data.get("flight_mode")
+        now = "failsafe" if is_failsafe is True else mode if isinstance(mode, str) else ""
+        if now != name:
+            if name:
+                yield Band(begin_s, time_s, name)
+            begin_s, name = time_s, now
+    if name:
+        yield Band(begin_s, log.length_s, name)
+
+
+def _held_up(frame_list: list[tuple[float, dict[str, Any]]]) -> Series:
+    """Return how often something held up the program for more than 20 ms, until each time."""
+    found = Series()
+    for time_s, data in frame_list:
+        counters = data.get("counters")
+        reactor = counters.get("reactor") if isinstance(counters, dict) else None
+        if isinstance(reactor, dict):
+            found.add(time_s, float(sum(each for each in reactor.values() if type(each) is int)))
+    return found
+
+
+def _silences(log: FlightLog) -> dict[str, Series]:
+    """Return how long the silence was in which each moment lies: of board, phone and ground."""
+    found = {}
+    for name, topics in (("board", BOARD_TOPICS), ("phone", PHONE_TOPICS)):
+        times_s = sorted(
+            time_s for topic in topics if topic in log.topics for time_s in log.times(topic)
+        )
+        if times_s:
+            found[name] = _silence(times_s, log.length_s)
+    ground = _ground_away(log)
+    if ground:
+        found["ground"] = ground
+    return found
+
+
+def _silence(times_s: list[float], end_s: float) -> Series:
+    """Return the steps of a line that is as high as the silence at each time is long."""
+    series = Series()
+    for last_s, next_s in pairwise((*times_s, end_s)):
+        if next_s > last_s:
+            series.add(last_s, next_s - last_s)
+    return series
+
+
+def _ground_away(log: FlightLog) -> Series:
+    """Return how long each time without any ground station was."""
+    series = Series()
+    connected: dict[str, bool] = {}
+    since_s: float | None = None
+    for time_s, data in _told(log, LINK_STATE):
+        if data.get("link") not in GROUND_LINKS:
+            continue
+        connected[data["link"]] = data.get("connected") is True
+        is_there = any(connected.values())
+        if is_there and since_s is not None:
+            series.add(since_s, time_s - since_s)
+            since_s = None
+        if is_there:
+            series.add(time_s, 0.0)
+        elif since_s is None:
+            since_s = time_s
+    if since_s is not None:
+        series.add(since_s, log.length_s - since_s)
+    if series:
+        series.add(log.length_s, series.values[-1])
+    return series

@@ -1,0 +1,71 @@
+"""The gains that flew, and who changed them when."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.json_message import number_at
+from up.flight_log.origin_text import KEY
+
+VALUES, TUNINGS = "arduino.pids.values", "arduino.pids.tunings"
+LOOPS = {
+    "ratePIDs": "rate",
+    "stabPIDs": "stabilize",
+    "stabilizePIDs": "stabilize",
+    "navPIDs": "navigation",
+}
+AXES, TERMS = ("ailerons", "elevator", "rudder"), ("p", "i", "d")
+Key = tuple[str, str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class GainSet:
+    """Gains by loop, axis and term at a time; ``by`` is who set them, "" when they were told."""
+
+    time_s: float
+    values: dict[Key, float]
+    by: str
+
+
+def gain_sets(log: FlightLog) -> list[GainSet]:
+    """Return the sets in the order of time, each only where it differs from the one before."""
+    found: list[GainSet] = []
+    asked_by = ""
+    for message in log.messages(*(topic for topic in (VALUES, TUNINGS) if topic in log.topics)):
+        if message.topic == TUNINGS:
+            if message.data.get("request") is not True:
+                asked_by = str(message.data.get(KEY, ""))
+            continue
+        values = dict(_values(message.data))
+        if values and (not found or values != found[-1].values):
+            found.append(GainSet(message.time_s, values, asked_by if found else ""))
+    return found
+
+
+def asked_sets(log: FlightLog) -> list[GainSet]:
+    """Return what was asked for, whether or not the board took it."""
+    return [
+        GainSet(message.time_s, dict(_values(data)), str(message.data.get(KEY, "")))
+        for message in (log.messages(TUNINGS) if TUNINGS in log.topics else ())
+        if message.data.get("request") is not True
+        and isinstance(data := message.data.get("pids"), dict)
+    ]
+
+
+def changes(before: GainSet, after: GainSet) -> list[tuple[Key, float | None, float | None]]:
+    """Return which gains differ, with both values."""
+    keys = dict.fromkeys([*before.values, *after.values])
+    pairs = ((key, before.values.get(key), after.values.get(key)) for key in keys)
+    return [(key, old, new) for key, old, new in pairs if old != new]
+
+
+def _values(data: Mapping[str, Any]) -> Iterator[tuple[Key, float]]:
+    for loop, name in LOOPS.items():
+        for axis in AXES:
+            for term in TERMS:
+                value = number_at(data, (loop, axis, term))
+                if value is not None:
+                    yield (name, axis, term), value

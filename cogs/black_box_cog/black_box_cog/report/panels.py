@@ -1,0 +1,193 @@
+"""Which panels a report draws of what a log tells."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from black_box_cog.pictures.chart import Curve, Panel
+from black_box_cog.report.evidence import CHANNELS, Evidence
+from black_box_cog.report.series import Series, error_of
+
+_COLOURS = dict(zip(CHANNELS, ("blue", "vermilion", "green", "purple"), strict=True))
+_STYLES = dict(zip(CHANNELS, ("-", "--", "-.", ":"), strict=True))
+_LIFETIME_S = 0.5
+"""So long after the last one nobody asks any more; a setpoint lives half as long."""
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """Panels that stand together: ``name`` is the file's, ``caption`` says how to read them."""
+
+    name: str
+    title: str
+    caption: str
+    panels: tuple[Panel, ...]
+
+
+def pictures_of(evidence: Evidence) -> Iterator[Picture]:
+    """Yield the pictures over time of which the log tells anything."""
+    for picture in (
+        _attitude(evidence),
+        _heights(evidence),
+        _channels(evidence),
+        _links(evidence),
+        _power(evidence),
+        _loops(evidence),
+        _errors(evidence),
+    ):
+        panels = tuple(panel for panel in picture.panels if panel.curves)
+        if panels:
+            yield Picture(picture.name, picture.title, picture.caption, panels)
+
+
+def _attitude(evidence: Evidence) -> Picture:
+    panels = []
+    for axis, title in (("roll", "Roll"), ("pitch", "Pitch")):
+        demand = evidence.demand.roll if axis == "roll" else evidence.demand.pitch
+        curves = [
+            *_curve("truth", evidence.truth[f"{axis}_deg"], "blue", width=2.6),
+            *_curve("measured", evidence.attitude[axis], "orange"),
+            *_curve("asked", demand, "ink", "--", width=1.0, gap_s=_LIFETIME_S),
+        ]
+        panels.append(Panel(title, "deg", curves, about=0.0, least_range=10.0, share=1.15))
+    caption = (
+        "Attitude against what was asked: in FBW by the sticks, in SETPOINT by the Raspberry Pi,"
+        " in failsafe by the profile. In ACRO and RATE nobody asks for an attitude."
+    )
+    return Picture("attitude", "Attitude and demand", caption, tuple(panels))
+
+
+def _heights(evidence: Evidence) -> Picture:
+    heights = [
+        *_curve("truth", evidence.truth["altitude_m"], "blue", width=2.6),
+        *_curve("measured", evidence.altitude, "orange"),
+        *_curve("asked", evidence.required_altitude, "ink", "--", is_step=True, gap_s=1e9),
+    ]
+    speeds = [
+        *_curve("true airspeed", evidence.truth["airspeed_m_s"], "sky", ":"),
+        *_curve("true ground speed", evidence.truth["ground_speed_m_s"], "blue", width=2.6),
+        *_curve("ground speed", evidence.speed, "orange"),
+    ]
+    return Picture(
+        "altitude",
+        "Altitude and speed",
+        "Altitude above sea level; speed over the ground as the positions' source tells it.",
+        (
+            Panel("Altitude", "m", heights, least_range=10.0),
+            Panel("Speed", "m/s", speeds, least_range=4.0),
+        ),
+    )
+
+
+def _channels(evidence: Evidence) -> Picture:
+    panels = [
+        Panel(
+            title,
+            "us",
+            [
+                curve
+                for name in CHANNELS
+                for curve in _curve(name, pulses[name], _COLOURS[name], _STYLES[name])
+            ],
+            about=1500.0,
+            least_range=200.0,
+        )
+        for title, pulses in (("Sticks", evidence.sticks), ("Servo pulses", evidence.servos))
+    ]
+    switches = [
+        *_curve("mode switch (AUX1)", evidence.sticks["aux1"], "blue"),
+        *_curve("arming (AUX2)", evidence.sticks["aux2"], "vermilion", "--"),
+    ]
+    panels.append(Panel("Switches", "us", switches, about=1500.0, least_range=200.0, share=0.6))
+    caption = "What came from the pilot's receiver, and what went to the servos, as pulses."
+    return Picture("sticks", "Sticks and servos", caption, tuple(panels))
+
+
+def _links(evidence: Evidence) -> Picture:
+    colours = {"board": ("blue", "-"), "phone": ("orange", "--"), "ground": ("green", "-.")}
+    curves = [
+        curve
+        for name, series in evidence.silences.items()
+        for curve in _curve(name, series, *colours[name], is_step=True, gap_s=1e9)
+    ]
+    caption = (
+        "How long the silence between two words was: a step up is a silence, as high as it was"
+        " long. The ground's line tells for how long no ground station was connected."
+    )
+    return Picture(
+        "links", "Ages of the links", caption, (Panel("Silence", "s", curves, least_range=0.5),)
+    )
+
+
+def _power(evidence: Evidence) -> Picture:
+    known = evidence.frames
+    battery = _curve("phone's battery", known["android.batteryLevel"], "green", gap_s=1e9)
+    load = [
+        *_curve("processor", known["load.cpu"], "blue"),
+        *_curve("memory", known["load.ram"], "purple", "--"),
+    ]
+    return Picture(
+        "load",
+        "Battery and load",
+        "The battery of the phone; the load of the Raspberry Pi.",
+        (
+            Panel("Battery", "percent", battery, least_range=10.0, share=0.7),
+            Panel("Load of the Raspberry Pi", "percent", load, least_range=20.0),
+        ),
+    )
+
+
+def _loops(evidence: Evidence) -> Picture:
+    known, status = evidence.frames, evidence.status
+    board = [
+        *_curve("busy", status["loop_us"] or known["arduino.loop_us"], "blue"),
+        *_curve("late", status["late_us"] or known["arduino.late_us"], "vermilion", "--"),
+    ]
+    held_up = _curve("held up, times", evidence.held_up, "vermilion", is_step=True, gap_s=1e9)
+    return Picture(
+        "loops",
+        "Loop times",
+        "The Arduino's control loop: how long it works and how late it begins, at worst since the"
+        " last status. On the Raspberry Pi: how often something held up the program for more than"
+        " 20 ms.",
+        (
+            Panel("Control loop of the Arduino", "us", board, least_range=100.0),
+            Panel(
+                "Slow dispatches of the Raspberry Pi", "times", held_up, least_range=2, share=0.6
+            ),
+        ),
+    )
+
+
+def _errors(evidence: Evidence) -> Picture:
+    panels = []
+    for axis, title in (("roll", "Error in roll"), ("pitch", "Error in pitch")):
+        error, _ = error_of(evidence.attitude[axis], evidence.truth[f"{axis}_deg"], is_angle=True)
+        curves = _curve("measured less true", error, "vermilion")
+        panels.append(Panel(title, "deg", curves, about=0.0, least_range=4.0, share=0.8))
+    return Picture(
+        "truth",
+        "Measured against the truth",
+        "This flight was simulated: what the sensors and filters said, less what was true.",
+        tuple(panels),
+    )
+
+
+def _curve(
+    label: str,
+    series: Series,
+    colour: str,
+    style: str = "-",
+    *,
+    width: float = 1.3,
+    is_step: bool = False,
+    gap_s: float | None = None,
+) -> list[Curve]:
+    """Return the curve, or none where there is nothing to draw."""
+    if not series:
+        return []
+    curve = Curve(
+        label, series.times_s, series.values, colour, style, width, is_step=is_step, gap_s=gap_s
+    )
+    return [curve]

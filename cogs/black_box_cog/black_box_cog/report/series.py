@@ -1,0 +1,90 @@
+"""Numbers of a log over time."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from up.flight_log.json_message import number_at
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Values and when they were, seconds from the log's first message."""
+
+    times_s: list[float] = field(default_factory=list)
+    values: list[float] = field(default_factory=list)
+
+    def __bool__(self) -> bool:
+        """Return whether there is any value."""
+        return bool(self.values)
+
+    def add(self, time_s: float, value: float | None) -> None:
+        """Add what is known at a time."""
+        if value is not None:
+            self.times_s.append(time_s)
+            self.values.append(value)
+
+    def at(self, time_s: float, within_s: float) -> float | None:
+        """Return the value at a time, between its neighbours; None where they are too far apart."""
+        after = bisect_left(self.times_s, time_s)
+        if after < len(self.times_s) and self.times_s[after] == time_s:
+            return self.values[after]
+        if not 0 < after < len(self.times_s):
+            return None
+        low_s, high_s = self.times_s[after - 1], self.times_s[after]
+        if high_s - low_s > within_s:
+            return None
+        low, high = self.values[after - 1], self.values[after]
+        return low + (high - low) * (time_s - low_s) / (high_s - low_s)
+
+    def last_before(self, time_s: float) -> float | None:
+        """Return the newest value at a time."""
+        at = bisect_right(self.times_s, time_s)
+        return self.values[at - 1] if at else None
+
+
+def columns(
+    messages: Iterable[tuple[float, Mapping[str, Any]]],
+    fields: Sequence[str],
+    accepts: Callable[[Mapping[str, Any]], bool] = lambda data: True,
+) -> dict[str, Series]:
+    """Return a series for each field (dotted paths) of the messages that are accepted."""
+    found = {name: Series() for name in fields}
+    paths = [(tuple(name.split(".")), found[name].add) for name in fields]
+    for time_s, data in messages:
+        if accepts(data):
+            for path, add in paths:
+                add(time_s, number_at(data, path))
+    return found
+
+
+def turn(degrees: float) -> float:
+    """Return the same angle between -180 and 180."""
+    return (degrees + 180) % 360 - 180
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorFigures:
+    """How far one series was from another: its root mean square and its greatest."""
+
+    rms: float
+    greatest: float
+
+
+def error_of(
+    series: Series, truth: Series, *, is_angle: bool
+) -> tuple[Series, ErrorFigures | None]:
+    """Return what was measured less what was true, where both are known, and its figures."""
+    error = Series()
+    for time_s, value in zip(series.times_s, series.values, strict=True):
+        true = truth.at(time_s, within_s=0.5)
+        if true is not None:
+            error.add(time_s, turn(value - true) if is_angle else value - true)
+    if not error:
+        return error, None
+    mean_square = sum(value * value for value in error.values) / len(error.values)
+    return error, ErrorFigures(math.sqrt(mean_square), max(map(abs, error.values)))

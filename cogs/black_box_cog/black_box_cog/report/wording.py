@@ -1,0 +1,42 @@
+"""How times, sizes and dates of a flight are told to a person."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+EARLIEST_UNIX_S = 1_735_689_600.0
+"""2025: no flight was recorded before; a Raspberry Pi without a clock starts long before."""
+SIMULATED_UNIX_S = 946_684_800.0
+"""2000-01-01: when the flights of the simulator's scenarios begin; they have no date."""
+_MEGABYTE = 1e6
+_DAY_S = 86400.0
+
+
+def clock_text(seconds: float) -> str:
+    """Return a time of the flight as minutes and seconds: 2:05.3."""
+    tenths = round(seconds * 10)
+    return f"{tenths // 600}:{tenths % 600 // 10:02d}.{tenths % 10}"
+
+
+def start_text(unix_s: float) -> str:
+    """Return the local time of a start; says so where the clock cannot have been right."""
+    if unix_s == SIMULATED_UNIX_S:
+        return "no date (simulated)"
+    try:
+        text = datetime.fromtimestamp(unix_s).astimezone().strftime("%Y-%m-%d %H:%M:%S")
+    except (OverflowError, ValueError, OSError):
+        return "no time (the clock was wrong)"
+    return text if is_clock_right(unix_s) else f"{text} (the clock was wrong)"
+
+
+def is_clock_right(unix_s: float, now_unix_s: float | None = None) -> bool:
+    """Return whether a flight can have begun then: not before this program, nor tomorrow."""
+    if unix_s == SIMULATED_UNIX_S:
+        return True
+    now_unix_s = datetime.now().timestamp() if now_unix_s is None else now_unix_s
+    return EARLIEST_UNIX_S <= unix_s <= now_unix_s + _DAY_S
+
+
+def size_text(count: int) -> str:
+    """Return a file's size in megabytes, as disks and their makers count them."""
+    return f"{count / _MEGABYTE:.1f} MB"
