@@ -18,6 +18,8 @@ FLIGHT_STATE = "up.flight.state"
 LINK_STATE = "up.link.state"
 LOG = "log"
 _NEAR_S = 1.0
+_ENDING_S = 2.0
+"""A program that stops closes its links, so long before the log ends."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,12 +108,13 @@ class Facts:
         return self.log.messages(board_status.TOPIC)
 
     def link_lost(self, is_it: Callable[[str], bool]) -> list[Span]:
-        """Return when a link that had been up was down."""
-        return self.lost(
+        """Return when a link that had been up was down; the program's own end is left out."""
+        lost = self.lost(
             (each.time_s, each.data.get("connected") is True)
             for each in self.log.messages(LINK_STATE)
             if is_it(str(each.data.get("link")))
         )
+        return [span for span in lost if not span.is_open or span.length_s > _ENDING_S]
 
     def _all_lines(self) -> Iterator[LogLine]:
         for each in self.log.messages(LOG):

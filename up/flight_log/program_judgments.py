@@ -141,8 +141,9 @@ def _changes(before: Mapping[str, Any], after: Mapping[str, Any], path: str = ""
         if isinstance(value, dict):
             yield from _changes(old if isinstance(old, dict) else {}, value, place)
         elif value != old:
-            known = number_at(before, (key,))
-            yield f"{place} {value}" if known is None else f"{place} {known:g} to {value}"
+            known, new = number_at(before, (key,)), number_at(after, (key,))
+            told = value if new is None else f"{new:g}"
+            yield f"{place} {told}" if known is None else f"{place} {known:g} to {told}"
 
 
 PROGRAM_JUDGMENTS: tuple[Judge, ...] = (

@@ -45,12 +45,16 @@ class Way:
 
 
 def fixes(log: FlightLog) -> Iterator[Fix]:
-    """Yield the places of the freshest source, one receiver at a time."""
+    """Yield the places of the freshest source, one receiver at a time; a repeated one is none."""
     arbiter = SourceArbiter(_FRESH_S, lambda previous, source: None)
+    last: tuple[float, float] | None = None
     for message in log.messages(LOCATION):
         place = place_of(message.data)
         link, _ = link_and_role(message.data.get(KEY))
-        if place is not None and arbiter.accepts(link, 0, message.time_s):
+        if place is None or not arbiter.accepts(link, 0, message.time_s):
+            continue
+        if place != last:
+            last = place
             altitude_m = number_at(message.data, ("altitude",))
             yield Fix(message.time_s, *place, altitude_m, number_at(message.data, ("speed",)))
 
