@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import time
 from dataclasses import dataclass
@@ -61,5 +62,7 @@ class FlightFile:
 
 def flight_files(folder: Path) -> list[FlightFile]:
     """Return the files of flights in a folder, the oldest first; raises OSError."""
-    found = [each for each in map(FlightFile.of, Path(folder).iterdir()) if each is not None]
+    with os.scandir(folder) as entries:
+        paths = [Path(each.path) for each in entries if each.is_file(follow_symlinks=False)]
+    found = [each for each in map(FlightFile.of, paths) if each is not None]
     return sorted(found, key=lambda each: (each.number, each.stamp, each.aircraft, each.part))

@@ -6,8 +6,10 @@ import json
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from typing import Any
 
+from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.encoders import OriginTexts, encoder_of
 from black_box_cog.flight_facts import FlightFacts
 from black_box_cog.flight_file import FlightFile
@@ -58,6 +60,9 @@ class Part:
     def put(self, entry: Entry) -> None:
         """Take one entry; it is written with the next flush of the file."""
         time_s, subject, origin = entry
+        if type(subject) is RecordCommand:
+            # Its content comes by itself, as Recorded, when it was permitted.
+            return
         kind = subject.topic if type(subject) is Recorded else type(subject)
         time_ns = self._timeline.log_ns(time_s)
         try:
@@ -117,8 +122,6 @@ class Part:
 
 def timestamp_text(unix_s: float) -> str:
     """Return a moment as text: UTC, to the second."""
-    from datetime import UTC, datetime
-
     return datetime.fromtimestamp(unix_s, UTC).isoformat(timespec="seconds")
 
 

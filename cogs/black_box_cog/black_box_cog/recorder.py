@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from twisted.logger import Logger
@@ -105,8 +105,6 @@ class Recorder:
             entries = self._intake.take(min(waiting, _TAKE))
             waiting -= len(entries) or waiting
             self._look_at(entries)
-            if self._part is None and self._shall_begin():
-                self._begin()
             if self._part is None:
                 self._hold(entries)
             else:
@@ -155,27 +153,26 @@ class Recorder:
         if self._last is None:
             self._timeline = Timeline(self._now, self._wall_ns)
         try:
-            part = self._open_part()
+            part = self._open_part([*self._held_lines, *self._held])
         except (OSError, NoRoomError) as error:
             self._fail(error)
             return
-        held = [*self._held_lines, *self._held]
         self._held.clear()
         self._held_lines.clear()
         self._say_begun(part)
-        self._write(part, held)
 
-    def _open_part(self) -> Part:
+    def _open_part(self, entries: Sequence[Entry] = ()) -> Part:
+        """Open a file that begins with these entries; without success none is left."""
         self._folder.make_room(self._last)
         if self._last is None:
-            name, descriptor = self._folder.create(
-                self._timeline.start_unix_s, self._facts.aircraft
-            )
+            start_unix_s, aircraft = self._timeline.start_unix_s, self._facts.aircraft
+            name, descriptor = self._folder.create(start_unix_s, aircraft)
         else:
             name, descriptor = self._folder.create_part(self._last)
         file = LogFile(self._disk, name.path, descriptor)
         try:
             part = Part(file, name, self._facts, self._timeline)
+            self._put(part, entries)
             file.flush()
             file.sync()
             self._disk.sync_folder(name.folder)
@@ -200,17 +197,21 @@ class Recorder:
             self._dropped_said = self._all_dropped
         self._problem = self._kind = None
 
-    def _write(self, part: Part, entries: list[Entry]) -> None:
+    def _write(self, part: Part, entries: Sequence[Entry]) -> None:
+        self._put(part, entries)
+        try:
+            part.file.flush()
+        except OSError as error:
+            self._fail(error)
+
+    def _put(self, part: Part, entries: Sequence[Entry]) -> None:
+        """Encode, with pauses in which the reactor's thread has the interpreter."""
         due_s = time.perf_counter() + _BATCH_S
         for entry in entries:
             part.put(entry)
             if time.perf_counter() > due_s:
                 self._pause(_PAUSE_S)
                 due_s = time.perf_counter() + _BATCH_S
-        try:
-            part.file.flush()
-        except OSError as error:
-            self._fail(error)
 
     def _care_for(self, part: Part) -> None:
         """Force the file onto the disk, look after its size, its name and the clock."""

@@ -1,0 +1,402 @@
+import errno
+import shutil
+
+import pytest
+from black_box_cog.intake import LogLine, Recorded
+from black_box_cog.recorder import HELD, IDLE_S, LINGER_S
+
+from tests.cogs.black_box_cog.flights import (
+    BOARD,
+    GROUND,
+    PHONE,
+    START_UNIX_S,
+    Flight,
+    HalfFullDisk,
+    lines_in,
+    messages,
+    numbers_in,
+    summary_of,
+)
+from tests.up.commands.samples import Log
+from up.commands.command import BaseCommand
+from up.commands.location_command import LocationCommand
+from up.commands.origin import INTERNAL
+from up.commands.telemetry_commands import TelemetryCommand
+from up.flight_log.flight_log import FlightLog
+
+
+@pytest.fixture
+def flight(tmp_path):
+    return Flight(tmp_path)
+
+
+class FloodedError(Exception):
+    """Raised by a Command that cannot tell its data."""
+
+
+def logged_errors(log):
+    return [event for event in log.events if event["log_level"].name == "error"]
+
+
+# When it records
+
+
+@pytest.mark.parametrize("origin", [BOARD, PHONE, GROUND])
+def test_it_begins_with_the_first_command_from_outside_and_what_was_said_before(flight, origin):
+    flight.fly(5, origin=INTERNAL)
+    assert flight.files == [] and flight.disk.calls == []
+    assert not flight.status.recording and flight.recorder.round_s == IDLE_S
+    flight.say(50, origin)
+    flight.recorder.work()
+    flight.recorder.finish()
+    assert flight.numbers == list(range(51))
+
+
+def test_what_is_held_for_a_flight_is_bounded(flight):
+    flight.fly(60, rate_hz=100, origin=INTERNAL)
+    flight.say(6000)
+    flight.recorder.finish()
+    assert flight.numbers == list(range(6001 - HELD, 6001))
+    assert flight.status.dropped == 0
+
+
+def test_a_flight_is_over_when_nothing_comes_and_the_next_has_the_next_number(flight):
+    flight.fly(2)
+    flight.pass_s(LINGER_S - 1)
+    flight.recorder.work()
+    assert flight.status.recording
+    flight.pass_s(2)
+    flight.recorder.work()
+    assert not flight.status.recording and flight.status.problem is None
+    flight.fly(3, origin=INTERNAL)
+    assert len(flight.files) == 1
+    flight.fly(1)
+    flight.recorder.finish()
+    assert [path.name for path in flight.files] == [
+        "0001-20260814T093000Z-kite.mcap",
+        "0002-20260814T094006Z-kite.mcap",
+    ]
+    assert all(FlightLog.read([path]).is_complete for path in flight.files)
+
+
+def test_always_records_from_the_start_to_the_end(tmp_path):
+    flight = Flight(tmp_path, always=True)
+    flight.recorder.work()
+    assert flight.status.recording
+    flight.pass_s(10 * LINGER_S)
+    flight.recorder.work()
+    assert flight.status.recording
+
+
+def test_a_program_that_nobody_spoke_to_leaves_nothing(flight):
+    flight.fly(1, origin=INTERNAL)
+    flight.recorder.finish()
+    assert flight.files == []
+
+
+# What a file holds
+
+
+def test_the_official_reader_opens_it_with_its_summary(flight):
+    flight.fly(3)
+    flight.recorder.finish()
+    (path,) = flight.files
+    summary = summary_of(path)
+    assert summary.statistics.message_count == 30 + len(lines_in(path))
+    assert {each.topic for each in summary.channels.values()} == {"up.orientation.update", "log"}
+    log = FlightLog.read([path])
+    assert log.is_complete and not log.problems
+    assert log.metadata["flight"]["aircraft"] == "kite"
+    assert log.metadata["flight"]["started"] == "2026-08-14T09:30:00+00:00"
+    assert log.metadata["versions"].keys() == {"up", "black_box_cog"}
+
+
+def test_time_is_the_wall_clock_at_the_start_and_seconds_since(flight):
+    flight.fly(2)
+    flight.wall_s += 86_400
+    flight.fly(2, first=20)
+    flight.recorder.finish()
+    found = [ns for topic, ns, _ in messages(flight.files[0]) if topic == "up.orientation.update"]
+    since = [(ns - START_UNIX_S * 10**9) / 1e9 for ns in found]
+    assert since == pytest.approx([number / 10 for number in range(40)], abs=1e-6)
+
+
+def test_a_wall_clock_that_jumps_is_said_once_a_jump(flight):
+    flight.fly(3)
+    for jump_s in (86_400, 0, 30, -7200, 0):
+        flight.wall_s += jump_s
+        flight.fly(3)
+    flight.recorder.finish()
+    said = [line for line in lines_in(flight.files[0]) if "the wall clock" in line]
+    assert [line.split()[4] for line in said] == ["+86400", "+79230"]
+
+
+def test_the_configuration_is_attached(flight, tmp_path):
+    (tmp_path / "config.yml").write_text("mode: auto\n")
+    (tmp_path / "huge.yml").write_text("#" * 300_000)
+    (tmp_path / "notes.txt").write_text("no\n")
+    (tmp_path / "gone.yml").symlink_to(tmp_path / "nowhere")
+    flight.fly(1)
+    flight.recorder.finish()
+    log = FlightLog.read(flight.files)
+    assert list(log.attachments) == ["config/config.yml"]
+    assert log.attachments["config/config.yml"].read() == b"mode: auto\n"
+
+
+def test_places_are_on_the_map_too(flight):
+    place = LocationCommand(47.5, 19.25, 120.0, accuracy_m=3.0)
+    flight.intake.observe(place, PHONE)
+    flight.recorder.finish()
+    found = {topic: data for topic, _, data in messages(flight.files[0])}
+    fix = found["/location"]
+    assert (fix["latitude"], fix["longitude"], fix["altitude"]) == (47.5, 19.25, 120.0)
+    assert fix["position_covariance"][0] == 9.0
+    assert found["up.location.update"]["_origin"] == "android (sensor)"
+    assert FlightLog.read(flight.files).schema_name("/location") == "foxglove.LocationFix"
+
+
+def test_lines_records_and_telemetry_have_their_topics(flight):
+    flight.intake.note(LogLine(3, "Uplink", "lost"))
+    flight.intake.note(Recorded("companion.air", '{"speed": 12.5}'), PHONE)
+    flight.intake.observe(TelemetryCommand({"mode": "auto"}, 9), INTERNAL)
+    flight.recorder.finish()
+    found = {topic: data for topic, _, data in messages(flight.files[0])}
+    assert found["companion.air"] == {"speed": 12.5, "_origin": "android (sensor)"}
+    assert found["up.telemetry.update"]["mode"] == "auto"
+    line = next(data for topic, _, data in messages(flight.files[0]) if topic == "log")
+    assert (line["level"], line["name"], line["message"]) == (3, "Uplink", "lost")
+    assert line["timestamp"] == {"sec": START_UNIX_S, "nsec": 0}
+
+
+def test_a_command_that_cannot_tell_its_data_costs_no_other(flight):
+    class Broken(BaseCommand):
+        NAME = "test.broken"
+
+        @property
+        def data(self):
+            raise FloodedError
+
+    with Log() as log:
+        for number in range(30):
+            flight.intake.observe(Broken(), BOARD)
+            flight.fly(0.1, first=number)
+    flight.recorder.finish()
+    assert flight.numbers == list(range(30))
+    assert log.text().count("test.broken cannot be written") == 1
+
+
+# Bounds
+
+
+def test_a_large_flight_goes_on_in_parts(tmp_path):
+    flight = Flight(tmp_path, file_size_mb=0.02, total_size_mb=100.0)
+    flight.fly(40)
+    flight.recorder.finish()
+    assert [path.name.partition("kite")[2] for path in flight.files] == [
+        ".mcap",
+        ".2.mcap",
+        ".3.mcap",
+        ".4.mcap",
+    ]
+    assert flight.numbers == list(range(400))
+    for path in flight.files:
+        assert FlightLog.read([path]).is_complete
+        assert path.stat().st_size < 0.03e6
+    assert flight.status.megabytes == pytest.approx(
+        sum(path.stat().st_size for path in flight.files) / 1e6, abs=0.01
+    )
+
+
+def test_the_total_is_kept_and_the_newest_stays(tmp_path):
+    flight = Flight(tmp_path, file_size_mb=0.02, total_size_mb=0.07)
+    flight.fly(120)
+    assert sum(path.stat().st_size for path in flight.files) < 0.1e6
+    flight.recorder.finish()
+    assert flight.numbers[-1] == 1199
+    assert flight.numbers == list(range(flight.numbers[0], 1200))
+
+
+def test_too_much_at_once_is_dropped_counted_and_said(tmp_path):
+    flight = Flight(tmp_path, limit=100)
+    flight.fly(2)
+    for number in range(20, 1000):
+        flight.say(number)
+    with Log() as log:
+        flight.fly(2, first=1000)
+    flight.recorder.finish()
+    assert flight.numbers == [*range(120), *range(1001, 1020)]
+    assert flight.status.dropped == 881
+    assert log.text().count("881 messages were not recorded") == 1
+
+
+def test_a_long_queue_is_written_in_batches_with_pauses(flight):
+    flight.fly(1)
+    for number in range(10, 5010):
+        flight.say(number)
+    flight.recorder.work()
+    assert flight.numbers == list(range(5010))
+    assert flight.paused >= 1
+
+
+def test_the_end_of_the_program_waits_for_no_pause(flight):
+    flight.fly(1)
+    for number in range(10, 5010):
+        flight.say(number)
+    before = flight.paused
+    flight.recorder.finish()
+    assert flight.paused == before
+    assert flight.numbers == list(range(5010))
+
+
+# When the disk fails
+
+
+@pytest.mark.parametrize(
+    ("call", "number"),
+    [
+        ("write", errno.ENOSPC),
+        ("write", errno.EIO),
+        ("sync", errno.EIO),
+        ("make_folder", errno.EROFS),
+    ],
+)
+def test_a_disk_that_refuses_is_said_once_and_tried_again_each_minute(tmp_path, call, number):
+    flight = Flight(tmp_path)
+    said = flight.fly(15)
+    with Log() as log:
+        flight.disk.refuse[call] = number
+        said = flight.fly(200, first=said)
+    assert not flight.status.recording
+    assert flight.status.problem is not None and flight.status.dropped > 0
+    assert [event["log_namespace"] for event in logged_errors(log)] == ["BlackBox"]
+    tried = flight.disk.calls.count(call)
+    flight.fly(30, first=said)
+    assert flight.disk.calls.count(call) - tried <= 1
+    del flight.disk.refuse[call]
+    with Log() as log:
+        said = flight.fly(61, first=said + 300)
+    assert flight.status.recording and flight.status.problem is None
+    assert log.text().count("records again") == 1
+    flight.recorder.finish()
+    log = FlightLog.read(flight.files)
+    assert not [each for each in log.problems if "damaged" in each]
+    lines = [line for path in flight.files for line in lines_in(path)]
+    assert sum("the flight is not recorded" in line for line in lines) == 1
+    numbers = flight.numbers
+    assert numbers == sorted(numbers) and numbers[-1] == said - 1
+
+
+@pytest.mark.parametrize("room", range(0, 3000, 97))
+def test_a_disk_that_is_full_at_any_byte_leaves_files_that_end_with_a_whole_record(tmp_path, room):
+    disk = HalfFullDisk()
+    flight = Flight(tmp_path, disk)
+    flight.fly(2)
+    disk.room = room
+    said = flight.fly(65, first=20)
+    disk.room = None
+    flight.fly(65, first=said)
+    flight.recorder.finish()
+    first, second = flight.files
+    assert second.name.endswith("kite.2.mcap")
+    cut, whole = FlightLog.read([first]), FlightLog.read([second])
+    assert whole.is_complete
+    assert not cut.is_complete
+    assert ends_with_a_whole_record(first)
+    numbers = numbers_in(first)
+    assert numbers == list(range(len(numbers)))
+
+
+def ends_with_a_whole_record(path):
+    data = path.read_bytes()
+    place = 8
+    while place < len(data):
+        place += 9 + int.from_bytes(data[place + 1 : place + 9], "little")
+    return place == len(data)
+
+
+def test_a_try_without_success_leaves_no_file(tmp_path):
+    flight = Flight(tmp_path, HalfFullDisk())
+    flight.disk.room = 100
+    flight.fly(200)
+    assert flight.status.problem.endswith("No space left on device")
+    assert flight.files == []
+
+
+def test_with_too_little_free_it_ends_politely_and_goes_on_later(tmp_path):
+    flight = Flight(tmp_path, keep_free_mb=200.0)
+    flight.disk.free = 300_000_000
+    flight.fly(15)
+    flight.disk.free = 100_000_000
+    with Log() as log:
+        said = flight.fly(100, first=150)
+        flight.disk.free = 90_000_000
+        said = flight.fly(100, first=said)
+    assert len(logged_errors(log)) == 1
+    assert flight.status.problem.startswith("90 MB are free in ")
+    assert FlightLog.read(flight.files).is_complete
+    flight.disk.free = 300_000_000
+    flight.fly(61, first=said)
+    assert flight.status.recording and len(flight.files) == 2
+
+
+def test_what_could_not_be_written_is_counted(tmp_path):
+    flight = Flight(tmp_path)
+    flight.fly(5)
+    flight.disk.refuse["write"] = errno.EIO
+    said = flight.fly(300, first=50)
+    del flight.disk.refuse["write"]
+    flight.fly(61, first=said)
+    flight.recorder.finish()
+    assert len(flight.numbers) + flight.status.dropped == pytest.approx(50 + 3000 + 610, abs=3)
+
+
+@pytest.mark.parametrize("what", ["file", "folder"])
+def test_one_whose_file_is_removed_in_flight_begins_another(tmp_path, what):
+    flight = Flight(tmp_path)
+    flight.fly(5)
+    if what == "file":
+        flight.files[0].unlink()
+    else:
+        shutil.rmtree(flight.path)
+    with Log() as log:
+        flight.fly(5, first=50)
+    flight.recorder.finish()
+    assert log.text().count("was removed; a new file is begun") == 1
+    (path,) = flight.files
+    assert path.name.endswith("kite.2.mcap")
+    numbers = flight.numbers
+    assert numbers[0] <= 60 and numbers == list(range(numbers[0], 100))
+
+
+def test_a_folder_that_is_a_file_is_said(tmp_path):
+    flight = Flight(tmp_path)
+    flight.path.write_text("no folder")
+    with Log() as log:
+        flight.fly(5)
+    assert flight.status.problem == f"{flight.path}: File exists"
+    assert len(logged_errors(log)) == 1
+    flight.recorder.finish()
+
+
+# What is synced
+
+
+def test_it_is_forced_onto_the_disk_every_second_and_at_the_end(flight):
+    flight.fly(10)
+    assert 9 <= flight.disk.calls.count("sync") <= 14
+    assert flight.disk.calls.count("sync_folder") == 1
+    before = flight.disk.calls.count("sync")
+    flight.pass_s(5)
+    flight.recorder.work()
+    flight.pass_s(5)
+    flight.recorder.work()
+    assert flight.disk.calls.count("sync") == before + 1
+    flight.recorder.finish()
+    assert flight.disk.calls[-2:] == ["sync", "close"]
+
+
+def test_while_it_waits_it_does_not_touch_the_disk(flight):
+    for _ in range(100):
+        flight.pass_s(IDLE_S)
+        flight.recorder.work()
+    assert flight.disk.calls == []
