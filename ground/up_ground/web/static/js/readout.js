@@ -44,6 +44,17 @@ export function html(tag, attributes = {}, ...children) {
 }
 
 /**
+ * @param {object} store
+ * @param {string|null} reading
+ * @param {string} freshness
+ * @param {string} [otherwise] what stands there while it is not old
+ * @returns {string} how old a stale reading is
+ */
+export function oldText(store, reading, freshness, otherwise = "") {
+  return freshness === "stale" ? ageText(store.age_s(reading) ?? store.age_s(null)) : otherwise;
+}
+
+/**
  * One value of the telemetry in an element: `data-key`, `data-freshness`, `--` when there is
  * none, and its age in `ageElement` while it is stale.
  */
@@ -51,33 +62,37 @@ export class Readout {
   #path;
   #format;
   #reading;
+  #kind;
 
   /**
    * @param {Element} element
    * @param {string} path of the value
    * @param {(value: any) => string} [format]
    * @param {Element|null} [ageElement]
+   * @param {"value"|"number"|"flag"|"text"} [kind] another type is no value
    */
-  constructor(element, path, format = String, ageElement = null) {
+  constructor(element, path, format = String, ageElement = null, kind = "value") {
     this.element = element;
     this.ageElement = ageElement;
     this.#path = path;
     this.#format = format;
+    this.#kind = kind;
     this.#reading = readingOf(path);
     element.setAttribute("data-key", path);
   }
 
-  /** @param {object} store */
+  /**
+   * @param {object} store
+   * @returns {any} the value shown, null: none
+   */
   update(store) {
-    const value = store.value(this.#path);
+    const value = store[this.#kind](this.#path);
     const freshness = value === null ? "none" : store.freshness(this.#reading);
-    setText(this.element, value === null ? UNKNOWN : this.#format(value));
+    setText(this.element, freshness === "none" ? UNKNOWN : this.#format(value));
     setAttribute(this.element, "data-freshness", freshness);
     if (this.ageElement !== null) {
-      const isOld = freshness === "stale";
-      const age_s = isOld ? (store.age_s(this.#reading) ?? store.age_s(null)) : null;
-      setText(this.ageElement, isOld ? ageText(age_s) : "");
+      setText(this.ageElement, oldText(store, this.#reading, freshness));
     }
-    return value;
+    return freshness === "none" ? null : value;
   }
 }

@@ -13,11 +13,13 @@ export function mount(element, store) {
   const cell = html("span", { class: "battery-cell", "aria-hidden": "true" }, fill);
   const list = html("dl", { class: "rows" });
   element.append(html("p", { class: "battery-head" }, cell, value, age), list);
-  const readout = new Readout(value, "android.batteryLevel", (level) => `${numberText(level)} %`, age);
+  const percentText = (level) => `${numberText(level)} %`;
+  const readout = new Readout(value, "android.batteryLevel", percentText, age, "number");
   const phone = new Row(
     list,
     "Phone",
     "android.connected",
+    "flag",
     (isThere) => (isThere ? "connected" : "absent"),
     (isThere) => (isThere ? "" : "warning"),
   );
@@ -25,8 +27,8 @@ export function mount(element, store) {
     update() {
       const level = readout.update(store);
       phone.update(store);
-      const percent = typeof level === "number" ? Math.max(0, Math.min(100, level)) : 0;
-      const freshness = store.freshnessAt("android.batteryLevel");
+      const percent = Math.max(0, Math.min(100, level ?? 0));
+      const freshness = level === null ? "none" : store.freshness("battery");
       setAttribute(cell, "data-freshness", freshness);
       const judged = freshness === "none" ? "" : batteryLevel(percent);
       setAttribute(cell, "data-level", judged);

@@ -12,18 +12,18 @@ export function mount(element, store) {
   const percent = (value) => `${numberText(value)} %`;
   const valid = (value) => flagText(value, "valid", "NOT VALID");
   const rows = [
-    new Row(list, "Receiver", "arduino.receiver_valid", valid, good),
-    new Row(list, "IMU", "arduino.imu_valid", valid, good),
-    new Row(list, "Gyro's bias", "arduino.bias_stored", (is) => (is ? "an old one" : "fresh"), bad),
-    new Row(list, "Framing", "arduino.framing"),
-    new Row(list, "Loop", "arduino.loop_us", us),
-    new Row(list, "Late", "arduino.late_us", us),
-    new Row(list, "Frame errors", "arduino.frame_errors", (value) => numberText(value)),
-    new Row(list, "Last reset", "arduino.reset_cause"),
-    new Row(list, "Reset in flight", "arduino.restored", (is) => flagText(is, "YES", "no"), bad),
-    new Row(list, "Processor", "load.cpu", percent),
-    new Row(list, "Memory", "load.ram", percent),
-    new Row(list, "Up runs for", "system.uptime_s", uptimeText),
+    new Row(list, "Receiver", "arduino.receiver_valid", "flag", valid, good),
+    new Row(list, "IMU", "arduino.imu_valid", "flag", valid, good),
+    new Row(list, "Gyro's bias", "arduino.bias_stored", "flag", (is) => (is ? "an old one" : "fresh"), bad),
+    new Row(list, "Framing", "arduino.framing", "text"),
+    new Row(list, "Loop", "arduino.loop_us", "number", us),
+    new Row(list, "Late", "arduino.late_us", "number", us),
+    new Row(list, "Frame errors", "arduino.frame_errors", "number", (value) => numberText(value)),
+    new Row(list, "Last reset", "arduino.reset_cause", "value"),
+    new Row(list, "Reset in flight", "arduino.restored", "flag", (is) => flagText(is, "YES", "no"), bad),
+    new Row(list, "Processor", "load.cpu", "number", percent),
+    new Row(list, "Memory", "load.ram", "number", percent),
+    new Row(list, "Up runs for", "system.uptime_s", "number", uptimeText),
   ];
   return {
     update() {

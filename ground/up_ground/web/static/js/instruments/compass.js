@@ -1,4 +1,4 @@
-import { setAttribute, setText } from "../readout.js";
+import { oldText, setAttribute, setText } from "../readout.js";
 import { headingText, numberText, UNKNOWN } from "../state/format.js";
 import { onCircle } from "./ladder.js";
 import { drawing, hatch, short, svg } from "./svg.js";
@@ -14,6 +14,7 @@ export function mount(element, store) {
   const heading = svg("text", { x: 0, y: -98, class: "compass-heading", "data-key": "heading.actual" });
   const asked = svg("text", { x: -106, y: -98, class: "compass-side is-left", "data-key": "heading.required" });
   const distance = svg("text", { x: 106, y: -98, class: "compass-side is-right", "data-key": "home.distance" });
+  const age = svg("text", { x: 0, y: 42, class: "compass-age" });
   const turning = svg("g", {}, rose, bug, home);
   element.append(
     drawing(
@@ -24,6 +25,7 @@ export function mount(element, store) {
       svg("path", { d: "M0 -78 L-5 -90 L5 -90 Z", class: "lubber" }),
       svg("path", { d: "M0 -20V22M-19 3H19M-8 19H8", class: "compass-aircraft" }),
       hatch("compass-hatch", { x: -88, y: -88, width: 176, height: 176 }),
+      age,
       heading,
       asked,
       distance,
@@ -34,16 +36,19 @@ export function mount(element, store) {
   return {
     update() {
       const actual = store.number("heading.actual");
-      const freshness = store.freshnessAt("heading.actual");
+      const freshness = freshnessOf(store, "heading.actual", "heading");
       setAttribute(element, "data-freshness", freshness);
       setAttribute(heading, "data-freshness", freshness);
+      setText(age, oldText(store, "heading", freshness));
       setText(heading, actual === null ? UNKNOWN : `${headingText(actual)}°`);
       setAttribute(turning, "transform", `rotate(${short(-(actual ?? 0))})`);
-      showMark(store, bug, "heading.required");
-      showMark(store, home, "home.bearing");
+      showMark(store, bug, "heading.required", "heading");
+      showMark(store, home, "home.bearing", "location");
       const required = store.number("heading.required");
-      showSide(store, asked, required === null ? UNKNOWN : `${headingText(required)}°`);
-      showSide(store, distance, distanceText(store.number("home.distance")));
+      const askedText = required === null ? UNKNOWN : `${headingText(required)}°`;
+      showSide(asked, askedText, freshnessOf(store, "heading.required", "heading"));
+      const away_m = store.number("home.distance");
+      showSide(distance, distanceText(away_m), freshnessOf(store, "home.distance", "location"));
     },
   };
 }
@@ -59,17 +64,21 @@ export function distanceText(distance_m) {
   return distance_m < 9999.5 ? `${numberText(distance_m)} m` : `${numberText(distance_m / 1000, 1)} km`;
 }
 
-function showMark(store, mark, path) {
+function freshnessOf(store, path, reading) {
+  return store.number(path) === null ? "none" : store.freshness(reading);
+}
+
+function showMark(store, mark, path, reading) {
   const bearing = store.number(path);
-  setAttribute(mark, "data-freshness", store.freshnessAt(path));
+  setAttribute(mark, "data-freshness", freshnessOf(store, path, reading));
   if (bearing !== null) {
     setAttribute(mark, "transform", `rotate(${short(bearing)})`);
   }
 }
 
-function showSide(store, element, text) {
+function showSide(element, text, freshness) {
   setText(element, text);
-  setAttribute(element, "data-freshness", store.freshnessAt(element.getAttribute("data-key")));
+  setAttribute(element, "data-freshness", freshness);
 }
 
 function homeOf() {

@@ -20,14 +20,15 @@ export function mount(element, store) {
   const list = html("dl", { class: "rows" });
   const vetoes = html("div", { id: "vetoes" });
   element.append(html("p", { class: "flight-head" }, mode, armed, age), meaning, list, vetoes);
-  const modeReadout = new Readout(mode, "flight_mode", String, age);
-  const armedReadout = new Readout(armed, "armed", (value) => flagText(value, "ARMED", "disarmed"));
+  const modeReadout = new Readout(mode, "flight_mode", String, age, "text");
+  const armedText = (value) => flagText(value, "ARMED", "disarmed");
+  const armedReadout = new Readout(armed, "armed", armedText, null, "flag");
   const rows = [
-    new Row(list, "Attitude held by", "flight_controller", holderText),
-    new Row(list, "Raspilot", "mode"),
-    new Row(list, "Switch", "arduino.switch"),
-    new Row(list, "Failsafe", "arduino.failsafe", yesNo, alarmIfTrue),
-    new Row(list, "Panic", "load.panic", (value) => panicText(value, store), alarmIfTrue),
+    new Row(list, "Attitude held by", "flight_controller", "text", holderText),
+    new Row(list, "Raspilot", "mode", "text"),
+    new Row(list, "Switch", "arduino.switch", "value"),
+    new Row(list, "Failsafe", "arduino.failsafe", "flag", yesNo, alarmIfTrue),
+    new Row(list, "Panic", "load.panic", "flag", (value) => panicText(value, store), alarmIfTrue),
   ];
   return {
     update() {

@@ -1,4 +1,5 @@
 import { html } from "../readout.js";
+import { Pace } from "../pace.js";
 import { ageText, numberText } from "../state/format.js";
 import { number, text } from "../state/judge.js";
 import { PlainRow, Row } from "./row.js";
@@ -17,15 +18,20 @@ export function mount(element, store, connection) {
     aircraft: new PlainRow(list, "Aircraft", "link.aircraft"),
   };
   const rows = [
-    new Row(list, "Board's serial link", "arduino.connected", joined, warnIfGone),
-    new Row(list, "Phone on board", "android.connected", joined, warnIfGone),
+    new Row(list, "Board's serial link", "arduino.connected", "flag", joined, warnIfGone),
+    new Row(list, "Phone on board", "android.connected", "flag", joined, warnIfGone),
   ];
+  const pace = new Pace();
+  let ageShown = null;
   return {
     update() {
       const link = store.status?.link ?? {};
       const isOld = !connection.isOpen;
-      const age_s = store.age_s(null);
-      plain.age.show(age_s === null ? null : ageText(age_s), store.isSilent ? "warning" : "");
+      if (pace.isTime(store.now_s)) {
+        const age_s = store.age_s(null);
+        ageShown = age_s === null ? null : ageText(age_s);
+      }
+      plain.age.show(ageShown, store.isSilent ? "warning" : "");
       showPage(plain.page, connection);
       showProxy(plain.proxy, link, isOld);
       showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isOld);

@@ -1,4 +1,5 @@
 import { html, setAttribute, setText } from "../readout.js";
+import { Pace } from "../pace.js";
 import { READINGS } from "../state/ages.js";
 import { ageText, UNKNOWN } from "../state/format.js";
 
@@ -18,13 +19,17 @@ export function mount(element, store) {
     body.append(row);
     return { reading, source, age, state };
   });
+  const pace = new Pace();
   return {
     update() {
+      const isTime = pace.isTime(store.now_s);
       for (const { reading, source, age, state } of lines) {
         const freshness = store.freshness(reading);
         const age_s = store.age_s(reading);
         setText(source, store.text(`source.${reading}`) ?? UNKNOWN);
-        setText(age, age_s === null ? UNKNOWN : ageText(age_s));
+        if (isTime || age_s === null) {
+          setText(age, ageText(age_s));
+        }
         setText(state, WORDS[freshness]);
         setAttribute(source, "data-freshness", store.freshnessAt(`source.${reading}`));
         setAttribute(age, "data-freshness", freshness);

@@ -3,8 +3,6 @@ import { readingOf } from "../state/ages.js";
 
 /**
  * One line of a list: its name, its value, its age while its reading is old.
- *
- * `judge(value)` says how it looks while it is live: "" plain, "warning" or "alarm".
  */
 export class Row {
   #readout;
@@ -14,14 +12,17 @@ export class Row {
    * @param {HTMLElement} list a `dl`
    * @param {string} name
    * @param {string} path
+   * @param {"value"|"number"|"flag"|"text"} kind another type is no value
    * @param {(value: any) => string} [format]
-   * @param {(value: any) => string} [judge]
+   * @param {(value: any) => string} [judge] says how it looks while it is live: "" plain,
+   *   "warning" or "alarm"
    */
-  constructor(list, name, path, format = String, judge = () => "") {
+  constructor(list, name, path, kind, format = String, judge = () => "") {
     const value = html("span", { class: "row-value" });
     const age = html("span", { class: "age" });
     list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, value, age)));
-    this.#readout = new Readout(value, path, format, readingOf(path) === null ? null : age);
+    const ownAge = readingOf(path) === null ? null : age;
+    this.#readout = new Readout(value, path, format, ownAge, kind);
     this.#judge = judge;
   }
 

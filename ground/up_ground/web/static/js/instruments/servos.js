@@ -1,4 +1,5 @@
-import { html, Readout, setAttribute } from "../readout.js";
+import { html, oldText, Readout, setAttribute, setText } from "../readout.js";
+import { readingOf } from "../state/ages.js";
 import { numberText } from "../state/format.js";
 import { beyond, share } from "./stick_geometry.js";
 
@@ -7,11 +8,8 @@ const CHANNELS = ["ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"];
 /** What the receiver says and what the servos get, channel by channel, 1000 to 2000 us. */
 export function mount(element, store) {
   const table = html("div", { class: "channel-table" });
-  table.append(
-    html("span", { class: "channel-head" }),
-    html("span", { class: "channel-head" }, "in, us"),
-    html("span", { class: "channel-head" }, "out, us"),
-  );
+  const heads = { rx: headOf("in, us"), servo: headOf("out, us") };
+  table.append(html("span"), heads.rx.element, heads.servo.element);
   const cells = [];
   for (const channel of CHANNELS) {
     table.append(html("span", { class: "channel-name" }, channel));
@@ -22,15 +20,22 @@ export function mount(element, store) {
       cells.push(new Cell(table, `servo.${channel}`, channel));
     }
   }
-  const rxAge = html("span", { class: "age" });
-  element.append(table, rxAge);
+  element.append(table);
   return {
     update() {
       for (const cell of cells) {
         cell.update(store);
       }
+      for (const [reading, { age }] of Object.entries(heads)) {
+        setText(age, oldText(store, reading, store.freshness(reading)));
+      }
     },
   };
+}
+
+function headOf(name) {
+  const age = html("span", { class: "age" });
+  return { age, element: html("span", { class: "channel-head" }, name, " ", age) };
 }
 
 /** A bar from the middle (the throttle's from its end) and the pulse in figures. */
@@ -48,14 +53,15 @@ class Cell {
     this.#bar = html("span", { class: "bar", "aria-hidden": "true" }, this.#fill);
     this.#bar.classList.toggle("is-from-end", this.#isThrottle);
     const value = html("span", { class: "bar-value" });
-    this.#readout = new Readout(value, path, (pulse_us) => numberText(pulse_us));
+    this.#readout = new Readout(value, path, (pulse_us) => numberText(pulse_us), null, "number");
     table.append(html("span", { class: "channel-cell" }, this.#bar, value));
   }
 
   update(store) {
-    this.#readout.update(store);
-    const pulse_us = store.number(this.#path);
-    setAttribute(this.#bar, "data-freshness", store.freshnessAt(this.#path));
+    const pulse_us = this.#readout.update(store);
+    const reading = readingOf(this.#path);
+    const freshness = pulse_us === null ? "none" : store.freshness(reading);
+    setAttribute(this.#bar, "data-freshness", freshness);
     if (pulse_us === null) {
       return;
     }

@@ -13,6 +13,8 @@ export class Tape {
   #moving;
   #first = null;
   #number;
+  #note;
+  #unit;
   #label;
 
   /**
@@ -54,21 +56,25 @@ export class Tape {
       svg("rect", { x, y: -140, width, height: 32, class: "tape-cap" }),
       svg("text", { x: x + width / 2, y: -127, class: "tape-title" }, form.title),
     );
-    this.note = svg("text", { x: x + width / 2, y: -114, class: "tape-unit" }, form.unit);
+    this.#unit = form.unit;
+    this.#note = svg("text", { x: x + width / 2, y: -114, class: "tape-unit" }, form.unit);
     this.foot = svg("text", { x: x + width / 2, y: 133, class: "tape-unit" });
     const foot = svg("rect", { x, y: 120, width, height: 20, class: "tape-cap" });
-    this.element.append(this.note, foot, this.foot);
+    this.element.append(this.#note, foot, this.foot);
   }
 
   /**
    * @param {number|null} value
    * @param {"live"|"stale"|"none"} freshness
    * @param {string} text of the window
+   * @param {string} age what says how old it is, "" while it is not
    */
-  show(value, freshness, text) {
+  show(value, freshness, text, age) {
     setAttribute(this.element, "data-freshness", freshness);
     setAttribute(this.#number, "data-freshness", freshness);
     setText(this.#number, value === null ? UNKNOWN : text);
+    setText(this.#note, age === "" ? this.#unit : age);
+    setAttribute(this.#note, "data-old", String(age !== ""));
     if (value === null) {
       return;
     }

@@ -1,4 +1,4 @@
-import { setAttribute, setText } from "../readout.js";
+import { oldText, setAttribute, setText } from "../readout.js";
 import { numberText, UNKNOWN } from "../state/format.js";
 import { number } from "../state/judge.js";
 import { distance_m } from "../state/motion.js";
@@ -47,13 +47,16 @@ function freshnessOf(store, value, reading) {
 function showSpeed(tape, store) {
   const speed_m_s = store.motion.groundSpeed_m_s;
   const freshness = freshnessOf(store, speed_m_s, "location");
-  tape.show(speed_m_s, freshness, numberText(speed_m_s, 1));
+  const age = oldText(store, "location", freshness);
+  tape.show(speed_m_s, freshness, numberText(speed_m_s, 1), age);
 }
 
 function showAltitude(tape, store) {
   const altitude_m = store.number("altitude");
   const freshness = freshnessOf(store, altitude_m, "altitude");
-  tape.show(altitude_m, freshness, numberText(altitude_m, altitude_m >= 1000 ? 0 : 1));
+  const decimals = altitude_m >= 1000 ? 0 : 1;
+  const age = oldText(store, "altitude", freshness);
+  tape.show(altitude_m, freshness, numberText(altitude_m, decimals), age);
   const height_m = heightOverStart_m(store);
   const where = startsAtHome(store) ? "home" : "start";
   setText(tape.foot, height_m === null ? "" : `${numberText(height_m, 0, { sign: true })} m ${where}`);

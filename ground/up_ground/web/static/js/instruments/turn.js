@@ -8,6 +8,7 @@ const LENGTH = 92;
 /** Roll and pitch in figures, and between them how fast the nose turns. */
 export function mount(element, store) {
   const degrees = (value) => `${numberText(value, 1, { sign: true })}°`;
+  const perSecond = (value) => `${numberText(value, 0, { sign: true })}°/s`;
   const roll = figure("Roll");
   const pitch = figure("Pitch");
   const turn = figure("Turn");
@@ -21,9 +22,9 @@ export function mount(element, store) {
   const picture = drawing("-100 -12 200 18", "Rate of turn, 60 degrees a second at the ends", scale, bar);
   element.append(roll.box, html("div", { class: "turn-middle" }, picture, turn.box), pitch.box);
   const readouts = [
-    new Readout(roll.value, "orientation.roll", degrees),
-    new Readout(pitch.value, "orientation.pitch", degrees),
-    new Readout(turn.value, "rates.yaw", (value) => `${numberText(value, 0, { sign: true })}°/s`),
+    new Readout(roll.value, "orientation.roll", degrees, null, "number"),
+    new Readout(pitch.value, "orientation.pitch", degrees, null, "number"),
+    new Readout(turn.value, "rates.yaw", perSecond, null, "number"),
   ];
   return {
     update() {
@@ -34,7 +35,7 @@ export function mount(element, store) {
       const share = Math.max(-1, Math.min(1, (rate ?? 0) / MOST_DEG_S));
       setAttribute(bar, "x", short(Math.min(0, share * LENGTH)));
       setAttribute(bar, "width", short(Math.abs(share * LENGTH)));
-      setAttribute(element, "data-freshness", store.freshnessAt("rates.yaw"));
+      setAttribute(element, "data-freshness", rate === null ? "none" : store.freshness("orientation"));
     },
   };
 }
