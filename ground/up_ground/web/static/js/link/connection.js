@@ -148,7 +148,8 @@ export class Connection {
 
   #hello(socket) {
     const token = this.#memory.get("token");
-    const name = this.#memory.get("name") ?? "page";
+    // Without a name of its own the server gives it one.
+    const name = this.#memory.get("name") ?? keepsakeOf("localStorage").get("name") ?? "";
     socket.send(JSON.stringify({ type: "hello", name, key: this.#key, token }));
   }
 

@@ -1,5 +1,6 @@
 import { setAttribute, setText } from "../readout.js";
 import { element } from "./element.js";
+import { PageName } from "./page_name.js";
 import { controlWords, offeredActions } from "./control_words.js";
 
 const BUTTONS = [
@@ -29,10 +30,15 @@ export function mount(place, store, connection) {
   }
   const answers = element("div.buttons", {}, buttons.get("give"), buttons.get("deny"));
   const own = element("div.buttons", {}, buttons.get("request"), buttons.get("release"));
-  place.append(holder, asked, answers, own, note, others);
+  const name = new PageName(connection);
+  place.append(holder, asked, answers, own, note, others, name.element);
   let sentAt_s = null;
   let sentFor = "";
-  connection.on("fault", (message) => setText(note, String(message.text ?? "")));
+  // A wish that was denied is told so.
+  connection.on("fault", (message) => {
+    sentAt_s = null;
+    setText(note, String(message.text ?? ""));
+  });
 
   function send(action) {
     const control = store.status?.control;
@@ -80,6 +86,7 @@ export function mount(place, store, connection) {
       answers.hidden = !offered.has("give");
       own.hidden = !offered.has("request") && !offered.has("release");
       showWaiting(control);
+      name.update();
     },
   };
 }
