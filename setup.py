@@ -64,7 +64,8 @@ setup(
             "airframes/*/*.xml",
             "scenarios/*.yml",
             "shim/*.[ch]",
-        ]
+        ],
+        "up_ground.web": ["static/**/*"],
     },
     install_requires=[
         "twisted>=22.4",
@@ -74,9 +75,11 @@ setup(
         "simple-pid>=2.0",
     ],
     extras_require={
+        "ground": ["autobahn>=24.4"],
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
         "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6"],
         "dev": [
+            "autobahn>=24.4",
             "pytest>=8",
             "pytest-xdist>=3",
             "pytest-timeout>=2.3",
@@ -101,5 +104,6 @@ setup(
             "runner = up_runner.config:RUNNER",
             "proxy = up_proxy.config:PROXY",
         ],
+        "up.log_verbs": ["replay = up_ground.replay.verb:add"],
     },
 )
