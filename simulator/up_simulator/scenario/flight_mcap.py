@@ -9,12 +9,22 @@ from typing import Any
 
 import yaml
 
+from up.commands.altitude_command import AltitudeCommand
+from up.commands.command import BaseCommand
+from up.commands.flight_state_command import FlightStateCommand
+from up.commands.heading_command import HeadingCommand
+from up.commands.location_command import LocationCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.panic_command import PanicCommand
+from up.commands.rx_command import RXCommand
+from up.commands.servo_command import ServoCommand
+from up.commands.system_commands import LinkStateCommand
 from up.flight_log.command_schema import schema_of
 from up.flight_log.foxglove import LOG, LOG_LEVELS, LOG_SCHEMA, timestamp
 from up.flight_log.mcap_writer import McapWriter
 from up.flight_log.origin_text import KEY as ORIGIN
 from up.version import VERSION
-from up_simulator.scenario.flight_topics import COMMANDS, SIGNALS_TOPIC, FlightTopics
+from up_simulator.scenario.flight_topics import SIGNALS_TOPIC, FlightTopics
 from up_simulator.scenario.question import Question
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.signals import SIGNALS
@@ -23,6 +33,17 @@ from up_simulator.truth import NAMES, TOPIC
 BEGIN_NS = 946_684_800_000_000_000
 """2000-01-01: a simulated flight has no date, and the same flight is the same file."""
 LOG_TOPIC, EVENT_TOPIC = "log", "simulator.event"
+COMMANDS: tuple[type[BaseCommand], ...] = (
+    AltitudeCommand,
+    FlightStateCommand,
+    HeadingCommand,
+    LinkStateCommand,
+    LocationCommand,
+    OrientationCommand,
+    PanicCommand,
+    RXCommand,
+    ServoCommand,
+)
 _BUFFER = 1 << 20
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -49,7 +70,7 @@ class _FlightFile:
         """Write everything."""
         self._writer.start()
         self._describe()
-        topics = FlightTopics(has_phone=self._record.scenario.phone is not None)
+        topics = FlightTopics(self._record.scenario)
         columns, time_s = self._record.log.columns, 0.0
         for values in self._record.log.rows:
             row = dict(zip(columns, values, strict=True))

@@ -98,6 +98,12 @@ def test_the_lost_receiver_is_told_as_the_board_tells_it(flown):
     assert log.series("up.rx.update", "valid")[-1] == 0
     states = log.messages["up.flight.state"]
     assert not states[0][1]["failsafe"] and states[0][1]["flight_mode"] == "FBW"
+    statuses = log.messages["arduino.status"]
+    assert 15 <= len(statuses) <= 23, "five a second"
+    assert all(data["mode"] == ord("f") and data["flags"] & 0b1001 for _, data in statuses)
+    assert not any(data["flags"] & 128 for _, data in statuses), "no Raspberry Pi is aboard"
+    assert [bool(statuses[at][1]["flags"] & 4) for at in (0, -1)] == [True, False]
+    assert "vetoes" not in statuses[0][1]
     first_s = next(time_s for time_s, data in states if data["failsafe"])
     assert 2.5 < first_s < 3.2
     events = [(round(time_s, 3), data["event"]) for time_s, data in log.messages["simulator.event"]]
@@ -128,17 +134,25 @@ def test_with_a_phone_only_what_it_told_is_there(tmp_path):
     columns = {
         "truth.latitude_deg": lambda _: 1.0,
         "truth.longitude_deg": lambda _: 2.0,
-        "ground.frames": lambda time_s: time_s // 0.5,
+        "ground.frames": lambda time_s: round(time_s, 3) // 0.5,
         "ground.location.latitude": lambda time_s: None if time_s < 0.7 else 50.0,
         "ground.location.longitude": lambda _: 14.5,
-        "ground.android.batteryLevel": lambda time_s: 90.0 if time_s < 1.2 else 89.0,
+        "ground.age_ms.location": lambda time_s: 30.0 if time_s < 1.4 else 530.0,
+        "ground.android.batteryLevel": lambda _: 90.0,
+        "ground.age_ms.battery": lambda time_s: 1000 * time_s,
+        "ground.android.connected": lambda time_s: time_s < 1.2,
+        "ground.load.panic": lambda time_s: time_s > 0.6,
+        "ground.load.delay_ms": lambda time_s: 300.0 if time_s > 0.6 else 20.0,
     }
     log = read(tmp_path, columns, PHONE)
     places = log.messages["up.location.update"]
-    assert [round(time_s, 2) for time_s, _ in places] == [1.0, 1.5]
+    assert [round(time_s, 2) for time_s, _ in places] == [1.0], "at 1.5 s it is an old one"
     assert all(data["latitude"] == 50.0 for _, data in places)
     assert all(data["_origin"] == "android (sensor)" for _, data in places)
-    assert log.series("android.battery", "level") == [90.0, 89.0]
+    assert log.series("android.battery", "level") == [90]
+    links = [(data["link"], data["connected"]) for _, data in log.messages["up.link.state"]]
+    assert links == [("android", True), ("android", False)]
+    assert log.series("up.panic", "delay_ms") == [20, 300]
 
 
 def test_an_arduino_that_is_silent_leaves_a_gap(tmp_path):

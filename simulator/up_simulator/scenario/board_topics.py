@@ -1,0 +1,117 @@
+"""What the board says, row by row, as the Commands that it is aboard."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from up.commands.flight_state_command import FlightStateCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.rx_command import ALL_VALID, RXCommand
+from up.commands.servo_command import ServoCommand
+from up.flight_log.board_status import TOPIC as STATUS_TOPIC
+from up.flight_log.origin_text import KEY as ORIGIN
+from up_simulator.scenario.log_row import Data, LogRow, Message
+from up_simulator.scenario.sampler import CAUSES, MODES, SWITCH
+from up_simulator.scenario.sticks import CHANNELS
+
+BOARD = "arduino (board)"
+STATE_S = 1.0
+_ANGLES = ("roll", "pitch", "yaw")
+_LETTERS = {word: letter for letter, word in MODES.items()}
+_POSITIONS = {word: number for number, word in SWITCH.items()}
+_FLAGS = {
+    "armed": 1,
+    "auto": 2,
+    "receiver_valid": 4,
+    "imu_valid": 8,
+    "failsafe": 16,
+    "gains_valid": 64,
+    "pi_heard": 128,
+}
+_RESTORED = 128
+_COUNTS = {
+    "loop_us": "loop_us",
+    "late_us": "loop_late_us",
+    "frame_errors": "dropped_frames",
+    "frames_lost": "missing_frames",
+    "uptime_s": "uptime_s",
+    "rx_age_ms": "receiver_age_ms",
+    "imu_age_ms": "imu_age_ms",
+}
+
+
+class News:
+    """Tells by an age whether there is a new datum: that of an old one grows with the time.
+
+    By at least this ``share`` of it, where the way to us takes now more time and now less.
+    """
+
+    def __init__(self, share: float = 0.9) -> None:
+        self._share = share
+        self._age_s = math.inf
+        self._time_s = -math.inf
+
+    def is_new(self, age_s: float | None, time_s: float) -> bool:
+        """Return whether it is another datum than at the last call."""
+        before_s, self._age_s = self._age_s, math.inf if age_s is None else age_s
+        passed_s, self._time_s = time_s - self._time_s, time_s
+        return age_s is not None and age_s < before_s + self._share * passed_s
+
+
+class BoardTopics:
+    """The board's messages, each when it was said: a silent board leaves a gap.
+
+    Without a Raspberry Pi aboard it is only a listener that the board hears.
+    """
+
+    def __init__(self, has_raspilot: bool) -> None:
+        self._has_raspilot = has_raspilot
+        self._orientation = News()
+        self._status = News()
+        self._state: Data = {}
+        self._state_due_s = -math.inf
+
+    def messages(self, row: LogRow) -> Iterator[Message]:
+        """Yield what this row tells of the board."""
+        if self._orientation.is_new(row.number("board.orientation_age_s"), row.time_s):
+            data: Data = {angle: row.number(f"board.{angle}_deg") for angle in _ANGLES}
+            data |= {f"{each}_rate": row.number(f"board.{each}_rate_deg_s") for each in _ANGLES}
+            yield OrientationCommand.NAME, {**data, ORIGIN: BOARD}
+        if (inputs := _pulses(row, "stick", CHANNELS)) is not None:
+            valid = 0 if row.flag("board.receiver_valid") is False else ALL_VALID
+            yield RXCommand.NAME, {**inputs, "valid": valid, ORIGIN: BOARD}
+        if (outputs := _pulses(row, "servo", CHANNELS[:4])) is not None:
+            yield ServoCommand.NAME, {**outputs, ORIGIN: BOARD}
+        yield from self._flight_state(row)
+        if self._status.is_new(row.number("board.status_age_s"), row.time_s):
+            yield STATUS_TOPIC, {**self._told(row), ORIGIN: BOARD}
+
+    def _flight_state(self, row: LogRow) -> Iterator[Message]:
+        mode = row.word("board.mode")
+        if mode is None:
+            return
+        state: Data = {"flight_mode": mode}
+        state |= {name: row.flag(f"board.{name}") for name in ("armed", "auto", "failsafe")}
+        if state != self._state or row.time_s >= self._state_due_s:
+            self._state, self._state_due_s = state, row.time_s + STATE_S
+            yield FlightStateCommand.NAME, {**state, ORIGIN: BOARD}
+
+    def _told(self, row: LogRow) -> Data:
+        """Return its status; which vetoes it has is no signal, and not in it."""
+        bits = (bit for name, bit in _FLAGS.items() if row.flag(f"board.{name}"))
+        flags = sum(bits) & ~(0 if self._has_raspilot else _FLAGS["pi_heard"])
+        causes = (row.word("board.reset_cause") or "").split()
+        cause = sum(bit for bit, word in CAUSES.items() if word in causes)
+        data: Data = {
+            "mode": ord(_LETTERS.get(row.word("board.mode") or "", "\0")),
+            "switch": _POSITIONS.get(row.word("board.switch") or ""),
+            "flags": flags,
+            "reset_cause": cause | (_RESTORED if row.flag("board.restored") else 0),
+        }
+        return data | {key: row.whole(f"board.{name}") for key, name in _COUNTS.items()}
+
+
+def _pulses(row: LogRow, source: str, channels: tuple[str, ...]) -> Data | None:
+    pulses = {name: row.whole(f"{source}.{name}_us") for name in channels}
+    return None if None in pulses.values() else dict(pulses)
