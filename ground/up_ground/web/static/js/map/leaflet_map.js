@@ -106,16 +106,20 @@ export class LeafletMap {
       this.#map.setView([first.latitude, first.longitude], FIRST_ZOOM);
       this.#hasView = true;
     }
-    this.#showHome(home ?? aircraft, home !== null);
-    if (aircraft !== null) {
-      this.#showAircraft(picture);
-      const ends = home === null ? [] : [latLng(home), latLng(aircraft)];
-      this.#wayHome.setLatLngs(ends).addTo(this.#map);
-    }
+    this.#showGround(home ?? aircraft, home !== null);
+    this.#showHome(home);
+    this.#showAircraft(picture);
+    const ends = home === null || aircraft === null ? [] : [latLng(home), latLng(aircraft)];
+    this.#wayHome.setLatLngs(ends).addTo(this.#map);
     this.#track.show(picture.track);
   }
 
   #showAircraft({ aircraft, heading_deg, freshness }) {
+    if (aircraft === null) {
+      this.#aircraft?.remove();
+      this.#aircraft = null;
+      return;
+    }
     if (this.#aircraft === null) {
       const icon = this.#L.divIcon({
         html: this.#symbol.element,
@@ -132,24 +136,34 @@ export class LeafletMap {
     }
   }
 
-  #showHome(place, isKnown) {
-    if (this.#grid === null && this.#tiles === null) {
-      this.#useGrid(place);
-    }
-    const [latitude, longitude] = latLng(place);
-    const origin = this.#grid?.origin;
-    if (isKnown && origin && (origin.latitude !== latitude || origin.longitude !== longitude)) {
-      this.#grid.setOrigin(place);
-    }
-    if (!isKnown) {
+  #showHome(home) {
+    if (home === null) {
+      this.#home?.remove();
+      this.#home = null;
       return;
     }
     if (this.#home === null) {
       const icon = this.#L.divIcon({ html: homeSymbol(), className: "home-marker", iconSize: [24, 24] });
-      this.#home = this.#L.marker(latLng(place), { icon, interactive: false, keyboard: false });
+      this.#home = this.#L.marker(latLng(home), { icon, interactive: false, keyboard: false });
       this.#home.addTo(this.#map);
     }
-    this.#home.setLatLng(latLng(place));
+    this.#home.setLatLng(latLng(home));
+  }
+
+  // The grid counts its metres from home, or from where the aircraft was first seen.
+  #showGround(place, isHome) {
+    if (place === null) {
+      return;
+    }
+    if (this.#grid === null && this.#tiles === null) {
+      this.#useGrid(place);
+    }
+    const origin = this.#grid?.origin;
+    const isElsewhere =
+      origin && (origin.latitude !== place.latitude || origin.longitude !== place.longitude);
+    if (isHome && isElsewhere) {
+      this.#grid.setOrigin(place);
+    }
   }
 
   #useGrid(place = null) {

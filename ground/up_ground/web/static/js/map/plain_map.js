@@ -59,6 +59,7 @@ export class PlainMap {
     const at = { east_m: 0, north_m: 0 };
     const isHome = home !== null;
     setAttribute(this.#home, "d", isHome ? `M${x(at)} ${y(at) - 9} l9 9 h-3 v8 h-12 v-8 h-3 Z` : "");
+    setAttribute(this.#symbol.element, "visibility", craft === null ? "hidden" : "visible");
     if (craft !== null) {
       this.#symbol.show(heading_deg, freshness);
       setAttribute(this.#symbol.element, "x", (x(craft) - 20).toFixed(1));
