@@ -22,7 +22,8 @@ class FlightTopics:
 
     def __init__(self, scenario: Scenario) -> None:
         self._board = BoardTopics(scenario.has_raspilot)
-        self._place = TruePlace() if scenario.phone is None else SeenByGround()
+        self._true_place = TruePlace() if scenario.phone is None else None
+        self._seen = SeenByGround()
         self._signals_due_s = -math.inf
 
     def messages(self, values: Mapping[str, Value]) -> Iterator[Message]:
@@ -30,7 +31,9 @@ class FlightTopics:
         row = LogRow(values)
         yield TOPIC, _truth(row)
         yield from self._board.messages(row)
-        yield from self._place.messages(row)
+        yield from self._seen.messages(row)
+        if self._true_place is not None:
+            yield from self._true_place.messages(row)
         if row.time_s >= self._signals_due_s - ROW_S / 2:
             self._signals_due_s = row.time_s + SIGNALS_S
             yield SIGNALS_TOPIC, _signals(row)
