@@ -15,7 +15,7 @@ class Markup(str):
     __slots__ = ()
 
 
-def tag(name: str, *children: str | None, **attributes: str | int | None) -> Markup:
+def tag(name: str, /, *children: str | None, **attributes: str | int | None) -> Markup:
     """Return an element; None among its children or attributes is left out.
 
     An attribute's name may end in ``_`` where Python has a word of that name; ``_`` inside is

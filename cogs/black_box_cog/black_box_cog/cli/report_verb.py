@@ -1,0 +1,33 @@
+"""``up log report``."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from black_box_cog.cli.open_flight import flight_of, read
+from black_box_cog.cli.terminal import tell, warn
+from black_box_cog.report.findings import findings_of
+from black_box_cog.report.folder import write_report
+from black_box_cog.report.verdict import verdict_of
+from up.cli.cli_error import CliError
+from up.fields import printable
+from up.flight_log.mcap_format import FlightLogError
+
+
+def run(values: argparse.Namespace) -> int:
+    """Write the page that explains a flight."""
+    flight = flight_of(values)
+    log = read(flight)
+    folder = values.output or Path(f"{flight.name}-report")
+    try:
+        findings = findings_of(log, flight.name, flight.number)
+        files = write_report(findings, folder, may_overwrite=values.force, on_missing=warn)
+    except FlightLogError as error:
+        raise CliError(printable(str(error))) from error
+    _, sentence = verdict_of(findings.summary, findings.wrongs)
+    tell(printable(sentence))
+    tell(str(files[0]))
+    if len(files) > 1:
+        tell(f"{len(files) - 1} pictures beside it")
+    return 0

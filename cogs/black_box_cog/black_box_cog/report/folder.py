@@ -1,0 +1,50 @@
+"""The folder of a report: the page, and the pictures beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from black_box_cog.export.output import write_file
+from black_box_cog.pictures.canvas import PictureError
+from black_box_cog.report.findings import Findings
+from black_box_cog.report.images import ImageSet, image_sets
+from black_box_cog.report.page import page_of
+from up.cli.cli_error import CliError
+
+PAGE = "report.html"
+
+
+def write_report(
+    findings: Findings,
+    folder: Path,
+    *,
+    may_overwrite: bool,
+    on_missing: Callable[[str], object],
+) -> list[Path]:
+    """Write page and pictures; return the files, the page first.
+
+    Without matplotlib the page has its words and tables and a track of its own; ``on_missing`` is
+    told. Raises CliError where a file is there already or the disk refuses, FlightLogError.
+    """
+    if not may_overwrite and (folder / PAGE).exists():
+        raise CliError(f"{folder / PAGE} is there already: say --force to overwrite it")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CliError(f"{folder} cannot be made: {error.strerror or error}") from error
+    images: dict[str, ImageSet] = {}
+    missing = ""
+    try:
+        images = {image.name: image for image in image_sets(findings)}
+    except PictureError as error:
+        missing = f"No pictures: {error}."
+        on_missing(missing)
+    page = page_of(findings, images, missing).encode()
+    files = [folder / PAGE]
+    write_file(files[0], page, may_overwrite=may_overwrite)
+    for image in images.values():
+        path = folder / f"{image.name}.png"
+        write_file(path, image.wide, may_overwrite=may_overwrite)
+        files.append(path)
+    return files

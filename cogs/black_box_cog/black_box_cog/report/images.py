@@ -1,0 +1,62 @@
+"""The pictures of a report: for wide and for narrow screens, for daylight and for the dark."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+
+from black_box_cog.pictures.canvas import Sheet, png_of
+from black_box_cog.pictures.theme import DARK, DAYLIGHT, Theme
+from black_box_cog.pictures.timeline import draw_timeline, timeline_height_in
+from black_box_cog.pictures.track_picture import draw_track
+from black_box_cog.report.findings import Findings
+
+WIDE_IN, NARROW_IN = 10.6, 4.2
+WIDE_DPI, NARROW_DPI = 150, 200
+TRACK_WIDE_IN, TRACK_NARROW_IN = (6.4, 6.0), (4.2, 4.4)
+
+
+@dataclass(frozen=True, slots=True)
+class ImageSet:
+    """One picture four times, as PNGs; ``wide`` is for daylight and for paper."""
+
+    name: str
+    wide: bytes
+    wide_dark: bytes
+    narrow: bytes
+    narrow_dark: bytes
+    ratio: float
+    """Of the wide one, height to width."""
+
+
+def image_sets(findings: Findings) -> Iterator[ImageSet]:
+    """Draw the track, then every picture over time; raises PictureError."""
+    track = findings.track
+    if track is not None:
+        yield _drawn(
+            "track", lambda sheet: draw_track(sheet, track), TRACK_WIDE_IN, TRACK_NARROW_IN
+        )
+    for picture in findings.pictures:
+        height_in = timeline_height_in(picture.panels, findings.stage)
+        paint = partial(draw_timeline, panels=picture.panels, stage=findings.stage)
+        yield _drawn(picture.name, paint, (WIDE_IN, height_in), (NARROW_IN, height_in))
+
+
+def _drawn(
+    name: str,
+    paint: Callable[[Sheet], None],
+    wide_in: tuple[float, float],
+    narrow_in: tuple[float, float],
+) -> ImageSet:
+    def drawn(size_in: tuple[float, float], dpi: int, theme: Theme) -> bytes:
+        return png_of(paint, *size_in, dpi, theme)
+
+    return ImageSet(
+        name,
+        drawn(wide_in, WIDE_DPI, DAYLIGHT),
+        drawn(wide_in, WIDE_DPI, DARK),
+        drawn(narrow_in, NARROW_DPI, DAYLIGHT),
+        drawn(narrow_in, NARROW_DPI, DARK),
+        wide_in[1] / wide_in[0],
+    )

@@ -1,0 +1,178 @@
+"""The parts of a report that are words and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+from black_box_cog.report.findings import Findings
+from black_box_cog.report.gains import GainSet, Key, changes, gain_sets
+from black_box_cog.report.ground_track import place_error_m
+from black_box_cog.report.html_text import Markup, join, table, tag
+from black_box_cog.report.series import error_of
+from black_box_cog.report.verdict import LEVELS
+from black_box_cog.report.wording import clock_text
+from up.flight_log.origin_text import link_and_role
+from up.flight_log.spans import duration_text
+
+_WORDS = {"alarm": "alarm", "warning": "warning", "info": "note"}
+
+
+def figures(findings: Findings) -> Markup:
+    """Return the numbers of the flight."""
+    cells = [tag("div", tag("dt", name), tag("dd", value)) for name, value in _figures(findings)]
+    return tag("dl", *cells, class_="figures")
+
+
+def wrong_list(findings: Findings) -> Markup:
+    """Return what went wrong, in the order of time."""
+    items = [
+        tag(
+            "li",
+            tag("time", clock_text(each.time_s)),
+            tag("span", _WORDS[each.level], class_="level"),
+            tag("span", each.text),
+            class_=LEVELS[each.level],
+        )
+        for each in findings.wrongs
+    ]
+    content = (
+        tag("ol", *items, class_="wrongs") if items else tag("p", "Nothing that the log can tell.")
+    )
+    return tag("section", tag("h2", "What went wrong"), content)
+
+
+def modes(findings: Findings) -> Markup:
+    """Return which mode was flown when, and what was silent for how long."""
+    summary = findings.summary
+    rows = [
+        [clock_text(band.begin_s), band.name, duration_text(band.end_s - band.begin_s)]
+        for band in findings.evidence.bands
+    ]
+    gaps = [[name, duration_text(gap_s)] for name, gap_s in summary.gaps_s.items()]
+    parts: list[Markup] = []
+    if rows:
+        parts += [tag("h3", "Modes"), table(["from", "mode", "for"], rows, right=(2,))]
+    if gaps:
+        title = tag("h3", "Longest silence of each source")
+        parts += [title, table(["source", "for"], gaps, right=(1,))]
+    return tag("div", *parts)
+
+
+def events(findings: Findings) -> Markup | None:
+    """Return what happened, in the order of time."""
+    items = [
+        tag(
+            "li",
+            tag("time", clock_text(event.time_s)),
+            tag("span", event.text, class_="level" if event.level != "info" else None),
+            class_=event.level if event.level != "info" else None,
+        )
+        for event in findings.events
+    ]
+    return tag("ol", *items, class_="events") if items else None
+
+
+def truth(findings: Findings) -> Markup | None:
+    """Return how far what was measured was from the truth, in figures."""
+    evidence = findings.evidence
+    rows = []
+    for name, series, true, unit in (
+        ("roll", evidence.attitude["roll"], evidence.truth["roll_deg"], "deg"),
+        ("pitch", evidence.attitude["pitch"], evidence.truth["pitch_deg"], "deg"),
+        ("altitude", evidence.altitude, evidence.truth["altitude_m"], "m"),
+    ):
+        _, found = error_of(series, true, is_angle=unit == "deg")
+        if found is not None:
+            rows.append([name, f"{found.rms:.2f} {unit}", f"{found.greatest:.2f} {unit}"])
+    place = place_error_m(evidence).values
+    if place:
+        rms = (sum(value * value for value in place) / len(place)) ** 0.5
+        rows.append(["position", f"{rms:.1f} m", f"{max(place):.1f} m"])
+    head = ["measured less true", "root mean square", "greatest"]
+    return table(head, rows, right=(1, 2)) if rows else None
+
+
+def gains(findings: Findings) -> Markup | None:
+    """Return the gains at the beginning, and each change with both values."""
+    sets = gain_sets(findings.log)
+    if not sets:
+        return None
+    parts = [_gain_table(sets[0])]
+    for before, after in pairwise(sets):
+        who = link_and_role(after.by)[0] or "somebody"
+        rows = [
+            [_gain_name(key), _gain(old), _gain(new)] for key, old, new in changes(before, after)
+        ]
+        parts.append(tag("h3", f"{clock_text(after.time_s)} changed by {who}"))
+        parts.append(table(["gain", "before", "after"], rows, right=(1, 2)))
+    return join(*parts)
+
+
+def record(findings: Findings) -> Markup:
+    """Return what the log itself is: files, versions, topics, what is damaged."""
+    log = findings.log
+    seconds = max(log.length_s, 1e-9)
+    facts = [
+        [f"{record} {key}", value]
+        for record, values in log.metadata.items()
+        for key, value in values.items()
+    ]
+    topics = [
+        [topic, str(count), f"{count / seconds:.1f}" if log.length_s else ""]
+        for topic, count in sorted(log.topics.items())
+    ]
+    problems = log.problems
+    return join(
+        tag("h3", "Problems of the files") if problems else None,
+        tag("ul", *(tag("li", problem) for problem in problems)) if problems else None,
+        table(["", ""], [*facts, *(["file", path.name] for path in log.paths)]),
+        tag("h3", "Topics"),
+        table(["topic", "messages", "a second"], topics, right=(1, 2)),
+    )
+
+
+def _figures(findings: Findings) -> Iterator[tuple[str, str]]:
+    summary = findings.summary
+    yield "recorded", duration_text(summary.length_s)
+    yield "armed", duration_text(summary.armed_s) if summary.armed else "never"
+    if summary.highest_m is not None and summary.lowest_m is not None:
+        yield "highest above sea level", f"{summary.highest_m:.0f} m"
+        yield "highest above lowest", f"{summary.highest_m - summary.lowest_m:.0f} m"
+    if summary.top_speed_m_s is not None:
+        yield "top speed", f"{summary.top_speed_m_s:.1f} m/s"
+    if summary.track_m is not None:
+        yield "track", _distance(summary.track_m)
+    if summary.farthest_m is not None:
+        yield "farthest from home", _distance(summary.farthest_m)
+    if summary.lowest_battery_percent is not None:
+        yield "phone's battery, lowest", f"{summary.lowest_battery_percent:.0f} %"
+    controller = summary.flight_controller
+    if controller:
+        yield "flight controller", controller
+
+
+def _distance(metres: float) -> str:
+    return f"{metres / 1000:.2f} km" if metres >= 1000 else f"{metres:.0f} m"
+
+
+def _gain_table(gains: GainSet) -> Markup:
+    rows: dict[tuple[str, str], dict[str, float]] = {}
+    for (loop, axis, term), value in gains.values.items():
+        rows.setdefault((loop, axis), {})[term] = value
+    return table(
+        ["loop", "axis", "P", "I", "D"],
+        [
+            [loop, axis, *(_gain(terms.get(term)) for term in ("p", "i", "d"))]
+            for (loop, axis), terms in rows.items()
+        ],
+        right=(2, 3, 4),
+    )
+
+
+def _gain_name(key: Key) -> str:
+    return " ".join(key)
+
+
+def _gain(value: float | None) -> str:
+    return "" if value is None else f"{value:g}"
