@@ -1,6 +1,7 @@
 import { setAttribute, setText } from "./readout.js";
+import { alarmOf } from "./state/alarm_level.js";
 import { UNKNOWN } from "./state/format.js";
-import { worstLevel } from "./sound.js";
+
 
 /**
  * The frame of the page: bar, banner of the link, choice of the aircraft, silence.
@@ -34,10 +35,10 @@ export function mountShell(store, connection) {
     setHidden(banner, connection.isOpen);
     if (!connection.isOpen) {
       const retry_s = connection.retry_s;
-      const next =
-        retry_s === null ? "trying now" : `next attempt in ${retry_s.toFixed(1)} s`;
       const why = reason === "" ? "" : ` (${reason})`;
-      setText(banner, `No connection to the ground server${why}: ${next}`);
+      setText(at("link-banner-text"), `No connection to the ground server${why}:`);
+      const next = retry_s === null ? "trying now" : `next attempt in ${retry_s.toFixed(1)} s`;
+      setText(at("link-banner-next"), next);
     }
   }
 
@@ -59,7 +60,7 @@ export function mountShell(store, connection) {
     setAttribute(at("bar-armed"), "data-armed", String(armed));
     const alarm = alarmOf(store, connection);
     setAttribute(at("bar-alarm"), "data-level", alarm.level);
-    setText(at("bar-alarm"), alarm.text);
+    setText(at("bar-alarm"), alarm.text ?? UNKNOWN);
   }
 
   function showBar(id, text, freshness) {
@@ -83,27 +84,6 @@ export function mountShell(store, connection) {
  */
 export function silenceText(store, state) {
   return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
-}
-
-/**
- * What the bar says of alarms; what the page notices itself stands before what it was told.
- * @param {object} store
- * @param {object} connection
- * @returns {{level: string, text: string}}
- */
-export function alarmOf(store, connection) {
-  if (!connection.isOpen) {
-    return { level: "alarm", text: "no server" };
-  }
-  const level = worstLevel(store.alarms);
-  const worst = store.alarms.filter((each) => each.level === level);
-  if (level !== "alarm" && store.aircraftState === "silent") {
-    return { level: "alarm", text: "silent" };
-  }
-  if (level === "none") {
-    return { level, text: store.aircraftState === "live" ? "none" : UNKNOWN };
-  }
-  return { level, text: worst.length === 1 ? String(worst[0].kind) : `${worst.length} alarms` };
 }
 
 function setHidden(element, isHidden) {

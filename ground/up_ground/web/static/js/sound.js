@@ -1,25 +1,54 @@
+import { TIMERS } from "./link/clock.js";
 import { keepsakeOf } from "./link/keepsake.js";
-import { isAcknowledged } from "./panels/acknowledged.js";
+import { alarmOf } from "./state/alarm_level.js";
 
-const LEVELS = ["none", "info", "warning", "alarm"];
 const TONES = {
   warning: { pitches_hz: [660], gap_s: 0.3, vibrate_ms: [200] },
   alarm: { pitches_hz: [880, 660, 880], gap_s: 0.16, vibrate_ms: [300, 100, 300] },
+  test: { pitches_hz: [660], gap_s: 0.15, vibrate_ms: [50] },
 };
 const AGAIN_S = 6;
+const LOOK_S = 0.5;
+
+/** Decides when to ring: when something new is wrong, and every 6 s while an alarm stands. */
+export class Bell {
+  #known = new Set();
+  #rang_s = -Infinity;
+
+  /**
+   * @param {{level: string, text: string|null}} alarm the worst, as the bar says it
+   * @param {{kind: string, level: string}[]} all
+   * @param {number} now_s
+   * @returns {"warning"|"alarm"|null} what to ring
+   */
+  ring(alarm, all, now_s) {
+    const now = new Set(all.map((each) => `${each.kind} ${each.level}`));
+    if (all.length === 0 || alarm.level === "alarm") {
+      now.add(`${alarm.text} ${alarm.level}`);
+    }
+    const isNew = [...now].some((each) => !this.#known.has(each));
+    const isAgain = alarm.level === "alarm" && now_s - this.#rang_s >= AGAIN_S;
+    this.#known = now;
+    if ((alarm.level !== "alarm" && alarm.level !== "warning") || !(isNew || isAgain)) {
+      return null;
+    }
+    this.#rang_s = now_s;
+    return alarm.level;
+  }
+}
 
 /**
- * Tones and vibration for alarms: when one appears, and again while the worst stands.
- * Silent until the user switches it on; browsers play nothing before a gesture.
+ * Tones and vibration for alarms; silent until the user switches them on, because browsers play
+ * nothing before a gesture. Looks by a timer, so that a page in the background is heard too.
  * @param {HTMLButtonElement} button
  * @param {object} store
+ * @param {object} connection
  */
-export function mountSound(button, store) {
+export function mountSound(button, store, connection) {
   const memory = keepsakeOf("localStorage");
+  const bell = new Bell();
   let isOn = memory.get("sound") === "on";
   let context = null;
-  let known = new Set();
-  let soundedAt_s = -Infinity;
   const unlock = () => {
     if (isOn && context === null && globalThis.AudioContext) {
       context = new AudioContext();
@@ -30,43 +59,31 @@ export function mountSound(button, store) {
     button.textContent = isOn ? "Sound on" : "Sound off";
     button.setAttribute("aria-pressed", String(isOn));
   };
+  const look = () => {
+    const level = bell.ring(alarmOf(store, connection), store.alarms, store.now_s);
+    if (isOn && level !== null) {
+      play(context, TONES[level]);
+    }
+  };
   button.addEventListener("click", () => {
     isOn = !isOn;
     memory.set("sound", isOn ? "on" : "off");
     unlock();
     show();
     if (isOn) {
-      play(context, { pitches_hz: [660], gap_s: 0.2, vibrate_ms: [50] });
+      play(context, TONES.test);
     }
   });
   document.addEventListener("pointerdown", unlock);
   document.addEventListener("keydown", unlock);
-  store.subscribe(() => {
-    const level = worstLevel(store.alarms.filter((each) => !isAcknowledged(each)));
-    const now = new Set(store.alarms.map((each) => `${each.kind} ${each.level}`));
-    const isNew = [...now].some((each) => !known.has(each));
-    known = now;
-    const isDue = level === "alarm" && store.now_s - soundedAt_s > AGAIN_S;
-    if (isOn && TONES[level] !== undefined && (isNew || isDue)) {
-      soundedAt_s = store.now_s;
-      play(context, TONES[level]);
-    }
-  });
+  connection.on("alarms", look);
+  TIMERS.each(look, LOOK_S);
   show();
-}
-
-/**
- * @param {{level: string}[]} alarms
- * @returns {"none"|"info"|"warning"|"alarm"}
- */
-export function worstLevel(alarms) {
-  const worst = Math.max(0, ...alarms.map((each) => LEVELS.indexOf(each?.level)));
-  return LEVELS[worst];
 }
 
 function play(context, { pitches_hz, gap_s, vibrate_ms }) {
   navigator.vibrate?.(vibrate_ms);
-  if (context === null || context.state !== "running") {
+  if (context === null || context.state === "closed") {
     return;
   }
   pitches_hz.forEach((pitch_hz, place) => {

@@ -91,7 +91,7 @@ function homeOf() {
 }
 
 function roseOf() {
-  const rose = svg("g", { class: "rose" });
+  const rose = svg("g", { class: "rose", "aria-hidden": "true" });
   for (let bearing = 0; bearing < 360; bearing += 5) {
     const length = bearing % 30 === 0 ? 11 : bearing % 10 === 0 ? 8 : 4;
     const from = onCircle(bearing, RADIUS).map(short);

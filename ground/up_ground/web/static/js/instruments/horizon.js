@@ -74,7 +74,7 @@ function ballOf() {
 }
 
 function ladderOf() {
-  const ladder = svg("g", { class: "ladder" });
+  const ladder = svg("g", { class: "ladder", "aria-hidden": "true" });
   for (const { pitch_deg, halfWidth, label } of rungs()) {
     const y = -pitch_deg * UNITS_PER_DEG;
     const dash = pitch_deg < 0 ? "5 3" : "none";

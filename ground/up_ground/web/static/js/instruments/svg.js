@@ -17,14 +17,14 @@ export function svg(tag, attributes = {}, ...children) {
 }
 
 /**
- * A drawing that fills its place; readers hear its label, not its lines.
+ * A drawing that fills its place; its figures are read, scales within are hidden from readers.
  * @param {string} viewBox
  * @param {string} label
  * @param {...Node} children
  * @returns {SVGElement}
  */
 export function drawing(viewBox, label, ...children) {
-  return svg("svg", { viewBox, role: "img", "aria-label": label }, ...children);
+  return svg("svg", { viewBox, role: "group", "aria-label": label }, ...children);
 }
 
 /**

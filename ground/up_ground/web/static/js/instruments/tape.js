@@ -49,7 +49,7 @@ export class Tape {
       { class: "tape" },
       svg("defs", {}, svg("clipPath", { id: clip }, svg("rect", box))),
       svg("rect", { ...box, class: "tape-ground" }),
-      svg("g", { "clip-path": `url(#${clip})` }, this.#moving),
+      svg("g", { "clip-path": `url(#${clip})`, "aria-hidden": "true" }, this.#moving),
       hatch(`${clip}-hatch`, box),
       svg("path", { d: windowPath(x, width, isLeft), class: "tape-window" }),
       this.#number,

@@ -1,0 +1,31 @@
+const LEVELS = ["none", "info", "warning", "alarm"];
+
+/**
+ * @param {{level: string}[]} alarms
+ * @returns {"none"|"info"|"warning"|"alarm"}
+ */
+export function worstLevel(alarms) {
+  const worst = Math.max(0, ...alarms.map((each) => LEVELS.indexOf(each?.level)));
+  return LEVELS[worst];
+}
+
+/**
+ * What there is to be alarmed about; what the page notices itself stands before what it was told.
+ * @param {{alarms: object[], aircraftState: string}} store
+ * @param {{isOpen: boolean}} connection
+ * @returns {{level: string, text: string|null}} text: in two words; null: not known
+ */
+export function alarmOf(store, connection) {
+  if (!connection.isOpen) {
+    return { level: "alarm", text: "no server" };
+  }
+  const level = worstLevel(store.alarms);
+  if (level !== "alarm" && store.aircraftState === "silent") {
+    return { level: "alarm", text: "silent" };
+  }
+  if (level === "none") {
+    return { level, text: store.aircraftState === "live" ? "none" : null };
+  }
+  const worst = store.alarms.filter((each) => each.level === level);
+  return { level, text: worst.length === 1 ? String(worst[0].kind) : `${worst.length} alarms` };
+}

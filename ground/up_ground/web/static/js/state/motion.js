@@ -1,0 +1,92 @@
+const EARTH_RADIUS_M = 6371009;
+const LONGEST_S = 6;
+const SHORTEST_S = 0.4;
+const KEPT = 16;
+const WINDOW_S = 2.2;
+const JITTER_S = 0.05;
+const AGAIN_S = 0.3;
+
+/**
+ * Ground speed and vertical speed, worked out from the positions and altitudes that telemetry
+ * brings: it carries neither. Null until two different fixes came.
+ */
+export class Motion {
+  #places = [];
+  #altitudes = [];
+  groundSpeed_m_s = null;
+  climb_m_s = null;
+
+  /**
+   * @param {number|null} latitude
+   * @param {number|null} longitude
+   * @param {number|null} at_s when it was measured, by the page's clock
+   */
+  place(latitude, longitude, at_s) {
+    if (latitude === null || longitude === null || at_s === null) {
+      return;
+    }
+    if (keep(this.#places, { at_s, latitude, longitude }, isSamePlace)) {
+      this.groundSpeed_m_s = rate(this.#places, distance_m);
+    }
+  }
+
+  /**
+   * @param {number|null} altitude_m
+   * @param {number|null} at_s
+   */
+  height(altitude_m, at_s) {
+    if (altitude_m === null || at_s === null) {
+      return;
+    }
+    if (keep(this.#altitudes, { at_s, altitude_m }, isSameHeight)) {
+      this.climb_m_s = rate(this.#altitudes, (from, to) => to.altitude_m - from.altitude_m);
+    }
+  }
+}
+
+/** A fix is told in many frames; only a newer one counts, and ages jitter by a few ms. */
+function keep(list, fix, isSame) {
+  const last = list.at(-1);
+  const since_s = last === undefined ? Infinity : fix.at_s - last.at_s;
+  if (since_s < JITTER_S || (since_s < AGAIN_S && isSame(last, fix))) {
+    return false;
+  }
+  if (since_s > LONGEST_S) {
+    list.length = 0;
+  }
+  list.push(fix);
+  list.splice(0, Math.max(0, list.length - KEPT));
+  return true;
+}
+
+function rate(list, difference) {
+  const last = list.at(-1);
+  const from = list.find((each) => last.at_s - each.at_s <= WINDOW_S && each !== last) ?? list.at(-2);
+  const time_s = from === undefined ? 0 : last.at_s - from.at_s;
+  if (time_s < SHORTEST_S) {
+    return null;
+  }
+  return difference(from, last) / time_s;
+}
+
+function isSamePlace(one, other) {
+  return one.latitude === other.latitude && one.longitude === other.longitude;
+}
+
+function isSameHeight(one, other) {
+  return one.altitude_m === other.altitude_m;
+}
+
+/**
+ * @param {{latitude: number, longitude: number}} from
+ * @param {{latitude: number, longitude: number}} to
+ * @returns {number} metres, for places near each other
+ */
+export function distance_m(from, to) {
+  const radians = Math.PI / 180;
+  const north = (to.latitude - from.latitude) * radians;
+  const middle = ((to.latitude + from.latitude) / 2) * radians;
+  let east_deg = to.longitude - from.longitude;
+  east_deg -= Math.round(east_deg / 360) * 360;
+  return EARTH_RADIUS_M * Math.hypot(north, east_deg * radians * Math.cos(middle));
+}
