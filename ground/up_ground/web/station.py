@@ -6,18 +6,30 @@ from collections.abc import Iterable
 from typing import Any
 
 from up.protocols.general_message import GeneralMessage
+from up.system.clock import Timer
 from up_ground.ground_link import GroundLink
+from up_ground.link_status import LinkState
+from up_ground.safe_text import safe_text
 from up_ground.settings import Settings
 from up_ground.telemetry import Telemetry
 from up_ground.token_store import TokenStore
+from up_ground.web.alarms import LinkFacts
+from up_ground.web.allowance import Allowance
 from up_ground.web.command_desk import CommandDesk
 from up_ground.web.commands import Checks
 from up_ground.web.control import Control
+from up_ground.web.facts import INFO, WARNING
+from up_ground.web.home import Home
+from up_ground.web.judge import Judge
 from up_ground.web.messages import FrameMessage
 from up_ground.web.page import Page
 from up_ground.web.page_message import PageFault, Reader
 from up_ground.web.seat_at_proxy import SeatAtProxy
+from up_ground.web.track import Track
 from up_ground.web.watched import Audience
+
+TICK_S = 0.25
+"""So often what time alone changes is looked at."""
 
 
 class Station:
@@ -52,6 +64,13 @@ class Station:
             lambda message: audience.tell(name, message),
             self._on_outcome,
         )
+        self.judge = Judge(name, lambda message: audience.tell(name, message))
+        self._track = Track()
+        self._home = Home()
+        # What pages do is worth an event, but not a flood of them.
+        self._notes = Allowance(reactor, rate_hz=1.0, most=20.0)
+        self._tick: Timer | None = None
+        self._has_board: bool | None = None
         self._was_open = False
         self._was_online: bool | None = None
 
@@ -64,9 +83,12 @@ class Station:
     def start(self) -> None:
         """Begin to connect."""
         self.link.start()
+        self._on_tick()
 
     async def stop(self) -> None:
         """Leave the seat and give the link up."""
+        if self._tick is not None:
+            self._tick.cancel()
         self.control.stop()
         self.desk.stop()
         await self.link.stop()
@@ -83,9 +105,21 @@ class Station:
             )
             self._frame = frame
             self._audience.show_frame(self.name, frame)
-            self.desk.on_moment()
+            self._look_at(came_s)
         else:
             self.desk.on_message(message)
+
+    def _look_at(self, now_s: float) -> None:
+        """See what a frame means, after it has left for the pages."""
+        telemetry = self.telemetry
+        self._track.take(telemetry)
+        self._home.take(telemetry)
+        self.judge.on_frame(telemetry, self._facts(now_s), now_s)
+        has_board = telemetry.flag("arduino", "connected")
+        if has_board and self._has_board is False:
+            self.desk.want_gains()
+        self._has_board = has_board
+        self.desk.on_moment()
 
     def on_link(self) -> None:
         """Hear of the link."""
@@ -95,6 +129,9 @@ class Station:
         if status.is_aircraft_online and not self._was_online:
             self.desk.want_gains()
         self._was_open, self._was_online = status.is_open, status.is_aircraft_online
+        now_s = self._reactor.seconds()
+        if status.state is not LinkState.CONNECTING and (status.is_open or status.connections):
+            self.judge.on_link(self._facts(now_s), now_s)
         self.control.on_seat()
         self.desk.on_moment()
         self._show_status()
@@ -105,6 +142,8 @@ class Station:
 
     def past(self) -> Iterable[dict[str, Any]]:
         """Return what a page is told that begins to watch."""
+        yield self._track.message(self.name)
+        yield from self.judge.past(self._reactor.seconds())
         yield self.desk.gains_message()
         if self.desk.profile is not None:
             yield self.desk.profile_message()
@@ -144,7 +183,7 @@ class Station:
             },
             "role": role if role in ("observer", "operator", "pilot") else None,
             "tune_in_flight": telemetry.flag("ground", "tune_in_flight"),
-            "home": None,
+            "home": self._home.told(),
         }
 
     def on_control(self, page: Page, action: str, to: int | None) -> None:
@@ -180,11 +219,29 @@ class Station:
         """Hear that it will not come back."""
         self.control.on_gone(page)
 
+    def _on_tick(self) -> None:
+        self._tick = self._reactor.callLater(TICK_S, self._on_tick)
+        now_s = self._reactor.seconds()
+        self.judge.on_moment(self.telemetry, self._facts(now_s), now_s)
+
+    def _facts(self, now_s: float) -> LinkFacts:
+        status = self.link.status
+        return LinkFacts(
+            status.is_open,
+            status.reason,
+            status.is_aircraft_online,
+            self.telemetry.frames > 0,
+            self.telemetry.is_silent(now_s),
+        )
+
     def _on_control_news(self, text: str) -> None:
-        """Hear who controls now."""
+        if self._notes.take():
+            self.judge.note("command", INFO, safe_text(text, 300), self._reactor.seconds())
 
     def _on_outcome(self, text: str, is_good: bool) -> None:
-        """Hear what became of a Command."""
+        if self._notes.take():
+            level = INFO if is_good else WARNING
+            self.judge.note("command", level, safe_text(text, 400), self._reactor.seconds())
 
     def _show_status(self) -> None:
         self._audience.show_status(self.name)

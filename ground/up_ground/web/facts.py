@@ -1,0 +1,114 @@
+"""What of a frame is worth an event when it changes, and its words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from up_ground.telemetry import Telemetry
+
+INFO, WARNING, ALARM = "info", "warning", "alarm"
+
+Words = Callable[[Any, Any], tuple[str, str] | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """A value of the frame: ``read`` returns it or None (not known, which is no change).
+
+    ``words(before, now)`` returns level and text of the change, None where it is none; ``before``
+    is None for the first value.
+    """
+
+    key: str
+    kind: str
+    read: Callable[[Telemetry], Any]
+    words: Words
+
+
+def _flag(key: str, kind: str, path: str, bad: bool, said_bad: str, said_good: str,
+          level: str = WARNING) -> Fact:  # fmt: skip
+    """Return a fact that is said when it becomes bad, and when it is good again."""
+    steps = path.split(".")
+
+    def words(before: Any, now: Any) -> tuple[str, str] | None:
+        if now is bad:
+            return level, said_bad
+        return None if before is None else (INFO, said_good)
+
+    return Fact(key, kind, lambda telemetry: telemetry.flag(*steps), words)
+
+
+def _armed(before: Any, now: Any) -> tuple[str, str] | None:
+    if before is None:
+        return (WARNING, "the aircraft is armed") if now else None
+    return (WARNING, "armed") if now else (INFO, "disarmed")
+
+
+def _named(what: str) -> Words:
+    def words(before: Any, now: Any) -> tuple[str, str] | None:
+        return None if before is None else (INFO, f"{what} {now} (was {before})")
+
+    return words
+
+
+def _vetoes(before: Any, now: Any) -> tuple[str, str] | None:
+    is_armed, vetoes = now
+    if before is None and not vetoes:
+        return None
+    if before is not None and before[1] == vetoes:
+        return None
+    if not vetoes:
+        return INFO, "nothing speaks against arming any more"
+    against = "against arming again" if is_armed else "against arming"
+    return INFO, f"{against}: {'; '.join(vetoes)}"[:400]
+
+
+def _read_vetoes(telemetry: Telemetry) -> Any:
+    vetoes = telemetry.texts("vetoes")
+    return None if vetoes is None else (bool(telemetry.flag("armed")), tuple(sorted(vetoes)))
+
+
+def _restored(before: Any, now: Any) -> tuple[str, str] | None:
+    if not now:
+        return None
+    return ALARM, "the board was reset in flight and went on as before"
+
+
+def _source(reading: str) -> Fact:
+    def words(before: Any, now: Any) -> tuple[str, str] | None:
+        return None if before is None else (WARNING, f"{reading} comes from {now} (was {before})")
+
+    return Fact(
+        f"source {reading}",
+        "source",
+        lambda telemetry: telemetry.text("source", reading),
+        words,
+    )
+
+
+def _role(before: Any, now: Any) -> tuple[str, str] | None:
+    return None if before is None else (WARNING, f"the ground is {now} now (was {before})")
+
+
+FACTS: tuple[Fact, ...] = (
+    Fact("flight mode", "mode", lambda t: t.text("flight_mode"), _named("flight mode")),
+    Fact("mode", "mode", lambda t: t.text("mode"), _named("mode")),
+    Fact("switch", "mode", lambda t: t.text("arduino", "switch"), _named("the switch stands at")),
+    Fact("armed", "armed", lambda t: t.flag("armed"), _armed),
+    _flag("failsafe", "failsafe", "arduino.failsafe", True,
+          "failsafe: the board flies without a receiver", "the failsafe is over", ALARM),
+    _flag("receiver", "failsafe", "arduino.receiver_valid", False,
+          "the receiver is lost", "the receiver is back"),
+    _flag("imu", "source", "arduino.imu_valid", False,
+          "the IMU is invalid: nothing stabilises", "the IMU is valid", ALARM),
+    Fact("restored", "source", lambda t: t.flag("arduino", "restored"), _restored),
+    _flag("board", "link", "arduino.connected", False, "the board is gone", "the board is back",
+          ALARM),
+    _flag("phone", "link", "android.connected", False, "the phone is gone", "the phone is here"),
+    _flag("panic", "panic", "load.panic", True, "panic: every sender slows down", "panic is over"),
+    Fact("vetoes", "veto", _read_vetoes, _vetoes),
+    Fact("role", "link", lambda t: t.text("ground", "role", limit=12), _role),
+    *(_source(each) for each in ("orientation", "location", "altitude", "heading", "battery")),
+)  # fmt: skip

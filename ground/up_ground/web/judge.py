@@ -1,0 +1,131 @@
+"""What happens to an aircraft, in plain words: events, and what is wrong now."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from up_ground.telemetry import Telemetry
+from up_ground.web.alarms import Alarms, LinkFacts
+from up_ground.web.facts import ALARM, FACTS, INFO, WARNING, Fact
+from up_ground.web.settled import Settled
+
+EVENTS_KEPT = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happened; ``at_s`` is the clock's, on the ground."""
+
+    number: int
+    at_s: float
+    level: str
+    kind: str
+    text: str
+
+    def message(self, aircraft: str, now_s: float, is_past: bool) -> dict[str, Any]:
+        """Return what pages are told."""
+        fields: dict[str, Any] = {
+            "type": "event",
+            "aircraft": aircraft,
+            "number": self.number,
+            "age_ms": round(max(0.0, now_s - self.at_s) * 1000),
+            "level": self.level,
+            "kind": self.kind,
+            "text": self.text,
+        }
+        if is_past:
+            fields["is_past"] = True
+        return fields
+
+
+class Judge:
+    """Hears frames and the link, and says each change once; what flaps is said seldom.
+
+    ``tell`` gets the messages for the pages.
+    """
+
+    def __init__(self, aircraft: str, tell: Callable[[dict[str, Any]], object]) -> None:
+        self._aircraft = aircraft
+        self._tell = tell
+        self._events: deque[Event] = deque(maxlen=EVENTS_KEPT)
+        self._settled = Settled()
+        self._alarms = Alarms()
+        self._number = 0
+
+    def note(self, kind: str, level: str, text: str, now_s: float, late_s: float = 0.0) -> None:
+        """Say that something happened, ``late_s`` ago."""
+        self._number += 1
+        event = Event(self._number, now_s - late_s, level, kind, text)
+        self._events.append(event)
+        self._tell(event.message(self._aircraft, now_s, is_past=False))
+
+    def on_frame(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> None:
+        """Look at a new frame."""
+        for fact in FACTS:
+            value = fact.read(telemetry)
+            if value is not None:
+                self._settled.take(fact.key, value, now_s, partial(self._say, fact, now_s))
+        self.on_moment(telemetry, link, now_s)
+
+    def on_link(self, link: LinkFacts, now_s: float) -> None:
+        """Look at the link."""
+        state: tuple[bool, bool | None] = (link.is_open, link.is_aircraft_online)
+
+        def say(before: Any, now: Any) -> None:
+            level, text = _link_words(link, before, now)
+            if text:
+                self.note("link", level, text, now_s)
+
+        self._settled.take("link", state, now_s, say)
+
+    def on_moment(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> None:
+        """Look at what time alone has changed."""
+        self._settled.on_moment(now_s)
+        if self._alarms.take(telemetry, link, now_s):
+            kinds = {each.kind for each in self._alarms.active}
+            for kind, gone, back in (
+                ("silent", "no telemetry any more", "telemetry comes again"),
+                ("battery", "the phone's battery is low", "the phone's battery is charged"),
+            ):
+                self._say_alarm(kind, kind in kinds, gone, back, now_s)
+            self._tell(self._alarms.message(self._aircraft))
+
+    def past(self, now_s: float) -> Iterator[dict[str, Any]]:
+        """Yield what a page is told that comes later."""
+        for event in self._events:
+            yield event.message(self._aircraft, now_s, is_past=True)
+        yield self._alarms.message(self._aircraft)
+
+    def _say(self, fact: Fact, now_s: float, before: Any, now: Any) -> None:
+        said = fact.words(before, now)
+        if said is not None:
+            self.note(fact.kind, said[0], said[1], now_s)
+
+    def _say_alarm(self, kind: str, is_on: bool, gone: str, back: str, now_s: float) -> None:
+        def say(before: Any, now: Any) -> None:
+            if now:
+                self.note(_KINDS[kind], ALARM if kind == "silent" else WARNING, gone, now_s)
+            elif before is not None:
+                self.note(_KINDS[kind], INFO, back, now_s)
+
+        self._settled.take(f"alarm {kind}", is_on, now_s, say)
+
+
+_KINDS = {"silent": "link", "battery": "battery"}
+
+
+def _link_words(link: LinkFacts, before: Any, now: Any) -> tuple[str, str]:
+    is_open, is_online = now
+    if not is_open:
+        if before is None:
+            return INFO, ""
+        return WARNING, f"the link to the proxy is gone: {link.reason}"[:300]
+    if is_online is False:
+        return WARNING, "the aircraft is not connected to the proxy"
+    if is_online:
+        return INFO, "the aircraft is connected"
+    return INFO, "the link is there"
