@@ -65,8 +65,8 @@ class Facts:
 
     @cached_property
     def log_lines(self) -> list[LogLine]:
-        """Return the warnings and errors of the program's log, and what was refused."""
-        return [line for line in self._all_lines() if line.level >= 3 or " refused " in line.text]
+        """Return the warnings and errors of the program's log, and what is told of the rest."""
+        return [line for line in self._all_lines() if line.level >= 3 or _is_told(line.text)]
 
     @cached_property
     def last_telemetry(self) -> dict[str, Any]:
@@ -125,6 +125,10 @@ class Facts:
                 str(each.data.get("name", "")),
                 str(each.data.get("message", "")),
             )
+
+
+def _is_told(text: str) -> bool:
+    return " refused " in text or text.startswith("records again, ")
 
 
 def _after_first(states: Iterable[tuple[float, bool | None]]) -> Iterator[tuple[float, bool]]:
