@@ -243,6 +243,20 @@ def _add_page(parser: argparse.ArgumentParser, environ: Mapping[str, str]) -> No
         help="another name under which the page is opened, besides this machine's own",
     )
     parser.add_argument(
+        "--tiles",
+        default=environ.get("UP_GROUND_TILES", ""),
+        metavar="URL",
+        help="where this server fetches the pictures of the map, with {z}, {x} and {y} in it; they"
+        " are kept on disk (default: none, the map has a grid alone)",
+    )
+    parser.add_argument(
+        "--attribution",
+        type=_attribution,
+        default="",
+        metavar="TEXT",
+        help="whose map it is, as its owner wants it to be shown",
+    )
+    parser.add_argument(
         "--watch-only", action="store_true", help="no page may control, whatever it brings"
     )
     parser.add_argument(
@@ -257,6 +271,12 @@ def _add_page(parser: argparse.ArgumentParser, environ: Mapping[str, str]) -> No
 def _host_name(text: str) -> str:
     if not _HOST_NAME.fullmatch(text):
         raise argparse.ArgumentTypeError(f"a name is letters, digits, dots and -, not {text!r}")
+    return text
+
+
+def _attribution(text: str) -> str:
+    if len(text) > 200:
+        raise argparse.ArgumentTypeError("an attribution has at most 200 characters")
     return text
 
 

@@ -170,6 +170,7 @@ def serve(options: argparse.Namespace) -> int:
 
     try:
         chosen, listen = web.fleet_of(options), web.listen_of(options)
+        make_tiles = web.tiles_of(options, os.environ)
     except web.ServeError as error:
         return _usage([printable(str(error))])
     access = web.access_of(options, listen)
@@ -182,6 +183,8 @@ def serve(options: argparse.Namespace) -> int:
             lambda audience: web.make_stations(reactor, chosen, os.environ, audience),
             say=say,
             complain=complain,
+            tiles=make_tiles and make_tiles(reactor),
+            attribution=options.attribution,
         )
 
     return run(make)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import secrets
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from up_ground.catalogue import Catalogue
@@ -14,8 +14,12 @@ from up_ground.web.access import Access, machine_names
 from up_ground.web.commands import Checks
 from up_ground.web.fleet import AIRCRAFT_LIMIT, parse_aircraft
 from up_ground.web.listen_address import ListenAddress, parse_listen
+from up_ground.web.site import Tiles
 from up_ground.web.station import Station
+from up_ground.web.tile_cache import TileCache, cache_folder
 from up_ground.web.watched import Audience, WatchedAircraft
+
+MakeTiles = Callable[[Any], Tiles]
 
 
 class ServeError(ValueError):
@@ -44,6 +48,21 @@ def listen_of(options: argparse.Namespace) -> ListenAddress:
         return parse_listen(options.listen)
     except ValueError as error:
         raise ServeError(str(error)) from None
+
+
+def tiles_of(options: argparse.Namespace, environ: Mapping[str, str]) -> MakeTiles | None:
+    """Return what makes the source of the map's pictures; None: no map. Raises ServeError."""
+    source = options.tiles
+    if not source:
+        return None
+    # Here, because its library takes long to load and most flights have no map.
+    from up_ground.web.tiles import TileSource, source_fault
+
+    fault = source_fault(source)
+    if fault:
+        raise ServeError(f"--tiles: {fault}")
+    cache = TileCache(cache_folder(environ), source)
+    return lambda reactor: TileSource(reactor, source, cache)
 
 
 def access_of(options: argparse.Namespace, listen: ListenAddress) -> Access:

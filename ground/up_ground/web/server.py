@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -36,17 +36,21 @@ class Server(Errand):
         say: Say,
         complain: Say,
         tiles: Tiles | None = None,
-        tiles_told: Mapping[str, Any] | None = None,
+        attribution: str = "",
         is_replay: bool = False,
         folder: Path = STATIC,
     ) -> None:
         super().__init__(say, complain)
-        self.pages = Pages(reactor, access, tiles=tiles_told, is_replay=is_replay)
+        told = None
+        if tiles is not None:
+            told = {"url": "/tiles/{z}/{x}/{y}", "attribution": attribution}
+        self.pages = Pages(reactor, access, tiles=told, is_replay=is_replay)
         for aircraft in make_fleet(self.pages):
             self.pages.fleet[aircraft.name] = aircraft
         self._reactor = reactor
         self._listen = listen
         self._access = access
+        self._tiles = tiles
         link = link_resource(reactor, self.pages)
         files = StaticFiles(folder)
         resource = GroundResource(access, files, link, self.pages.is_full, tiles)
@@ -82,6 +86,8 @@ class Server(Errand):
         if port is None:
             return
         self.pages.stop()
+        if self._tiles is not None:
+            self._tiles.stop()
         for aircraft in self.pages.fleet.values():
             await aircraft.stop()
         await port.stopListening()

@@ -41,6 +41,9 @@ class Tiles(Interface):
     def render(self, request: Any) -> Any:
         """Answer a request for one."""
 
+    def stop(self) -> None:
+        """Fetch nothing any more."""
+
 
 class GroundResource(Resource):
     """The one resource of the site: every request passes its checks and gets its headers."""
@@ -147,10 +150,9 @@ def send(request: Any, content: bytes) -> bytes:
 
 
 def finish(request: Any, content: bytes) -> None:
-    """Answer a request that was left open."""
-    body = send(request, content)
-    if body:
-        request.write(body)
+    """Answer a request that was left open; ``content`` is its body as `send` returned it."""
+    if content:
+        request.write(content)
     request.finish()
 
 

@@ -1,0 +1,171 @@
+"""The map's pictures, fetched by the server so that a page never asks anybody else."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections import deque
+from typing import Any
+
+from twisted.internet.defer import Deferred
+from twisted.internet.protocol import Protocol, connectionDone
+from twisted.python.failure import Failure
+from twisted.web import http
+from twisted.web.client import Agent, HTTPConnectionPool, ResponseDone
+from twisted.web.http_headers import Headers
+from twisted.web.server import NOT_DONE_YET
+
+from up.version import VERSION
+from up_ground.web.site import finish, refuse, send
+from up_ground.web.tile_cache import TileCache
+
+CONNECT_S = 5.0
+FETCH_S = 15.0
+LARGEST_TILE = 1 << 20
+AT_ONCE = 4
+WAITING_LIMIT = 256
+DEEPEST_ZOOM = 22
+_PATH = re.compile(rb"/tiles/([0-9]{1,2})/([0-9]{1,8})/([0-9]{1,8})")
+_SOURCE = re.compile(r"https?://[^\s\"'<>\\]{1,500}")
+_KINDS = ((b"\x89PNG\r\n\x1a\n", b"image/png"), (b"\xff\xd8\xff", b"image/jpeg"))
+
+Tile = tuple[int, int, int]
+
+
+def source_fault(source: str) -> str:
+    """Return why an address is none of a source of tiles; empty: it is."""
+    if not _SOURCE.fullmatch(source) or not source.isascii():
+        return f"{source!r} is no address that begins with http:// or https://"
+    missing = [each for each in ("{z}", "{x}", "{y}") if each not in source]
+    if missing:
+        return f"{source!r} has no {' and no '.join(missing)}: write .../{{z}}/{{x}}/{{y}}.png"
+    return ""
+
+
+class TileSource:
+    """Answers with a tile of the cache or of ``source``; few are fetched at once, each once."""
+
+    def __init__(self, reactor: Any, source: str, cache: TileCache) -> None:
+        self._reactor = reactor
+        self._source = source
+        self._cache = cache
+        pool = HTTPConnectionPool(reactor, persistent=False)
+        self._agent = Agent(reactor, connectTimeout=CONNECT_S, pool=pool)
+        self._asked: dict[Tile, list[Any]] = {}
+        self._waiting: deque[Tile] = deque()
+        self._busy: dict[Tile, Deferred[Any]] = {}
+
+    def stop(self) -> None:
+        """Fetch nothing any more."""
+        self._waiting.clear()
+        self._asked.clear()
+        for each in list(self._busy.values()):
+            each.cancel()
+
+    def render(self, request: Any) -> Any:
+        """Answer a request for a tile."""
+        match = _PATH.fullmatch(request.path)
+        z, x, y = (int(each) for each in match.groups()) if match else (99, 0, 0)
+        if z > DEEPEST_ZOOM or max(x, y) >= 1 << z:
+            return refuse(request, http.NOT_FOUND, "there is no such tile")
+        content = self._cache.get(z, x, y)
+        if content is not None:
+            return _answer(request, content)
+        tile = (z, x, y)
+        if tile not in self._asked:
+            if len(self._waiting) >= WAITING_LIMIT:
+                return refuse(request, http.SERVICE_UNAVAILABLE, "too many tiles are asked for")
+            self._asked[tile] = []
+            self._waiting.append(tile)
+        self._asked[tile].append(request)
+        request.notifyFinish().addErrback(lambda _: self._forget(tile, request))
+        self._go_on()
+        return NOT_DONE_YET
+
+    def _forget(self, tile: Tile, request: Any) -> None:
+        requests = self._asked.get(tile, [])
+        if request in requests:
+            requests.remove(request)
+
+    def _go_on(self) -> None:
+        while self._waiting and len(self._busy) < AT_ONCE:
+            tile = self._waiting.popleft()
+            if not self._asked.get(tile):
+                # Whoever wanted it has moved the map on.
+                self._asked.pop(tile, None)
+                continue
+            fetched = Deferred.fromCoroutine(self._fetch(tile))
+            self._busy[tile] = fetched
+            fetched.addTimeout(FETCH_S, self._reactor)
+            fetched.addCallbacks(self._cache_it, lambda _: None, callbackArgs=(tile,))
+            fetched.addCallback(self._hand_out, tile)
+
+    async def _fetch(self, tile: Tile) -> bytes | None:
+        url = self._source
+        for name, number in zip(("{z}", "{x}", "{y}"), tile, strict=True):
+            url = url.replace(name, str(number))
+        headers = Headers({"User-Agent": [f"up-ground/{VERSION} (ground station of Raspilot)"]})
+        response: Any = await self._agent.request(b"GET", url.encode("ascii"), headers)
+        body = _Body()
+        response.deliverBody(body)
+        content = await body.done
+        return content if response.code == http.OK and _kind(content) else None
+
+    def _cache_it(self, content: bytes | None, tile: Tile) -> bytes | None:
+        if content is not None:
+            self._cache.put(*tile, content)
+        return content
+
+    def _hand_out(self, content: bytes | None, tile: Tile) -> None:
+        self._busy.pop(tile, None)
+        for request in self._asked.pop(tile, []):
+            if content is None:
+                _finish_refused(request)
+            else:
+                finish(request, _answer(request, content))
+        self._go_on()
+
+
+def _finish_refused(request: Any) -> None:
+    """Answer that the source gave nothing."""
+    finish(request, refuse(request, http.BAD_GATEWAY, "the source of the map gave no tile"))
+
+
+class _Body(Protocol):
+    """Takes a bounded answer."""
+
+    def __init__(self) -> None:
+        self.done: Deferred[bytes] = Deferred(lambda _: self._abort())
+        self._content = b""
+
+    def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
+        """Take a part."""
+        self._content += data
+        if len(self._content) > LARGEST_TILE:
+            self._abort()
+
+    def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
+        """Take the end."""
+        is_whole = reason.check(ResponseDone) and len(self._content) <= LARGEST_TILE
+        if not self.done.called:
+            self.done.callback(self._content if is_whole else b"")
+
+    def _abort(self) -> None:
+        transport: Any = self.transport
+        transport.abortConnection()
+
+
+def _kind(content: bytes) -> bytes:
+    for mark, kind in _KINDS:
+        if content.startswith(mark):
+            return kind
+    is_webp = content[:4] == b"RIFF" and content[8:12] == b"WEBP"
+    return b"image/webp" if is_webp else b""
+
+
+def _answer(request: Any, content: bytes) -> bytes:
+    request.setHeader(b"content-type", _kind(content))
+    tag = b'"%b"' % hashlib.sha256(content).hexdigest()[:24].encode("ascii")
+    if request.setETag(tag) is http.CACHED:
+        return b""
+    return send(request, content)
