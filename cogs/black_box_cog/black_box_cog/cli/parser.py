@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
+from black_box_cog.cli.mixed_parser import MixedParser
 from up.cli.plugin_verbs import add_plugin_verbs
 from up.cli.verb import add_verb
 
@@ -52,7 +53,7 @@ def add(verbs: Any) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     log.set_defaults(parser=log)
-    below = log.add_subparsers(title="verbs", metavar="VERB")
+    below = log.add_subparsers(title="verbs", metavar="VERB", parser_class=MixedParser)
     _add_list(below)
     _add_info(below)
     _add_export(below)
@@ -115,9 +116,9 @@ def _add_export(verbs: Any) -> None:
 
 
 def _add_plot(verbs: Any) -> None:
-    plot = add_verb(
-        verbs, "plot", "black_box_cog.cli.plot_verb", "draw a flight as a picture", epilog=_PLOT
-    )
+    module, text = "black_box_cog.cli.plot_verb", "draw a flight as a picture"
+    plot = cast(MixedParser, add_verb(verbs, "plot", module, text, epilog=_PLOT))
+    plot.is_mixed = True
     take_flight(plot)
     plot.add_argument("field", nargs="*", metavar="FIELD", help="like up.orientation.update.roll")
     _take_output(plot, "PNG", "the picture (default: named after the flight)")

@@ -26,21 +26,35 @@ class PictureError(Exception):
 class Sheet:
     """A figure on which everything is placed in inches from its upper left corner."""
 
-    def __init__(self, figure: Figure, theme: Theme) -> None:
+    def __init__(
+        self, figure: Figure, theme: Theme, place: tuple[float, float, float, float] | None = None
+    ) -> None:
         self.theme = theme
         self._figure = figure
-        self.width, self.height = map(float, figure.get_size_inches())
+        self._paper = tuple(map(float, figure.get_size_inches()))
+        self._left, self._top, self.width, self.height = place or (0.0, 0.0, *self._paper)
+
+    def part(self, left: float, top: float, width: float, height: float) -> Sheet:
+        """Return a part of this sheet as a sheet of its own."""
+        place = (self._left + left, self._top + top, width, height)
+        return Sheet(self._figure, self.theme, place)
 
     def axes(self, left: float, top: float, width: float, height: float) -> Axes:
         """Return new axes at a place."""
+        paper_width, paper_height = self._paper
         return self._figure.add_axes(
             (
-                left / self.width,
-                1 - (top + height) / self.height,
-                width / self.width,
-                height / self.height,
+                (self._left + left) / paper_width,
+                1 - (self._top + top + height) / paper_height,
+                width / paper_width,
+                height / paper_height,
             )
         )
+
+    def size_of(self, axes: Axes) -> tuple[float, float]:
+        """Return how wide and how high axes are, inches."""
+        box = axes.get_position()
+        return box.width * self._paper[0], box.height * self._paper[1]
 
     def text_width(self, words: str, size: float) -> float:
         """Return how many inches wide words are."""

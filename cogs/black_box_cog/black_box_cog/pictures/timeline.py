@@ -12,17 +12,20 @@ from black_box_cog.pictures.chart import Curve, Panel, Stage, drawable
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-STRIP_IN, PANEL_IN, HEAD_IN, FOOT_IN = 0.22, 1.45, 0.4, 0.42
+STRIP_IN, PANEL_IN, FOOT_IN = 0.22, 1.45, 0.42
+HEAD_IN, NARROW_HEAD_IN, NARROW_IN = 0.4, 0.58, 6.0
+"""Above a panel: its title and its legend, one below the other where it is narrow."""
 LEFT_IN, RIGHT_IN, RIGHT_AXIS_IN = 0.62, 0.22, 0.5
 _NAME_PT = 8.0
 _STEPS_S = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200)
 _LABEL_IN = 0.8
 
 
-def timeline_height_in(panels: Sequence[Panel], stage: Stage) -> float:
+def timeline_height_in(panels: Sequence[Panel], stage: Stage, width_in: float) -> float:
     """Return how high the picture of these panels is."""
     strip_in = STRIP_IN if stage.bands else 0.0
-    return strip_in + sum(HEAD_IN + PANEL_IN * panel.share for panel in panels) + FOOT_IN
+    head_in = _head_in(width_in)
+    return strip_in + sum(head_in + PANEL_IN * panel.share for panel in panels) + FOOT_IN
 
 
 def draw_timeline(sheet: Sheet, panels: Sequence[Panel], stage: Stage) -> None:
@@ -34,7 +37,7 @@ def draw_timeline(sheet: Sheet, panels: Sequence[Panel], stage: Stage) -> None:
         _draw_strip(sheet, stage, width_in)
         top_in = STRIP_IN
     for number, panel in enumerate(panels, 1):
-        top_in += HEAD_IN
+        top_in += _head_in(sheet.width)
         height_in = PANEL_IN * panel.share
         axes = sheet.axes(LEFT_IN, top_in, width_in, height_in)
         axes.set_xlim(0.0, _end_s(stage))
@@ -70,6 +73,10 @@ def limits(panel: Panel, is_right: bool) -> tuple[float, float] | None:
     extra = max(0.0, least - (high - low)) / 2 + 0.06 * max(high - low, least)
     # What cannot be below nothing is not drawn so.
     return (min(low, 0.0) if low >= 0 > low - extra else low - extra), high + extra
+
+
+def _head_in(width_in: float) -> float:
+    return NARROW_HEAD_IN if width_in < NARROW_IN else HEAD_IN
 
 
 def _end_s(stage: Stage) -> float:
@@ -118,18 +125,20 @@ def _draw_panel(axes: Axes, panel: Panel, sheet: Sheet) -> None:
             each.set_ylim(*ends)
             each.locator_params(axis="y", nbins=5)
     axes.set_ylabel(panel.unit)
-    axes.set_title(panel.title, loc="left", size=9.5, weight="bold", pad=6)
-    if len(handles) > 1 or panel.curves[0].label != panel.title:
-        axes.legend(
-            handles=handles,
-            loc="lower right",
-            bbox_to_anchor=(1.0, 1.0),
-            ncol=len(handles),
-            borderaxespad=0.1,
-            handlelength=1.8,
-            handletextpad=0.5,
-            columnspacing=1.2,
-        )
+    is_narrow = sheet.width < NARROW_IN
+    axes.set_title(panel.title, loc="left", size=9.5, weight="bold", pad=19 if is_narrow else 6)
+    axes.legend(
+        handles=handles,
+        loc="lower left" if is_narrow else "lower right",
+        bbox_to_anchor=(0.0 if is_narrow else 1.0, 1.0),
+        ncol=len(handles),
+        borderaxespad=0.1,
+        borderpad=0.1 if is_narrow else 0.4,
+        fontsize=7.5 if is_narrow else 8.5,
+        handlelength=1.4 if is_narrow else 1.8,
+        handletextpad=0.4,
+        columnspacing=0.9 if is_narrow else 1.2,
+    )
 
 
 def _draw_curve(axes: Axes, curve: Curve, sheet: Sheet) -> list[Any]:

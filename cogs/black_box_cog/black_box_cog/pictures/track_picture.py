@@ -80,15 +80,14 @@ def draw_track(sheet: Sheet, view: TrackView) -> None:
     _frame(axes, path, view.truth, sheet)
     axes.set_xlabel("metres east of home")
     axes.set_ylabel("metres north of home")
-    axes.set_title("Track from above", loc="left", size=9.5, weight="bold", pad=6)
     axes.legend(
         loc="lower right",
         bbox_to_anchor=(1.0, 1.0),
         ncol=4,
         borderaxespad=0.1,
-        handlelength=1.4,
-        handletextpad=0.4,
-        columnspacing=1.0,
+        handlelength=1.1,
+        handletextpad=0.3,
+        columnspacing=0.8,
     )
     if view.wind is not None and view.wind.speed_m_s >= 0.1:
         _draw_wind(axes, view.wind, sheet)
@@ -134,8 +133,8 @@ def _frame(axes: Axes, path: Path, truth: Path | None, sheet: Sheet) -> None:
     paths = [path] if truth is None else [path, truth]
     east = [0.0, *(each.east_m[at] for each in paths for at in _known(each))]
     north = [0.0, *(each.north_m[at] for each in paths for at in _known(each))]
-    box = axes.get_position()
-    ratio = (box.width * sheet.width) / (box.height * sheet.height)
+    width_in, height_in = sheet.size_of(axes)
+    ratio = width_in / height_in
     half_north = max((max(north) - min(north)), (max(east) - min(east)) / ratio, LEAST_M) * 0.57
     middle = ((max(east) + min(east)) / 2, (max(north) + min(north)) / 2)
     axes.set_xlim(middle[0] - half_north * ratio, middle[0] + half_north * ratio)
@@ -144,28 +143,29 @@ def _frame(axes: Axes, path: Path, truth: Path | None, sheet: Sheet) -> None:
 
 
 def _draw_wind(axes: Axes, wind: Wind, sheet: Sheet) -> None:
-    """Draw where the wind blows to, in the upper right corner."""
+    """Draw where the wind blows to, above the upper left corner."""
     to_rad = math.radians(wind.from_deg + 180)
-    box = axes.get_position()
-    reach_in = 0.17
-    dx = reach_in * math.sin(to_rad) / (box.width * sheet.width)
-    dy = reach_in * math.cos(to_rad) / (box.height * sheet.height)
-    x, y = 1 - 0.3 / (box.width * sheet.width), 1 - 0.3 / (box.height * sheet.height)
+    width_in, height_in = sheet.size_of(axes)
+    reach_in = 0.14
+    dx = reach_in * math.sin(to_rad) / width_in
+    dy = reach_in * math.cos(to_rad) / height_in
+    x, y = 0.15 / width_in, 1 + 0.2 / height_in
     axes.annotate(
         "",
         (x + dx, y + dy),
         xytext=(x - dx, y - dy),
         xycoords="axes fraction",
         textcoords="axes fraction",
+        annotation_clip=False,
         arrowprops={"arrowstyle": "-|>", "color": sheet.theme.sky, "lw": 2, "mutation_scale": 13},
         zorder=7,
     )
     axes.text(
-        x - 0.25 / (box.width * sheet.width),
+        0.38 / width_in,
         y,
         f"wind {wind.speed_m_s:.1f} m/s",
         transform=axes.transAxes,
-        ha="right",
+        ha="left",
         va="center",
         size=8.5,
         color=sheet.theme.muted,

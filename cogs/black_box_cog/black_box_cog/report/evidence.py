@@ -84,6 +84,12 @@ def evidence_of(log: FlightLog) -> Evidence:
     )
 
 
+def bands_of(log: FlightLog) -> list[Band]:
+    """Return which mode flew when, without the rest of the evidence."""
+    is_told = STATE in log.topics
+    return list(_bands(log, [] if is_told else [(each.time_s, each.data) for each in frames(log)]))
+
+
 def _told(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
     known = [topic for topic in topics if topic in log.topics]
     if known:
@@ -137,7 +143,9 @@ def _held_up(frame_list: list[tuple[float, dict[str, Any]]]) -> Series:
 def _silences(log: FlightLog) -> dict[str, Series]:
     """Return how long the silence was in which each moment lies: of board, phone and ground."""
     found = {}
-    for name, topics in (("board", BOARD_TOPICS), ("phone", PHONE_TOPICS)):
+    positions = _first_link(log, LOCATION)
+    phone = "phone" if positions in ("", "android") else f"positions ({positions})"
+    for name, topics in (("board", BOARD_TOPICS), (phone, PHONE_TOPICS)):
         times_s = sorted(
             time_s for topic in topics if topic in log.topics for time_s in log.times(topic)
         )
@@ -147,6 +155,10 @@ def _silences(log: FlightLog) -> dict[str, Series]:
     if ground:
         found["ground"] = ground
     return found
+
+
+def _first_link(log: FlightLog, topic: str) -> str:
+    return next((link_and_role(data.get(KEY))[0] for _, data in _told(log, topic)), "")
 
 
 def _silence(times_s: list[float], end_s: float) -> Series:

@@ -38,9 +38,9 @@ def image_sets(findings: Findings) -> Iterator[ImageSet]:
             "track", lambda sheet: draw_track(sheet, track), TRACK_WIDE_IN, TRACK_NARROW_IN
         )
     for picture in findings.pictures:
-        height_in = timeline_height_in(picture.panels, findings.stage)
-        paint = partial(draw_timeline, panels=picture.panels, stage=findings.stage)
-        yield _drawn(picture.name, paint, (WIDE_IN, height_in), (NARROW_IN, height_in))
+        panels, stage = picture.panels, findings.stage
+        sizes = [(each, timeline_height_in(panels, stage, each)) for each in (WIDE_IN, NARROW_IN)]
+        yield _drawn(picture.name, partial(draw_timeline, panels=panels, stage=stage), *sizes)
 
 
 def _drawn(

@@ -105,11 +105,13 @@ def _channels(evidence: Evidence) -> Picture:
 
 
 def _links(evidence: Evidence) -> Picture:
-    colours = {"board": ("blue", "-"), "phone": ("orange", "--"), "ground": ("green", "-.")}
+    colours = {"board": ("blue", "-"), "ground": ("green", "-.")}
     curves = [
         curve
         for name, series in evidence.silences.items()
-        for curve in _curve(name, series, *colours[name], is_step=True, gap_s=1e9)
+        for curve in _curve(
+            name, series, *colours.get(name, ("orange", "--")), is_step=True, gap_s=1e9
+        )
     ]
     caption = (
         "How long the silence between two words was: a step up is a silence, as high as it was"
