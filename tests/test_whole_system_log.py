@@ -21,7 +21,9 @@ from tests.support.showcase import LIMIT_S, Showcase, wait
 
 FLOWN_S = 8.0
 LOST_S = 1.0
-OFF_DEG = 3.0
+OFF_DEG = 2.0
+MEANWHILE_S = 0.1
+"""How late one of two processes may be heard on a busy machine."""
 
 
 class Log:
@@ -82,16 +84,20 @@ def flight(tmp_path_factory):
 
 
 def test_a_daemon_that_is_killed_leaves_a_log_to_its_last_second(flight):
-    """The truth has the flight's own time: what the state log had when the daemon died."""
+    """What the state log had when the daemon died, by the flight's own time.
+
+    The truth has that time; what it is now and then told by is slowed in Panic Mode, and what the
+    board says never.
+    """
     assert "raspilot ended by itself with signal 9" in flight.showcase.said()
     assert flight.log.is_cut, "nobody has finished it"
     for topic in ("simulator.truth", "up.orientation.update", "up.servo.update"):
         times_s = [time_s for time_s, _ in flight.log.messages[topic]]
         assert times_s == sorted(times_s)
-    logged_s, newest_s = flight.log.series("simulator.truth", "time_s")[-1]
-    assert flight.killed_s - newest_s < LOST_S, (flight.killed_s, newest_s)
+    logged_s, flown_s = flight.log.series("simulator.truth", "time_s")[-1]
     for topic in ("up.orientation.update", "up.servo.update", "up.rx.update"):
-        assert logged_s - flight.log.messages[topic][-1][0] < 0.5, topic
+        newest_s = flown_s + flight.log.messages[topic][-1][0] - logged_s
+        assert flight.killed_s - newest_s < LOST_S, (topic, flight.killed_s, newest_s)
 
 
 def test_commands_and_outputs_are_in_it_with_their_origins(flight):
@@ -108,26 +114,23 @@ def test_commands_and_outputs_are_in_it_with_their_origins(flight):
     (sent,) = messages["up.telemetry.frequency"]
     assert sent[1]["frequency"] == 50 and "pilot" in sent[1]["_origin"]
     assert messages["up.flight.state"][-1][1]["flight_mode"] == "FBW"
-    assert len(messages["up.telemetry.update"]) > 20
+    assert len(messages["up.telemetry.update"]) > 3
     assert any("the Arduino answers" in data["message"] for _, data in messages["log"])
 
 
 def test_the_truth_is_beside_the_estimate(flight):
-    """The roll that the firmware told and the true one at equal times of the log."""
+    """At equal times of the log the firmware told the true roll; how many there are is Panic's."""
     truth = flight.log.series("simulator.truth", "roll_deg")
-    assert len(truth) > 15 * (FLOWN_S - 3)
     told = flight.log.series("up.orientation.update", "roll")
-    assert max(roll for _, roll in truth) - min(roll for _, roll in truth) > 4, "it rolls"
+    assert max(abs(roll) for _, roll in truth) > 5, "it banks"
     off_deg = []
-    for time_s, roll in told:
-        at = bisect_left(truth, (time_s, -360.0))
-        if 0 < at < len(truth):
-            (before_s, before), (after_s, after) = truth[at - 1], truth[at]
-            share = (time_s - before_s) / max(after_s - before_s, 1e-9)
-            off_deg.append(abs(before + share * (after - before) - roll))
-    assert len(off_deg) > 100
-    off_deg.sort()
-    assert off_deg[int(0.95 * len(off_deg))] < OFF_DEG
+    for time_s, roll in truth:
+        first, last = (bisect_left(told, (time_s + by_s,)) for by_s in (-MEANWHILE_S, MEANWHILE_S))
+        meanwhile = [each for _, each in told[first:last]]
+        if meanwhile:
+            off_deg.append(max(min(meanwhile) - roll, roll - max(meanwhile), 0.0))
+    assert len(off_deg) > 3
+    assert sorted(off_deg)[int(0.95 * len(off_deg))] < OFF_DEG
 
 
 def test_the_configuration_that_flew_is_attached(flight):
@@ -161,5 +164,5 @@ def test_a_run_that_is_stopped_leaves_a_whole_log(tmp_path):
         summary = reader.get_summary()
         topics = {channel.topic for channel in summary.channels.values()}
         count = sum(1 for _ in reader.iter_messages())
-    assert summary.statistics.message_count == count > 300
+    assert summary.statistics.message_count == count > 100
     assert {"up.orientation.update", "simulator.truth", "log"} <= topics
