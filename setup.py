@@ -77,13 +77,15 @@ setup(
     extras_require={
         "ground": ["autobahn>=24.4"],
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
-        "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6"],
+        "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6", "mcap>=1.2"],
         "dev": [
             "autobahn>=24.4",
             "pytest>=8",
             "pytest-xdist>=3",
             "pytest-timeout>=2.3",
             "hypothesis>=6.100",
+            "mcap>=1.2",
+            "gpxpy>=1.6",
             "ruff>=0.6",
             "mypy>=1.11",
             "import-linter>=2.0",

@@ -15,6 +15,7 @@ SUBJECTS = {
     "startup": "start to ports bound, and memory",
     "load": "CPU of the daemon in flight and idle",
     "recorder": "what recording the flight costs",
+    "flight_log": "writing and reading flight logs beside the official package",
     "relay": "the proxy beside HAProxy and socat",
     "firmware": "the compiled firmware in the AVR simulator",
     "simulator": "the virtual aircraft against the clock",

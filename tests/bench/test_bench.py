@@ -6,7 +6,18 @@ import sys
 import pytest
 
 from bench import __main__ as program
-from bench import bus, cascade, codecs, firmware, latency, load, recorder, simulator, startup
+from bench import (
+    bus,
+    cascade,
+    codecs,
+    firmware,
+    flight_log,
+    latency,
+    load,
+    recorder,
+    simulator,
+    startup,
+)
 from bench.board import Board, terminal
 from bench.processes import running
 from bench.table import Row
@@ -22,6 +33,7 @@ SUBJECTS = {
     "startup": (startup, 2),
     "load": (load, 2),
     "recorder": (recorder, 5),
+    "flight_log": (flight_log, 4),
 }
 
 

@@ -1,0 +1,189 @@
+"""The flight log's writer and reader beside the official ``mcap`` package, in turns.
+
+The log is that of a flight: 300 messages a second, attitude and receiver fastest, telemetry ten
+times a second. CPU time of this process, the best of several rounds.
+"""
+
+import gc
+import json
+import math
+import tempfile
+import time
+from collections.abc import Callable, Iterable, Iterator
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from bench.table import Row
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.mcap_writer import McapWriter
+
+PEER = "mcap (official)"
+MINUTES, QUICK_MINUTES = 60, 1
+ROUNDS, QUICK_ROUNDS = 3, 1
+WRITE_TARGET, READ_TARGET = 2.0, 2.0
+START_NS = 1_700_000_000_000_000_000
+TICK_NS = 10_000_000
+ROLL = "up.orientation.update"
+_STICKS = {"ailerons": 1500, "elevator": 1512, "throttle": 1234, "rudder": 1500}
+_ANGLES = {"roll": 12.345678, "pitch": -3.2345, "yaw": 123.456, "roll_rate": 1.23456}
+_ORIGIN = {"_origin": "arduino (board)"}
+TOPICS: dict[str, tuple[int, bytes]] = {
+    ROLL: (1, json.dumps({**_ANGLES, "sequence": 12345, **_ORIGIN}).encode()),
+    "up.rx.update": (1, json.dumps({**_STICKS, "valid": 63, **_ORIGIN}).encode()),
+    "up.servo.update": (1, json.dumps({**_STICKS, **_ORIGIN}).encode()),
+    "up.telemetry.update": (10, json.dumps({f"part{n}": _ANGLES for n in range(12)}).encode()),
+    "arduino.status": (20, json.dumps({f"field{n}": n for n in range(13)}).encode()),
+    "up.location.update": (100, json.dumps({"latitude": 50.0, "longitude": 14.0}).encode()),
+}
+"""Every how many ticks of 10 ms, and what."""
+
+Put = Callable[[int, int, bytes], object]
+
+
+def messages(minutes: float) -> Iterator[tuple[int, int, bytes]]:
+    """Yield (number of the topic, time in ns, data) of a flight."""
+    topics = list(enumerate(TOPICS.values()))
+    for tick in range(round(minutes * 6000)):
+        time_ns = START_NS + tick * TICK_NS
+        for number, (every, data) in topics:
+            if tick % every == 0:
+                yield number, time_ns, data
+
+
+def write_ours(write: Callable[[bytes], object], minutes: float) -> tuple[int, float]:
+    """Write a flight; return its messages and the CPU seconds of writing them."""
+    writer = McapWriter(write)
+    writer.start()
+    channels = [
+        writer.add_channel(topic, writer.add_schema(topic, {"type": "object"})) for topic in TOPICS
+    ]
+    count, spent_s = _put_all(
+        minutes, lambda number, time_ns, data: writer.message(channels[number], time_ns, data)
+    )
+    writer.finish()
+    return count, spent_s
+
+
+def write_theirs(official: Any, path: Path, minutes: float) -> tuple[int, float]:
+    """Write the same by the official package, unchunked and uncompressed too."""
+    with path.open("wb") as file:
+        writer = official.Writer(
+            file, use_chunking=False, compression=official.CompressionType.NONE
+        )
+        writer.start()
+        channels = [
+            writer.register_channel(
+                topic, "json", writer.register_schema(topic, "jsonschema", b'{"type":"object"}')
+            )
+            for topic in TOPICS
+        ]
+        counts = _put_all(
+            minutes,
+            lambda number, time_ns, data: writer.add_message(
+                channels[number], time_ns, data, time_ns
+            ),
+        )
+        writer.finish()
+    return counts
+
+
+def read_theirs(reader: Any, path: Path) -> int:
+    """Read every message by the official package, checksum and all."""
+    with path.open("rb") as file:
+        records = reader.StreamReader(file, validate_crcs=True).records
+        return sum(hasattr(record, "channel_id") for record in records)
+
+
+def series_theirs(reader: Any, path: Path) -> int:
+    """Read one number of one topic by the official package."""
+    with path.open("rb") as file:
+        found = reader.make_reader(file).iter_messages(topics=[ROLL])
+        return len([json.loads(message.data)["roll"] for _, _, message in found])
+
+
+def rows(quick: bool = False) -> Iterable[Row]:
+    """Yield what a message costs to write, and how fast a log is read."""
+    minutes, rounds = (QUICK_MINUTES, QUICK_ROUNDS) if quick else (MINUTES, ROUNDS)
+    try:
+        official, stream, reader = map(
+            import_module, ("mcap.writer", "mcap.stream_reader", "mcap.reader")
+        )
+    except ImportError:
+        official = None
+    with tempfile.TemporaryDirectory(prefix="up-bench-") as folder:
+        mine, theirs = Path(folder, "ours.mcap"), Path(folder, "theirs.mcap")
+        write_us, peers_us = math.inf, math.inf
+        for _ in range(rounds):
+            with mine.open("wb") as file:
+                count, spent_s = write_ours(file.write, minutes)
+            write_us = min(write_us, spent_s / count * 1e6)
+            if official is not None:
+                count, spent_s = write_theirs(official, theirs, min(minutes, 10))
+                peers_us = min(peers_us, spent_s / count * 1e6)
+        yield _row("flight log, a message written", write_us, peers_us, "us", WRITE_TARGET)
+        megabytes = mine.stat().st_size / 1e6
+        read_s = _best_s(rounds, lambda: FlightLog.read([mine]))
+        log = FlightLog.read([mine])
+        series_s = _best_s(rounds, lambda: log.series(ROLL, "roll"))
+        peer_read_s = peer_series_s = math.inf
+        if official is not None:
+            peer_read_s = _best_s(1, lambda: read_theirs(stream, mine))
+            peer_series_s = _best_s(1, lambda: series_theirs(reader, mine))
+    what = f"flight log of {minutes} min, {megabytes:.0f} MB"
+    yield _row(f"{what}, read and checked", read_s, peer_read_s, "s", READ_TARGET)
+    yield Row(
+        "the same, a second",
+        f"{megabytes / read_s:.0f} MB",
+        PEER,
+        f"{megabytes / peer_read_s:.0f} MB" if official is not None else "not installed",
+    )
+    yield _row(f"{what}, one number of one topic", series_s, peer_series_s, "s", None)
+
+
+def _put_all(minutes: float, put: Put) -> tuple[int, float]:
+    """Write a flight by batches, so that making the messages is not counted."""
+    count, spent_s = 0, 0.0
+    batch: list[tuple[int, int, bytes]] = []
+    for each in messages(minutes):
+        batch.append(each)
+        if len(batch) == 1000:
+            spent_s += _spent_s(batch, put)
+            count += len(batch)
+            batch.clear()
+    spent_s += _spent_s(batch, put)
+    return count + len(batch), spent_s
+
+
+def _spent_s(batch: list[tuple[int, int, bytes]], put: Put) -> float:
+    began = time.process_time()
+    for number, time_ns, data in batch:
+        put(number, time_ns, data)
+    return time.process_time() - began
+
+
+def _best_s(rounds: int, work: Callable[[], object]) -> float:
+    best_s = math.inf
+    for _ in range(rounds):
+        gc.collect()
+        began = time.process_time()
+        work()
+        best_s = min(best_s, time.process_time() - began)
+    return best_s
+
+
+def _row(what: str, ours: float, peers: float, unit: str, target: float | None) -> Row:
+    digits = 2 if unit == "us" else 3
+    wanted = f">= {target:g}x faster" if target is not None else ""
+    if math.isinf(peers):
+        return Row(what, f"{ours:.{digits}f} {unit}", PEER, "not installed", "", wanted)
+    ratio = peers / ours
+    return Row(
+        what,
+        f"{ours:.{digits}f} {unit}",
+        PEER,
+        f"{peers:.{digits}f} {unit}",
+        f"{ratio:.1f}x faster" if ratio >= 1 else f"{1 / ratio:.1f}x slower",
+        wanted,
+        None if target is None else ratio >= target,
+    )
