@@ -1,0 +1,176 @@
+"""Raspilot as a user runs it, with a phone that speaks: stopped, killed, two at once."""
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from black_box_cog.flight_file import flight_files
+
+from tests.cogs.black_box_cog.flights import lines_in, messages
+from tests.proxy.program import until
+from up.flight_log.flight_log import FlightLog
+
+ROOT = Path(__file__).parents[3]
+CONFIG = {
+    "config.yml": "mode: black box\n",
+    "android.yml": "general port: 0\norientation port: 0\naddress: 127.0.0.1\n",
+}
+
+
+class Aircraft:
+    """A daemon in Black Box Mode and its phone."""
+
+    def __init__(self, folder, flights, watched=False, environ=None, **black_box):
+        folder.mkdir()
+        settings = {"keep free (MB)": 0, **({"folder": str(flights)} if flights else {})}
+        files = {**CONFIG, "black_box.yml": json.dumps({**settings, **black_box})}
+        for name, text in files.items():
+            (folder / name).write_text(text)
+        self.notes = folder / "notes"
+        command = (
+            ["-m", "tests.cogs.black_box_cog.daemon", folder, flights, self.notes]
+            if watched
+            else ["main.py", "--config", folder]
+        )
+        self.log = ""
+        self.process = subprocess.Popen(
+            [sys.executable, *map(str, command)],
+            cwd=ROOT,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, **(environ or {})},
+        )
+        threading.Thread(target=self._read, daemon=True).start()
+        port = int(self.said(r"general listens on port (\d+)")[1])
+        self.phone = socket.create_connection(("127.0.0.1", port))
+        self.battery = 0
+
+    def _read(self):
+        for line in self.process.stderr:
+            self.log += line
+
+    def said(self, pattern):
+        return until(lambda: re.search(pattern, self.log), f"{pattern} in {self.log}")
+
+    def speak(self):
+        """Say a level of the battery that was not said before."""
+        self.battery += 1
+        data = {"level": self.battery / 10}
+        self.phone.sendall(json.dumps({"name": "android.battery", "data": data}).encode() + b"\n")
+
+    def stop(self, number=signal.SIGTERM):
+        self.process.send_signal(number)
+        status = self.process.wait(30)
+        self.phone.close()
+        self.process.stderr.close()
+        return status
+
+
+@pytest.fixture
+def aircraft(tmp_path):
+    running = []
+
+    def start(name="one", flights=tmp_path / "flights", **more):
+        running.append(Aircraft(tmp_path / name, flights, **more))
+        return running[-1]
+
+    yield start
+    for each in running:
+        if each.process.poll() is None:
+            each.process.kill()
+            each.process.wait()
+
+
+def levels_in(path):
+    return [data["level"] for topic, _, data in messages(path) if topic == "android.battery"]
+
+
+def only_file(folder):
+    (found,) = flight_files(folder)
+    return found.path
+
+
+def test_stopped_it_leaves_a_whole_file(aircraft, tmp_path):
+    one = aircraft()
+    for _ in range(50):
+        one.speak()
+    one.said("records the flight into")
+    one.speak()
+    until(lambda: 5.1 in levels_in(only_file(tmp_path / "flights")), "the last word")
+    assert one.stop() == 0
+    log = FlightLog.read([only_file(tmp_path / "flights")])
+    assert log.is_complete and not log.problems
+    assert log.series("android.battery", "level")[1] == [number / 10 for number in range(1, 52)]
+    assert {"config/config.yml", "config/android.yml"} <= set(log.attachments)
+    assert log.metadata["flight"]["mode"] == "black box"
+    # Nobody is on the ground: the recorder asked for telemetry.
+    assert log.topics["up.telemetry.update"] > 0
+    assert "stopping: SIGTERM" in lines_in(log.paths[0])
+
+
+def test_killed_it_leaves_a_file_that_lacks_a_second_at_most(aircraft, tmp_path):
+    one = aircraft()
+    one.speak()
+    one.said("records the flight into")
+    path = only_file(tmp_path / "flights")
+    said = []
+    while len(said) < 100:
+        one.speak()
+        said.append((time.monotonic(), one.battery / 10))
+        time.sleep(0.02)
+    until(lambda: levels_in(path)[-1:] and levels_in(path)[-1] > 5, "half of it in the file")
+    one.stop(signal.SIGKILL)
+    found = FlightLog.read([path])
+    assert not found.is_complete
+    levels = found.series("android.battery", "level")[1]
+    assert levels == [number / 10 for number in range(1, len(levels) + 1)]
+    assert len(levels) > 50
+
+
+def test_a_daemon_that_nobody_speaks_to_leaves_nothing(aircraft, tmp_path):
+    one = aircraft()
+    one.said("modules run")
+    one.stop()
+    assert not (tmp_path / "flights").exists()
+
+
+def test_two_daemons_share_a_folder(aircraft, tmp_path):
+    both = [aircraft("one"), aircraft("two")]
+    for each in both:
+        each.speak()
+        each.said("records the flight into")
+    for each in both:
+        assert each.stop() == 0
+    files = flight_files(tmp_path / "flights")
+    assert [each.number for each in files] == [1, 2]
+    assert all(FlightLog.read([each.path]).is_complete for each in files)
+
+
+def test_the_default_folder_is_that_of_the_user(aircraft, tmp_path):
+    one = aircraft(flights=None, environ={"XDG_STATE_HOME": str(tmp_path / "state")})
+    one.speak()
+    one.said("records the flight into")
+    one.stop()
+    assert len(flight_files(tmp_path / "state" / "raspilot" / "flights")) == 1
+
+
+def test_the_reactors_thread_never_touches_the_folder(aircraft, tmp_path):
+    one = aircraft(watched=True)
+    for _ in range(20):
+        one.speak()
+    one.said("records the flight into")
+    one.phone.sendall(b'{"name": "black_box.record", "data": {"topic": "a.b", "content": {}}}\n')
+    path = only_file(tmp_path / "flights")
+    until(lambda: "a.b" in {topic for topic, _, _ in messages(path)}, "the record")
+    assert one.stop() == 0
+    notes = [line.split() for line in one.notes.read_text().splitlines()]
+    assert {"open", "os.scandir"} <= {event for event, _ in notes}
+    assert {thread for _, thread in notes} == {"Thread-BlackBox"}

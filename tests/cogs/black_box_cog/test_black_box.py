@@ -1,0 +1,356 @@
+"""The module in a system: on the reactor, with its real thread and files."""
+
+import threading
+
+import pytest
+from black_box_cog.commands.mark_command import MarkCommand
+from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.flight_file import flight_files
+from black_box_cog.modules import black_box
+from black_box_cog.modules.black_box import BlackBox
+from twisted.internet.task import Clock
+from twisted.logger import Logger
+
+from tests.cogs.black_box_cog.flights import (
+    BOARD,
+    GROUND,
+    PHONE,
+    TestedDisk,
+    lines_in,
+    messages,
+    numbers_in,
+)
+from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.system import build_up, started
+from tests.up.commands.samples import Log
+from up.base_started_module import BaseStartedModule
+from up.commands.orientation_command import OrientationCommand
+from up.commands.origin import INTERNAL
+from up.commands.roles import Role
+from up.commands.telemetry_commands import TelemetryCommand
+from up.flight_log.flight_log import FlightLog
+from up.protocols.general_message import GeneralMessage, decode
+from up.telemetry_controller import TelemetryController
+
+
+class Talkative(BaseStartedModule):
+    """Says something at its start and at its stop."""
+
+    def _execute_start(self):
+        self._log_info("opened a port")
+        return True
+
+    def _execute_stop(self):
+        self._log_info("closed a port")
+
+
+class System:
+    """A system with a black box, run by a test's coroutine on the real reactor."""
+
+    def __init__(self, folder, modules=(BlackBox,), **config):
+        self.flights = folder / "flights"
+        lines = [f"{key}: {value}" for key, value in {"keep free (MB)": 0, **config}.items()]
+        text = "\n".join([f'folder: "{self.flights}"', *lines]) + "\n"
+        self.up = build_up(modules, reactor, folder / "config", config={"black_box.yml": text})
+        for cls in (MarkCommand, RecordCommand):
+            self.up.command_executor.registry.add(cls)
+        self.box = self.up.get_module(BlackBox)
+        self.answers = []
+
+    def publish(self, number, origin=BOARD):
+        self.up.command_executor.execute_command(
+            OrientationCommand(float(number), 0.0, 0.0), origin
+        )
+
+    def say(self, role, name, data):
+        """Send a message over a link of that role; return the code of the answer, or ack."""
+        sent = []
+        link = self.up.open_link("peer", role, sent.append, role_key="test.yml: role")
+        self.up.command_receiver.receive(GeneralMessage(name, data, "a"), link)
+        answer = decode(sent[0])
+        return answer.data.get("code", "ack"), answer.data.get("reason", "")
+
+    async def recording(self):
+        await until(lambda: self.box.recorder.status.recording, what="a file")
+
+    @property
+    def files(self):
+        return [each.path for each in flight_files(self.flights)]
+
+
+def test_a_flight_from_the_start_to_the_stop(tmp_path):
+    async def fly():
+        system = System(tmp_path, (Talkative, BlackBox))
+        life = await started(system.up)
+        for number in range(100):
+            system.publish(number)
+        await system.recording()
+        system.publish(100)
+        await life.stop()
+        return system.files
+
+    (path,) = run_in_reactor(fly)
+    assert numbers_in(path) == list(range(101))
+    log = FlightLog.read([path])
+    assert log.is_complete and not log.problems
+    assert {"up.link.state", "up.orientation.update", "log"} >= set(log.topics) - {
+        "up.telemetry.update"
+    }
+    # It starts first and stops last.
+    assert "opened a port" in lines_in(path) and "closed a port" in lines_in(path)
+    assert log.metadata["flight"].keys() >= {"aircraft", "mode", "flight_controller", "instance"}
+    assert log.metadata["versions"]["black_box_cog"] == "0.1.0"
+    assert "config/black_box.yml" in log.attachments
+
+
+def test_no_call_to_the_disk_is_made_on_the_reactors_thread(tmp_path, monkeypatch):
+    monkeypatch.setattr(black_box, "Disk", TestedDisk)
+
+    async def fly():
+        system = System(tmp_path)
+        life = await started(system.up)
+        for number in range(3000):
+            system.publish(number)
+        await system.recording()
+        system.say(Role.OPERATOR, "black_box.mark", {"text": "now"})
+        system.say(Role.SENSOR, "black_box.record", {"topic": "a.b", "content": {}})
+        system.up.get_module(TelemetryController).collect()
+        system.box.disk.refuse["write"] = 5
+        system.publish(1)
+        await until(lambda: system.box.recorder.status.problem, what="the problem")
+        system.say(Role.OPERATOR, "black_box.mark", {"text": "too late"})
+        await life.stop()
+        return system.box.disk
+
+    disk = run_in_reactor(fly)
+    assert {"create", "write", "sync", "close", "make_folder", "free_bytes"} <= set(disk.calls)
+    assert len(disk.threads) == 1
+    assert threading.get_ident() not in disk.threads
+
+
+def test_a_mark_is_an_event_of_the_log(tmp_path):
+    async def fly():
+        system = System(tmp_path)
+        life = await started(system.up)
+        answers = [
+            system.say(Role.OPERATOR, "black_box.mark", {"text": "thermal"})[0],
+            system.say(Role.OBSERVER, "black_box.mark", {"text": "no"})[0],
+            system.say(Role.OPERATOR, "black_box.mark", {"text": "x" * 201})[0],
+        ]
+        await system.recording()
+        await life.stop()
+        return answers, system.files[0]
+
+    answers, path = run_in_reactor(fly)
+    assert answers == ["ack", "forbidden", "invalid"]
+    found = [(topic, data) for topic, _, data in messages(path) if topic != "up.telemetry.update"]
+    assert ("black_box.mark", {"text": "thermal", "_origin": "peer (operator)"}) in found
+    assert "mark: thermal" in lines_in(path)
+
+
+def test_a_record_is_logged_once_under_its_topic(tmp_path):
+    async def fly():
+        system = System(tmp_path)
+        life = await started(system.up)
+        content = {"speed": 12.5, "name": "äöü"}
+        answers = [
+            system.say(Role.SENSOR, "black_box.record", {"topic": "pitot.air", "content": content}),
+            system.say(Role.SENSOR, "black_box.record", {"topic": "up.rx.update", "content": {}}),
+            system.say(Role.OPERATOR, "black_box.record", {"topic": "a.b", "content": {}}),
+        ]
+        await system.recording()
+        await life.stop()
+        return answers, system.files[0]
+
+    answers, path = run_in_reactor(fly)
+    assert [code for code, _ in answers] == ["ack", "refused", "forbidden"]
+    assert answers[1][1] == "the topic up.rx.update is a Command's"
+    found = [(topic, data) for topic, _, data in messages(path)]
+    assert ("pitot.air", {"speed": 12.5, "name": "äöü", "_origin": "peer (sensor)"}) in found
+    assert "black_box.record" not in {topic for topic, _ in found}
+
+
+def test_what_cannot_be_recorded_is_refused_with_the_reason(tmp_path):
+    (tmp_path / "flights").write_text("a file")
+
+    async def fly():
+        system = System(tmp_path)
+        life = await started(system.up)
+        system.publish(1)
+        await until(lambda: system.box.recorder.status.problem, what="the problem")
+        answers = [
+            system.say(Role.OPERATOR, "black_box.mark", {"text": "thermal"}),
+            system.say(Role.SENSOR, "black_box.record", {"topic": "a.b", "content": {}}),
+        ]
+        content = system.up.get_module(TelemetryController).collect()["black_box"]
+        await life.stop()
+        return answers, content
+
+    answers, content = run_in_reactor(fly)
+    reason = f"the flight is not recorded: {tmp_path}/flights: File exists"
+    assert answers == [("refused", reason)] * 2
+    assert content == {
+        "recording": False,
+        "file": None,
+        "megabytes": 0.0,
+        "dropped": 0,
+        "problem": f"{tmp_path}/flights: File exists",
+    }
+
+
+def test_telemetry_tells_the_file(tmp_path):
+    async def fly():
+        system = System(tmp_path)
+        life = await started(system.up)
+        system.publish(1)
+        await system.recording()
+        content = system.up.get_module(TelemetryController).collect()["black_box"]
+        await life.stop()
+        return content, system.files[0]
+
+    content, path = run_in_reactor(fly)
+    assert content.pop("megabytes") >= 0
+    assert content == {"recording": True, "file": path.name, "dropped": 0, "problem": None}
+
+
+@pytest.mark.parametrize(
+    ("origin", "wanted"), [(BOARD, True), (PHONE, True), (GROUND, False), (INTERNAL, False)]
+)
+def test_frames_are_wanted_while_board_or_phone_speak(tmp_path, origin, wanted):
+    async def fly():
+        system = System(tmp_path, always="true")
+        controller = system.up.get_module(TelemetryController)
+        life = await started(system.up)
+        before = controller.is_wanted
+        await system.recording()
+        system.publish(1, origin)
+        await until(lambda: len(system.box.intake) == 0, what="the thread's look")
+        during = controller.is_wanted
+        system.box.recorder.last_source_s -= black_box.SOURCE_S
+        after = controller.is_wanted
+        await life.stop()
+        return before, during, after
+
+    assert run_in_reactor(fly) == (False, wanted, False)
+
+
+def test_a_flight_without_a_ground_has_telemetry(tmp_path):
+    async def fly():
+        system = System(tmp_path)
+        life = await started(system.up)
+        system.publish(1)
+        frames = []
+        system.up.command_executor.add_observer(
+            lambda command, _: isinstance(command, TelemetryCommand) and frames.append(command)
+        )
+        await until(lambda: frames and frames[-1].content["black_box"]["recording"], what="frames")
+        await life.stop()
+        return system.files[0]
+
+    path = run_in_reactor(fly)
+    frames = [data for topic, _, data in messages(path) if topic == "up.telemetry.update"]
+    assert frames[-1]["black_box"]["file"] == path.name and "_beacon" in frames[-1]
+
+
+def test_no_telemetry_is_asked_for_where_it_is_not_wished(tmp_path):
+    async def fly():
+        system = System(tmp_path, telemetry="false")
+        life = await started(system.up)
+        system.publish(1)
+        await system.recording()
+        wanted = system.up.get_module(TelemetryController).is_wanted
+        await life.stop()
+        return wanted
+
+    assert run_in_reactor(fly) is False
+
+
+def test_disabled_it_is_not_loaded(tmp_path):
+    up = build_up(
+        [BlackBox], Clock(), tmp_path, config={"black_box.yml": "enabled: false\n"}, builtins=False
+    )
+    assert up.get_module(BlackBox) is None
+
+
+def test_what_was_never_started_hears_nothing_and_opens_nothing(tmp_path):
+    system = System(tmp_path)
+    system.publish(1)
+    Logger().info("said")
+    assert len(system.box.intake) == 0 and not system.flights.exists()
+
+
+def test_one_that_is_excluded_observes_no_more(tmp_path):
+    clock = Clock()
+    up = build_up([BlackBox], clock, tmp_path, config={"black_box.yml": f'folder: "{tmp_path}"\n'})
+    box = up.get_module(BlackBox)
+    with up.registrations_of(box).noted():
+        box._execute_start()
+    up.exclude(box, "test")
+    up.command_executor.execute_command(OrientationCommand(1.0, 2.0, 3.0), BOARD)
+    Logger().info("said")
+    assert all(type(subject).__name__ == "LogLine" for _, subject, _ in box.intake.take(100))
+
+
+def test_its_log_lines_make_no_circle(tmp_path):
+    async def fly():
+        system = System(tmp_path)
+        with Log() as log:
+            life = await started(system.up)
+            system.publish(1)
+            await system.recording()
+            await life.stop()
+        return log.text(), system.files[0]
+
+    text, path = run_in_reactor(fly)
+    assert text.count("records the flight into") == 1
+    assert sum("records the flight into" in line for line in lines_in(path)) == 1
+
+
+def test_debug_lines_and_twisteds_own_talk_stay_out(tmp_path):
+    async def fly():
+        system = System(tmp_path)
+        life = await started(system.up)
+        Logger(namespace="Part").debug("too fine")
+        Logger(namespace="twisted.internet").info("starting factory")
+        Logger(namespace="Part").warn("{what} is low", what="the battery")
+        system.publish(1)
+        await system.recording()
+        await life.stop()
+        return system.files[0]
+
+    path = run_in_reactor(fly)
+    assert not {"too fine", "starting factory"} & set(lines_in(path))
+    levels = {d["message"]: (d["level"], d["name"]) for t, _, d in messages(path) if t == "log"}
+    assert levels["the battery is low"] == (3, "Part")
+
+
+def test_a_disk_that_hangs_keeps_neither_reactor_nor_stop(tmp_path, monkeypatch):
+    hanging, release = threading.Event(), threading.Event()
+
+    class HangingDisk(TestedDisk):
+        def sync(self, descriptor):
+            hanging.set()
+            release.wait(30)
+
+    monkeypatch.setattr(black_box, "Disk", HangingDisk)
+
+    async def fly():
+        system = System(tmp_path)
+        life = await started(system.up)
+        system.publish(1)
+        await until(hanging.is_set, what="the sync")
+        heard = []
+        system.up.command_executor.register_command(OrientationCommand, heard.append)
+        for number in range(1000):
+            system.publish(number)
+        assert len(heard) == 1000
+        began_s = reactor.seconds()
+        with Log() as log:
+            await life.stop()
+        release.set()
+        await until(lambda: not system.box._is_thread_alive, what="the thread's end")
+        return reactor.seconds() - began_s, log.text()
+
+    took_s, text = run_in_reactor(fly)
+    assert took_s < 10
+    assert "did not end in time" in text
