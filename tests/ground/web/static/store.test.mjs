@@ -199,3 +199,31 @@ test("the track grows by live fixes only", () => {
   assert.deepEqual(store.track.points.at(-1), [50.001, 8, 120]);
   assert.equal(store.track.points.length, 2);
 });
+
+test("alarms that are none are left out", () => {
+  const active = [null, 7, { kind: "imu", level: "alarm", text: "t" }];
+  server.socket.say({ type: "alarms", aircraft: "one", active });
+  assert.deepEqual(store.alarms, [active[2]]);
+  server.socket.say({ type: "alarms", aircraft: "one", active: "x" });
+  assert.deepEqual(store.alarms, []);
+});
+
+test("a replay's speeds are those of the flight, and a jump is no flight", () => {
+  const replay = (time_s) => {
+    server.socket.say({ type: "replay", name: "n", time_s, length_s: 600, speed: 4, is_playing: true });
+  };
+  const fly = (from_s, seconds) => {
+    for (let time_s = from_s; time_s < from_s + seconds * 4; time_s += 1) {
+      replay(time_s);
+      const location = { latitude: 50 + (time_s * 10) / 111195, longitude: 8 };
+      frame({ location, age_ms: { location: 0 } }, { age_ms: 0 });
+      clock.advance(0.25);
+    }
+  };
+  fly(0, 4);
+  assert.ok(Math.abs(store.motion.groundSpeed_m_s - 10) < 0.1);
+  replay(300);
+  assert.equal(store.motion.groundSpeed_m_s, null);
+  fly(300, 2);
+  assert.ok(Math.abs(store.motion.groundSpeed_m_s - 10) < 0.1);
+});

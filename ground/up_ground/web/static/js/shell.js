@@ -83,6 +83,9 @@ export function mountShell(store, connection) {
  * @returns {string} what stands over the instruments
  */
 export function silenceText(store, state) {
+  if (store.replay?.is_playing === false) {
+    return "the replay is paused";
+  }
   return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
 }
 

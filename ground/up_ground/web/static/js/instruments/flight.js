@@ -28,7 +28,7 @@ export function mount(element, store) {
     new Row(list, "Raspilot", "mode", "text"),
     new Row(list, "Switch", "arduino.switch", "value"),
     new Row(list, "Failsafe", "arduino.failsafe", "flag", yesNo, alarmIfTrue),
-    new Row(list, "Panic", "load.panic", "flag", (value) => panicText(value, store), alarmIfTrue),
+    new Row(list, "Panic", "load.panic", "flag", (value) => panicText(value, store), warnIfTrue),
   ];
   return {
     update() {
@@ -50,13 +50,17 @@ function alarmIfTrue(value) {
   return value === true ? "alarm" : "";
 }
 
+function warnIfTrue(value) {
+  return value === true ? "warning" : "";
+}
+
 function holderText(value) {
   return { arduino: "Arduino", raspberry: "Raspberry Pi" }[value] ?? String(value);
 }
 
 function panicText(value, store) {
   const delay_ms = store.number("load.delay_ms");
-  return value === true ? `YES, ${numberText(delay_ms)} ms late` : flagText(value);
+  return value === true ? `YES: only each ${numberText(delay_ms)} ms` : flagText(value);
 }
 
 function showVetoes(place, store) {

@@ -27,25 +27,31 @@ export function mount(element, store, connection) {
     update() {
       const link = store.status?.link ?? {};
       const isOld = !connection.isOpen;
+      const isDoubtful = isOld || saysMoreThanIsHeard(link, store);
       if (pace.isTime(store.now_s)) {
         const age_s = store.age_s(null);
         ageShown = age_s === null ? null : ageText(age_s);
       }
       plain.age.show(ageShown, store.isSilent ? "warning" : "");
       showPage(plain.page, connection);
-      showProxy(plain.proxy, link, isOld);
-      showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isOld);
+      showProxy(plain.proxy, link, isDoubtful);
+      showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isDoubtful);
       showNumber(plain.rate, link.rate_hz, (hz) => `${numberText(hz, 1)} frames/s`, isOld);
       const dropped = number(link.dropped);
       showNumber(plain.lost, link.lost, (lost) => `${lost}, ${numberText(dropped)}`, isOld);
       const isOnline = typeof link.aircraft_online === "boolean" ? link.aircraft_online : null;
       const online = isOnline === null ? null : isOnline ? "at the proxy" : "not at the proxy";
-      plain.aircraft.show(online, isOnline === false ? "warning" : "", isOld);
+      plain.aircraft.show(online, isOnline === false ? "warning" : "", isDoubtful);
       for (const row of rows) {
         row.update(store);
       }
     },
   };
+}
+
+/** A proxy that hangs is connected as far as the server knows; nothing comes, so it is of before. */
+function saysMoreThanIsHeard(link, store) {
+  return store.isSilent && link.state === "connected" && link.aircraft_online !== false;
 }
 
 function joined(isThere) {

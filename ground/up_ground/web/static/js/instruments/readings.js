@@ -9,7 +9,7 @@ const WORDS = { live: "live", stale: "old", none: "never came" };
 /** Each reading on board: who brings it, how old it is, and whether one may trust it. */
 export function mount(element, store) {
   const body = html("tbody");
-  const head = ["Reading", "From", "Age", ""].map((name) => html("th", { scope: "col" }, name));
+  const head = ["Reading", "From", "Age", "State"].map((name) => html("th", { scope: "col" }, name));
   element.append(html("table", { class: "readings" }, html("thead", {}, html("tr", {}, ...head)), body));
   const lines = READINGS.map((reading) => {
     const source = html("td", { "data-key": `source.${reading}` });

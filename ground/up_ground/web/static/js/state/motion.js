@@ -13,8 +13,14 @@ const AGAIN_S = 0.3;
 export class Motion {
   #places = [];
   #altitudes = [];
+  #speed;
   groundSpeed_m_s = null;
   climb_m_s = null;
+
+  /** @param {number} [speed] of a replay: how many seconds of the flight pass in one */
+  constructor(speed = 1) {
+    this.#speed = speed;
+  }
 
   /**
    * @param {number|null} latitude
@@ -26,7 +32,7 @@ export class Motion {
       return;
     }
     if (keep(this.#places, { at_s, latitude, longitude }, isSamePlace)) {
-      this.groundSpeed_m_s = rate(this.#places, distance_m);
+      this.groundSpeed_m_s = rate(this.#places, distance_m, this.#speed);
     }
   }
 
@@ -39,7 +45,7 @@ export class Motion {
       return;
     }
     if (keep(this.#altitudes, { at_s, altitude_m }, isSameHeight)) {
-      this.climb_m_s = rate(this.#altitudes, (from, to) => to.altitude_m - from.altitude_m);
+      this.climb_m_s = rate(this.#altitudes, (from, to) => to.altitude_m - from.altitude_m, this.#speed);
     }
   }
 }
@@ -59,14 +65,14 @@ function keep(list, fix, isSame) {
   return true;
 }
 
-function rate(list, difference) {
+function rate(list, difference, speed) {
   const last = list.at(-1);
   const from = list.find((each) => last.at_s - each.at_s <= WINDOW_S && each !== last) ?? list.at(-2);
   const time_s = from === undefined ? 0 : last.at_s - from.at_s;
   if (time_s < SHORTEST_S) {
     return null;
   }
-  return difference(from, last) / time_s;
+  return difference(from, last) / (time_s * speed);
 }
 
 function isSamePlace(one, other) {

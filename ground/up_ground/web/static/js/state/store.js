@@ -8,6 +8,7 @@ import { Track } from "./track.js";
 
 const REPAINT_S = 0.2;
 const LOOK_S = 0.04;
+const JUMP_S = 1.5;
 
 /**
  * What the page knows of the aircraft watched, and how old it is.
@@ -204,7 +205,7 @@ export class Store {
     if (message.type === "status") {
       this.statuses.set(message.aircraft, message);
     } else if (message.type === "replay") {
-      this.replay = message;
+      this.#takeReplay(message);
     } else if (message.type === "fault") {
       this.fault = judge.text(message.text) ?? "";
     } else if (message.aircraft !== this.aircraft || this.aircraft === null) {
@@ -219,7 +220,7 @@ export class Store {
     const known = {
       frame: () => this.#takeFrame(message),
       event: () => this.#events.take(message, this.#now_s()),
-      alarms: () => (this.alarms = Array.isArray(message.active) ? message.active : []),
+      alarms: () => (this.alarms = alarmsOf(message.active)),
       gains: () => (this.gains = message),
       profile: () => (this.profile = message.profile ?? null),
       track: () => this.track.replace(message.points),
@@ -229,6 +230,17 @@ export class Store {
     }
     known[message.type]();
     return true;
+  }
+
+  #takeReplay(message) {
+    const before = this.replay;
+    this.replay = message;
+    const speed = judge.number(message.speed) ?? 1;
+    const step_s = (judge.number(message.time_s) ?? 0) - (judge.number(before?.time_s) ?? 0);
+    const hasJumped = step_s < -0.01 || step_s > JUMP_S * Math.max(1, speed);
+    if (before === null || hasJumped || speed !== before.speed) {
+      this.motion = new Motion(speed > 0 ? speed : 1);
+    }
   }
 
   #takeFrame(message) {
@@ -294,4 +306,9 @@ export class Store {
     }
     this.shownBeacon = this.beacon;
   }
+}
+
+function alarmsOf(active) {
+  const all = Array.isArray(active) ? active : [];
+  return all.filter((each) => each !== null && typeof each === "object");
 }
