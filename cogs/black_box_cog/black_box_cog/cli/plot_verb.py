@@ -14,15 +14,18 @@ from black_box_cog.export.csv_cells import flat
 from black_box_cog.export.output import write_file
 from black_box_cog.pictures.canvas import MISSING, PictureError, has_matplotlib, png_of
 from black_box_cog.pictures.chart import Curve, Panel, Stage
-from black_box_cog.pictures.overview_picture import OVERVIEW_IN, draw_overview
+from black_box_cog.pictures.overview_picture import WIDTH_IN as OVERVIEW_IN
+from black_box_cog.pictures.overview_picture import draw_overview, overview_height_in
 from black_box_cog.pictures.theme import DAYLIGHT
 from black_box_cog.pictures.timeline import draw_timeline, timeline_height_in
 from black_box_cog.report.evidence import bands_of
 from black_box_cog.report.findings import findings_of
+from black_box_cog.report.wording import start_text
 from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.mcap_format import FlightLogError
+from up.flight_log.spans import duration_text
 
 WIDTH_IN, DPI = 11.0, 130
 MOST_FIELDS = 12
@@ -57,9 +60,16 @@ def _overview(log: FlightLog, name: str) -> bytes:
     panels = [panel for picture in wanted for panel in picture.panels]
     if not panels and findings.track is None:
         raise CliError("the log tells neither position nor attitude: name a FIELD")
-    paint = partial(draw_overview, panels=panels, stage=findings.stage, track=findings.track)
-    height_in = timeline_height_in(panels, findings.stage, OVERVIEW_IN[0]) if panels else 0.0
-    return png_of(paint, OVERVIEW_IN[0], max(height_in, OVERVIEW_IN[1]), DPI, DAYLIGHT)
+    aircraft = printable(findings.summary.aircraft) or "an aircraft without a name"
+    paint = partial(
+        draw_overview,
+        title=aircraft[:60],
+        subtitle=f"{start_text(log.start_unix_s)}, {duration_text(log.length_s)}",
+        panels=panels,
+        stage=findings.stage,
+        track=findings.track,
+    )
+    return png_of(paint, OVERVIEW_IN, overview_height_in(panels, findings.stage), DPI, DAYLIGHT)
 
 
 def _fields(log: FlightLog, named: Sequence[str]) -> bytes:

@@ -56,6 +56,11 @@ class Sheet:
         box = axes.get_position()
         return box.width * self._paper[0], box.height * self._paper[1]
 
+    def text(self, left: float, top: float, words: str, **options: Any) -> None:
+        """Write words whose upper left corner is at a place."""
+        x, y = (self._left + left) / self._paper[0], 1 - (self._top + top) / self._paper[1]
+        self._figure.text(x, y, words, va="top", ha="left", **options)
+
     def text_width(self, words: str, size: float) -> float:
         """Return how many inches wide words are."""
         text = self._figure.text(0, 0, words, size=size)

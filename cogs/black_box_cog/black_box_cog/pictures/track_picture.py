@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 LEAST_M = 40.0
+NARROW_IN = 6.0
 _MOST_DOTS = 10
 _STEPS_S = (1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600)
 
@@ -48,7 +49,9 @@ class TrackView:
 def draw_track(sheet: Sheet, view: TrackView) -> None:
     """Draw where it flew, north up."""
     theme, path = sheet.theme, view.path
-    axes = sheet.axes(0.62, 0.42, sheet.width - 0.74, sheet.height - 0.9)
+    is_narrow = sheet.width < NARROW_IN
+    top_in = 0.62 if is_narrow else 0.42
+    axes = sheet.axes(0.62, top_in, sheet.width - 0.74, sheet.height - top_in - 0.48)
     if view.truth is not None:
         axes.plot(
             view.truth.east_m,
@@ -81,8 +84,8 @@ def draw_track(sheet: Sheet, view: TrackView) -> None:
     axes.set_xlabel("metres east of home")
     axes.set_ylabel("metres north of home")
     axes.legend(
-        loc="lower right",
-        bbox_to_anchor=(1.0, 1.0),
+        loc="lower left" if is_narrow else "lower right",
+        bbox_to_anchor=(0.0 if is_narrow else 1.0, 1.0),
         ncol=4,
         borderaxespad=0.1,
         handlelength=1.1,
@@ -149,7 +152,8 @@ def _draw_wind(axes: Axes, wind: Wind, sheet: Sheet) -> None:
     reach_in = 0.14
     dx = reach_in * math.sin(to_rad) / width_in
     dy = reach_in * math.cos(to_rad) / height_in
-    x, y = 0.15 / width_in, 1 + 0.2 / height_in
+    up_in = 0.45 if sheet.width < NARROW_IN else 0.2
+    x, y = 0.15 / width_in, 1 + up_in / height_in
     axes.annotate(
         "",
         (x + dx, y + dy),

@@ -14,7 +14,7 @@ from black_box_cog.report.findings import Findings
 
 WIDE_IN, NARROW_IN = 10.6, 4.2
 WIDE_DPI, NARROW_DPI = 150, 200
-TRACK_WIDE_IN, TRACK_NARROW_IN = (6.4, 6.0), (4.2, 4.4)
+TRACK_WIDE_IN, TRACK_NARROW_IN = (6.4, 6.0), (4.2, 4.6)
 
 
 @dataclass(frozen=True, slots=True)
