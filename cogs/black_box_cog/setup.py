@@ -9,7 +9,7 @@ setup(
     license="MIT",
     python_requires=">=3.11",
     packages=find_packages(),
-    package_data={"black_box_cog": ["registered_modules.yml", "py.typed"]},
+    package_data={"black_box_cog": ["registered_modules.yml", "py.typed", "report/*.css"]},
     install_requires=["raspilot"],
     entry_points={"up.verbs": ["log = black_box_cog.cli.parser:add"]},
 )
