@@ -24,6 +24,6 @@ export async function seriousFaults(page) {
     .filter((fault) => ["serious", "critical"].includes(fault.impact))
     .map((fault) => ({
       rule: fault.id,
-      where: fault.nodes.map((node) => `${node.target.join(" ")}: ${node.failureSummary}`),
+      where: fault.nodes.slice(0, 3).map((node) => `${node.target.join(" ")}: ${node.failureSummary}`),
     }));
 }

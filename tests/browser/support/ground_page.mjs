@@ -22,11 +22,21 @@ function listen() {
   };
 }
 
+const open = new Set();
+
 /** A user in front of the page. */
 export class GroundPage {
   constructor(page) {
     this.page = page;
     this.seen = page.seen;
+    open.add(this);
+  }
+
+  /** Close what a test has left open. */
+  static async closeAll() {
+    for (const each of [...open]) {
+      await each.close();
+    }
   }
 
   /** Open the page at an address. */
@@ -110,17 +120,64 @@ export class GroundPage {
     return { ...answers[answers.length - 1].message, shown: await this.text("#last-answer") };
   }
 
-  /** Press with the mouse and hold for a time. */
-  async hold(selector, seconds) {
-    await this.page.locator(selector).scrollIntoViewIfNeeded();
-    await this.page.hover(selector);
-    await this.page.mouse.down();
-    await new Promise((resolve) => setTimeout(resolve, seconds * 1000));
-    await this.page.mouse.up();
+  /**
+   * Hold a button until it does what it says.
+   * @param {string} selector
+   * @param {{down: () => Promise<void>, up: () => Promise<void>}} hand by the mouse where none is named
+   */
+  async hold(selector, hand = this.mouse(selector)) {
+    for (;;) {
+      await hand.down();
+      const how = await this.until(
+        (s) => ["done", "void"].find((each) => each === document.querySelector(s).dataset.press),
+        `${selector} held to its end`,
+        selector,
+      );
+      const note = await this.text("#arming-note");
+      await hand.up();
+      if (how === "done") {
+        return;
+      }
+      // A machine that is busy elsewhere holds the page up, which makes a press void on purpose.
+      assert.match(note, /held up/);
+    }
   }
 
-  /** Ask for control and wait until the page has it. */
+  /** Scroll until something is in the middle of the screen, away from the bars at its edges. */
+  async show(selector) {
+    await this.page.evaluate(
+      (s) => document.querySelector(s).scrollIntoView({ block: "center", behavior: "instant" }),
+      selector,
+    );
+  }
+
+  /** A hand with a mouse over a button. */
+  mouse(selector) {
+    const down = async () => {
+      await this.show(selector);
+      await this.page.hover(selector);
+      await this.page.mouse.down();
+    };
+    return { down, up: () => this.page.mouse.up() };
+  }
+
+  /** A finger on a button, of a page with a touch screen. */
+  async finger(selector) {
+    const devtools = await this.page.context().newCDPSession(this.page);
+    const touch = (type, touchPoints) =>
+      devtools.send("Input.dispatchTouchEvent", { type, touchPoints });
+    const down = async () => {
+      await this.show(selector);
+      const { x, y, width, height } = await this.page.locator(selector).boundingBox();
+      await touch("touchStart", [{ x: x + width / 2, y: y + height / 2 }]);
+    };
+    return { down, up: () => touch("touchEnd", []) };
+  }
+
+  /** Ask for control, once a page that was closed has lost it, and wait until this one has it. */
   async takeControl() {
+    const isHeld = () => document.querySelector("#control-holder").dataset.holder === "page";
+    await until(async () => !(await this.page.evaluate(isHeld)) || null, "control to be free");
     await this.press("#control-request");
     await this.untilHolder("you");
   }
@@ -143,6 +200,7 @@ export class GroundPage {
 
   /** Close the page and its context, as a user closes the browser. */
   async close() {
+    open.delete(this);
     await this.page.context().close();
   }
 }

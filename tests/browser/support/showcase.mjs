@@ -2,7 +2,7 @@
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
-import { childrenOf, Program, PYTHON, shortFolder, startProgram } from "./program.mjs";
+import { childrenOf, Program, PYTHON, shortFolder } from "./program.mjs";
 
 const ADDRESS = /(http:\/\/[^\s/]+\/?\S*)/;
 
@@ -56,7 +56,6 @@ export class Showcase {
 
   /** End it, and whatever it has left behind. */
   async stop() {
-    await this.server?.stop();
     const status = await this.program.stop();
     const said = this.program.said;
     const logs = readdirSync(this.folder).filter((name) => name.endsWith(".log"));
@@ -89,8 +88,7 @@ export async function startShowcase(options = []) {
     showcase.airbornePort = Number(airborne);
     showcase.groundPort = Number(ground);
     await program.line(/Ctrl-C stops everything/, 300);
-    showcase.server = startProgram("up-ground", ["serve", "--port", ground, "--listen", "127.0.0.1:0"]);
-    showcase.address = (await showcase.server.line(ADDRESS))[1];
+    showcase.address = (await program.line(ADDRESS))[1];
   } catch (error) {
     await program.kill();
     folder.remove();

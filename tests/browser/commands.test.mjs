@@ -1,0 +1,113 @@
+// What somebody asks of the aircraft by the page is carried out by it, or refused with its reason.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { startBrowser } from "./support/browser.mjs";
+import { GroundPage } from "./support/ground_page.mjs";
+import { Pilot } from "./support/pilot.mjs";
+import { startShowcase } from "./support/showcase.mjs";
+import { until } from "./support/wait.mjs";
+
+let showcase;
+let browser;
+let ground;
+
+before(async () => {
+  [showcase, browser] = await Promise.all([startShowcase(), startBrowser()]);
+  ground = await (await GroundPage.open(browser, showcase.address)).isLive();
+  await ground.takeControl();
+});
+
+after(async () => {
+  await browser?.close();
+  await showcase?.stop();
+});
+
+/** Wait until telemetry says something. */
+async function flies(condition, what) {
+  await until(async () => condition(await ground.frame()) || null, what);
+}
+
+/** How many Commands the page has sent and heard of. */
+async function answers() {
+  return (await ground.messages("answer")).length;
+}
+
+test("a flight mode is flown after a question, and its ack is shown", async () => {
+  for (const mode of ["RATE", "FBW"]) {
+    const answer = await ground.answerTo(() => ground.press(`[data-mode="${mode}"]`));
+    assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+    assert.match(answer.shown, new RegExp(`^Flight mode ${mode}: carried out after \\d+ ms$`));
+    await flies((frame) => frame.flight_mode === mode, `${mode} in telemetry`);
+    await ground.until(
+      (mode) => document.querySelector('[data-key="flight_mode"]').textContent === mode,
+      `${mode} on the page`,
+      mode,
+    );
+  }
+});
+
+test("who says no to the question sends nothing", async () => {
+  const before = await answers();
+  await ground.page.click('[data-mode="RATE"]');
+  await ground.page.click("#confirm-no");
+  assert.equal(await answers(), before);
+  assert.equal((await ground.frame()).flight_mode, "FBW");
+  assert.equal(await ground.page.isVisible("dialog#confirm"), false);
+});
+
+test("a heading is asked of the aircraft, which tells it back", async () => {
+  await ground.page.fill("#wish-heading", "123");
+  const answer = await ground.answerTo(() => ground.press("#wish-heading-send"));
+  assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+  await flies((frame) => frame.heading.required === 123, "the heading in telemetry");
+});
+
+test("what no aircraft could do is not sent", async () => {
+  const before = await answers();
+  await ground.page.fill("#wish-heading", "999");
+  await ground.page.click("#wish-heading-send");
+  assert.match(await ground.text("#wish-heading-note"), /must be 0 to 360 deg/);
+  assert.equal(await ground.page.isVisible("dialog#confirm"), false);
+  assert.equal(await answers(), before);
+});
+
+test("a disarm in flight is refused by the aircraft, and the page says why", async () => {
+  const answer = await ground.answerTo(() => ground.hold("#disarm-button"));
+  assert.equal(answer.outcome, "nack");
+  assert.equal(answer.code, "refused");
+  assert.match(answer.reason, /throttle/);
+  assert.ok(answer.shown.includes(answer.reason), answer.shown);
+  assert.equal((await ground.frame()).armed, true);
+});
+
+test("a press that does not last does nothing", async () => {
+  const before = await answers();
+  const hand = ground.mouse("#disarm-button");
+  await hand.down();
+  await ground.until(() => document.querySelector("#disarm-button").dataset.press === "pressed", "press");
+  await hand.up();
+  assert.match(await ground.text("#arming-note"), /let go too early/);
+  assert.equal(await answers(), before);
+});
+
+test("with the throttle low the page disarms the motor and arms it again", async () => {
+  const pilot = await new Pilot(showcase).ready();
+  const glide = { aux1: 2000, aux2: 2000, throttle: 1000, ailerons: 1500, elevator: 1500 };
+  pilot.move(glide);
+  await flies((frame) => frame.rx.throttle < 1050, "the low throttle in telemetry");
+  const disarmed = await until(async () => {
+    const answer = await ground.answerTo(() => ground.hold("#disarm-button"));
+    // It was not low for 2 s yet.
+    return answer.outcome === "ack" ? answer : null;
+  }, "the disarming");
+  assert.match(disarmed.shown, /^Disarm: carried out/);
+  await ground.until(() => document.querySelector("#bar-armed").textContent === "disarmed", "disarmed");
+  const armed = await ground.answerTo(() => ground.hold("#arm-button"));
+  assert.equal(armed.outcome, "ack", JSON.stringify(armed));
+  assert.match(armed.shown, /^Arm: carried out/);
+  await ground.until(() => document.querySelector("#bar-armed").textContent === "ARMED", "armed");
+  await pilot.leave();
+});
+
+test("the page has done nothing that it may not", () => ground.assertClean());

@@ -1,0 +1,103 @@
+// Two browsers and one control: who has it commands, the other watches, and it is handed over.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { startBrowser } from "./support/browser.mjs";
+import { GroundPage } from "./support/ground_page.mjs";
+import { startShowcase } from "./support/showcase.mjs";
+
+let showcase;
+let browser;
+let first;
+let second;
+
+before(async () => {
+  [showcase, browser] = await Promise.all([startShowcase(), startBrowser()]);
+  first = await (await GroundPage.open(browser, showcase.address)).isLive();
+  second = await (await GroundPage.open(browser, showcase.address)).isLive();
+});
+
+after(async () => {
+  await browser?.close();
+  await showcase?.stop();
+});
+
+/** Whether a page offers to command. */
+async function offers(page) {
+  return page.page.isEnabled('[data-mode="FBW"]');
+}
+
+test("one has control, the other watches and sees who has it", async () => {
+  await first.takeControl();
+  await second.untilHolder("page");
+  await first.until(() => !document.querySelector('[data-mode="FBW"]').disabled, "modes offered");
+  await second.until(() => document.querySelector('[data-mode="FBW"]').disabled, "modes not offered");
+  assert.equal(await second.page.isEnabled("#arm-button"), false);
+  assert.match(await second.text("#control-holder"), /has control\. You watch\./);
+  const answer = await first.answerTo(() => first.press('[data-mode="FBW"]'));
+  assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+});
+
+test("a Command without control is refused by the server, whatever the page thinks", async () => {
+  const answer = await second.page.evaluate(async (aircraft) => {
+    const socket = new WebSocket(`ws://${location.host}/link`);
+    const heard = (type) =>
+      new Promise((resolve) => {
+        socket.addEventListener("message", (event) => {
+          const message = JSON.parse(event.data);
+          if (message.type === type) {
+            resolve(message);
+          }
+        });
+      });
+    await new Promise((resolve) => socket.addEventListener("open", resolve));
+    const say = (message) => socket.send(JSON.stringify(message));
+    const welcome = heard("welcome");
+    say({ type: "hello", name: "a burglar", key: null, token: null });
+    await welcome;
+    const answer = heard("answer");
+    const data = { mode: "RATE" };
+    say({ type: "command", ask: 1, aircraft, name: "up.flight_mode.set", data, beacon: null });
+    return answer.finally(() => socket.close());
+  }, "default");
+  assert.equal(answer.outcome, "refused");
+  assert.match(answer.reason, /control/);
+  assert.equal((await first.frame()).flight_mode, "FBW");
+});
+
+test("who is asked may keep it", async () => {
+  await second.page.click("#control-request");
+  await first.until(() => !document.querySelector("#control-deny").hidden, "the question");
+  assert.match(await first.text("#control-asked"), /asks you for control/);
+  await first.page.click("#control-deny");
+  await first.until(() => document.querySelector("#control-deny").hidden, "the question gone");
+  await second.untilHolder("page");
+  assert.equal(await offers(first), true);
+  assert.equal(await offers(second), false);
+});
+
+test("who is asked may give it, and the roles change over", async () => {
+  await second.page.click("#control-request");
+  await first.until(() => !document.querySelector("#control-give").hidden, "the question");
+  await first.page.click("#control-give");
+  await second.untilHolder("you");
+  await first.untilHolder("page");
+  await second.until(() => !document.querySelector('[data-mode="FBW"]').disabled, "modes offered");
+  await first.until(() => document.querySelector('[data-mode="FBW"]').disabled, "modes not offered");
+  const answer = await second.answerTo(() => second.press('[data-mode="FBW"]'));
+  assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+});
+
+test("a page that is loaded again has control again", async () => {
+  await second.page.reload();
+  await second.isLive();
+  await second.untilHolder("you");
+});
+
+test("a page that is closed leaves control to the others", async () => {
+  second.assertClean();
+  await second.close();
+  await first.untilHolder("nobody");
+  await first.takeControl();
+  first.assertClean();
+});

@@ -1,0 +1,202 @@
+// An aircraft that lies: whatever it calls itself and says is shown as text, and never runs.
+import assert from "node:assert/strict";
+import { after, afterEach, before, beforeEach, test } from "node:test";
+
+import { startBrowser } from "./support/browser.mjs";
+import { FakeFlight } from "./support/fake_flight.mjs";
+import { GroundPage } from "./support/ground_page.mjs";
+import { run } from "./support/program.mjs";
+
+const RUN = "window.wasHurt = true";
+const HOSTILE = [
+  `<img src=x onerror="${RUN}">`,
+  `"><script>${RUN}</script>`,
+  `</script><svg onload="${RUN}">`,
+  `javascript:${RUN}`,
+  `'-${RUN}-'`,
+  `{{constructor.constructor("${RUN}")()}}`,
+  "\u202Egnp.elif\u0000\u0007\u2028end",
+  "__proto__",
+  `long ${"A".repeat(400)}`,
+];
+/** Keys whose values are texts, and those under which the aircraft chooses the keys. */
+const TEXTS = ["mode", "flight_mode", "flight_controller"];
+let browser;
+let flight;
+let ground;
+
+before(async () => {
+  [flight, browser] = await Promise.all([FakeFlight.start(), startBrowser()]);
+});
+
+after(async () => {
+  await browser?.close();
+  await flight?.stop();
+});
+
+beforeEach(async () => {
+  flight.tell({ data: {} });
+  ground = await (await GroundPage.open(browser, flight.address)).isLive();
+});
+
+afterEach(() => GroundPage.closeAll());
+
+/** What has run that should not, or was made of text that should not. */
+async function harm() {
+  return ground.page.evaluate(() => ({
+    wasHurt: "wasHurt" in window,
+    scripts: [...document.scripts].filter((each) => !each.src).length,
+    images: document.querySelectorAll("img[src=x]").length,
+    handlers: document.querySelectorAll("[onerror], [onload]").length,
+    isPolluted: "hurt" in {},
+  }));
+}
+const NO_HARM = { wasHurt: false, scripts: 0, images: 0, handlers: 0, isPolluted: false };
+
+function telemetry(text) {
+  return {
+    ...Object.fromEntries(TEXTS.map((key) => [key, text])),
+    vetoes: [text, text],
+    source: { orientation: text, [text]: text },
+    arduino: { connected: true, framing: text, switch: text, reset_cause: text, failsafe: false },
+    flight_control: { mode: text, offered: [text], missing: [text] },
+    counters: { [text]: { [text]: 1 }, bus: { unhandled: text } },
+    system: { providers: [text], uptime_s: text },
+    ground: { role: text, tune_in_flight: text },
+    black_box: { recording: true, file: text, problem: text, megabytes: text },
+    [text]: { [text]: text },
+  };
+}
+
+test("texts of telemetry are shown as they are", async () => {
+  for (const text of HOSTILE) {
+    const { length } = await ground.messages("frame");
+    flight.tell({ data: telemetry(text) });
+    await ground.until(
+      ([text, length]) =>
+        window.testMessages
+          .filter(({ message }) => message.type === "frame")
+          .slice(length)
+          .some(({ message }) => message.data.flight_mode === text),
+      `frames with ${text.slice(0, 40)}`,
+      [text, Math.max(0, length - 1000)],
+    );
+    await ground.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    assert.deepEqual(await harm(), NO_HARM, text.slice(0, 40));
+    assert.equal(await ground.attribute("html", "data-aircraft-state"), "live");
+  }
+  flight.tell({ data: telemetry(HOSTILE[0]) });
+  await ground.until(
+    (text) => document.querySelector("#bar-mode").textContent === text,
+    "the text itself",
+    HOSTILE[0],
+  );
+  const width = await ground.page.evaluate(() => document.scrollingElement.scrollWidth - innerWidth);
+  assert.ok(width <= 0, `the page is ${width} px too wide`);
+  ground.assertClean();
+});
+
+test("numbers of telemetry that are none are not known", async () => {
+  flight.tell({
+    whole: true,
+    data: {
+      orientation: { roll: "90", pitch: null, yaw: [1] },
+      rates: "x",
+      location: { latitude: 1e300, longitude: { deg: 3 } },
+      altitude: true,
+      heading: [],
+      age_ms: { orientation: -5, location: "now" },
+      servo: null,
+      rx: 7,
+      vetoes: { length: 3 },
+      arduino: [],
+      android: { batteryLevel: "<b>" },
+    },
+  });
+  await ground.until(
+    () => document.querySelector('[data-key="altitude"]').textContent === "--",
+    "an altitude that is not known",
+  );
+  const known = (await ground.values()).filter(({ key, text }) =>
+    /^(orientation|location|rx|servo|rates|android)\./.test(key) && text !== "--");
+  assert.deepEqual(known, []);
+  assert.equal(await ground.attribute("html", "data-aircraft-state"), "live");
+  ground.assertClean();
+});
+
+test("a refusal's reason is shown as text", async () => {
+  await ground.takeControl();
+  for (const text of HOSTILE.slice(0, 3)) {
+    flight.tell({ nack: text });
+    flight.tell({ data: { flight_mode: text } });
+    await ground.until((t) => document.querySelector("#bar-mode").textContent === t, "it", text);
+    const answer = await ground.answerTo(() => ground.press('[data-mode="FBW"]'));
+    assert.equal(answer.outcome, "nack", JSON.stringify(answer));
+    assert.ok(answer.shown.includes(text), answer.shown);
+    assert.deepEqual(await harm(), NO_HARM);
+  }
+  ground.assertClean();
+});
+
+test("a name that is no name is refused, and a page shows one as text all the same", async () => {
+  const wrong = await run("up-ground", ["serve", "--aircraft", HOSTILE[0]]);
+  assert.equal(wrong.status, 2);
+  assert.match(wrong.said, /is no NAME/);
+  const page = await GroundPage.open(browser, "about:blank");
+  await page.page.routeWebSocket(/\/link$/, (socket) => {
+    const server = socket.connectToServer();
+    // A server that was deceived: every name in what it says is a hostile one.
+    server.onMessage((text) => {
+      const message = JSON.parse(text);
+      const words = { aircraft: HOSTILE[0], name: HOSTILE[1], holder_name: HOSTILE[2] };
+      if (message.type === "welcome") {
+        Object.assign(message, { aircraft: [HOSTILE[0], HOSTILE[1]], name: HOSTILE[1], version: HOSTILE[2] });
+      } else if (message.aircraft === "default") {
+        message.aircraft = words.aircraft;
+      }
+      if (message.control) {
+        Object.assign(message.control, { holder: "page", holder_name: HOSTILE[2], asked_by: { page: 9, name: HOSTILE[1] } });
+        message.control.pages = [{ page: 9, name: HOSTILE[0] }, { page: 10, name: HOSTILE[1] }];
+        message.link.reason = HOSTILE[0];
+      }
+      socket.send(JSON.stringify(message));
+    });
+    socket.onMessage((text) => {
+      const message = JSON.parse(text);
+      message.aircraft &&= "default";
+      server.send(JSON.stringify(message));
+    });
+  });
+  await page.page.goto(flight.address);
+  await page.isLive();
+  await page.until(
+    (text) => document.querySelector("#aircraft-select").selectedOptions[0]?.textContent === text,
+    "the name as text",
+    HOSTILE[0],
+  );
+  await page.until((text) => document.querySelector("#control-holder").textContent.includes(text), "the holder", HOSTILE[2]);
+  const hurt = await page.page.evaluate(() => "wasHurt" in window || document.querySelector("img[src=x]") !== null);
+  assert.equal(hurt, false);
+  page.assertClean();
+});
+
+test("a script that got into the page all the same is stopped by its policy", async () => {
+  await ground.page.evaluate((run) => {
+    const script = document.createElement("script");
+    script.textContent = run;
+    document.body.append(script);
+    const image = document.createElement("div");
+    image.innerHTML = `<img src="data:x" onerror="${run}">`;
+    document.body.append(image);
+    const far = new Image();
+    far.src = "http://192.0.2.1/told";
+    document.body.append(far);
+  }, RUN);
+  await ground.until(() => document.querySelector("img[src='data:x']")?.complete, "the image");
+  await ground.page.evaluate(() => new Promise((done) => setTimeout(done, 0)));
+  const stopped = ground.seen.violations.map((text) => text.split(" ")[0]);
+  assert.ok(stopped.includes("script-src-elem"), ground.seen.violations.join("; "));
+  assert.ok(stopped.includes("script-src-attr"), ground.seen.violations.join("; "));
+  assert.ok(stopped.includes("img-src"), ground.seen.violations.join("; "));
+  assert.equal(await ground.page.evaluate(() => "wasHurt" in window), false);
+});

@@ -1,0 +1,155 @@
+// What has stopped to be of now stops to look so, and comes back by itself.
+import assert from "node:assert/strict";
+import { after, afterEach, before, test } from "node:test";
+
+import { startBrowser } from "./support/browser.mjs";
+import { GroundPage } from "./support/ground_page.mjs";
+import { startProgram } from "./support/program.mjs";
+import { record } from "./support/recorder.mjs";
+import { startShowcase } from "./support/showcase.mjs";
+import { between, distance_m, truthOf } from "./support/truth.mjs";
+
+const GPS_M = 9;
+const WITHIN_S = 1.0;
+/** A live location is at most so old: on board and on the way. */
+const LIVE_LOCATION_S = 1.9 + 0.2;
+/** What the page and its server know by themselves, of now even when the aircraft says nothing. */
+const OF_THE_PAGE = ["link.age", "link.rate", "link.lost", "link.page"];
+let showcase;
+let browser;
+
+before(async () => {
+  [showcase, browser] = await Promise.all([startShowcase(), startBrowser()]);
+});
+
+after(async () => {
+  await browser?.close();
+  await showcase?.stop();
+});
+
+afterEach(() => GroundPage.closeAll());
+
+/**
+ * Let the page write down, by its own clock, how old the newest frame is whenever the state of the
+ * aircraft changes, what is shown as live while it is silent, and how long it was held up itself.
+ */
+function watchSilence(ofThePage) {
+  const root = document.documentElement;
+  const found = { changes: [], liveWhileSilent: [], longestStall_ms: 0 };
+  window.testSilence = found;
+  const age_ms = () => {
+    const frames = window.testMessages.filter(({ message }) => message.type === "frame");
+    const { at_ms, message } = frames[frames.length - 1];
+    return performance.now() - at_ms + message.age_ms;
+  };
+  let state = root.dataset.aircraftState;
+  new MutationObserver(() => {
+    if (root.dataset.aircraftState !== state) {
+      state = root.dataset.aircraftState;
+      found.changes.push({ state, age_ms: age_ms() });
+    }
+  }).observe(root, { attributes: true });
+  let last_ms = performance.now();
+  const look = () => {
+    const now_ms = performance.now();
+    found.longestStall_ms = Math.max(found.longestStall_ms, now_ms - last_ms);
+    last_ms = now_ms;
+    if (root.dataset.aircraftState !== "live") {
+      for (const element of document.querySelectorAll('[data-freshness="live"]')) {
+        if (!ofThePage.includes(element.dataset.key)) {
+          found.liveWhileSilent.push(element.dataset.key);
+        }
+      }
+    }
+    requestAnimationFrame(look);
+  };
+  requestAnimationFrame(look);
+}
+
+test("a cut link looks old within a second, and only what is of now comes back", async (t) => {
+  const ground = await (await GroundPage.open(browser, showcase.address)).isLive();
+  await ground.page.evaluate(watchSilence, OF_THE_PAGE);
+  const recorded = await record(ground.page, {
+    state: { selector: "html", attribute: "data-aircraft-state" },
+    latitude: { selector: "#panel-map", attribute: "data-latitude" },
+    longitude: { selector: "#panel-map", attribute: "data-longitude" },
+  });
+  const proxy = showcase.pidOf("up_proxy.main");
+  process.kill(proxy, "SIGSTOP");
+  try {
+    await ground.until(() => document.documentElement.dataset.aircraftState === "silent", "silence");
+    await ground.until(
+      () => parseFloat(/([\d.]+) s/.exec(document.querySelector("#silence").textContent)?.[1]) > 6,
+      "no news for 6 s",
+    );
+    const shown = (await ground.values()).filter(({ text }) => text !== "--");
+    assert.ok(shown.length > 20, "values stay to be read");
+    const wrong = shown.filter(({ key, freshness }) => freshness === "live" && !OF_THE_PAGE.includes(key));
+    assert.deepEqual(wrong, [], "shown as live while silent");
+  } finally {
+    process.kill(proxy, "SIGCONT");
+  }
+  await ground.isLive();
+  await ground.until(() => window.testSilence.changes.length >= 2, "the change back");
+  const silence = await ground.page.evaluate(() => window.testSilence);
+  const [gone] = silence.changes;
+  assert.equal(gone.state, "silent");
+  const late_s = (gone.age_ms - silence.longestStall_ms) / 1000;
+  assert.ok(late_s <= WITHIN_S, `${gone.age_ms} ms, of which ${silence.longestStall_ms} of the machine`);
+  assert.deepEqual([...new Set(silence.liveWhileSilent)], []);
+  t.diagnostic(`silent when the newest frame was ${Math.round(gone.age_ms)} ms old`);
+
+  const seen = async () => (await recorded.read()).filter(({ name }) => name === "latitude").length;
+  const before = await seen();
+  await ground.until(
+    ([count]) => window.testRecords[0].filter(({ name }) => name === "latitude").length > count,
+    "the aircraft moves on",
+    [before + 2],
+  );
+  const truth = await truthOf(showcase);
+  for (const place of livePlaces(await recorded.read())) {
+    const near = between(truth, place.unix_s - LIVE_LOCATION_S - WITHIN_S, place.unix_s + 0.1).map((row) =>
+      distance_m(place, { latitude: row.latitude_deg, longitude: row.longitude_deg }),
+    );
+    assert.ok(Math.min(...near) < GPS_M, `${Math.min(...near)} m off: ${JSON.stringify(place)}`);
+  }
+  ground.assertClean();
+});
+
+test("a server that dies is said, and is found again without a hand", async () => {
+  const words = ["serve", "--port", String(showcase.groundPort), "--listen"];
+  const first = startProgram("up-ground", [...words, "127.0.0.1:0"]);
+  const address = (await first.line(/(http:\/\/\S+)/))[1];
+  const ground = await (await GroundPage.open(browser, address)).isLive();
+  await ground.page.evaluate(watchSilence, OF_THE_PAGE);
+  await first.kill();
+  await ground.until(() => document.documentElement.dataset.link === "closed", "the loss of the server");
+  assert.match(await ground.text("#link-banner"), /No connection to the ground server.*/);
+  assert.ok(await ground.page.isVisible("#link-banner"));
+  await ground.until(() => document.documentElement.dataset.aircraftState === "silent", "silence");
+  await ground.until(() => /next attempt in [\d.]+ s/.test(document.querySelector("#link-banner").textContent), "when it tries again");
+  const second = startProgram("up-ground", [...words, new URL(address).host]);
+  try {
+    await second.line(/(http:\/\/\S+)/);
+    await ground.until(() => document.documentElement.dataset.link === "open", "the server again");
+    await ground.isLive();
+    assert.ok(!(await ground.page.isVisible("#link-banner")));
+    const silence = await ground.page.evaluate(() => window.testSilence);
+    assert.deepEqual([...new Set(silence.liveWhileSilent)], []);
+  } finally {
+      await second.stop();
+  }
+});
+
+/** Where the map drew the aircraft while the page called it live. */
+function livePlaces(records) {
+  const now = {};
+  const found = [];
+  for (const { name, unix_ms, value } of records) {
+    now[name] = name === "state" ? value : Number(value);
+    if (name === "longitude" && now.state === "live") {
+      found.push({ latitude: now.latitude, longitude: now.longitude, unix_s: unix_ms / 1000 });
+    }
+  }
+  return found;
+}

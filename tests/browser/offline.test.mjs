@@ -1,0 +1,90 @@
+// A field without any network: everything comes from the machine itself.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, afterEach, before, test } from "node:test";
+
+import { startBrowser } from "./support/browser.mjs";
+import { GroundPage } from "./support/ground_page.mjs";
+import { startShowcase } from "./support/showcase.mjs";
+
+const TYPES = { html: "text/html", css: "text/css", js: "text/javascript", svg: "image/svg+xml" };
+let showcase;
+let browser;
+
+before(async () => {
+  [showcase, browser] = await Promise.all([startShowcase(), startBrowser()]);
+});
+
+after(async () => {
+  await browser?.close();
+  await showcase?.stop();
+});
+
+afterEach(() => GroundPage.closeAll());
+
+test("these tests run without a network", { skip: !process.env.UP_ALONE && "needs root" }, () => {
+  const [, ...routes] = readFileSync("/proc/self/net/route", "utf8").trim().split("\n");
+  assert.deepEqual(routes, []);
+});
+
+test("map and charts are drawn, and not one request leaves the server of the page", async () => {
+  const ground = await (await GroundPage.open(browser, showcase.address)).isLive();
+  await ground.until(() => document.querySelector("#panel-map .leaflet-container, #panel-map.leaflet-container"), "the map");
+  await ground.until(() => document.querySelector("#panel-charts canvas"), "the charts");
+  await ground.until(() => document.querySelector("#panel-map").dataset.latitude, "the aircraft on the map");
+  const map = await ground.page.locator("#panel-map").boundingBox();
+  await ground.page.mouse.move(map.x + map.width / 2, map.y + map.height / 2);
+  await ground.page.mouse.wheel(0, -400);
+  await ground.page.mouse.down();
+  await ground.page.mouse.move(map.x + map.width / 3, map.y + map.height / 3, { steps: 5 });
+  await ground.page.mouse.up();
+  await ground.page.click("#theme-button");
+  await ground.page.click("#sound-button");
+  const before = (await ground.messages("frame")).length;
+  await ground.until(
+    (count) => window.testMessages.filter(({ message }) => message.type === "frame").length > count,
+    "frames",
+    before + 20,
+  );
+  const { host } = new URL(showcase.address);
+  const hosts = ground.seen.requests.filter((url) => !/^(data|blob):/.test(url)).map((url) => new URL(url).host);
+  assert.ok(hosts.length > 30, `${hosts.length} requests`);
+  assert.deepEqual([...new Set(hosts)], [host]);
+  assert.equal(await ground.page.isVisible("#missing"), false);
+  ground.assertClean();
+});
+
+test("every answer forbids what the page does not need", async () => {
+  const paths = ["", "js/main.js", "css/base.css", "icon.svg", "nothing-of-this-name"];
+  for (const path of paths) {
+    const response = await fetch(new URL(path, showcase.address));
+    const policy = response.headers.get("content-security-policy");
+    assert.match(policy, /default-src 'none'; script-src 'self'; style-src 'self'/, path);
+    assert.doesNotMatch(policy, /unsafe|\*|https?:/, path);
+    assert.equal(response.headers.get("x-content-type-options"), "nosniff", path);
+    const kind = TYPES[path === "" ? "html" : path.split(".").pop()];
+    if (response.ok) {
+      assert.ok(response.headers.get("content-type").startsWith(kind), path);
+    }
+    await response.arrayBuffer();
+  }
+});
+
+test("without the map and the charts of others the instruments work, and it is said", async () => {
+  const ground = await GroundPage.open(browser, "about:blank");
+  await ground.page.route("**/vendor/**", (route) => route.fulfill({ status: 404 }));
+  await ground.page.goto(showcase.address);
+  await ground.isLive();
+  await ground.until(() => {
+    const place = document.querySelector("#missing");
+    return !place.hidden && /map is a plain one/.test(place.textContent) && /no charts/.test(place.textContent);
+  }, "what is missing");
+  const shown = await ground.values();
+  for (const key of ["altitude", "flight_mode"]) {
+    const found = shown.find((each) => each.key === key);
+    assert.equal(found?.freshness, "live", key);
+    assert.notEqual(found.text, "--", key);
+  }
+  assert.ok(Number.isFinite(Number(await ground.attribute("#horizon-ball", "data-roll"))));
+  assert.deepEqual(ground.seen.violations, []);
+});
