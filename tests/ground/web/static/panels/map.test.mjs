@@ -82,9 +82,9 @@ test("the plain map shows every point with a margin, and not less than a field",
 });
 
 test("the way home is said, and the age of a position that is old", () => {
-  const picture = { aircraft: placeAt(HOME, { east_m: 0, north_m: 340 }), home: HOME, freshness: "live" };
-  assert.equal(homeWords(picture, 0.1), "340 m from home, seen from there at 000°, back by 180°");
-  assert.match(homeWords({ ...picture, freshness: "stale" }, 12.34), /, seen 12.3 s ago$/);
-  assert.equal(homeWords({ ...picture, home: null }, 0.1), "No home yet");
-  assert.equal(homeWords({ ...picture, aircraft: null }, null), "No position yet");
+  const picture = { aircraft: placeAt(HOME, { east_m: 0, north_m: 340 }), home: HOME, freshness: "live", age: "12.3 s" };
+  assert.equal(homeWords(picture), "340 m from home at 000°, the way back 180°");
+  assert.match(homeWords({ ...picture, freshness: "stale" }), /, seen 12.3 s ago$/);
+  assert.equal(homeWords({ ...picture, home: null }), "No home yet");
+  assert.equal(homeWords({ ...picture, aircraft: null }), "No position yet");
 });

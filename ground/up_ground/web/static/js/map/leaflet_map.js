@@ -114,7 +114,7 @@ export class LeafletMap {
     this.#track.show(picture.track);
   }
 
-  #showAircraft({ aircraft, heading_deg, freshness }) {
+  #showAircraft({ aircraft, heading_deg, freshness, age }) {
     if (aircraft === null) {
       this.#aircraft?.remove();
       this.#aircraft = null;
@@ -129,7 +129,7 @@ export class LeafletMap {
       const options = { icon, interactive: false, keyboard: false, zIndexOffset: 1000 };
       this.#aircraft = this.#L.marker(latLng(aircraft), options).addTo(this.#map);
     }
-    this.#symbol.show(heading_deg, freshness);
+    this.#symbol.show(heading_deg, freshness, age);
     this.#aircraft.setLatLng(latLng(aircraft));
     if (this.isFollowing) {
       this.#map.panTo(latLng(aircraft), { animate: false });

@@ -109,7 +109,7 @@ export function mount(place, store, connection) {
       setAttribute(place, "data-longitude", isShown ? String(picture.aircraft.longitude) : "");
       setAttribute(place, "data-heading", isShown ? String(picture.heading_deg ?? "") : "");
       setAttribute(words, "data-freshness", picture.freshness);
-      setText(words, homeWords(picture, store.age_s("location") ?? store.age_s(null)));
+      setText(words, homeWords(picture));
       showWind();
     },
   };

@@ -4,7 +4,7 @@ import { ageText, headingText } from "../state/format.js";
 /**
  * What a map draws: the aircraft where it was seen last, home, the track.
  * @typedef {{aircraft: ?{latitude: number, longitude: number}, heading_deg: ?number,
- *   freshness: "live"|"stale"|"none", home: ?{latitude: number, longitude: number},
+ *   freshness: "live"|"stale"|"none", age: string, home: ?{latitude: number, longitude: number},
  *   track: object}} Picture
  */
 
@@ -22,6 +22,7 @@ export function pictureOf(store) {
     aircraft: seen,
     heading_deg: isSeen ? headingOf(store) : null,
     freshness: seen === null ? "none" : isSeen ? freshnessOf(store) : "stale",
+    age: ageText(store.age_s("location") ?? store.age_s(null)),
     home: placeOf(home?.latitude, home?.longitude),
     track: store.track,
   };
@@ -29,21 +30,20 @@ export function pictureOf(store) {
 
 /**
  * @param {Picture} picture
- * @param {number|null} age_s of the position
  * @returns {string} how far away it is and where to walk
  */
-export function homeWords(picture, age_s) {
+export function homeWords(picture) {
   if (picture.aircraft === null) {
     return "No position yet";
   }
-  const age = picture.freshness === "live" ? "" : `, seen ${ageText(age_s)} ago`;
+  const age = picture.freshness === "live" ? "" : `, seen ${picture.age} ago`;
   if (picture.home === null) {
     return `No home yet${age}`;
   }
   const distance = distanceText(distance_m(picture.home, picture.aircraft));
   const back = headingText(bearing_deg(picture.aircraft, picture.home));
   const from = headingText(bearing_deg(picture.home, picture.aircraft));
-  return `${distance} from home, seen from there at ${from}°, back by ${back}°${age}`;
+  return `${distance} from home at ${from}°, the way back ${back}°${age}`;
 }
 
 function headingOf(store) {

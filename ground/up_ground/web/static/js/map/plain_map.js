@@ -34,7 +34,7 @@ export class PlainMap {
   }
 
   /** @param {import("./picture.js").Picture} picture */
-  show({ aircraft, heading_deg, freshness, home, track }) {
+  show({ aircraft, heading_deg, freshness, age, home, track }) {
     const origin = home ?? aircraft;
     const size = { width_px: this.#place.clientWidth, height_px: this.#place.clientHeight };
     if (origin === null || size.width_px === 0 || size.height_px === 0) {
@@ -61,7 +61,7 @@ export class PlainMap {
     setAttribute(this.#home, "d", isHome ? `M${x(at)} ${y(at) - 9} l9 9 h-3 v8 h-12 v-8 h-3 Z` : "");
     setAttribute(this.#symbol.element, "visibility", craft === null ? "hidden" : "visible");
     if (craft !== null) {
-      this.#symbol.show(heading_deg, freshness);
+      this.#symbol.show(heading_deg, freshness, age);
       setAttribute(this.#symbol.element, "x", (x(craft) - 20).toFixed(1));
       setAttribute(this.#symbol.element, "y", (y(craft) - 20).toFixed(1));
     }
