@@ -8,13 +8,12 @@ import re
 from collections.abc import Mapping, Sequence
 
 from up.version import VERSION
+from up_ground.page_options import add_page_options
+from up_ground.replay.verb import EPILOG, add_arguments
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
 
 _AIRCRAFT = re.compile(r"[A-Za-z0-9_.-]{1,32}", re.ASCII)
-_HOST_NAME = re.compile(r"[A-Za-z0-9.-]{1,253}", re.ASCII)
-_KEY = re.compile(r"[A-Za-z0-9_-]{8,64}", re.ASCII)
 _LONGEST_S = 1e7
-DEFAULT_LISTEN = "127.0.0.1:8080"
 
 _EPILOG = """\
 examples
@@ -25,6 +24,7 @@ examples
   up-ground send up.flight_mode.set mode=FBW
   up-ground send arduino.pids.tunings request=true     prints the gains that fly
   up-ground serve                                      the page for browsers, on this machine
+  up-ground replay last                                a recorded flight in that page
   up-ground seat request                               asks whoever commands to hand over
 
 environment
@@ -97,7 +97,8 @@ def make_parser(environ: Mapping[str, str]) -> argparse.ArgumentParser:
     for verb in verbs.choices.values():
         # People write them behind the verb as well; there an absent one must change nothing.
         _add_connection(verb, *(argparse.SUPPRESS,) * 4)
-    _add_serve(verbs, environ)
+    _add_serve(verbs)
+    _add_replay(verbs)
     commands = verbs.add_parser("commands", help="list the Commands that a ground may send")
     commands.add_argument("name", nargs="?", help="only this one")
     return parser
@@ -208,7 +209,7 @@ def _add_seat(verbs: argparse._SubParsersAction[_Parser]) -> None:
     actions.add_parser("release", help="leave the seat free")
 
 
-def _add_serve(verbs: argparse._SubParsersAction[_Parser], environ: Mapping[str, str]) -> None:
+def _add_serve(verbs: argparse._SubParsersAction[_Parser]) -> None:
     serve = verbs.add_parser(
         "serve",
         help="serve the ground station as a page for browsers",
@@ -224,66 +225,18 @@ def _add_serve(verbs: argparse._SubParsersAction[_Parser], environ: Mapping[str,
         " again for each one",
     )
     _add_connection(serve, *(argparse.SUPPRESS,) * 3)
-    _add_page(serve, environ)
+    add_page_options(serve)
 
 
-def _add_page(parser: argparse.ArgumentParser, environ: Mapping[str, str]) -> None:
-    """Add the options of everything that serves a page."""
-    parser.add_argument(
-        "--listen",
-        default=DEFAULT_LISTEN,
-        metavar="ADDRESS:PORT",
-        help="where browsers find the page; 0.0.0.0 is every interface (default %(default)s)",
+def _add_replay(verbs: argparse._SubParsersAction[_Parser]) -> None:
+    add_arguments(
+        verbs.add_parser(
+            "replay",
+            help="play a recorded flight in the page",
+            description="Play a recorded flight in the page of the ground station.",
+            epilog=EPILOG,
+        )
     )
-    parser.add_argument(
-        "--name",
-        action="append",
-        type=_host_name,
-        metavar="HOST",
-        help="another name under which the page is opened, besides this machine's own",
-    )
-    parser.add_argument(
-        "--tiles",
-        default=environ.get("UP_GROUND_TILES", ""),
-        metavar="URL",
-        help="where this server fetches the pictures of the map, with {z}, {x} and {y} in it; they"
-        " are kept on disk (default: none, the map has a grid alone)",
-    )
-    parser.add_argument(
-        "--attribution",
-        type=_attribution,
-        default="",
-        metavar="TEXT",
-        help="whose map it is, as its owner wants it to be shown",
-    )
-    parser.add_argument(
-        "--watch-only", action="store_true", help="no page may control, whatever it brings"
-    )
-    parser.add_argument(
-        "--key",
-        type=_key,
-        default=environ.get("UP_GROUND_KEY") or None,
-        help="the key that lets a page control, of 8 to 64 letters, digits, _ and - (default: a"
-        " fresh one at each start, none on loopback; UP_GROUND_KEY hides it from others here)",
-    )
-
-
-def _host_name(text: str) -> str:
-    if not _HOST_NAME.fullmatch(text):
-        raise argparse.ArgumentTypeError(f"a name is letters, digits, dots and -, not {text!r}")
-    return text
-
-
-def _attribution(text: str) -> str:
-    if len(text) > 200:
-        raise argparse.ArgumentTypeError("an attribution has at most 200 characters")
-    return text
-
-
-def _key(text: str) -> str:
-    if not _KEY.fullmatch(text):
-        raise argparse.ArgumentTypeError("a key is 8 to 64 letters, digits, _ and -")
-    return text
 
 
 def _port(text: str) -> int:

@@ -5,66 +5,32 @@ from __future__ import annotations
 import argparse
 import io
 import os
-import signal
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from twisted.internet.defer import Deferred
-
+from up.cli.cli_error import CliError
 from up.fields import printable
 from up.protocols.general_message import encode
-from up.system.clock import use_monotonic_time
 from up_ground.arguments import parse_arguments, settings_of
 from up_ground.catalogue import Catalogue, describe, fault_of
 from up_ground.errand import (
     EXIT_DONE,
     EXIT_INTERRUPTED,
-    EXIT_REFUSED,
     EXIT_USAGE,
     Errand,
     complain,
     say,
 )
 from up_ground.field_values import FieldError, parse_fields
+from up_ground.run_errand import run
 from up_ground.seat import LeaveSeat, RequestSeat
 from up_ground.send import Send
 from up_ground.settings import Seat
 from up_ground.terminal import Terminal
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.watch import JSONWatch, OnceWatch, PlainWatch, ScreenWatch, Watch, is_terminal
-
-MakeErrand = Callable[[Any], Any]
-
-
-def run(make: MakeErrand) -> int:
-    """Do an errand on the real reactor until it is finished or interrupted."""
-    from twisted.internet import reactor
-
-    loop: Any = reactor
-    use_monotonic_time(loop)
-    errand = make(loop)
-    status = [EXIT_INTERRUPTED]
-
-    async def do() -> None:
-        errand.start()
-        status[0] = await errand.finished
-        await errand.stop()
-        loop.stop()
-
-    def begin() -> None:
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, lambda *_: loop.callFromThread(errand.finish, EXIT_INTERRUPTED))
-        Deferred.fromCoroutine(do()).addErrback(_crash)
-
-    def _crash(failure: Any) -> None:
-        complain(f"a mistake in the program: {failure.getErrorMessage()}")
-        status[0] = EXIT_REFUSED
-        loop.stop()
-
-    loop.callWhenRunning(begin)
-    loop.run(installSignalHandlers=False)
-    return status[0]
+from up_ground.web.serve import PageOptions, ServeError, fleet_of, make_stations
 
 
 def watch(options: argparse.Namespace) -> int:
@@ -160,41 +126,30 @@ def commands(options: argparse.Namespace) -> int:
 
 
 def serve(options: argparse.Namespace) -> int:
-    """Serve the ground station in a browser."""
-    # Only here: what it needs besides is an extra, and every other verb starts without it.
+    """Serve the ground station as a page for browsers."""
     try:
-        from up_ground.web.server import Server
-    except ModuleNotFoundError as error:
-        return _usage([_missing(error)])
-    from up_ground.web import serve as web
-
-    try:
-        chosen, listen = web.fleet_of(options), web.listen_of(options)
-        make_tiles = web.tiles_of(options, os.environ)
-    except web.ServeError as error:
+        page, chosen = PageOptions.of(options, os.environ), fleet_of(options)
+    except ServeError as error:
         return _usage([printable(str(error))])
-    access = web.access_of(options, listen)
-
-    def make(reactor: Any) -> Server:
-        return Server(
+    return run(
+        lambda reactor: page.server(
             reactor,
-            listen,
-            access,
-            lambda audience: web.make_stations(reactor, chosen, os.environ, audience),
+            lambda audience: make_stations(reactor, chosen, os.environ, audience),
             say=say,
             complain=complain,
-            tiles=make_tiles and make_tiles(reactor),
-            attribution=options.attribution,
         )
-
-    return run(make)
-
-
-def _missing(error: ModuleNotFoundError) -> str:
-    return (
-        f"the page needs the Python package {error.name}, which is not installed:"
-        " pip install 'raspilot[ground]'"
     )
+
+
+def replay(options: argparse.Namespace) -> int:
+    """Play a flight in the page."""
+    from up_ground.replay.replay import run as play
+
+    try:
+        return play(options)
+    except CliError as error:
+        complain(str(error))
+        return error.status
 
 
 def _unknown(catalogue: Catalogue, name: str) -> list[str]:
@@ -236,6 +191,7 @@ _VERBS: dict[str, Callable[[argparse.Namespace], int]] = {
     "seat": seat,
     "commands": commands,
     "serve": serve,
+    "replay": replay,
 }
 
 

@@ -12,9 +12,10 @@ from up.version import VERSION
 from up_ground.safe_text import safe_text
 from up_ground.web.access import Access
 from up_ground.web.allowance import Allowance
-from up_ground.web.messages import FrameMessage, message_bytes
+from up_ground.web.messages import message_bytes
 from up_ground.web.page import Page, PageConnection
 from up_ground.web.page_message import PageFault, Reader, read_message
+from up_ground.web.page_output import Make
 from up_ground.web.watched import WatchedAircraft
 
 PAGES_LIMIT = 16
@@ -88,11 +89,11 @@ class Pages:
         page = self._pages.get(number)
         return None if page is None or page.link is None else page
 
-    def show_frame(self, aircraft: str, frame: FrameMessage) -> None:
-        """Give a frame to the pages that watch the aircraft."""
+    def show(self, aircraft: str, kind: str, make: Make) -> None:
+        """Give the pages that watch the aircraft what only counts until the next of its kind."""
         for page in self._pages.values():
             if page.watched == aircraft:
-                page.news("frame", frame)
+                page.news(kind, make)
 
     def tell(self, aircraft: str, message: dict[str, Any]) -> None:
         """Say something to the pages that watch the aircraft."""
@@ -248,8 +249,8 @@ class Pages:
                 "token": page.token,
                 "version": VERSION,
                 "aircraft": list(self.fleet),
-                "may_control": page.may_control,
-                "why_not": page.why_not,
+                "may_control": page.may_control and not self._is_replay,
+                "why_not": "this is a replay" if self._is_replay else page.why_not,
                 "tiles": self._tiles,
                 "is_replay": self._is_replay,
             }

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import importlib
+import importlib.util
 import secrets
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from up_ground.catalogue import Catalogue
 from up_ground.settings import Seat, Settings
@@ -14,12 +17,14 @@ from up_ground.web.access import Access, machine_names
 from up_ground.web.commands import Checks
 from up_ground.web.fleet import AIRCRAFT_LIMIT, parse_aircraft
 from up_ground.web.listen_address import ListenAddress, parse_listen
-from up_ground.web.site import Tiles
 from up_ground.web.station import Station
 from up_ground.web.tile_cache import TileCache, cache_folder
 from up_ground.web.watched import Audience, WatchedAircraft
 
-MakeTiles = Callable[[Any], Tiles]
+if TYPE_CHECKING:
+    from up_ground.web.site import Tiles
+
+MakeTiles = Callable[[Any], "Tiles"]
 
 
 class ServeError(ValueError):
@@ -42,33 +47,63 @@ def fleet_of(options: argparse.Namespace) -> list[Settings]:
     return chosen
 
 
-def listen_of(options: argparse.Namespace) -> ListenAddress:
-    """Return where to listen; raises ServeError."""
-    try:
-        return parse_listen(options.listen)
-    except ValueError as error:
-        raise ServeError(str(error)) from None
+@dataclass(frozen=True, slots=True)
+class PageOptions:
+    """Where the page is served, to whom, and with which map."""
+
+    listen: ListenAddress
+    access: Access
+    make_tiles: MakeTiles | None
+    attribution: str
+
+    @classmethod
+    def of(cls, options: argparse.Namespace, environ: Mapping[str, str]) -> PageOptions:
+        """Return what the options say; raises ServeError."""
+        try:
+            # What it needs besides is an extra, and every other verb starts without it.
+            importlib.import_module("up_ground.web.server")
+        except ModuleNotFoundError as error:
+            raise ServeError(
+                f"the page needs the Python package {error.name}, which is not installed:"
+                " pip install 'raspilot[ground]'"
+            ) from None
+        try:
+            listen = parse_listen(options.listen)
+        except ValueError as error:
+            raise ServeError(str(error)) from None
+        # On loopback nobody needs a key unless one is given.
+        key = options.key or (None if listen.is_loopback else secrets.token_urlsafe(12))
+        access = Access(machine_names(options.name or ()), key, options.watch_only)
+        return cls(listen, access, _tiles_of(options.tiles, environ), options.attribution)
+
+    def server(self, reactor: Any, make_fleet: Any, **more: Any) -> Any:
+        """Return the server."""
+        server = importlib.import_module("up_ground.web.server")
+        tiles = None if self.make_tiles is None else self.make_tiles(reactor)
+        return server.Server(
+            reactor,
+            self.listen,
+            self.access,
+            make_fleet,
+            tiles=tiles,
+            attribution=self.attribution,
+            **more,
+        )
 
 
-def tiles_of(options: argparse.Namespace, environ: Mapping[str, str]) -> MakeTiles | None:
-    """Return what makes the source of the map's pictures; None: no map. Raises ServeError."""
-    source = options.tiles
+def _tiles_of(source: str, environ: Mapping[str, str]) -> MakeTiles | None:
     if not source:
         return None
     # Here, because its library takes long to load and most flights have no map.
     from up_ground.web.tiles import TileSource, source_fault
 
     fault = source_fault(source)
+    if not fault and source.startswith("https:") and importlib.util.find_spec("OpenSSL") is None:
+        fault = "https needs the Python package pyOpenSSL: pip install 'twisted[tls]'"
     if fault:
         raise ServeError(f"--tiles: {fault}")
     cache = TileCache(cache_folder(environ), source)
     return lambda reactor: TileSource(reactor, source, cache)
-
-
-def access_of(options: argparse.Namespace, listen: ListenAddress) -> Access:
-    """Return who may what: on loopback nobody needs a key unless one is given."""
-    key = options.key or (None if listen.is_loopback else secrets.token_urlsafe(12))
-    return Access(machine_names(options.name or ()), key, options.watch_only)
 
 
 def make_stations(

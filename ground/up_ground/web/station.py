@@ -25,7 +25,7 @@ from up_ground.web.messages import FrameMessage
 from up_ground.web.page import Page
 from up_ground.web.page_message import PageFault, Reader
 from up_ground.web.seat_at_proxy import SeatAtProxy
-from up_ground.web.track import Track
+from up_ground.web.track import Track, track_message
 from up_ground.web.watched import Audience
 
 TICK_S = 0.25
@@ -104,7 +104,7 @@ class Station:
                 lambda: self._reactor.seconds() - came_s + self.telemetry.delay_s,
             )
             self._frame = frame
-            self._audience.show_frame(self.name, frame)
+            self._audience.show(self.name, "frame", frame)
             self._look_at(came_s)
         else:
             self.desk.on_message(message)
@@ -112,7 +112,7 @@ class Station:
     def _look_at(self, now_s: float) -> None:
         """See what a frame means, after it has left for the pages."""
         telemetry = self.telemetry
-        self._track.take(telemetry)
+        self._track.take(telemetry, now_s)
         self._home.take(telemetry)
         self.judge.on_frame(telemetry, self._facts(now_s), now_s)
         has_board = telemetry.flag("arduino", "connected")
@@ -142,7 +142,7 @@ class Station:
 
     def past(self) -> Iterable[dict[str, Any]]:
         """Return what a page is told that begins to watch."""
-        yield self._track.message(self.name)
+        yield track_message(self.name, self._track.points())
         yield from self.judge.past(self._reactor.seconds())
         yield self.desk.gains_message()
         if self.desk.profile is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from math import cos, radians
 from typing import Any
 
@@ -22,15 +23,11 @@ class Track:
 
     def __init__(self) -> None:
         self._points: list[Point] = []
+        self._times_s: list[float] = []
         self._newest: Point | None = None
 
-    def clear(self) -> None:
-        """Forget everything."""
-        self._points.clear()
-        self._newest = None
-
-    def take(self, telemetry: Telemetry) -> None:
-        """Take the place of a frame, where it has one that is one."""
+    def take(self, telemetry: Telemetry, time_s: float) -> None:
+        """Take the place of a frame, where it has one that is one; time only goes on."""
         latitude = telemetry.number("location", "latitude")
         longitude = telemetry.number("location", "longitude")
         if latitude is None or longitude is None or abs(latitude) > 90 or abs(longitude) > 180:
@@ -41,8 +38,9 @@ class Track:
         self._newest = (latitude, longitude, altitude)
         if not self._points or _distance_m(self._points[-1], self._newest) >= NEAREST_M:
             self._points.append(self._newest)
+            self._times_s.append(time_s)
             if len(self._points) >= POINTS_LIMIT:
-                del self._points[1:-1:2]
+                del self._points[1:-1:2], self._times_s[1:-1:2]
 
     def points(self) -> list[Point]:
         """Return the points from the oldest to the newest."""
@@ -50,9 +48,14 @@ class Track:
             return list(self._points)
         return [*self._points, self._newest]
 
-    def message(self, aircraft: str) -> dict[str, Any]:
-        """Return what a page is told."""
-        return {"type": "track", "aircraft": aircraft, "points": self.points()}
+    def points_until(self, time_s: float) -> list[Point]:
+        """Return the points up to a moment."""
+        return self._points[: bisect_right(self._times_s, time_s)]
+
+
+def track_message(aircraft: str, points: list[Point]) -> dict[str, Any]:
+    """Return what a page is told."""
+    return {"type": "track", "aircraft": aircraft, "points": points}
 
 
 def _distance_m(a: Point, b: Point) -> float:

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 from up_ground.web.messages import FrameMessage
 from up_ground.web.page import Page
 from up_ground.web.page_message import Reader
+from up_ground.web.page_output import Make
 
 
 class WatchedAircraft(Protocol):
@@ -59,8 +60,8 @@ class WatchedAircraft(Protocol):
 class Audience(Protocol):
     """The pages, as an aircraft sees them."""
 
-    def show_frame(self, aircraft: str, frame: FrameMessage) -> None:
-        """Give a frame to the pages that watch the aircraft."""
+    def show(self, aircraft: str, kind: str, make: Make) -> None:
+        """Give the pages that watch the aircraft what only counts until the next of its kind."""
 
     def tell(self, aircraft: str, message: dict[str, Any]) -> None:
         """Say something to the pages that watch the aircraft."""

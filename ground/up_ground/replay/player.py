@@ -1,0 +1,124 @@
+"""Plays a flight: which frame is due, at which speed, from where."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from up.flight_log.telemetry_frames import Frame
+from up.system.clock import Clock, Timer
+
+SLOWEST, FASTEST = 0.25, 64.0
+LEAST_PAUSE_S = 0.04
+"""Frames that come faster are not shown each: no eye sees them."""
+LONGEST_PAUSE_S = 0.5
+
+Open = Callable[[float], Iterator[Frame]]
+
+
+class Player:
+    """Goes through the frames that ``open_at(time_s)`` yields from a moment on.
+
+    ``show(frame)`` gets the newest frame that is due, ``moved(before_s, now_s)`` hears how far it
+    has gone on, ``changed()`` that it plays, pauses or jumped.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        length_s: float,
+        open_at: Open,
+        *,
+        show: Callable[[Frame], object],
+        moved: Callable[[float, float], object],
+        changed: Callable[[], object],
+    ) -> None:
+        self.length_s = length_s
+        self.speed = 1.0
+        self.is_playing = False
+        self._clock = clock
+        self._open_at = open_at
+        self._show = show
+        self._moved = moved
+        self._changed = changed
+        self._frames = open_at(0.0)
+        self._next: Frame | None = next(self._frames, None)
+        self._from_s = 0.0
+        self._since_s = clock.seconds()
+        self._told_s = 0.0
+        self._timer: Timer | None = None
+
+    @property
+    def time_s(self) -> float:
+        """Return the moment of the flight that is shown."""
+        if not self.is_playing:
+            return self._from_s
+        gone_s = (self._clock.seconds() - self._since_s) * self.speed
+        return min(self.length_s, self._from_s + gone_s)
+
+    def play(self) -> None:
+        """Go on, from the beginning when the end was reached."""
+        if self.is_playing:
+            return
+        if self._from_s >= self.length_s:
+            self.seek(0.0)
+        self.is_playing = True
+        self._since_s = self._clock.seconds()
+        self._changed()
+        self._go_on()
+
+    def pause(self) -> None:
+        """Stand still."""
+        self._hold()
+        self.is_playing = False
+        self._changed()
+
+    def seek(self, time_s: float) -> None:
+        """Go to a moment and show it."""
+        self._hold()
+        self._from_s = self._told_s = max(0.0, min(self.length_s, time_s))
+        self._frames = self._open_at(self._from_s)
+        self._next = next(self._frames, None)
+        self._changed()
+        if self._next is not None:
+            self._show(self._next)
+        if self.is_playing:
+            self._go_on()
+
+    def set_speed(self, speed: float) -> None:
+        """Play faster or slower."""
+        self._hold()
+        self.speed = max(SLOWEST, min(FASTEST, speed))
+        self._changed()
+        if self.is_playing:
+            self._go_on()
+
+    def stop(self) -> None:
+        """End."""
+        self.is_playing = False
+        self._cancel()
+
+    def _hold(self) -> None:
+        self._cancel()
+        self._from_s = self.time_s
+        self._since_s = self._clock.seconds()
+
+    def _cancel(self) -> None:
+        if self._timer is not None and self._timer.active():
+            self._timer.cancel()
+
+    def _go_on(self) -> None:
+        now_s = self.time_s
+        due = None
+        while self._next is not None and self._next.time_s <= now_s + 1e-6:
+            due, self._next = self._next, next(self._frames, None)
+        before_s, self._told_s = self._told_s, now_s
+        self._moved(before_s, now_s)
+        if due is not None:
+            self._show(due)
+        if now_s >= self.length_s:
+            self.pause()
+            return
+        rest_s = self.length_s if self._next is None else self._next.time_s
+        pause_s = (rest_s - now_s) / self.speed
+        pause_s = max(LEAST_PAUSE_S, min(LONGEST_PAUSE_S, pause_s))
+        self._timer = self._clock.callLater(pause_s, self._go_on)

@@ -1,0 +1,55 @@
+"""What ``replay`` does."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+from typing import Any
+
+from up.cli.cli_error import CliError
+from up.fields import printable
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.mcap_format import FlightLogError
+from up_ground.errand import EXIT_USAGE, complain, say
+from up_ground.replay.flights import FlightNotFoundError, find_flight, flights_folder
+from up_ground.replay.replayed_aircraft import ReplayedAircraft
+from up_ground.replay.story import Story
+from up_ground.run_errand import run as run_errand
+from up_ground.safe_text import safe_text
+from up_ground.web.serve import PageOptions, ServeError
+
+
+def run(options: argparse.Namespace) -> int:
+    """Serve the page with a flight; returns the exit status. Raises CliError."""
+    try:
+        page = PageOptions.of(options, os.environ)
+        folder = Path(options.folder) if options.folder else flights_folder(os.environ)
+        paths = find_flight(options.flight, folder)
+        say(f"reading {printable(', '.join(path.name for path in paths))} ...")
+        log = FlightLog.read(paths)
+        story = Story(log, aircraft_of(log))
+    except (ServeError, FlightNotFoundError, FlightLogError) as error:
+        raise CliError(printable(str(error)), EXIT_USAGE) from None
+    if not log.topics:
+        raise CliError(f"{printable(paths[0].name)} holds no message", EXIT_USAGE)
+    for problem in log.problems[:5]:
+        complain(printable(problem))
+    title = safe_text(paths[0].name.removesuffix(".mcap"), 100)
+
+    def make(reactor: Any) -> Any:
+        return page.server(
+            reactor,
+            lambda audience: [ReplayedAircraft(reactor, log, story, title, audience)],
+            is_replay=True,
+            say=say,
+            complain=complain,
+        )
+
+    return run_errand(make)
+
+
+def aircraft_of(log: FlightLog) -> str:
+    """Return the aircraft's name as the log tells it."""
+    name = log.metadata.get("flight", {}).get("aircraft", "")
+    return safe_text(name, 32) or "flight"

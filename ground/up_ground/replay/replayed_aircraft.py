@@ -1,0 +1,188 @@
+"""A flight of the past as the server's one aircraft."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.mcap_format import FlightLogError
+from up.flight_log.telemetry_frames import Frame, frames
+from up.system.clock import Clock, Timer
+from up_ground.replay.player import Player
+from up_ground.replay.story import Story, past
+from up_ground.web.messages import FrameMessage, message_bytes
+from up_ground.web.page import Page
+from up_ground.web.page_message import PageFault, Reader
+from up_ground.web.watched import Audience
+
+REPLAY = "this is a replay"
+TELL_S = 0.25
+
+
+class ReplayedAircraft:
+    """Shows a flight to the pages; any page that could control an aircraft plays and pauses it."""
+
+    def __init__(
+        self, clock: Clock, log: FlightLog, story: Story, title: str, audience: Audience
+    ) -> None:
+        self.name = story.aircraft
+        self._clock = clock
+        self._log = log
+        self._story = story
+        self._title = title
+        self._audience = audience
+        self._frame: FrameMessage | None = None
+        self._frames = 0
+        self._timer: Timer | None = None
+        self._player = Player(
+            clock,
+            log.length_s,
+            self._open_at,
+            show=self._show,
+            moved=self._on_moved,
+            changed=self._on_changed,
+        )
+
+    @property
+    def summary(self) -> str:
+        """Return whom this is about, in a line."""
+        return f"{self.name}: {self._title}, {self._story.length_s:.0f} s"
+
+    def start(self) -> None:
+        """Begin to play."""
+        self._player.play()
+        self._tell()
+
+    async def stop(self) -> None:
+        """End."""
+        self._player.stop()
+        if self._timer is not None:
+            self._timer.cancel()
+
+    def frame(self) -> FrameMessage | None:
+        """Return the frame that is shown."""
+        return self._frame
+
+    def past(self) -> Iterable[dict[str, Any]]:
+        """Return what a page is told that begins to watch."""
+        now_s = self._player.time_s
+        yield self._replay()
+        yield self._story.track_until(now_s)
+        yield from past(self._story.events_until(now_s))
+        yield self._story.alarms_at(now_s)
+
+    def status(self, page: Page) -> dict[str, Any]:
+        """Return the status as this page sees it."""
+        pages = [{"page": each.number, "name": each.name} for each in self._audience.all()]
+        return {
+            "type": "status",
+            "aircraft": self.name,
+            "link": {
+                "state": "connected",
+                "reason": "",
+                "since_s": round(self._player.time_s, 3),
+                "aircraft_online": True,
+                "round_trip_ms": None,
+                "connections": 1,
+                "frames": self._frames,
+                "lost": 0,
+                "dropped": 0,
+                "rate_hz": None,
+                "frame_age_ms": 0.0,
+            },
+            "control": {
+                "holder": "nobody",
+                "holder_name": "",
+                "asked_by": None,
+                "asks_you": False,
+                "pages": pages,
+            },
+            "role": "observer",
+            "tune_in_flight": None,
+            "home": self._story.home,
+        }
+
+    def on_replay(self, page: Page, action: str, message: Reader) -> None:
+        """Play, pause, go to a moment (value: seconds), set the speed (value: a factor)."""
+        if not page.may_control:
+            raise PageFault(f"this page may only watch: {page.why_not}")
+        if action in ("seek", "speed"):
+            value = message.number("value")
+            if not math.isfinite(value) or value < 0:
+                raise PageFault("value is no number of at least 0")
+            (self._player.seek if action == "seek" else self._player.set_speed)(value)
+            if action == "seek":
+                for each in self.past():
+                    self._audience.tell(self.name, each)
+        elif action == "play":
+            self._player.play()
+        else:
+            self._player.pause()
+
+    def on_control(self, page: Page, action: str, to: int | None) -> None:
+        """Refuse: nothing of the past can be controlled."""
+        raise PageFault(REPLAY)
+
+    def on_command(self, page: Page, message: Reader) -> None:
+        """Refuse: nothing of the past takes Commands."""
+        page.tell(
+            {
+                "type": "answer",
+                "ask": message.whole("ask"),
+                "outcome": "refused",
+                "code": "replay",
+                "reason": REPLAY,
+                "round_trip_ms": None,
+                "data": None,
+            }
+        )
+
+    def on_second(self) -> None:
+        """Hear that a second is over."""
+
+    def on_away(self, page: Page) -> None:
+        """Hear that a page's link was lost; it may come back."""
+
+    def on_back(self, page: Page) -> None:
+        """Hear that a page is here."""
+
+    def on_gone(self, page: Page) -> None:
+        """Hear that it will not come back."""
+
+    def _open_at(self, time_s: float) -> Any:
+        try:
+            yield from frames(self._log, since_s=time_s)
+        except FlightLogError:
+            # The file became unreadable while it was played: what was there was shown.
+            return
+
+    def _show(self, frame: Frame) -> None:
+        self._frames += 1
+        self._frame = FrameMessage(self.name, frame.beacon, frame.data, lambda: 0.0)
+        self._audience.show(self.name, "frame", self._frame)
+
+    def _on_moved(self, before_s: float, now_s: float) -> None:
+        for event in self._story.events_between(before_s, now_s):
+            self._audience.tell(self.name, event)
+        alarms = self._story.alarms_at(now_s)
+        if alarms != self._story.alarms_at(before_s):
+            self._audience.tell(self.name, alarms)
+
+    def _on_changed(self) -> None:
+        self._audience.show(self.name, "replay", lambda: message_bytes(self._replay()))
+
+    def _tell(self) -> None:
+        self._timer = self._clock.callLater(TELL_S, self._tell)
+        self._on_changed()
+
+    def _replay(self) -> dict[str, Any]:
+        return {
+            "type": "replay",
+            "name": self._title,
+            "time_s": round(self._player.time_s, 3),
+            "length_s": round(self._player.length_s, 3),
+            "speed": self._player.speed,
+            "is_playing": self._player.is_playing,
+        }

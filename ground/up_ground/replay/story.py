@@ -1,0 +1,118 @@
+"""What happened in a flight, worked out once, so that any moment of it can be shown."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable
+from typing import Any
+
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.telemetry_frames import Frame, frames
+from up.protocols.general_message import GeneralMessage
+from up_ground.safe_text import safe_text
+from up_ground.telemetry import NAME, SILENT_S, Telemetry
+from up_ground.web.alarms import LinkFacts
+from up_ground.web.facts import INFO
+from up_ground.web.home import Home
+from up_ground.web.judge import Judge
+from up_ground.web.track import Track, track_message
+
+MARK = "black_box.mark"
+_LOOK_S = 0.25
+_LONGEST_LOOK_S = 5.0
+
+
+class Story:
+    """Every event, alarm and place of a flight with its time; times are the log's seconds."""
+
+    def __init__(self, log: FlightLog, aircraft: str) -> None:
+        self.aircraft = aircraft
+        self.length_s = log.length_s
+        self.events: list[dict[str, Any]] = []
+        self._event_times_s: list[float] = []
+        self._alarms: list[dict[str, Any]] = []
+        self._alarm_times_s: list[float] = []
+        self._track = Track()
+        self._home = Home()
+        self._now_s = 0.0
+        self._judge = Judge(aircraft, self._take)
+        self._read(log)
+
+    @property
+    def home(self) -> dict[str, float] | None:
+        """Return the home's place."""
+        return self._home.told()
+
+    def events_until(self, time_s: float) -> list[dict[str, Any]]:
+        """Return the newest events up to a moment, with their ages at that moment."""
+        return self.events_between(-1.0, time_s)[-200:]
+
+    def events_between(self, after_s: float, until_s: float) -> list[dict[str, Any]]:
+        """Return the events of a span, with their ages at its end."""
+        first = bisect_right(self._event_times_s, after_s)
+        last = bisect_right(self._event_times_s, until_s)
+        return [
+            {**self.events[place], "age_ms": round((until_s - self._event_times_s[place]) * 1000)}
+            for place in range(first, last)
+        ]
+
+    def alarms_at(self, time_s: float) -> dict[str, Any]:
+        """Return what was wrong at a moment."""
+        place = bisect_right(self._alarm_times_s, time_s)
+        if not place:
+            return {"type": "alarms", "aircraft": self.aircraft, "active": []}
+        return self._alarms[place - 1]
+
+    def track_until(self, time_s: float) -> dict[str, Any]:
+        """Return the way up to a moment."""
+        return track_message(self.aircraft, self._track.points_until(time_s))
+
+    def _read(self, log: FlightLog) -> None:
+        telemetry = Telemetry()
+        marks = [
+            (each.time_s, safe_text(each.data.get("text") or "", 200))
+            for each in log.messages(MARK)
+        ]
+        marks.reverse()
+        for frame in frames(log):
+            self._wait(telemetry, frame.time_s)
+            self._note_marks(marks, frame.time_s)
+            self._look_at(telemetry, frame)
+        self._note_marks(marks, log.length_s)
+
+    def _look_at(self, telemetry: Telemetry, frame: Frame) -> None:
+        self._now_s = frame.time_s
+        telemetry.take(GeneralMessage(NAME, frame.data, None, frame.beacon), frame.time_s)
+        self._track.take(telemetry, frame.time_s)
+        self._home.take(telemetry)
+        self._judge.on_frame(telemetry, _link(False), frame.time_s)
+
+    def _wait(self, telemetry: Telemetry, until_s: float) -> None:
+        """Let the time between two frames pass, as far as it changes anything."""
+        if not telemetry.frames:
+            return
+        begin_s = self._now_s
+        while self._now_s + _LOOK_S < min(until_s, begin_s + _LONGEST_LOOK_S):
+            self._now_s += _LOOK_S
+            link = _link(self._now_s - begin_s > SILENT_S)
+            self._judge.on_moment(telemetry, link, self._now_s)
+
+    def _note_marks(self, marks: list[tuple[float, str]], until_s: float) -> None:
+        while marks and marks[-1][0] <= until_s:
+            self._now_s, text = marks.pop()
+            self._judge.note("mark", INFO, f"mark: {text}", self._now_s)
+
+    def _take(self, message: dict[str, Any]) -> None:
+        is_event = message["type"] == "event"
+        times_s = self._event_times_s if is_event else self._alarm_times_s
+        times_s.append(self._now_s)
+        (self.events if is_event else self._alarms).append(message)
+
+
+def _link(is_silent: bool) -> LinkFacts:
+    return LinkFacts(True, "", None, True, is_silent)
+
+
+def past(events: Iterable[dict[str, Any]]) -> Iterable[dict[str, Any]]:
+    """Return events as those are told that were before."""
+    return ({**each, "is_past": True} for each in events)
