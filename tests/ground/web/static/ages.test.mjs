@@ -1,6 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { freshnessOf, isSilent, readingOf } from "../../../../ground/up_ground/web/static/js/state/ages.js";
+import {
+  freshnessOf,
+  isSilent,
+  readingOf,
+} from "../../../../ground/up_ground/web/static/js/state/ages.js";
 
 test("a page without a frame is silent and has nothing to show", () => {
   assert.equal(isSilent(null), true);

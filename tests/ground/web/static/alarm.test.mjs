@@ -1,7 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Bell } from "../../../../ground/up_ground/web/static/js/sound.js";
-import { alarmOf, worstLevel } from "../../../../ground/up_ground/web/static/js/state/alarm_level.js";
+import {
+  alarmOf,
+  worstLevel,
+} from "../../../../ground/up_ground/web/static/js/state/alarm_level.js";
 
 const OPEN = { isOpen: true };
 const FAILSAFE = { kind: "failsafe", level: "alarm", text: "Failsafe" };

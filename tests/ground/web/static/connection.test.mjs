@@ -110,7 +110,14 @@ test("a Command carries the beacon of the frame that was shown, and gets its ans
   server.welcome();
   const answer = page.command("up.arm", {});
   const [sent] = server.socket.of("command");
-  const expected = { type: "command", ask: sent.ask, aircraft: "one", name: "up.arm", data: {}, beacon: 4711 };
+  const expected = {
+    type: "command",
+    ask: sent.ask,
+    aircraft: "one",
+    name: "up.arm",
+    data: {},
+    beacon: 4711,
+  };
   assert.deepEqual(sent, expected);
   server.socket.say({ type: "answer", ask: sent.ask + 1, outcome: "nack" });
   server.socket.say({ type: "answer", ask: sent.ask, outcome: "ack", round_trip_ms: 31 });

@@ -1,8 +1,20 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { ballTransform, onCircle, rollMarks, rungs } from "../../../../ground/up_ground/web/static/js/instruments/ladder.js";
-import { beyond, share, stickPlace } from "../../../../ground/up_ground/web/static/js/instruments/stick_geometry.js";
-import { rootScale, TapeScale } from "../../../../ground/up_ground/web/static/js/instruments/tape_scale.js";
+import {
+  ballTransform,
+  onCircle,
+  rollMarks,
+  rungs,
+} from "../../../../ground/up_ground/web/static/js/instruments/ladder.js";
+import {
+  beyond,
+  share,
+  stickPlace,
+} from "../../../../ground/up_ground/web/static/js/instruments/stick_geometry.js";
+import {
+  rootScale,
+  TapeScale,
+} from "../../../../ground/up_ground/web/static/js/instruments/tape_scale.js";
 
 test("the ladder reaches from the nadir to the zenith and is the same on both sides", () => {
   const all = rungs().map((each) => each.pitch_deg);
@@ -22,7 +34,9 @@ test("right wing down turns the picture left, nose up moves it down", () => {
 });
 
 test("the roll scale has the same marks left and right", () => {
-  const marks = rollMarks().map((each) => each.roll_deg).sort((one, other) => one - other);
+  const marks = rollMarks()
+    .map((each) => each.roll_deg)
+    .sort((one, other) => one - other);
   assert.deepEqual(marks, [-60, -45, -30, -20, -10, 10, 20, 30, 45, 60]);
 });
 

@@ -1,6 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { at, flag, number, text, texts } from "../../../../ground/up_ground/web/static/js/state/judge.js";
+import {
+  at,
+  flag,
+  number,
+  text,
+  texts,
+} from "../../../../ground/up_ground/web/static/js/state/judge.js";
 
 const ODD = [null, undefined, "7", [], {}, NaN, Infinity, -Infinity, 1e300, true];
 

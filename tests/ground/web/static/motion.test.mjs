@@ -51,6 +51,9 @@ test("climbing is positive, and unknown numbers change nothing", () => {
 });
 
 test("distances go the short way over the date line", () => {
-  const metres = distance_m({ latitude: 0, longitude: 179.999 }, { latitude: 0, longitude: -179.999 });
+  const metres = distance_m(
+    { latitude: 0, longitude: 179.999 },
+    { latitude: 0, longitude: -179.999 },
+  );
   assert.ok(Math.abs(metres - 0.002 * DEGREE_M) < 1);
 });

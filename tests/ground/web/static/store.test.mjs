@@ -14,7 +14,12 @@ beforeEach(() => {
   frames = [];
   const { now_s, timers } = clock;
   const memory = new Keepsake(null);
-  const connection = new Connection("ws://x/link", { memory, now_s, timers, makeSocket: server.makeSocket });
+  const connection = new Connection("ws://x/link", {
+    memory,
+    now_s,
+    timers,
+    makeSocket: server.makeSocket,
+  });
   store = new Store(connection, { now_s, timers, requestFrame: (call) => frames.push(call) });
   connection.start();
   server.welcome();
@@ -156,15 +161,29 @@ test("a page that comes back watches the same aircraft", () => {
 
 test("events come once each, in order, with the time they happened", () => {
   const event = (number, fields) =>
-    server.socket.say({ type: "event", aircraft: "one", number, age_ms: 2000, text: "t", level: "info", ...fields });
+    server.socket.say({
+      type: "event",
+      aircraft: "one",
+      number,
+      age_ms: 2000,
+      text: "t",
+      level: "info",
+      ...fields,
+    });
   event(2);
   event(1, { is_past: true });
   event(2);
   event(3, { level: "strange" });
   event(4, { text: 7 });
   event("5");
-  assert.deepEqual(store.events.map((each) => each.number), [1, 2, 3]);
-  assert.deepEqual(store.events.map((each) => each.level), ["info", "info", "info"]);
+  assert.deepEqual(
+    store.events.map((each) => each.number),
+    [1, 2, 3],
+  );
+  assert.deepEqual(
+    store.events.map((each) => each.level),
+    ["info", "info", "info"],
+  );
   assert.equal(store.events[0].at_s, clock.seconds - 2);
 });
 
@@ -210,7 +229,14 @@ test("alarms that are none are left out", () => {
 
 test("a replay's speeds are those of the flight, and a jump is no flight", () => {
   const replay = (time_s) => {
-    server.socket.say({ type: "replay", name: "n", time_s, length_s: 600, speed: 4, is_playing: true });
+    server.socket.say({
+      type: "replay",
+      name: "n",
+      time_s,
+      length_s: 600,
+      speed: 4,
+      is_playing: true,
+    });
   };
   const fly = (from_s, seconds) => {
     for (let time_s = from_s; time_s < from_s + seconds * 4; time_s += 1) {

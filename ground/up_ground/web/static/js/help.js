@@ -41,7 +41,9 @@ export function mountHelp() {
 
 function isForPage(event) {
   const isPlain = !event.ctrlKey && !event.altKey && !event.metaKey && !event.repeat;
-  const isTyping = event.target.closest?.("input, select, textarea, dialog[open], [contenteditable]");
+  const isTyping = event.target.closest?.(
+    "input, select, textarea, dialog[open], [contenteditable]",
+  );
   return isPlain && !isTyping && document.querySelector("dialog[open]") === null;
 }
 

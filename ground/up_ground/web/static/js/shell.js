@@ -2,7 +2,6 @@ import { setAttribute, setText } from "./readout.js";
 import { alarmOf } from "./state/alarm_level.js";
 import { UNKNOWN } from "./state/format.js";
 
-
 /**
  * The frame of the page: bar, banner of the link, choice of the aircraft, silence.
  * @param {object} store

@@ -1,4 +1,4 @@
-/** The far end of every socket that a page opens: keeps what the page sent, says what it is told. */
+/** The far end of a page's sockets: keeps what the page sent, says what it is told. */
 export class FakeServer {
   sockets = [];
 
@@ -16,7 +16,13 @@ export class FakeServer {
   /** Let the newest socket open, and welcome its page. */
   welcome(fields = {}) {
     this.socket.open();
-    this.socket.say({ type: "welcome", page: 1, token: "t-1", aircraft: ["one", "two"], ...fields });
+    this.socket.say({
+      type: "welcome",
+      page: 1,
+      token: "t-1",
+      aircraft: ["one", "two"],
+      ...fields,
+    });
   }
 }
 

@@ -11,9 +11,24 @@ export function mount(element, store) {
   const rose = roseOf();
   const bug = svg("path", { d: "M-7 -85V-93H7V-85L4 -85 0 -80 -4 -85Z", class: "bug" });
   const home = homeOf();
-  const heading = svg("text", { x: 0, y: -98, class: "compass-heading", "data-key": "heading.actual" });
-  const asked = svg("text", { x: -106, y: -98, class: "compass-side is-left", "data-key": "heading.required" });
-  const distance = svg("text", { x: 106, y: -98, class: "compass-side is-right", "data-key": "home.distance" });
+  const heading = svg("text", {
+    x: 0,
+    y: -98,
+    class: "compass-heading",
+    "data-key": "heading.actual",
+  });
+  const asked = svg("text", {
+    x: -106,
+    y: -98,
+    class: "compass-side is-left",
+    "data-key": "heading.required",
+  });
+  const distance = svg("text", {
+    x: 106,
+    y: -98,
+    class: "compass-side is-right",
+    "data-key": "home.distance",
+  });
   const age = svg("text", { x: 0, y: 42, class: "compass-age" });
   const turning = svg("g", {}, rose, bug, home);
   element.append(
@@ -61,7 +76,9 @@ export function distanceText(distance_m) {
   if (distance_m === null) {
     return UNKNOWN;
   }
-  return distance_m < 9999.5 ? `${numberText(distance_m)} m` : `${numberText(distance_m / 1000, 1)} km`;
+  return distance_m < 9999.5
+    ? `${numberText(distance_m)} m`
+    : `${numberText(distance_m / 1000, 1)} km`;
 }
 
 function freshnessOf(store, path, reading) {

@@ -1,3 +1,4 @@
+import { rollDemand_deg } from "../charts/demand.js";
 import { setAttribute, setText } from "../readout.js";
 import { ageText } from "../state/format.js";
 import { ballTransform, onCircle, rollMarks, rungs, UNITS_PER_DEG } from "./ladder.js";
@@ -14,6 +15,7 @@ export function mount(element, store) {
   const ladder = ladderOf();
   const pointer = svg("path", { d: "M0 -110 L-7 -97 L7 -97 Z", class: "roll-pointer" });
   const rollGroup = svg("g", {}, pointer);
+  const bug = svg("path", { d: "M0 -113 L-6 -123 H6 Z", class: "roll-bug", visibility: "hidden" });
   const note = svg("text", { x: -7, y: 62, class: "horizon-note" });
   const picture = drawing(
     `${VIEW.x} ${VIEW.y} ${VIEW.width} ${VIEW.height}`,
@@ -25,6 +27,7 @@ export function mount(element, store) {
       clipOf(),
       svg("g", { class: "ball" }, ball, svg("g", { "clip-path": "url(#ladder-clip)" }, ladder)),
       rollScale(),
+      bug,
       rollGroup,
     ),
     hatch("horizon-hatch", VIEW),
@@ -40,6 +43,7 @@ export function mount(element, store) {
       const freshness = isThere ? store.freshness("orientation") : "none";
       setAttribute(element, "data-freshness", freshness);
       setText(note, noteText(store, freshness));
+      showBug(bug, freshness === "live" ? rollDemand_deg(store) : null);
       if (!isThere) {
         return;
       }
@@ -51,6 +55,14 @@ export function mount(element, store) {
       setAttribute(ball, "data-pitch", short(pitch_deg));
     },
   };
+}
+
+/** Where the pointer of the roll scale will stand when the bank is the one asked for. */
+function showBug(bug, demand_deg) {
+  setAttribute(bug, "visibility", demand_deg === null ? "hidden" : "visible");
+  if (demand_deg !== null) {
+    setAttribute(bug, "transform", `rotate(${short(-demand_deg)})`);
+  }
 }
 
 function noteText(store, freshness) {

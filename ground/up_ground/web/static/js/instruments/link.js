@@ -49,7 +49,7 @@ export function mount(element, store, connection) {
   };
 }
 
-/** A proxy that hangs is connected as far as the server knows; nothing comes, so it is of before. */
+/** A proxy that hangs is connected as far as the server knows: what it says is of before. */
 function saysMoreThanIsHeard(link, store) {
   return store.isSilent && link.state === "connected" && link.aircraft_online !== false;
 }

@@ -9,13 +9,24 @@ const WORDS = { live: "live", stale: "old", none: "never came" };
 /** Each reading on board: who brings it, how old it is, and whether one may trust it. */
 export function mount(element, store) {
   const body = html("tbody");
-  const head = ["Reading", "From", "Age", "State"].map((name) => html("th", { scope: "col" }, name));
-  element.append(html("table", { class: "readings" }, html("thead", {}, html("tr", {}, ...head)), body));
+  const head = ["Reading", "From", "Age", "State"].map((name) =>
+    html("th", { scope: "col" }, name),
+  );
+  element.append(
+    html("table", { class: "readings" }, html("thead", {}, html("tr", {}, ...head)), body),
+  );
   const lines = READINGS.map((reading) => {
     const source = html("td", { "data-key": `source.${reading}` });
     const age = html("td", { class: "number", "data-key": `age_ms.${reading}` });
     const state = html("td", { class: "reading-state" });
-    const row = html("tr", {}, html("th", { scope: "row" }, NAMES[reading] ?? reading), source, age, state);
+    const row = html(
+      "tr",
+      {},
+      html("th", { scope: "row" }, NAMES[reading] ?? reading),
+      source,
+      age,
+      state,
+    );
     body.append(row);
     return { reading, source, age, state };
   });

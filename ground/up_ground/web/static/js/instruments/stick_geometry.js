@@ -34,5 +34,9 @@ export function share(pulse_us) {
  * @returns {"low"|"high"|"within"} whether it lies beyond the scale of 1000 to 2000 us
  */
 export function beyond(pulse_us) {
-  return pulse_us < MIDDLE_US - HALF_US ? "low" : pulse_us > MIDDLE_US + HALF_US ? "high" : "within";
+  return pulse_us < MIDDLE_US - HALF_US
+    ? "low"
+    : pulse_us > MIDDLE_US + HALF_US
+      ? "high"
+      : "within";
 }

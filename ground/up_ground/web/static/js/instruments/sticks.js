@@ -5,8 +5,14 @@ import { stickPlace } from "./stick_geometry.js";
 
 /** Which channel moves which way: [across, along] of the left and of the right stick. */
 const MODES = {
-  1: [["rudder", "elevator"], ["ailerons", "throttle"]],
-  2: [["rudder", "throttle"], ["ailerons", "elevator"]],
+  1: [
+    ["rudder", "elevator"],
+    ["ailerons", "throttle"],
+  ],
+  2: [
+    ["rudder", "throttle"],
+    ["ailerons", "elevator"],
+  ],
 };
 
 /** The two sticks as the receiver hears them, in mode 2 or 1. */

@@ -14,12 +14,27 @@ const NEAR_HOME_M = 30;
 /** Speed on the left, altitude and vertical speed on the right of the horizon. */
 export function mount(element, store) {
   const speed = new Tape({
-    x: -200, width: 56, isLeft: true, step: 1, units: 14, each: 5, least: 0,
-    title: "GS m/s", unit: "by fixes", key: "motion.ground_speed",
+    x: -200,
+    width: 56,
+    isLeft: true,
+    step: 1,
+    units: 14,
+    each: 5,
+    least: 0,
+    title: "GS m/s",
+    unit: "by fixes",
+    key: "motion.ground_speed",
   });
   const altitude = new Tape({
-    x: 126, width: 58, isLeft: false, step: 5, units: 16, each: 4,
-    title: "ALT m", unit: "sea level", key: "altitude",
+    x: 126,
+    width: 58,
+    isLeft: false,
+    step: 5,
+    units: 16,
+    each: 4,
+    title: "ALT m",
+    unit: "sea level",
+    key: "altitude",
   });
   const climb = climbOf();
   element.append(
@@ -59,7 +74,10 @@ function showAltitude(tape, store) {
   tape.show(altitude_m, freshness, numberText(altitude_m, decimals), age);
   const height_m = heightOverStart_m(store);
   const where = startsAtHome(store) ? "home" : "start";
-  setText(tape.foot, height_m === null ? "" : `${numberText(height_m, 0, { sign: true })} m ${where}`);
+  setText(
+    tape.foot,
+    height_m === null ? "" : `${numberText(height_m, 0, { sign: true })} m ${where}`,
+  );
   setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, "location"));
 }
 

@@ -19,7 +19,12 @@ export function mount(element, store) {
     const length = rate === 0 ? 12 : rate % 30 === 0 ? 9 : 5;
     scale.append(svg("path", { d: `M${short(x)} ${2 - length}V2` }));
   }
-  const picture = drawing("-100 -12 200 18", "Rate of turn, 60 degrees a second at the ends", scale, bar);
+  const picture = drawing(
+    "-100 -12 200 18",
+    "Rate of turn, 60 degrees a second at the ends",
+    scale,
+    bar,
+  );
   element.append(roll.box, html("div", { class: "turn-middle" }, picture, turn.box), pitch.box);
   const readouts = [
     new Readout(roll.value, "orientation.roll", degrees, null, "number"),
@@ -35,12 +40,19 @@ export function mount(element, store) {
       const share = Math.max(-1, Math.min(1, (rate ?? 0) / MOST_DEG_S));
       setAttribute(bar, "x", short(Math.min(0, share * LENGTH)));
       setAttribute(bar, "width", short(Math.abs(share * LENGTH)));
-      setAttribute(element, "data-freshness", rate === null ? "none" : store.freshness("orientation"));
+      setAttribute(
+        element,
+        "data-freshness",
+        rate === null ? "none" : store.freshness("orientation"),
+      );
     },
   };
 }
 
 function figure(name) {
   const value = html("span", { class: "figure-value" });
-  return { value, box: html("span", { class: "figure" }, html("span", { class: "figure-name" }, name), value) };
+  return {
+    value,
+    box: html("span", { class: "figure" }, html("span", { class: "figure-name" }, name), value),
+  };
 }

@@ -112,7 +112,8 @@ export class Connection {
    * @param {string} name of the Command
    * @param {object} data
    * @param {string} aircraft
-   * @returns {Promise<{outcome: string, code: ?string, reason: string, round_trip_ms: ?number, data: ?object}>}
+   * @returns {Promise<{outcome: string, code: ?string, reason: string, round_trip_ms: ?number,
+   *   data: ?object}>}
    */
   command(name, data, aircraft = this.aircraft) {
     const { ask, answer } = this.#asks.add();

@@ -5,7 +5,10 @@ const LEVELS = new Set(["info", "warning", "alarm"]);
 
 /** What happened to the aircraft, in order of the server's numbers, each once, the newest last. */
 export class EventList {
-  /** @type {{number: number, at_s: number, level: string, kind: string, text: string, is_past: boolean}[]} */
+  /**
+   * @type {{number: number, at_s: number, level: string, kind: string, text: string,
+   *   is_past: boolean}[]}
+   */
   all = [];
   /** Counts the changes, for those that draw it. */
   version = 0;

@@ -45,7 +45,11 @@ export class Motion {
       return;
     }
     if (keep(this.#altitudes, { at_s, altitude_m }, isSameHeight)) {
-      this.climb_m_s = rate(this.#altitudes, (from, to) => to.altitude_m - from.altitude_m, this.#speed);
+      this.climb_m_s = rate(
+        this.#altitudes,
+        (from, to) => to.altitude_m - from.altitude_m,
+        this.#speed,
+      );
     }
   }
 }
@@ -67,7 +71,8 @@ function keep(list, fix, isSame) {
 
 function rate(list, difference, speed) {
   const last = list.at(-1);
-  const from = list.find((each) => last.at_s - each.at_s <= WINDOW_S && each !== last) ?? list.at(-2);
+  const from =
+    list.find((each) => last.at_s - each.at_s <= WINDOW_S && each !== last) ?? list.at(-2);
   const time_s = from === undefined ? 0 : last.at_s - from.at_s;
   if (time_s < SHORTEST_S) {
     return null;

@@ -29,7 +29,6 @@ export function roleAllows(role, name) {
  */
 export function isOnlyRequest(name, data = {}) {
   return (
-    name === "arduino.profile.request" ||
-    (name === "arduino.pids.tunings" && data.request === true)
+    name === "arduino.profile.request" || (name === "arduino.pids.tunings" && data.request === true)
   );
 }

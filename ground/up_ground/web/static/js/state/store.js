@@ -1,8 +1,9 @@
 import { now_s, TIMERS } from "../link/clock.js";
-import { freshnessOf, isSilent, READINGS, readingOf } from "./ages.js";
+import { READINGS } from "./ages.js";
 import { EventList } from "./event_list.js";
 import * as judge from "./judge.js";
 import { Motion } from "./motion.js";
+import { NewestFrame } from "./newest_frame.js";
 import { isOnlyRequest, roleAllows } from "./roles.js";
 import { Track } from "./track.js";
 
@@ -16,13 +17,11 @@ const JUMP_S = 1.5;
  * Fields to read: `aircraft` (the name watched), `names` (all), `data` (the newest frame's tree,
  * not judged), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
  * (by name), `alarms` ([{kind, level, text}]), `gains`, `profile`, `replay`, `fault` (text),
- * `track` (points, version, startAltitude_m), `motion` (groundSpeed_m_s, climb_m_s), `events` (list, the newest last), `eventsVersion`.
+ * `track` (points, version, startAltitude_m), `motion` (groundSpeed_m_s, climb_m_s), `events`
+ * (list, the newest last), `eventsVersion`.
  */
-export class Store {
+export class Store extends NewestFrame {
   #connection;
-  #now_s;
-  #frameAt_s = null;
-  #frameAge_s = 0;
   #calls = new Set();
   #requestFrame;
   #timers;
@@ -31,9 +30,6 @@ export class Store {
 
   aircraft = null;
   names = [];
-  data = {};
-  frames = 0;
-  beacon = null;
   shownBeacon = null;
   statuses = new Map();
   alarms = [];
@@ -49,8 +45,8 @@ export class Store {
    * @param {{now_s?: Function, requestFrame?: Function, timers?: object}} [parts]
    */
   constructor(connection, parts = {}) {
+    super(parts.now_s ?? now_s);
     this.#connection = connection;
-    this.#now_s = parts.now_s ?? now_s;
     this.#timers = parts.timers ?? TIMERS;
     this.#requestFrame = parts.requestFrame ?? ((call) => requestAnimationFrame(call));
     connection.shownBeacon = () => this.shownBeacon;
@@ -114,79 +110,6 @@ export class Store {
     return this.#events.version;
   }
 
-  /** @returns {number} the clock of all ages, seconds */
-  get now_s() {
-    return this.#now_s();
-  }
-
-  /** @returns {boolean} whether nothing shown can be trusted to be of now */
-  get isSilent() {
-    return isSilent(this.age_s(null));
-  }
-
-  /** @returns {"live"|"silent"|"none"} none: not one frame came yet */
-  get aircraftState() {
-    return this.#frameAt_s === null ? "none" : this.isSilent ? "silent" : "live";
-  }
-
-  /** @returns {number|null} a number at that path; null: absent, or something else */
-  number(path) {
-    return judge.number(judge.at(this.data, path));
-  }
-
-  /** @returns {boolean|null} */
-  flag(path) {
-    return judge.flag(judge.at(this.data, path));
-  }
-
-  /** @returns {string|null} */
-  text(path) {
-    return judge.text(judge.at(this.data, path));
-  }
-
-  /** @returns {string[]|null} */
-  texts(path) {
-    return judge.texts(judge.at(this.data, path));
-  }
-
-  /** @returns {number|boolean|string|string[]|null} what is there, judged */
-  value(path) {
-    return this.number(path) ?? this.flag(path) ?? this.text(path) ?? this.texts(path);
-  }
-
-  /**
-   * @param {string|null} reading of `age_ms`; null: the newest frame itself
-   * @returns {number|null} seconds: on board, on the links, and since; null: unknown
-   */
-  age_s(reading) {
-    if (this.#frameAt_s === null) {
-      return null;
-    }
-    const frame_s = this.#frameAge_s + this.#now_s() - this.#frameAt_s;
-    if (reading === null || reading === undefined) {
-      return frame_s;
-    }
-    const aboard_ms = this.number(`age_ms.${reading}`);
-    return aboard_ms === null ? null : frame_s + Math.max(0, aboard_ms) / 1000;
-  }
-
-  /**
-   * @param {string|null} reading null: the newest frame itself
-   * @returns {"live"|"stale"|"none"}
-   */
-  freshness(reading) {
-    const aboard = judge.at(this.data, `age_ms.${reading}`);
-    return freshnessOf(reading, this.age_s(null), aboard === null ? null : (judge.number(aboard) ?? undefined));
-  }
-
-  /**
-   * @param {string} path of a value
-   * @returns {"live"|"stale"|"none"} none: there is no such value
-   */
-  freshnessAt(path) {
-    return this.value(path) === null ? "none" : this.freshness(readingOf(path));
-  }
-
   /**
    * @param {string} name of a Command
    * @param {object} [data]
@@ -218,8 +141,8 @@ export class Store {
 
   #takeOfAircraft(message) {
     const known = {
-      frame: () => this.#takeFrame(message),
-      event: () => this.#events.take(message, this.#now_s()),
+      frame: () => this.takeFrame(message, this.#connection.roundTrip_s) && this.#follow(),
+      event: () => this.#events.take(message, this.now_s),
       alarms: () => (this.alarms = alarmsOf(message.active)),
       gains: () => (this.gains = message),
       profile: () => (this.profile = message.profile ?? null),
@@ -243,19 +166,6 @@ export class Store {
     }
   }
 
-  #takeFrame(message) {
-    if (message.data === null || typeof message.data !== "object") {
-      return;
-    }
-    this.data = message.data;
-    this.beacon = judge.number(message.beacon);
-    this.frames += 1;
-    this.#frameAt_s = this.#now_s();
-    const way_s = Math.max(0, judge.number(message.age_ms) ?? 0) / 1000;
-    this.#frameAge_s = way_s + (this.#connection.roundTrip_s ?? 0) / 2;
-    this.#follow();
-  }
-
   #follow() {
     const latitude = this.number("location.latitude");
     const longitude = this.number("location.longitude");
@@ -268,7 +178,7 @@ export class Store {
 
   #measuredAt_s(reading) {
     const age_s = this.age_s(reading);
-    return age_s === null ? null : this.#now_s() - age_s;
+    return age_s === null ? null : this.now_s - age_s;
   }
 
   #opened(welcome) {
@@ -283,9 +193,8 @@ export class Store {
   }
 
   #forget() {
-    this.data = {};
-    this.beacon = this.shownBeacon = null;
-    this.#frameAt_s = null;
+    this.forgetFrame();
+    this.shownBeacon = null;
     this.alarms = [];
     this.gains = this.profile = null;
     this.motion = new Motion();

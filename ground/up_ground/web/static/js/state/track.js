@@ -14,7 +14,9 @@ export class Track {
 
   /** @param {unknown} points the server's, taken in place of what was here */
   replace(points) {
-    this.points = (Array.isArray(points) ? points : []).map(pointOf).filter((each) => each !== null);
+    this.points = (Array.isArray(points) ? points : [])
+      .map(pointOf)
+      .filter((each) => each !== null);
     this.startAltitude_m = this.points.find((each) => each[2] !== null)?.[2] ?? null;
     this.version += 1;
   }

@@ -1,0 +1,123 @@
+import { freshnessOf, isSilent, readingOf } from "./ages.js";
+import * as judge from "./judge.js";
+
+/** The newest telemetry of an aircraft, read with suspicion, and how old each part of it is. */
+export class NewestFrame {
+  #clock_s;
+  #frameAt_s = null;
+  #frameAge_s = 0;
+
+  /** The tree as it came, not judged. */
+  data = {};
+  /** How many came. */
+  frames = 0;
+  /** Its number, null while there is none. */
+  beacon = null;
+
+  /** @param {() => number} clock_s seconds that never jump */
+  constructor(clock_s) {
+    this.#clock_s = clock_s;
+  }
+
+  /**
+   * @param {object} message the server's `frame`
+   * @param {number|null} roundTrip_s between page and server
+   * @returns {boolean} whether it was one
+   */
+  takeFrame(message, roundTrip_s) {
+    if (message.data === null || typeof message.data !== "object") {
+      return false;
+    }
+    this.data = message.data;
+    this.beacon = judge.number(message.beacon);
+    this.frames += 1;
+    this.#frameAt_s = this.now_s;
+    const way_s = Math.max(0, judge.number(message.age_ms) ?? 0) / 1000;
+    this.#frameAge_s = way_s + (roundTrip_s ?? 0) / 2;
+    return true;
+  }
+
+  /** Know nothing again. */
+  forgetFrame() {
+    this.data = {};
+    this.beacon = null;
+    this.#frameAt_s = null;
+  }
+
+  /** @returns {number} the clock of all ages, seconds */
+  get now_s() {
+    return this.#clock_s();
+  }
+
+  /** @returns {boolean} whether nothing shown can be trusted to be of now */
+  get isSilent() {
+    return isSilent(this.age_s(null));
+  }
+
+  /** @returns {"live"|"silent"|"none"} none: not one frame came yet */
+  get aircraftState() {
+    return this.#frameAt_s === null ? "none" : this.isSilent ? "silent" : "live";
+  }
+
+  /** @returns {number|null} a number at that path; null: absent, or something else */
+  number(path) {
+    return judge.number(judge.at(this.data, path));
+  }
+
+  /** @returns {boolean|null} */
+  flag(path) {
+    return judge.flag(judge.at(this.data, path));
+  }
+
+  /** @returns {string|null} */
+  text(path) {
+    return judge.text(judge.at(this.data, path));
+  }
+
+  /** @returns {string[]|null} */
+  texts(path) {
+    return judge.texts(judge.at(this.data, path));
+  }
+
+  /** @returns {number|boolean|string|string[]|null} what is there, judged */
+  value(path) {
+    return this.number(path) ?? this.flag(path) ?? this.text(path) ?? this.texts(path);
+  }
+
+  /**
+   * @param {string|null} reading of `age_ms`; null: the newest frame itself
+   * @returns {number|null} seconds: on board, on the links, and since; null: unknown
+   */
+  age_s(reading) {
+    if (this.#frameAt_s === null) {
+      return null;
+    }
+    const frame_s = this.#frameAge_s + this.now_s - this.#frameAt_s;
+    if (reading === null || reading === undefined) {
+      return frame_s;
+    }
+    const aboard_ms = this.number(`age_ms.${reading}`);
+    return aboard_ms === null ? null : frame_s + Math.max(0, aboard_ms) / 1000;
+  }
+
+  /**
+   * @param {string|null} reading null: the newest frame itself
+   * @returns {"live"|"stale"|"none"}
+   */
+  freshness(reading) {
+    const aboard = judge.at(this.data, `age_ms.${reading}`);
+    return freshnessOf(
+      reading,
+      this.age_s(null),
+      aboard === null ? null : (judge.number(aboard) ?? undefined),
+    );
+  }
+
+  /**
+   * @param {string} path of a value
+   * @returns {"live"|"stale"|"none"} none: there is no such value
+   */
+  freshnessAt(path) {
+    return this.value(path) === null ? "none" : this.freshness(readingOf(path));
+  }
+}
