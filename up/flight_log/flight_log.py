@@ -10,7 +10,7 @@ from typing import Any
 
 from up.flight_log.json_message import decode, number_at
 from up.flight_log.log_files import LogFiles
-from up.flight_log.log_index import LogIndex
+from up.flight_log.log_index import MOST_PARTS, LogIndex
 from up.flight_log.log_parts import Attachment, PartReader, TopicNotes
 from up.flight_log.mcap_format import FlightLogError
 
@@ -61,6 +61,8 @@ class FlightLog:
         """
         if not paths:
             raise FlightLogError("no flight log is named")
+        if len(paths) > MOST_PARTS:
+            raise FlightLogError(f"one flight has {MOST_PARTS} files at most, not {len(paths)}")
         index, parts = LogIndex(), []
         for number, path in enumerate(paths):
             part = PartReader(path, number)

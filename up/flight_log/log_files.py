@@ -11,6 +11,7 @@ from typing import Self
 from up.flight_log.mcap_format import FlightLogError
 
 _WINDOW = 64 * 1024
+_MOST_OPEN = 16
 _NEAR = 4 * 1024
 """What begins so soon after the last one is read together with what follows it."""
 
@@ -64,6 +65,8 @@ class LogFiles:
         try:
             descriptor = self._descriptors.get(part)
             if descriptor is None:
+                if len(self._descriptors) >= _MOST_OPEN:
+                    self.close()
                 flags = os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK
                 descriptor = self._descriptors[part] = os.open(self._paths[part], flags)
             self._window = os.pread(descriptor, size, offset)

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
 MOST_TOPICS = 65535
+MOST_PARTS = 65535
 _PART_SHIFT = 48
 _OFFSET_MASK = (1 << _PART_SHIFT) - 1
 

@@ -108,6 +108,17 @@ def test_parts_are_one_flight(folder):
     assert log.is_complete
 
 
+def test_many_parts_are_one_flight(folder):
+    parts = []
+    for number in range(40):
+        maker = LogMaker()
+        for time_s in (number, 100 + number):
+            maker.add(time_s, "a", x=time_s)
+        parts.append(maker.finished())
+    log = read(folder, *parts)
+    assert log.series("a", "x")[1] == [*range(40), *range(100, 140)]
+
+
 def test_messages_that_were_written_out_of_order_are_sorted(folder):
     first, second = LogMaker(), LogMaker()
     for time_s in (5, 3, 9):
@@ -318,7 +329,7 @@ json_values = st.recursive(
 )
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(
     st.lists(
         st.tuples(
