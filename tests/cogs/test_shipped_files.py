@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from android_cog.config import ANDROID
+from black_box_cog.config import BLACK_BOX
 from discovery_cog.config import DISCOVERY
 from mission_control_cog.config import MISSION_CONTROL
 
@@ -16,7 +17,9 @@ from up.config import ConfigErrors
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("file", [ANDROID, DISCOVERY, MISSION_CONTROL], ids=lambda f: f.filename)
+@pytest.mark.parametrize(
+    "file", [ANDROID, BLACK_BOX, DISCOVERY, MISSION_CONTROL], ids=lambda f: f.filename
+)
 def test_the_shipped_configuration_is_the_template(file):
     assert (ROOT / "config" / file.filename).read_text(encoding="utf-8") == file.template()
     assert file.load(ROOT / "config") == file.cls()
@@ -27,7 +30,9 @@ def test_the_tuning_example_grants_a_pilot_and_accepts_no_public_link():
     assert (values.role, values.i_accept_plain, values.listener.port) == ("pilot", False, 50002)
 
 
-@pytest.mark.parametrize("cog", ["android_cog", "discovery_cog", "mission_control_cog"])
+@pytest.mark.parametrize(
+    "cog", ["android_cog", "black_box_cog", "discovery_cog", "mission_control_cog"]
+)
 def test_the_manifest_names_modules(cog):
     registrant = importlib.import_module(f"{cog}.registrar").Registrant()
     assert registrant.cog_name == cog
@@ -47,6 +52,11 @@ def test_the_manifest_names_modules(cog):
         (MISSION_CONTROL, "remote_server: {url: 'http://x/'}\n", "a host name or an address alone"),
         (MISSION_CONTROL, "role: admin\n", '"observer", "operator", "pilot"'),
         (MISSION_CONTROL, "listener: {port: 50002, address: here}\n", "literal IP address"),
+        (BLACK_BOX, "folder: flights\n", "must be an absolute path, or begin with ~/"),
+        (BLACK_BOX, "folder: ~nobody.at.all/x\n", "names a user who has no home here"),
+        (BLACK_BOX, 'folder: "/a\\0b"\n', "must be an absolute path"),
+        (BLACK_BOX, "total size (MB): 99\n", "must be at least twice the file size"),
+        (BLACK_BOX, "sync (s): 0.1\n", "sync (s)"),
         (DISCOVERY, "port: 70000\n", "65535"),
     ],
 )

@@ -49,6 +49,10 @@ def test_systemd_finds_no_fault(tmp_path):
     assert verify(unit_with(tmp_path, (PYTHON, sys.executable))) == (0, "")
 
 
+def test_flights_have_a_folder_of_the_state_directory():
+    assert options()["Service"]["StateDirectory"] == "raspilot"
+
+
 def test_systemd_accepts_the_scheduling_that_is_commented_out(tmp_path):
     unit = unit_with(
         tmp_path,

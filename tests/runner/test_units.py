@@ -53,6 +53,13 @@ def test_a_restart_of_the_runner_does_not_touch_the_instances(service):
     assert "PrivateTmp" not in service and "DynamicUser" not in service
 
 
+def test_instances_record_their_flights_where_a_service_does(service):
+    assert service["StateDirectory"] == "up-runner raspilot"
+    assert service["Environment"] == "XDG_STATE_HOME=/var/lib"
+    job = JOB.read_text(encoding="utf-8")
+    assert "env XDG_STATE_HOME=/var/lib\n" in job and "/var/lib/raspilot\n" in job
+
+
 def test_the_upstart_job_runs_the_same_program(service):
     job = JOB.read_text(encoding="utf-8")
     program, _, arguments = service["ExecStart"].partition(" ")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 from up.config import ConfigFile, key
 
@@ -18,7 +19,7 @@ class BlackBoxConfig:
     folder: str = key(
         "",
         "Folder of the flights. Empty: flights/ in the state directory that systemd gives, else "
-        "raspilot/flights in $XDG_STATE_HOME (~/.local/state).",
+        "raspilot/flights in $XDG_STATE_HOME (~/.local/state). Else an absolute path.",
         max_length=1024,
     )
     always: bool = key(
@@ -75,7 +76,14 @@ class BlackBoxConfig:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what does not fit together."""
+        """Yield what does not fit together, and what no folder can be."""
+        try:
+            folder = Path(self.folder).expanduser()
+        except RuntimeError:
+            yield "folder", "names a user who has no home here"
+        else:
+            if self.folder and (not folder.is_absolute() or "\0" in self.folder):
+                yield "folder", "must be an absolute path, or begin with ~/"
         if self.total_size_mb < 2 * self.file_size_mb:
             yield "total_size_mb", "must be at least twice the file size"
 

@@ -30,7 +30,11 @@ def default_folder(environ: Mapping[str, str] = os.environ) -> Path:
     if given:
         return Path(given, _LEAF)
     home = environ.get("XDG_STATE_HOME", "")
-    state = Path(home) if Path(home).is_absolute() else Path("~/.local/state").expanduser()
+    try:
+        state = Path(home) if Path(home).is_absolute() else Path("~/.local/state").expanduser()
+    except RuntimeError:
+        # A user without a home: where the state directory of a service would be.
+        state = Path("/var/lib")
     return state / "raspilot" / _LEAF
 
 

@@ -19,6 +19,7 @@ def test_every_cog_of_raspilot_is_gathered_from_the_tree(environment, tmp_path):
         "discovery_cog",
         "load_guard_cog",
         "mission_control_cog",
+        "black_box_cog",
     ]
     done = environment.up("gather", cwd=tmp_path)
     assert f"{len(wanted)} cogs of Cogfile.yml installed and registered" in done.stdout
