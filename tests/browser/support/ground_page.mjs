@@ -7,10 +7,12 @@ import { until } from "./wait.mjs";
 /** Keeps what the server says, with the time of the page at which it came. */
 function listen() {
   window.testMessages = [];
+  window.testSockets = [];
   const Real = window.WebSocket;
   window.WebSocket = class extends Real {
     constructor(...words) {
       super(...words);
+      window.testSockets.push(this);
       this.addEventListener("message", (event) => {
         const message = JSON.parse(event.data);
         window.testMessages.push({ at_ms: performance.now(), message });
@@ -176,8 +178,11 @@ export class GroundPage {
 
   /** Ask for control, once a page that was closed has lost it, and wait until this one has it. */
   async takeControl() {
-    const isHeld = () => document.querySelector("#control-holder").dataset.holder === "page";
-    await until(async () => !(await this.page.evaluate(isHeld)) || null, "control to be free");
+    const isFree = () => {
+      const place = document.querySelector("#control-holder");
+      return place !== null && place.dataset.holder !== "page";
+    };
+    await this.until(isFree, "control to be free");
     await this.press("#control-request");
     await this.untilHolder("you");
   }
