@@ -16,11 +16,11 @@ const MISSING =
  */
 export function mount(place, store, connection) {
   const canvas = element("div.map-canvas");
-  const follow = button("Follow", "Keep the aircraft in the middle", () => setFollow(!map?.isFollowing));
+  const follow = button("Follow", "Follow: keep the aircraft in the middle", () => setFollow(!map?.isFollowing));
   follow.id = "map-follow";
   const closer = button("+", "Closer", () => map?.zoom(1));
   const farther = button("−", "Farther", () => map?.zoom(-1));
-  const whole = button("All", "Show the whole track", () => map?.showAll());
+  const whole = button("All", "All of the track", () => map?.showAll());
   const tools = element("div.map-tools", {}, follow, whole, closer, farther);
   const words = element("p.map-words", { id: "map-home" });
   const wind = element("p.map-wind", { hidden: true });

@@ -20,6 +20,7 @@ export function mount(place, store, connection) {
   place.append(why, last, ...parts.map((part) => part.element));
   return {
     update() {
+      place.hidden = connection.welcome?.is_replay === true;
       // What needs most tells most: a role that forbids one thing says so here too.
       const words = asker.objection("up.flight_mode.set") || asker.objection("up.arm");
       setText(why, words);

@@ -7,23 +7,28 @@ const WORD = { info: "", warning: "Warning: ", alarm: "Alarm: " };
 /** The lines of a list of events: those that are there stay, so that only new ones are read out. */
 export class EventLines {
   #list;
+  #window;
   #lines = new Map();
   #agesAt_s = -Infinity;
 
-  /** @param {HTMLElement} list */
-  constructor(list) {
+  /**
+   * @param {HTMLElement} list
+   * @param {HTMLElement} window what shows a part of it
+   */
+  constructor(list, window) {
     this.#list = list;
+    this.#window = window;
   }
 
   /** @returns {boolean} whether the newest line is in sight */
   get isAtNewest() {
-    const { scrollTop, clientHeight, scrollHeight } = this.#list;
+    const { scrollTop, clientHeight, scrollHeight } = this.#window;
     return scrollHeight - scrollTop - clientHeight < 24;
   }
 
   /** Bring the newest line into sight. */
   toNewest() {
-    this.#list.scrollTop = this.#list.scrollHeight;
+    this.#window.scrollTop = this.#window.scrollHeight;
   }
 
   /**

@@ -21,15 +21,20 @@ const MARK = "black_box.mark";
 export function mount(place, store, connection) {
   const asker = new Asker(store, connection);
   const note = element("p.note", { role: "status" });
-  const list = element("ol.events", {
-    id: "events",
-    role: "log",
-    tabindex: 0,
-    "aria-label": "Events",
-    "aria-live": "polite",
-    "aria-relevant": "additions",
-  });
-  const lines = new EventLines(list);
+  const list = element("ol");
+  const log = element(
+    "div.events",
+    {
+      id: "events",
+      role: "log",
+      tabindex: 0,
+      "aria-label": "Events",
+      "aria-live": "polite",
+      "aria-relevant": "additions",
+    },
+    list,
+  );
+  const lines = new EventLines(list, log);
   const filter = element("select", { id: "events-level", "aria-label": "Which events" });
   filter.append(...LEVELS.map(([value, text]) => element("option", { value, text })));
   const jump = element("button.jump", { type: "button", id: "events-newest", hidden: true, text: "Newest" });
@@ -40,11 +45,11 @@ export function mount(place, store, connection) {
     title: "Write a mark into the flight log",
   });
   const none = element("p.quiet", { text: "Nothing has happened yet." });
-  place.append(element("div.row", {}, filter, mark, jump), note, none, list);
+  place.append(element("div.row", {}, filter, mark, jump), note, none, log);
   let shownVersion = -1;
   let shownLevel = "";
 
-  list.addEventListener("scroll", () => (jump.hidden = lines.isAtNewest));
+  log.addEventListener("scroll", () => (jump.hidden = lines.isAtNewest));
   jump.addEventListener("click", () => lines.toNewest());
   filter.addEventListener("change", () => show());
   mark.addEventListener("click", () => asker.ask(MARK, { text: "mark" }, { note }));
