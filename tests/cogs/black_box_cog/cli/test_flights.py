@@ -1,0 +1,84 @@
+"""Which flight a user means."""
+
+import pytest
+from black_box_cog.cli.flights import find_flight
+
+from tests.cogs.black_box_cog.logbook import START_UNIX_S, write_flight
+from up.cli.cli_error import CliError
+
+
+def found(named, folder):
+    return [path.name for path in find_flight(str(named), lambda: folder).paths]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for number in (3, 4):
+        write_flight(tmp_path, number)
+    write_flight(tmp_path, 4, part=2)
+    write_flight(tmp_path, 4, part=10)
+    return tmp_path
+
+
+def test_numbers_last_files_and_folders(folder, tmp_path):
+    three, four, second, tenth = (
+        "0003-20260424T030640Z-kite.mcap",
+        "0004-20260424T030640Z-kite.mcap",
+        "0004-20260424T030640Z-kite.2.mcap",
+        "0004-20260424T030640Z-kite.10.mcap",
+    )
+    assert found(3, folder) == found("0003", folder) == [three]
+    assert found("last", folder) == found(4, folder) == [four, second, tenth]
+    assert found(folder / four, tmp_path / "nowhere") == [four, second, tenth]
+    assert found(folder / second, tmp_path / "nowhere") == [second]
+    inner = tmp_path / "one"
+    inner.mkdir()
+    for name in (four, second):
+        (folder / name).rename(inner / name)
+    assert found(inner, folder) == [four, second]
+
+
+def test_parts_with_names_of_their_own(tmp_path):
+    for name in ("b.mcap", "a.mcap"):
+        write_flight(tmp_path).rename(tmp_path / name)
+    assert found(tmp_path, None) == ["a.mcap", "b.mcap"]
+    assert found(tmp_path / "b.mcap", None) == ["b.mcap"]
+
+
+def test_two_aircraft_with_one_number(tmp_path):
+    for name in ("kite", "glider"):
+        write_flight(tmp_path, 1, aircraft=name)
+    with pytest.raises(CliError, match=r"2 flights have the number 1: name .*glider.* or .*kite"):
+        find_flight("1", lambda: tmp_path)
+    write_flight(tmp_path, 1, start_unix_s=START_UNIX_S + 60)
+    with pytest.raises(CliError, match="3 flights have the number 1"):
+        find_flight("1", lambda: tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("named", "sentence"),
+    [
+        ("9", "there is no flight 9 in {folder}: it has 3 to 4"),
+        ("lst", "lst: no such flight, did you mean 'last'?"),
+        ("Last", "Last: no such flight, did you mean 'last'?"),
+        ("x.mcap", "x.mcap: no such flight ('last', a number that 'up log list' tells, "),
+        ("\x1b[2J", "\\x1b[2J: no such flight"),
+        ("{folder}", "{folder} has 2 flights: say --folder {folder} and a number"),
+        ("{folder}/empty", "no flight is in {folder}/empty: it has no file that ends in .mcap"),
+    ],
+)
+def test_what_is_none_is_one_sentence(folder, named, sentence):
+    (folder / "empty").mkdir()
+    with pytest.raises(CliError) as caught:
+        find_flight(named.replace("{folder}", str(folder)), lambda: folder)
+    assert str(caught.value).startswith(sentence.replace("{folder}", str(folder)))
+
+
+def test_where_nothing_was_recorded(tmp_path):
+    with pytest.raises(CliError, match="no flight has been recorded: there is no folder"):
+        find_flight("last", lambda: tmp_path / "nowhere")
+    with pytest.raises(CliError, match="no flight is in"):
+        find_flight("1", lambda: tmp_path)
+    write_flight(tmp_path, 2)
+    with pytest.raises(CliError, match="it has 2 only"):
+        find_flight("1", lambda: tmp_path)
