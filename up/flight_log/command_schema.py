@@ -8,7 +8,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from up.commands.command import BaseCommand, constraint_of
+from up.commands.telemetry_commands import TelemetryCommand
 from up.flight_log.origin_text import KEY
+from up.flight_log.telemetry_schema import PROPERTIES
 
 _ITEMS = {str: "string", int: "integer", float: "number", bool: "boolean"}
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -18,13 +20,16 @@ def schema_of(cls: type[BaseCommand]) -> dict[str, Any]:
     """Return the schema (draft 2020-12) of a Command's data on the wire, with their origin.
 
     A field's unit stands in its description (and in ``x-unit``). A Command that makes its data
-    itself (telemetry, gains) is an object of any fields. Nothing is required but what the Command
-    itself requires. A field that may be null says so as OpenAPI 3 does (``nullable``): Foxglove
-    refuses a list of types, an array without items and an object without properties.
+    itself (gains, a profile) is an object of any fields; telemetry has the tree of its page.
+    Nothing is required but what the Command itself requires. A field that may be null says so as
+    OpenAPI 3 does (``nullable``): Foxglove refuses a list of types, an array without items and an
+    object without properties.
     """
     properties: dict[str, Any] = {}
     required: list[str] = []
-    if cls.data is BaseCommand.data:
+    if issubclass(cls, TelemetryCommand):
+        properties.update(PROPERTIES)
+    elif cls.data is BaseCommand.data:
         hints = typing.get_type_hints(cls)
         for field in dataclasses.fields(cls):
             key = field.metadata.get("key") or field.name

@@ -25,7 +25,9 @@ from tests.up.flight_log.flights import (
     TelemetryCommand,
     status,
 )
+from tests.up.flight_log.test_command_schema import fault_of
 from up.earth import bearing_deg, distance_m
+from up.flight_log.command_schema import schema_of
 from up.flight_log.telemetry_frames import Frame, frames
 
 
@@ -105,6 +107,21 @@ def test_without_telemetry_the_tree_is_put_together(tmp_path):
     assert first["orientation"]["roll"] == 1.5
     assert first["home"]["distance"] == 0.0
     json.dumps([frame.data for frame in given], allow_nan=False)
+
+
+def test_frames_are_as_the_schema_of_telemetry_says(tmp_path):
+    maker = FlightMaker()
+    maker.quiet_flight()
+    maker.put(1, AltitudeCommand(301.0), PHONE)
+    maker.put(1, AndroidBatteryCommand(81.0), PHONE)
+    maker.put(1, SystemStateCommand(12.5, 30.0, ("UpRXProvider",), True, "flight controller"))
+    schema = schema_of(TelemetryCommand)
+    given = list(frames(maker.log(tmp_path)))
+    assert len(given) > 100
+    for frame in given:
+        assert fault_of(frame.data, schema) == ""
+        assert frame.data.keys() <= schema["properties"].keys()
+        assert frame.data["age_ms"].keys() == schema["properties"]["age_ms"]["properties"].keys()
 
 
 def test_what_nothing_told_is_null_or_absent(tmp_path):
