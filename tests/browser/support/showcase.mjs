@@ -54,17 +54,31 @@ export class Showcase {
     });
   }
 
-  /** End it, and whatever it has left behind. */
-  async stop() {
+  /** Where the flights are that its black box has recorded. */
+  get flights() {
+    return join(this.folder, "flights");
+  }
+
+  /** End the flight; what it has written stays. */
+  async land() {
     const status = await this.program.stop();
-    const said = this.program.said;
+    if (status !== 0) {
+      throw new Error(`the showcase ended with ${status}:\n${this.program.said}`);
+    }
+  }
+
+  /** End it, and take away what it has written. */
+  async stop() {
+    try {
+      await this.land();
+    } catch (error) {
+      this._folder.remove();
+      throw error;
+    }
     const logs = readdirSync(this.folder).filter((name) => name.endsWith(".log"));
     const wrong = logs.filter((name) => this.log(name.slice(0, -4)).includes("Traceback"));
     const text = wrong.map((name) => this.log(name.slice(0, -4)).slice(-3000)).join("\n");
     this._folder.remove();
-    if (status !== 0) {
-      throw new Error(`the showcase ended with ${status}:\n${said}`);
-    }
     if (text) {
       throw new Error(`a traceback in ${wrong}:\n${text}`);
     }
