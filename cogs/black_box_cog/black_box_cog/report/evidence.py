@@ -34,6 +34,7 @@ FRAME_FIELDS = (
 )
 BOARD_TOPICS = (STATUS, STICKS, SERVOS, STATE)
 PHONE_TOPICS = (LOCATION, ALTITUDE, "up.heading.change", "android.battery")
+_MOST_STEPS = 600
 GROUND_LINKS = ("ground", "mission_control")
 
 
@@ -162,11 +163,15 @@ def _first_link(log: FlightLog, topic: str) -> str:
 
 
 def _silence(times_s: list[float], end_s: float) -> Series:
-    """Return the steps of a line that is as high as the silence at each time is long."""
-    series = Series()
+    """Return the longest silence that touches each second (of a long flight: each stretch)."""
+    step_s = max(1.0, end_s / _MOST_STEPS)
+    longest: dict[int, float] = {}
     for last_s, next_s in pairwise((*times_s, end_s)):
-        if next_s > last_s:
-            series.add(last_s, next_s - last_s)
+        for step in range(int(last_s / step_s), int(next_s / step_s) + 1):
+            longest[step] = max(longest.get(step, 0.0), next_s - last_s)
+    series = Series()
+    for step in sorted(longest):
+        series.add(step * step_s, longest[step])
     return series
 
 

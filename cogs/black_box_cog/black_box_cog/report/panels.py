@@ -114,8 +114,8 @@ def _links(evidence: Evidence) -> Picture:
         )
     ]
     caption = (
-        "How long the silence between two words was: a step up is a silence, as high as it was"
-        " long. The ground's line tells for how long no ground station was connected."
+        "The longest silence in each second: a step up is a silence, as high as it was long. The"
+        " ground's line tells for how long no ground station was connected."
     )
     return Picture(
         "links", "Ages of the links", caption, (Panel("Silence", "s", curves, least_range=0.5),)
@@ -142,22 +142,19 @@ def _power(evidence: Evidence) -> Picture:
 
 def _loops(evidence: Evidence) -> Picture:
     known, status = evidence.frames, evidence.status
-    board = [
-        *_curve("busy", status["loop_us"] or known["arduino.loop_us"], "blue"),
-        *_curve("late", status["late_us"] or known["arduino.late_us"], "vermilion", "--"),
-    ]
+    period = _curve("mean period", status["loop_us"] or known["arduino.loop_us"], "blue")
+    late = _curve("greatest lateness", status["late_us"] or known["arduino.late_us"], "vermilion")
     held_up = _curve("held up, times", evidence.held_up, "vermilion", is_step=True, gap_s=1e9)
     return Picture(
         "loops",
         "Loop times",
-        "The Arduino's control loop: how long it works and how late it begins, at worst since the"
-        " last status. On the Raspberry Pi: how often something held up the program for more than"
+        "The control loop of the Arduino, each second: its mean period, and how late it began at"
+        " worst. On the Raspberry Pi: how often something had held up the program for more than"
         " 20 ms.",
         (
-            Panel("Control loop of the Arduino", "us", board, least_range=100.0),
-            Panel(
-                "Slow dispatches of the Raspberry Pi", "times", held_up, least_range=2, share=0.6
-            ),
+            Panel("Period of the control loop", "us", period, least_range=40.0, share=0.6),
+            Panel("Lateness of the control loop", "us", late, least_range=50.0, share=0.8),
+            Panel("Slow dispatches of the Raspberry Pi", "times", held_up, "", None, 2.0, 0.6),
         ),
     )
 
