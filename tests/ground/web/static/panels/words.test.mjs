@@ -130,4 +130,6 @@ test("a profile reads as a page, and what is not told has no row", () => {
   assert.match(rows.Motor, /glider/);
   assert.ok(!parts.some((part) => part.title === "Limits in FBW"));
   assert.deepEqual(profileParts({}), []);
+  const odd = { mix: "constructor", motor: "toString", ailerons: 7, switch: "high", receiver_lost: [1] };
+  assert.deepEqual(profileParts(odd), [{ title: "Airframe", rows: [["Mix", "constructor"]] }]);
 });

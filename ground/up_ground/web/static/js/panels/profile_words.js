@@ -40,8 +40,8 @@ export function profileParts(profile) {
 function airframeRows(profile) {
   const motor = { true: "yes: it needs arming", false: "no: a glider, nothing to arm" };
   return [
-    ["Mix", MIXES[profile.mix] ?? textOf(profile.mix)],
-    ["Motor", motor[String(profile.motor)] ?? ""],
+    ["Mix", wordOf(MIXES, profile.mix) || textOf(profile.mix)],
+    ["Motor", wordOf(motor, profile.motor)],
   ];
 }
 
@@ -82,7 +82,7 @@ function lostRows(lost) {
     ["Pitch of the circle", degrees(lost?.glide_pitch_deg, true)],
     ["Bank of the circle", sideways(lost?.circle_bank_deg)],
     ["Surfaces without IMU", surfaces ? `${surfaces} us` : ""],
-    ["Returning home", motor[String(lost?.return_with_motor)] ?? ""],
+    ["Returning home", wordOf(motor, lost?.return_with_motor)],
   ];
 }
 
@@ -103,6 +103,10 @@ function microseconds(value) {
 
 function signed(value) {
   return value > 0 ? `+${value}` : String(value).replace("-", "−");
+}
+
+function wordOf(words, value) {
+  return Object.hasOwn(words, String(value)) ? words[String(value)] : "";
 }
 
 function textOf(value) {
