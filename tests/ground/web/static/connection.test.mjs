@@ -58,6 +58,17 @@ test("failing attempts come at 0.25, 0.5, 1, 2, 2 seconds", () => {
   }
 });
 
+test("after a success the attempts begin anew", () => {
+  page.start();
+  for (const wait_s of [0.25, 0.5, 1]) {
+    server.socket.fail();
+    clock.advance(wait_s);
+  }
+  server.welcome();
+  server.socket.fail();
+  assert.equal(page.retry_s, 0.25);
+});
+
 test("a server that says nothing for four seconds is left", () => {
   page.start();
   server.welcome();

@@ -34,6 +34,7 @@ test("a gap of ten seconds is not averaged over", () => {
   motion.place(50, 8, 0);
   motion.place(50 + 10 / DEGREE_M, 8, 1);
   motion.place(51, 8, 11);
+  assert.equal(motion.groundSpeed_m_s, null);
   motion.place(51 + 10 / DEGREE_M, 8, 12);
   assert.ok(Math.abs(motion.groundSpeed_m_s - 10) < 0.01);
 });

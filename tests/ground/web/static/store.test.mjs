@@ -6,7 +6,7 @@ import { Store } from "../../../../ground/up_ground/web/static/js/state/store.js
 import { FakeClock } from "./support/fake_clock.mjs";
 import { FakeServer } from "./support/fake_server.mjs";
 
-let clock, server, store, frames;
+let clock, server, store, frames, connection;
 
 beforeEach(() => {
   clock = new FakeClock();
@@ -14,7 +14,7 @@ beforeEach(() => {
   frames = [];
   const { now_s, timers } = clock;
   const memory = new Keepsake(null);
-  const connection = new Connection("ws://x/link", {
+  connection = new Connection("ws://x/link", {
     memory,
     now_s,
     timers,
@@ -133,7 +133,8 @@ test("a Command echoes the newest frame that was painted, not the newest that ca
   paint();
   assert.equal(store.shownBeacon, 1);
   frame({}, { beacon: 2 });
-  assert.equal(store.shownBeacon, 1);
+  connection.command("up.disarm", {});
+  assert.equal(server.socket.of("command")[0].beacon, 1);
 });
 
 test("frames of another aircraft are not shown", () => {
