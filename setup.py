@@ -76,6 +76,7 @@ setup(
     ],
     extras_require={
         "ground": ["autobahn>=24.4"],
+        "log": ["matplotlib>=3.8"],
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
         "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6", "mcap>=1.2"],
         "dev": [
