@@ -26,10 +26,11 @@ export class LeafletMap {
   /**
    * @param {object} L Leaflet
    * @param {HTMLElement} place
-   * @param {{tiles: ?{url: string, attribution: string}, onFree: () => void}} options onFree: the
-   *   user moved the map
+   * @param {{tiles: ?{url: string, attribution: string}, onFree: () => void,
+   *   onTiles: (areThere: boolean) => void}} options onFree: the user moved the map; onTiles: the
+   *   pictures of the ground stopped coming, or come
    */
-  constructor(L, place, { tiles, onFree }) {
+  constructor(L, place, { tiles, onFree, onTiles }) {
     this.#L = L;
     this.#onFree = onFree;
     this.#map = L.map(place, {
@@ -45,10 +46,15 @@ export class LeafletMap {
     if (tiles !== null) {
       const options = { maxZoom: CLOSEST, maxNativeZoom: CLOSEST_TILES, attribution: escaped(tiles.attribution) };
       this.#tiles = L.tileLayer(tiles.url, options).addTo(this.#map);
-      this.#tiles.once("tileerror", () => this.#useGrid());
+      this.#tiles.on("tileload", () => onTiles(true));
+      this.#tiles.on("tileerror", () => {
+        this.#useGrid();
+        onTiles(false);
+      });
     }
+    place.classList.toggle("has-tiles", tiles !== null);
     this.#wayHome = L.polyline([], { className: "way-home", interactive: false });
-    this.#track = new TrackLine(L, this.#map);
+    this.#track = new TrackLine(L, this.#map, tiles !== null);
     this.#map.on("dragstart", () => this.free());
     this.#map.getContainer().addEventListener("keydown", (event) => {
       if (event.key.startsWith("Arrow")) {

@@ -7,6 +7,8 @@ import { PlainMap } from "./plain_map.js";
 const MISSING =
   "The map is a plain one, as Leaflet is not installed: run tools/web_assets (it needs npm) and load this page again.";
 
+const NO_TILES = "No pictures of the ground come: a grid of metres stands in for them.";
+
 /**
  * The map: Leaflet where it is installed, a plain one of our own elsewhere.
  * @param {HTMLElement} place
@@ -31,6 +33,11 @@ export function mount(place, store, connection) {
 
   function button(text, label, click) {
     return element("button", { type: "button", text, title: label, "aria-label": label, on: { click } });
+  }
+
+  function notify(text) {
+    setText(notice, text);
+    notice.hidden = text === "";
   }
 
   function setFollow(isWanted) {
@@ -70,12 +77,13 @@ export function mount(place, store, connection) {
       const { LeafletMap } = await import("./leaflet_map.js");
       const L = await import("../../vendor/leaflet/leaflet-src.esm.js");
       await styleSheet("vendor/leaflet/leaflet.css");
-      map = new LeafletMap(L, canvas, { tiles: connection.welcome?.tiles ?? null, onFree: showFollow });
+      const tiles = connection.welcome?.tiles ?? null;
+      const onTiles = (areThere) => notify(areThere ? "" : NO_TILES);
+      map = new LeafletMap(L, canvas, { tiles, onFree: showFollow, onTiles });
     } catch (error) {
       console.warn(error);
       map = new PlainMap(canvas);
-      setText(notice, MISSING);
-      notice.hidden = false;
+      notify(MISSING);
       sayMissing(MISSING);
     }
     showFollow();

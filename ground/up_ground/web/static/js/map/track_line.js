@@ -11,16 +11,23 @@ const AGAIN = 50;
 /** The track on Leaflet's map, the older the fainter. */
 export class TrackLine {
   #lines;
+  #casings;
   #version = -1;
   #count = 0;
   #drawnCount = 0;
   #points = [];
 
-  constructor(L, map) {
+  /**
+   * @param {object} L Leaflet
+   * @param {object} map
+   * @param {boolean} isCased whether a wider line lies below: on pictures of the ground
+   */
+  constructor(L, map, isCased) {
     const renderer = L.svg({ padding: 0.3 });
-    this.#lines = PARTS.map(({ opacity, weight }) =>
-      L.polyline([], { className: "track", opacity, weight, interactive: false, renderer }).addTo(map),
-    );
+    const lineOf = (className, opacity, weight) =>
+      L.polyline([], { className, opacity, weight, interactive: false, renderer }).addTo(map);
+    this.#casings = PARTS.map(({ weight }) => (isCased ? lineOf("track-case", 0.7, weight + 3) : null));
+    this.#lines = PARTS.map(({ opacity, weight }) => lineOf("track", opacity, weight));
   }
 
   /** @param {{points: number[][], version: number}} track */
@@ -43,7 +50,9 @@ export class TrackLine {
       const upTo = PARTS[index].upTo + grown;
       const begin = Math.max(0, Number.isFinite(upTo) ? points.length - upTo : 0);
       if (index === 0 || isDue) {
-        line.setLatLngs(points.slice(begin, end + (index === 0 ? 0 : 1)));
+        const part = points.slice(begin, end + (index === 0 ? 0 : 1));
+        line.setLatLngs(part);
+        this.#casings[index]?.setLatLngs(part);
       }
       end = begin;
     });
