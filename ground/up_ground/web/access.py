@@ -9,7 +9,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from ipaddress import ip_address
 
-_AUTHORITY = re.compile(r"(?:\[([0-9A-Fa-f:.%]{2,60})\]|([A-Za-z0-9._-]{1,255}))(?::([0-9]{1,5}))?")
+_AUTHORITY = re.compile(
+    r"(?:\[([0-9A-Fa-f:.]{2,45}(?:%[A-Za-z0-9._-]{1,40})?)\]|([A-Za-z0-9._-]{1,255}))"
+    r"(?::[0-9]{1,5})?",
+    re.ASCII,
+)
 _ORIGIN = re.compile(r"https?://([^/?#@\\]{1,300})", re.IGNORECASE)
 
 

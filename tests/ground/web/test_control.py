@@ -1,0 +1,224 @@
+"""Which page controls, without a network."""
+
+import pytest
+from twisted.internet.task import Clock
+
+from up_ground.seat_wait import Standing
+from up_ground.web.control import ASK_LIMIT_S, Control
+from up_ground.web.page import Page
+from up_ground.web.page_message import PageFault
+
+
+class Seat:
+    """A seat at a proxy that does nothing by itself."""
+
+    def __init__(self):
+        self.standing, self.holder, self.asked = Standing.FREE, None, None
+        self.done = []
+
+    def take_ask(self):
+        asked, self.asked = self.asked, None
+        return asked
+
+    def request(self):
+        self.done.append("request")
+
+    def give(self, to):
+        self.done.append(f"give {to}")
+        self.standing, self.holder = Standing.HELD, to
+
+    def release(self):
+        self.done.append("release")
+        self.standing = Standing.FREE
+
+
+class Bench:
+    def __init__(self):
+        self.clock, self.seat, self.told, self.changes = Clock(), Seat(), [], 0
+        self.control = Control(self.clock, self.seat, self.told.append, self.on_change)
+        self.ann, self.bob, self.guest = (
+            Page(number, name, "", why)
+            for number, name, why in ((1, "Ann", ""), (2, "Bob", ""), (3, "Guest", "no key"))
+        )
+        for page in (self.ann, self.bob, self.guest):
+            page.faults = []
+            page.fault = page.faults.append
+
+    def on_change(self):
+        self.changes += 1
+
+    def seat_is(self, standing, holder=None):
+        self.seat.standing, self.seat.holder = standing, holder
+        self.control.on_seat()
+
+    def has_control(self, page):
+        self.control.request(page)
+        self.seat_is(Standing.OURS)
+        assert self.control.holder is page
+
+    def words(self, page):
+        return self.control.describe(page)
+
+
+@pytest.fixture
+def bench():
+    return Bench()
+
+
+def test_the_seat_is_only_taken_when_a_page_wants_control(bench):
+    bench.seat_is(Standing.FREE)
+    bench.clock.advance(60)
+    assert bench.seat.done == []
+    assert bench.words(bench.ann)["holder"] == "nobody"
+    bench.control.request(bench.ann)
+    assert bench.seat.done == ["request"]
+    assert bench.control.holder is None
+    bench.seat_is(Standing.OURS)
+    assert bench.words(bench.ann)["holder"] == "you"
+    assert bench.words(bench.bob)["holder"] == "page"
+    assert bench.words(bench.bob)["holder_name"] == "Ann"
+    bench.control.release(bench.ann)
+    assert bench.seat.done == ["request", "release"]
+    assert bench.words(bench.ann)["holder"] == "nobody"
+
+
+def test_a_page_that_may_only_watch_gets_nothing(bench):
+    with pytest.raises(PageFault, match="no key"):
+        bench.control.request(bench.guest)
+    bench.has_control(bench.ann)
+    with pytest.raises(PageFault, match="no key"):
+        bench.control.give(bench.ann, bench.guest)
+    assert bench.control.holder is bench.ann
+
+
+def test_the_holder_is_asked_and_gives(bench):
+    bench.has_control(bench.ann)
+    bench.control.request(bench.bob)
+    assert bench.control.holder is bench.ann
+    assert bench.words(bench.ann)["asks_you"] is True
+    assert bench.words(bench.ann)["asked_by"] == {"page": 2, "name": "Bob"}
+    assert bench.words(bench.bob)["asks_you"] is False
+    bench.control.give(bench.ann, None)
+    assert bench.control.holder is bench.bob
+    assert bench.words(bench.ann)["asked_by"] is None
+    assert bench.seat.done == ["request"]
+
+
+def test_the_holder_denies(bench):
+    bench.has_control(bench.ann)
+    bench.control.request(bench.bob)
+    bench.control.deny(bench.ann)
+    assert bench.control.holder is bench.ann
+    assert bench.bob.faults == ["Ann keeps control"]
+    with pytest.raises(PageFault, match="nobody asks"):
+        bench.control.deny(bench.ann)
+
+
+@pytest.mark.parametrize("action", ["give", "deny", "release"])
+def test_only_the_holder_decides(bench, action):
+    bench.has_control(bench.ann)
+    with pytest.raises(PageFault):
+        getattr(bench.control, action)(bench.bob, *([bench.bob] if action == "give" else []))
+    assert bench.control.holder is bench.ann
+
+
+def test_who_asks_asks_for_so_long(bench):
+    bench.has_control(bench.ann)
+    bench.control.request(bench.bob)
+    bench.clock.advance(ASK_LIMIT_S)
+    assert bench.words(bench.ann)["asks_you"] is False
+    assert bench.bob.faults
+
+
+def test_a_page_that_is_gone_leaves_the_seat(bench):
+    bench.has_control(bench.ann)
+    bench.control.on_away(bench.ann)
+    assert bench.control.holder is bench.ann
+    assert bench.seat.done == ["request"]
+    bench.control.on_gone(bench.ann)
+    assert bench.control.holder is None
+    assert bench.seat.done == ["request", "release"]
+
+
+def test_a_page_that_is_gone_leaves_it_to_who_asks(bench):
+    bench.has_control(bench.ann)
+    bench.control.request(bench.bob)
+    bench.control.on_gone(bench.ann)
+    assert bench.control.holder is bench.bob
+    assert bench.seat.done == ["request"]
+
+
+def test_the_ground_that_has_the_seat_is_asked_until_it_gives(bench):
+    bench.seat_is(Standing.HELD, 4)
+    bench.control.request(bench.ann)
+    words = bench.words(bench.bob)
+    assert (words["holder"], words["holder_name"]) == ("ground", "ground 4")
+    assert words["asked_by"] == {"page": 1, "name": "Ann"}
+    for _ in range(3):
+        bench.clock.advance(1.1)
+    assert bench.seat.done == ["request"] * 4
+    bench.seat_is(Standing.OURS)
+    assert bench.control.holder is bench.ann
+    bench.clock.advance(5)
+    assert bench.seat.done == ["request"] * 4
+
+
+def test_it_is_not_asked_for_ever(bench):
+    bench.seat_is(Standing.HELD, 4)
+    bench.control.request(bench.ann)
+    bench.clock.pump([1.1] * 40)
+    assert bench.ann.faults == ["ground 4 has not given the seat within 30 s"]
+    asked = len(bench.seat.done)
+    bench.clock.advance(30)
+    assert len(bench.seat.done) == asked
+    # It comes after all: nobody wants it any more.
+    bench.seat_is(Standing.OURS)
+    assert bench.seat.done[-1] == "release"
+
+
+def test_another_ground_asks_the_page_and_gets_it(bench):
+    bench.has_control(bench.ann)
+    bench.seat.asked = 7
+    bench.control.on_seat()
+    assert bench.words(bench.ann)["asked_by"] == {"page": None, "name": "ground 7"}
+    assert bench.words(bench.ann)["asks_you"] is True
+    bench.control.give(bench.ann, None)
+    assert bench.seat.done == ["request", "give 7"]
+    assert bench.words(bench.ann)["holder_name"] == "ground 7"
+
+
+def test_another_ground_that_was_denied_does_not_ask_each_second(bench):
+    bench.has_control(bench.ann)
+    bench.seat.asked = 7
+    bench.control.on_seat()
+    bench.control.deny(bench.ann)
+    for _ in range(10):
+        bench.clock.advance(1.1)
+        bench.seat.asked = 7
+        bench.control.on_seat()
+        assert bench.words(bench.ann)["asks_you"] is False
+    bench.clock.advance(6)
+    bench.seat.asked = 7
+    bench.control.on_seat()
+    assert bench.words(bench.ann)["asks_you"] is True
+
+
+def test_control_outlives_a_lost_link_and_ends_when_another_ground_took_over(bench):
+    bench.has_control(bench.ann)
+    bench.seat_is(Standing.UNKNOWN)
+    assert bench.words(bench.ann)["holder"] == "you"
+    bench.seat_is(Standing.FREE)
+    assert bench.seat.done == ["request", "request"]
+    bench.seat_is(Standing.OURS)
+    assert bench.control.holder is bench.ann
+    bench.seat_is(Standing.HELD, 9)
+    assert bench.control.holder is None
+    assert bench.told[-1] == "ground 9 commands, Ann has lost control"
+
+
+def test_the_end_leaves_nothing(bench):
+    bench.has_control(bench.ann)
+    bench.control.request(bench.bob)
+    bench.control.stop()
+    assert bench.seat.done[-1] == "release"
+    assert bench.clock.getDelayedCalls() == []
