@@ -19,9 +19,11 @@ test("an answer says what became of it", () => {
     "refused by the aircraft: the aircraft is armed (forbidden)",
   );
   assert.equal(
-    words({ outcome: "timeout", reason: "no answer within 5 s" }),
-    "no answer (no answer within 5 s): nobody knows whether it was carried out",
+    words({ outcome: "timeout", reason: "no answer in 5 s; it is not known whether it was carried out" }),
+    "no answer in 5 s: nobody knows whether it was carried out",
   );
+  assert.equal(words({ outcome: "timeout" }), "no answer: nobody knows whether it was carried out");
+  assert.equal(words({ outcome: "unsent", reason: "not sent: a loss" }), "not sent: a loss");
   assert.equal(words({ outcome: "unsent", reason: "the link is down" }), "not sent: the link is down");
   assert.match(words({ outcome: "refused", reason: "you have no control" }), /^refused by the ground server: you/);
   assert.match(words({ outcome: "odd" }), /does not know: odd/);

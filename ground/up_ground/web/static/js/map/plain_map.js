@@ -5,6 +5,8 @@ import { setAttribute, setText } from "../readout.js";
 import { AircraftSymbol } from "./aircraft_symbol.js";
 
 const MOST_POINTS = 1500;
+/** What the line of words below the map covers. */
+const FOOT_PX = 40;
 
 /** A map of our own: track, home and aircraft in metres on a grid. It always shows everything. */
 export class PlainMap {
@@ -12,7 +14,7 @@ export class PlainMap {
   #lines = drawn("path.grid");
   #track = drawn("polyline.track");
   #home = drawn("path.home-symbol");
-  #scale = drawn("text.scale", { x: 12, y: 20 });
+  #scale = drawn("text.scale", { x: 12 });
   #step_m = 0;
   #place;
 
@@ -86,6 +88,7 @@ export class PlainMap {
       ...up.map((north_m) => `M0 ${y({ north_m }).toFixed(1)}H${size.width_px}`),
     ];
     setAttribute(this.#lines, "d", path.join(""));
+    setAttribute(this.#scale, "y", size.height_px - FOOT_PX);
     setText(this.#scale, `a square is ${stepText(this.#step_m)} wide, north is up`);
   }
 }

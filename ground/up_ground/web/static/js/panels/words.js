@@ -51,7 +51,10 @@ export function commandWords(name, data = {}) {
  * @returns {string} what became of a Command, in plain words
  */
 export function answerWords(answer) {
-  const reason = String(answer.reason ?? "").replace(/[.\s]+$/, "");
+  const reason = String(answer.reason ?? "")
+    .replace(/^not sent: /, "")
+    .replace(/; it is not known whether it was carried out$/, "")
+    .replace(/[.\s]+$/, "");
   const after_ms = answer.round_trip_ms;
   switch (answer.outcome) {
     case "ack":
@@ -61,7 +64,7 @@ export function answerWords(answer) {
     case "nack":
       return `refused by the aircraft: ${reason || "no reason given"}${codeWords(answer.code, reason)}`;
     case "timeout":
-      return `no answer${reason ? ` (${reason})` : ""}: nobody knows whether it was carried out`;
+      return `${reason || "no answer"}: nobody knows whether it was carried out`;
     case "unsent":
       return `not sent: ${reason || "no connection"}`;
     case "refused":
