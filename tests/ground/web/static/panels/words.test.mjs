@@ -14,6 +14,8 @@ test("an answer says what became of it", () => {
   const words = (answer) => answerWords({ code: null, reason: "", round_trip_ms: null, ...answer });
   assert.equal(words({ outcome: "ack", round_trip_ms: 83.6 }), "carried out after 84 ms");
   assert.equal(words({ outcome: "ack" }), "carried out");
+  const half = "carried out, but what was asked for did not come";
+  assert.equal(words({ outcome: "ack", round_trip_ms: 20, reason: half }), half);
   assert.equal(
     words({ outcome: "nack", code: "forbidden", reason: "the aircraft is armed." }),
     "refused by the aircraft: the aircraft is armed (forbidden)",

@@ -58,6 +58,9 @@ export function answerWords(answer) {
   const after_ms = answer.round_trip_ms;
   switch (answer.outcome) {
     case "ack":
+      if (reason) {
+        return reason;
+      }
       return Number.isFinite(after_ms)
         ? `carried out after ${Math.round(after_ms)} ms`
         : "carried out";
