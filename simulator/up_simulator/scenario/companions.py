@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Protocol
 
 from up_simulator.crew.protocols import Ground, Phone, Raspilot
@@ -25,6 +27,10 @@ class Companions(Protocol):
     @property
     def phone(self) -> Phone | None:
         """Return the phone aboard."""
+
+    @property
+    def black_boxes(self) -> Mapping[str, bytes]:
+        """Return the files, by name, that a real daemon has recorded; there once all have ended."""
 
     def start(self) -> None:
         """Start everybody; raises CrewError."""
@@ -51,6 +57,7 @@ class Nobody:
     raspilot: Raspilot | None = None
     ground: Ground | None = None
     phone: Phone | None = None
+    black_boxes: Mapping[str, bytes] = MappingProxyType({})
 
     def __init__(self, board: LineBoard) -> None:
         self._board = board

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Protocol
 
 from up_simulator.crew.protocols import CrewError, Ground, Raspilot
@@ -47,6 +49,7 @@ class CrewCompanions(ABC):
     raspilot: Daemon
     ground: Ground | None = None
     phone: AboardPhone | None = None
+    black_boxes: Mapping[str, bytes] = MappingProxyType({})
 
     def __init__(self, scenario: Scenario, board: LineBoard) -> None:
         self.scenario = scenario

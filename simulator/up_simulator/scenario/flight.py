@@ -38,7 +38,7 @@ class FlightRecord:
 
     ``crash`` is a sentence about how it ended on the ground, ``failure`` one about what kept it
     from being flown to its end, with the lines of the daemon's log behind it. ``settings`` are the
-    configuration files that the board flies by.
+    configuration files that the board flies by, ``black_boxes`` what a real daemon has recorded.
     """
 
     scenario: Scenario
@@ -55,6 +55,7 @@ class FlightRecord:
     board_title: str = ""
     notes: list[str] = field(default_factory=list)
     settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    black_boxes: Mapping[str, bytes] = field(default_factory=dict)
 
     @property
     def speed(self) -> float:
@@ -138,6 +139,7 @@ class ScenarioFlight:
             self.record.flown_s = self.time_s
             self.record.took_s = time.perf_counter() - began_s
             self.companions.stop()
+            self.record.black_boxes = self.companions.black_boxes
         return self.record
 
     def boot(self, progress: Callable[[float], None] = lambda _time_s: None) -> None:

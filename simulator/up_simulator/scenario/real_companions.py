@@ -24,6 +24,7 @@ from up_simulator.scenario.workspace import Workspace
 from up_simulator.world import BYTES_A_STEP
 
 PROXY_AGAIN_S = 10.0
+FLIGHTS = "flights"
 
 
 class RealCompanions(CrewCompanions):
@@ -122,6 +123,9 @@ class RealCompanions(CrewCompanions):
             self._line.close()
             self._line = None
         self._reactor.stop()
+        # An instance of a runner has a folder of its own in the one that it is given.
+        found = sorted((self._folder / FLIGHTS).rglob("*.mcap"))
+        self.black_boxes = {path.name: path.read_bytes() for path in found}
         self._workspace.close()
 
     def end_raspilot(self) -> None:
@@ -188,7 +192,7 @@ class RealCompanions(CrewCompanions):
 
     def _black_box(self) -> dict[str, Any]:
         """Let it record as it does aboard, and nowhere else than here."""
-        return {"enabled": True, "folder": str(self._folder / "flights")}
+        return {"enabled": True, "folder": str(self._folder / FLIGHTS)}
 
     def _make_ground(self) -> None:
         if self.scenario.ground is None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from up_simulator.aircraft import AirframeError
@@ -42,6 +43,7 @@ LOG, CONTROL_LOG, FLIGHT_LOG, REPORT, PICTURE, SUMMARY = (
     "picture.png",
     "summary.json",
 )
+BLACK_BOXES = "black-box"
 _WRONG_INPUT = (AirframeError, SettingsError)
 _CANNOT_FLY = (
     *_WRONG_INPUT,
@@ -175,6 +177,7 @@ def write_files(name: str, result: Result, output: Output, say: Say) -> Files:
     flight_log = folder / FLIGHT_LOG
     if files.put(flight_log, lambda path: write_flight(name, result, path)):
         files.written.append(flight_log)
+    _put_black_boxes(result.record.black_boxes, folder / BLACK_BOXES, files)
     if output.has_picture and len(result.record.log):
         _draw(result, folder / PICTURE, files, say)
     for path in (folder / CONTROL_LOG, folder / PICTURE):
@@ -187,6 +190,19 @@ def write_files(name: str, result: Result, output: Output, say: Say) -> Files:
     report = "\n".join(report_lines(name, result, files.written)) + "\n"
     files.put(folder / REPORT, lambda path: path.write_text(report, encoding="utf-8"))
     return files
+
+
+def _put_black_boxes(found: Mapping[str, bytes], folder: Path, files: Files) -> None:
+    """Keep what a real daemon recorded, and nothing of an earlier flight."""
+    with suppress(OSError):
+        for old in folder.glob("*.mcap"):
+            old.unlink()
+        folder.rmdir()
+    if found:
+        folder.mkdir(exist_ok=True)
+    for name, data in found.items():
+        if files.put(folder / name, partial(Path.write_bytes, data=data)):
+            files.written.append(folder / name)
 
 
 def _draw(result: Result, path: Path, files: Files, say: Say) -> None:

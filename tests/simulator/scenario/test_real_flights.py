@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from tests.support.firmware import build_firmware
+from up.flight_log.flight_log import FlightLog
 from up_simulator.scenario.log import read_log
 
 LIMIT_S = 240.0
@@ -21,6 +22,12 @@ def fly(folder, text):
     )
     assert "Traceback" not in done.stderr
     return done
+
+
+def black_boxes(folder):
+    """What the daemon recorded, one log for each of its lives."""
+    found = sorted((folder / "run/flights/real/black-box").glob("*.mcap"))
+    return [FlightLog.read([path]) for path in found]
 
 
 def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
@@ -46,6 +53,11 @@ def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
     assert "real time, not repeatable to the digit" in done.stdout
     log = read_log(tmp_path / "run" / "flights" / "real" / "log.csv")
     assert max(log.numbers("ground.frames")) > 3
+    first, second = black_boxes(tmp_path)
+    for each in (first, second):
+        assert each.topics["up.orientation.update"] > 20
+    assert not first.is_complete, "it was killed"
+    assert "up.telemetry.frequency" in first.topics or "up.telemetry.frequency" in second.topics
 
 
 def test_a_daemon_that_dies_is_told_with_the_tail_of_its_log(tmp_path):
@@ -92,6 +104,8 @@ def test_a_black_box_through_runner_and_proxy_leaves_no_process(tmp_path):
         + "  - {name: b, signal: ground.source.orientation, becomes: android, within_s: 4}\n",
     )
     assert done.returncode == 0, done.stdout + done.stderr
+    (recorded,) = black_boxes(tmp_path)
+    assert recorded.topics["up.orientation.update"] > 20
     for commands in Path("/proc").glob("[0-9]*/cmdline"):
         try:
             words = commands.read_bytes()

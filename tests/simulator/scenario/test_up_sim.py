@@ -155,6 +155,8 @@ def test_no_file_of_an_earlier_flight_is_left(in_a_folder):
     folder.mkdir(parents=True)
     for name in ("picture.png", "control.csv", "report.txt"):
         (folder / name).write_text("of an earlier flight")
+    (folder / "black-box").mkdir()
+    (folder / "black-box" / "0001-20260101T000000Z-default.mcap").write_text("of an earlier flight")
     (folder / "notes.txt").write_text("the user's own")
     assert main(["fly", write("good.yml", GOOD), "--no-picture", "--quiet"]) == 0
     names = {path.name for path in folder.iterdir()}
