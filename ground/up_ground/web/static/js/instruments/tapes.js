@@ -69,16 +69,19 @@ function showSpeed(tape, store) {
 function showAltitude(tape, store) {
   const altitude_m = store.number("altitude");
   const freshness = freshnessOf(store, altitude_m, "altitude");
-  const decimals = altitude_m >= 1000 ? 0 : 1;
+  const decimals = altitude_m >= 1000 || altitude_m <= -100 ? 0 : 1;
   const age = oldText(store, "altitude", freshness);
   tape.show(altitude_m, freshness, numberText(altitude_m, decimals), age);
   const height_m = heightOverStart_m(store);
   const where = startsAtHome(store) ? "home" : "start";
-  setText(
-    tape.foot,
-    height_m === null ? "" : `${numberText(height_m, 0, { sign: true })} m ${where}`,
-  );
+  setText(tape.foot, height_m === null ? "" : `${heightText(height_m)} ${where}`);
   setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, "location"));
+}
+
+function heightText(height_m) {
+  return Math.abs(height_m) < 999.5
+    ? `${numberText(height_m, 0, { sign: true })} m`
+    : `${numberText(height_m / 1000, 1, { sign: true })} km`;
 }
 
 /** Over the place where the track begins: nothing tells the altitude of home itself. */
