@@ -16,7 +16,7 @@ class PageConnection(Interface):
     output: PageOutput
 
     def close(self, code: int, reason: str) -> None:
-        """Close it; ``code`` is one of RFC 6455."""
+        """Close it; ``code`` is 4000 to 4999, as RFC 6455 leaves them to us."""
 
     def is_alive(self, within_s: float, tell: Any) -> None:
         """Ask for a sign of life; ``tell`` hears whether one came in time."""

@@ -16,6 +16,7 @@ from up_ground.web.page_output import PageOutput
 
 USER_TIMEOUT_MS = 5000
 PING_S = 5.0
+NOT_TEXT = 4003
 
 
 class LinkOwner(Interface):
@@ -56,7 +57,7 @@ class PageLink(WebSocketServerProtocol):
     def onMessage(self, payload: bytes, isBinary: bool) -> None:  # noqa: N802, N803
         """Hand a message on."""
         if isBinary:
-            self.close(1003, "only text messages")
+            self.close(NOT_TEXT, "only text messages")
         elif self._is_open:
             self._owner.on_said(self, payload)
 

@@ -7,6 +7,8 @@ import secrets
 from collections.abc import Mapping
 from typing import Any
 
+from twisted.internet.defer import Deferred
+
 from up.system.clock import Clock, Timer
 from up.version import VERSION
 from up_ground.safe_text import safe_text
@@ -24,8 +26,9 @@ KEPT_S = 5.0
 """A page that vanishes is expected back for so long."""
 ALIVE_S = 1.0
 FAULTS_LIMIT = 20
-VIOLATION = 1008
-LATER = 1013
+GOING_AWAY = 4001
+VIOLATION = 4008
+LATER = 4013
 
 
 class _Visit:
@@ -60,19 +63,23 @@ class Pages:
         self._timers: dict[int, Timer] = {}
         self._number = 0
         self._beat: Timer | None = None
+        self._all_closed: Deferred[None] | None = None
 
     def start(self) -> None:
         """Begin to say once a second how things are."""
         self._beat = self._clock.callLater(1.0, self._on_second)
 
-    def stop(self) -> None:
-        """Close every page's link."""
+    async def stop(self) -> None:
+        """Close every page's link; returns when they are closed, after a second at most."""
         timers = [self._beat, *self._timers.values()]
         for timer in timers:
             if timer is not None and timer.active():
                 timer.cancel()
-        for link in list(self._visits):
-            link.close(1001, "the server ends")
+        if self._visits:
+            self._all_closed = Deferred()
+            for link in list(self._visits):
+                link.close(GOING_AWAY, "the server ends")
+            await self._all_closed
 
     def is_full(self) -> bool:
         """Say whether no more pages are let in."""
@@ -120,7 +127,7 @@ class Pages:
     def on_said(self, link: PageConnection, payload: bytes) -> None:
         """Do what a page says; nonsense is told to it, and after too much of it the page goes."""
         visit = self._visits.get(link)
-        if visit is None:
+        if visit is None or self._all_closed is not None:
             return
         if not visit.allowance.take():
             link.close(VIOLATION, "too many messages")
@@ -142,6 +149,10 @@ class Pages:
             return
         if visit.timer.active():
             visit.timer.cancel()
+        if self._all_closed is not None:
+            if not self._visits:
+                self._all_closed.callback(None)
+            return
         page = visit.page
         if page is not None and page.link is link:
             page.link = None
@@ -207,7 +218,7 @@ class Pages:
                 if former.link is old:
                     self._visits.pop(old, None)
                     former.link = None
-                    old.close(1001, "this page has another link")
+                    old.close(GOING_AWAY, "this page has another link")
                 self._welcome_back(link, former, name, why_not)
 
             old.is_alive(ALIVE_S, decide)

@@ -85,7 +85,7 @@ class Server(Errand):
         port, self._port = self._port, None
         if port is None:
             return
-        self.pages.stop()
+        await self.pages.stop()
         if self._tiles is not None:
             self._tiles.stop()
         for aircraft in self.pages.fleet.values():

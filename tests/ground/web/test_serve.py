@@ -1,45 +1,443 @@
-"""`up-ground serve` as a whole: a real proxy, an aircraft, pages."""
+"""`up-ground serve` as a whole: a real proxy, an aircraft, pages, other grounds."""
 
-from tests.ground.aircraft import Aircraft
-from tests.ground.web.page import Page, Serve
+import signal
+
+import pytest
+
+from tests.ground.aircraft import Aircraft, Ground, frame, ground, until
+from tests.ground.web.page import Page, Serve, get
+from tests.proxy.program import Program
 from tests.support.reactor import run_in_reactor
+from tests.support.reactor import until as soon
+
+MODE = "up.flight_mode.set"
+FBW = {"mode": "FBW"}
+GAINS = {
+    name: {axis: {"p": 1.0, "i": 0.5, "d": 0.0} for axis in ("ailerons", "elevator", "rudder")}
+    for name in ("ratePIDs", "stabPIDs", "navPIDs")
+}
 
 
-def test_a_page_sees_the_aircraft(proxy, tmp_path):
-    async def look(port):
-        page = Page(port)
-        welcome = await page.hello("laptop")
+def with_pages(server, look, *names):
+    """Run `look(*pages)`; the pages have said hello and watch the aircraft."""
+
+    async def run():
+        pages = [Page(server.port) for _ in names]
+        for page, name in zip(pages, names, strict=True):
+            await page.hello(name)
+        try:
+            return await look(*pages)
+        finally:
+            for page in pages:
+                await page.leave()
+
+    return run_in_reactor(run)
+
+
+def sent(aircraft, name=MODE):
+    return [each for each in aircraft.received if each["name"] == name]
+
+
+@pytest.fixture
+def aircraft(proxy):
+    with Aircraft(proxy.airborne_port) as aircraft:
+        yield aircraft
+
+
+@pytest.fixture
+def server(proxy, tmp_path):
+    with Serve(tmp_path, proxy.ground_port) as server:
+        yield server
+
+
+def test_a_page_sees_the_aircraft(aircraft, server):
+    async def look(page):
+        welcome = page.newest("welcome")
         assert (welcome["aircraft"], welcome["may_control"]) == (["default"], True)
-        frame = await page.next("frame")
-        assert frame["data"]["orientation"]["roll"] == 12.5
-        assert 0 <= frame["age_ms"] < 900
+        shown = await page.next("frame")
+        assert shown["data"]["orientation"]["roll"] == 12.5
+        assert 0 <= shown["age_ms"] < 900
         status = await page.status(lambda each: each["link"]["frames"] > 2)
         assert status["link"]["state"] == "connected"
         assert status["link"]["aircraft_online"] is True
+        assert abs(status["home"]["latitude"] - 50.0757) < 0.001
+        track = await page.next("track")
+        assert track["points"][-1][:2] == [50.0755, 14.4378]
+        page.say("ping", ping=7)
+        assert (await page.next("pong"))["ping"] == 7
+
+    with_pages(server, look, "laptop")
+
+
+def test_every_frame_comes_in_order(aircraft, server):
+    async def look(page):
+        await soon(lambda: len(page.of("frame")) > 40)
+        beacons = [each["beacon"] for each in page.of("frame")]
+        assert beacons == list(range(beacons[0], beacons[0] + len(beacons)))
+
+    with_pages(server, look, "laptop")
+
+
+def test_only_the_page_with_control_commands_and_with_its_own_beacon(aircraft, server):
+    async def fly(first, second):
+        answer = await first.command(MODE, FBW)
+        assert (answer["outcome"], answer["code"]) == ("refused", "no_control")
+        await first.control()
+        shown = await first.next("frame")
+        # Newer frames have come since: what counts is what this page has shown.
+        await soon(lambda: len(first.of("frame")) > 5)
+        answer = await first.command(MODE, FBW, beacon=shown["beacon"])
+        assert answer["outcome"] == "ack"
+        assert 0 < answer["round_trip_ms"] < 5000
+        answer = await second.command(MODE, FBW, beacon=shown["beacon"])
+        assert (answer["outcome"], answer["code"]) == ("refused", "no_control")
+        return shown["beacon"]
+
+    beacon = with_pages(server, fly, "first", "second")
+    assert [each["beacon"] for each in sent(aircraft)] == [beacon]
+
+
+def test_a_refusal_of_the_aircraft_and_one_of_the_ground(proxy, server):
+    def refuse(message):
+        return [("up.nack", {"id": message["id"], "code": "refused", "reason": "not at AUTO"})]
+
+    async def fly(page):
+        await page.control()
+        answer = await page.command(MODE, FBW)
+        assert (answer["outcome"], answer["code"], answer["reason"]) == (
+            "nack",
+            "refused",
+            "not at AUTO",
+        )
+        for name, data, code in (
+            ("up.flight_mode.sett", {}, "unknown"),
+            (MODE, {"mode": "ACRO"}, "invalid"),
+            (MODE, {"mode": "FBW", "more": 1}, "invalid"),
+            ("up.arm", {}, "no_beacon"),
+            ("up.system.stop", {}, "forbidden"),
+            ("up.ack", {"id": "1"}, "forbidden"),
+        ):
+            answer = await page.command(name, data)
+            assert (answer["outcome"], answer["code"]) == ("refused", code), name
+
+    with Aircraft(proxy.airborne_port, answers={MODE: refuse}) as aircraft:
+        with_pages(server, fly, "pilot")
+        assert {each["name"] for each in aircraft.received} <= {MODE, "arduino.pids.tunings"}
+
+
+def test_what_the_links_role_does_not_allow_is_refused_here(proxy, server):
+    async def fly(page):
+        await page.control()
+        status = await page.status(lambda each: each["role"] == "observer")
+        assert status["tune_in_flight"] is False
+        answer = await page.command(MODE, FBW)
+        assert (answer["outcome"], answer["code"]) == ("refused", "forbidden")
+
+    data = frame(ground={"role": "observer", "tune_in_flight": False})
+    with Aircraft(proxy.airborne_port, data=data) as aircraft:
+        with_pages(server, fly, "pilot")
+        assert sent(aircraft) == []
+
+
+def test_one_ask_is_sent_once(aircraft, server):
+    async def fly(page):
+        await page.control()
+        for _ in range(3):
+            page.say("command", ask=1, aircraft="default", name=MODE, data=FBW)
+        await soon(lambda: page.of("answer"))
+        page.say("command", ask=1, aircraft="default", name=MODE, data=FBW)
+        await soon(lambda: len(page.of("answer")) == 2)
+        page.say("command", ask=1, aircraft="default", name=MODE, data={"mode": "RATE"})
+        assert "ask 1" in (await page.next("fault"))["text"]
+
+    with_pages(server, fly, "pilot")
+    assert len(sent(aircraft)) == 1
+
+
+def test_gains_are_asked_for_set_and_remembered(proxy, server):
+    flying = {**GAINS}
+
+    def tune(message):
+        if not message["data"].get("request"):
+            flying.update(message["data"]["pids"])
+            return [("up.ack", {"id": message["id"]})]
+        return [("up.ack", {"id": message["id"]}), ("arduino.pids.values", flying)]
+
+    changed = {**GAINS, "ratePIDs": GAINS["stabPIDs"] | {"rudder": {"p": 3.0, "i": 0, "d": 0}}}
+
+    async def fly(page, other):
+        await page.control()
+        gains = await page.next("gains", lambda each: each["flying"])
+        assert gains["flying"] == GAINS
+        answer = await other.command("arduino.pids.tunings", {"request": True})
+        assert (answer["outcome"], answer["data"]) == ("ack", GAINS)
+        answer = await page.command("arduino.pids.tunings", {"pids": changed})
+        assert answer["outcome"] == "ack"
+        for each in (page, other):
+            gains = await each.next("gains", lambda each: each["flying"] == changed)
+            (change,) = gains["history"]
+            assert (change["by"], change["outcome"]) == ("pilot", "ack")
+            assert (change["before"], change["after"]) == (GAINS, changed)
+
+    with Aircraft(proxy.airborne_port, answers={"arduino.pids.tunings": tune}):
+        with_pages(server, fly, "pilot", "other")
+
+
+def test_a_page_asks_another_for_control(aircraft, server):
+    async def fly(first, second):
+        await first.control()
+        second.say("control", aircraft="default", action="request")
+        status = await first.status(lambda each: each["control"]["asks_you"])
+        assert status["control"]["asked_by"]["name"] == "second"
+        assert [each["name"] for each in status["control"]["pages"]] == ["first", "second"]
+        first.say("control", aircraft="default", action="give")
+        await second.status(lambda each: each["control"]["holder"] == "you")
+        status = await first.status(lambda each: each["control"]["holder"] == "page")
+        assert status["control"]["holder_name"] == "second"
+        assert (await second.command(MODE, FBW))["outcome"] == "ack"
+
+    with_pages(server, fly, "first", "second")
+
+
+def test_a_page_that_vanishes_keeps_control_for_a_moment(aircraft, server):
+    async def fly(page, other):
+        await page.control()
+        token = page.newest("welcome")["token"]
+        await page.leave()
+        other.say("control", aircraft="default", action="request")
+        again = Page(server.port)
+        welcome = await again.hello("pilot", token=token)
+        assert welcome["page"] == page.newest("welcome")["page"]
+        await again.status(lambda each: each["control"]["holder"] == "you")
+        assert (await again.command(MODE, FBW))["outcome"] == "ack"
+        await again.leave()
+        # Then it is free, and the page that asks gets it.
+        await other.status(lambda each: each["control"]["holder"] == "you")
+
+    with_pages(server, fly, "pilot", "other")
+
+
+def test_a_doubled_tab_is_another_page(aircraft, server):
+    async def fly(page):
+        await page.control()
+        twin = Page(server.port)
+        welcome = await twin.hello("twin", token=page.newest("welcome")["token"])
+        assert welcome["page"] != page.newest("welcome")["page"]
+        assert welcome["token"] != page.newest("welcome")["token"]
+        status = await twin.status(lambda each: each["control"]["holder"] == "page")
+        assert status["control"]["holder_name"] == "pilot"
+        await twin.leave()
+
+    with_pages(server, fly, "pilot")
+
+
+def test_the_seat_is_free_when_no_page_wants_it(aircraft, server, proxy, tmp_path):
+    async def fly(page):
+        await page.control()
+        page.say("control", aircraft="default", action="release")
+        await page.status(lambda each: each["control"]["holder"] == "nobody")
+
+    assert ground(tmp_path / "a", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
+    with_pages(server, fly, "pilot")
+    status, said, _ = ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")
+    assert (status, said[:3]) == (0, "ack")
+
+
+def test_two_grounds_ask_each_other(aircraft, server, proxy, tmp_path):
+    async def fly(page):
+        page.say("control", aircraft="default", action="request")
+        status = await page.status(lambda each: each["control"]["asked_by"])
+        assert status["control"]["asked_by"]["name"] == "pilot"
+        assert status["control"]["holder"] == "ground"
+        answer = await page.command(MODE, FBW)
+        assert answer["code"] == "no_control"
+        other.process.terminate()
+        await page.status(lambda each: each["control"]["holder"] == "you")
+
+    async def give(page):
+        await page.control()
+        with Ground(tmp_path / "c", proxy.ground_port, "seat", "request") as asking:
+            status = await page.status(lambda each: each["control"]["asks_you"])
+            assert status["control"]["asked_by"]["page"] is None
+            page.say("control", aircraft="default", action="give")
+            await soon(lambda: "commands now" in asking.said)
+
+    with Ground(tmp_path / "b", proxy.ground_port, "watch", "--seat", "command") as other:
+        other.expect("seat command")
+        with_pages(server, fly, "pilot")
+    with_pages(server, give, "pilot")
+
+
+def test_without_a_proxy_it_serves_says_so_and_comes_back(tmp_path):
+    with Program(tmp_path / "a", "metrics: false\n") as first:
+        ports = first.airborne_port, first.ground_port, None
+    with Serve(tmp_path, ports[1]) as server:
+
+        async def look(page):
+            status = await page.status(lambda each: each["link"]["state"] == "waiting")
+            assert "connection refused" in status["link"]["reason"]
+            assert status["control"]["holder"] == "unknown"
+            page.say("control", aircraft="default", action="request")
+            answer = await page.command("arduino.profile.request")
+            assert (answer["outcome"], answer["code"]) == ("unsent", "no_link")
+            with (
+                Program(tmp_path / "b", "metrics: false\n", ports=ports) as proxy,
+                Aircraft(proxy.airborne_port),
+            ):
+                await page.next("frame")
+                await page.status(lambda each: each["control"]["holder"] == "you")
+                assert (await page.command(MODE, FBW))["outcome"] == "ack"
+            await page.status(lambda each: each["link"]["state"] != "connected")
+            answer = await page.command(MODE, FBW)
+            assert (answer["outcome"], answer["code"]) == ("unsent", "no_link")
+            await page.next("alarms", lambda each: each["active"])
+
+        assert get(server.port, "/")[0] == 200
+        with_pages(server, look, "pilot")
+
+
+def test_an_aircraft_that_is_not_there_gets_no_late_command(proxy, server):
+    async def fly(page):
+        await page.control()
+        answer = await page.command(MODE, FBW)
+        assert (answer["outcome"], answer["code"]) == ("unsent", "no_aircraft")
+
+    with_pages(server, fly, "pilot")
+    with Aircraft(proxy.airborne_port) as aircraft:
+        until(lambda: aircraft.beacon > 4720, "telemetry")
+        assert sent(aircraft) == []
+
+
+def test_texts_of_the_air_pass_as_json_alone(proxy, server):
+    hostile = '</script><img src=x onerror=alert(1)>\u2028\x00"\U0001f600'
+
+    async def look(page):
+        shown = await page.next("frame")
+        assert shown["data"]["flight_mode"] == hostile
+        assert shown["data"]["vetoes"] == [hostile]
+
+    with Aircraft(proxy.airborne_port, data=frame(flight_mode=hostile, vetoes=[hostile])):
+        with_pages(server, look, "laptop")
+
+
+def test_several_aircraft_are_kept_apart(proxy, tmp_path):
+    async def look(port):
+        page = Page(port)
+        welcome = await page.hello("laptop", watch="kite")
+        assert welcome["aircraft"] == ["kite", "glider"]
+        await page.next("frame", lambda each: each["data"]["altitude"] == 1.0)
+        assert {each["aircraft"] for each in page.of("frame")} == {"kite"}
+        page.say("watch", aircraft="glider")
+        await page.next("frame", lambda each: each["data"]["altitude"] == 2.0)
+        await soon(lambda: {each["aircraft"] for each in page.of("status")} == {"kite", "glider"})
+        page.say("watch", aircraft="none")
+        assert "no such aircraft" in (await page.next("fault"))["text"]
         await page.leave()
 
-    with Aircraft(proxy.airborne_port), Serve(tmp_path, proxy.ground_port) as server:
+    with (
+        Aircraft(proxy.airborne_port, data=frame(altitude=1.0), hello=b"UP1 aircraft=kite\n"),
+        Aircraft(proxy.airborne_port, data=frame(altitude=2.0), hello=b"UP1 aircraft=glider\n"),
+        Serve(
+            tmp_path,
+            1,
+            "--aircraft",
+            f"kite@127.0.0.1:{proxy.ground_port}",
+            "--aircraft",
+            f"glider@127.0.0.1:{proxy.ground_port}",
+        ) as server,
+    ):
         run_in_reactor(look, server.port)
 
 
-def test_the_page_with_control_commands(proxy, tmp_path):
-    async def fly(port):
-        first, second = Page(port), Page(port)
-        await first.hello("first")
-        await second.hello("second")
-        answer = await first.command("up.flight_mode.set", {"mode": "FBW"})
-        assert (answer["outcome"], answer["code"]) == ("refused", "no_control")
-        await first.control()
-        frame = await first.next("frame")
-        answer = await first.command("up.flight_mode.set", {"mode": "FBW"}, beacon=frame["beacon"])
-        assert answer["outcome"] == "ack"
-        answer = await second.command("up.flight_mode.set", {"mode": "FBW"})
-        assert answer["code"] == "no_control"
-        await first.leave()
-        await second.leave()
-        return frame["beacon"]
+@pytest.mark.parametrize("arguments", [("--listen", "0.0.0.0:0"), ("--key", "a-good-key")])
+def test_who_has_no_key_only_watches(aircraft, proxy, tmp_path, arguments):
+    with Serve(tmp_path, proxy.ground_port, *arguments) as server:
+        key = server.said.split("#key=")[1].split()[0]
 
-    with Aircraft(proxy.airborne_port) as aircraft, Serve(tmp_path, proxy.ground_port) as server:
-        beacon = run_in_reactor(fly, server.port)
-    sent = [each for each in aircraft.received if each["name"] == "up.flight_mode.set"]
-    assert [each["beacon"] for each in sent] == [beacon]
+        async def look(page):
+            assert page.newest("welcome")["may_control"] is False
+            assert "key" in page.newest("welcome")["why_not"]
+            await page.next("frame")
+            page.say("control", aircraft="default", action="request")
+            assert "only watch" in (await page.next("fault"))["text"]
+            answer = await page.command(MODE, FBW)
+            assert answer["code"] == "no_control"
+            for wrong in (key[:-1], key + "x", key.swapcase(), ""):
+                other = Page(server.port)
+                assert (await other.hello("x", key=wrong))["may_control"] is False
+                await other.leave()
+            pilot = Page(server.port)
+            assert (await pilot.hello("pilot", key=key))["may_control"] is True
+            await pilot.control()
+            await pilot.leave()
+
+        with_pages(server, look, "guest")
+
+
+def test_watch_only_is_for_everybody(aircraft, proxy, tmp_path):
+    with Serve(tmp_path, proxy.ground_port, "--watch-only") as server:
+
+        async def look(page):
+            assert page.newest("welcome")["may_control"] is False
+            page.say("control", aircraft="default", action="request")
+            assert "--watch-only" in (await page.next("fault"))["text"]
+
+        with_pages(server, look, "guest")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_ends_it_without_a_word(aircraft, proxy, tmp_path, number):
+    with Serve(tmp_path, proxy.ground_port) as server:
+
+        async def look(page):
+            await page.control()
+            server.process.send_signal(number)
+            await soon(lambda: page.is_closed)
+            assert page.code == 4001
+
+        with_pages(server, look, "pilot")
+        assert server.wait() == 0
+        assert server.complained == ""
+    # The seat was left: nobody waits for it.
+    assert ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--listen", "8080"), "is no ADDRESS:PORT"),
+        (("--listen", "example.com:80"), "no literal address"),
+        (("--listen", "127.0.0.1:70000"), "is no ADDRESS:PORT"),
+        (("--listen", "203.0.113.1:8080"), "cannot be opened"),
+        (("--aircraft", "a/b"), "NAME[@HOST:PORT[/direct]]"),
+        (("--aircraft", "a", "--aircraft", "a"), "given twice"),
+        (("--aircraft", "a@h:0"), "NAME[@HOST:PORT[/direct]]"),
+        (("--key", "short"), "8 to 64"),
+        (("--name", "a b"), "a name is"),
+        (("--tiles", "http://tiles.example/{z}/{x}.png"), "{y}"),
+        (("--tiles", "ftp://tiles.example/{z}/{x}/{y}.png"), "http"),
+    ],
+)
+def test_mistakes_in_the_command_line_are_one_sentence(tmp_path, arguments, sentence):
+    status, said, complained = ground(tmp_path, 1, "serve", *arguments)
+    assert status in (2, 3)
+    assert said == ""
+    assert sentence in complained
+
+
+def test_a_port_that_is_taken_is_a_sentence(server, tmp_path):
+    listen = f"127.0.0.1:{server.port}"
+    status, _, complained = ground(tmp_path, 1, "serve", "--listen", listen)
+    assert status == 3
+    assert complained == (
+        f"up-ground: {listen} cannot be opened: Address already in use"
+        " (--listen ADDRESS:PORT names another)\n"
+    )
+
+
+def test_help_teaches(tmp_path):
+    for verb in ("serve", "replay"):
+        status, said, _ = ground(tmp_path, 1, verb, "--help")
+        assert status == 0
+        assert "examples" in said
+        assert "--listen" in said
