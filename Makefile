@@ -20,7 +20,7 @@ ARGS ?=
 VENDOR := ground/up_ground/web/static/vendor
 WEB := $(VENDOR)/.stamp
 
-.PHONY: help run scenarios test test-browser check bench format schemas clean
+.PHONY: help run scenarios test test-browser check bench pictures format schemas clean
 
 help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
@@ -30,6 +30,7 @@ help:
 	@echo 'make test-browser  only the tests of the page in a headless Chromium'
 	@echo 'make check    lint, types, import contracts'
 	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
+	@echo 'make pictures  the documentation'"'"'s pictures of the page, from a flight'
 	@echo 'make format   put the code into the project'"'"'s form'
 	@echo 'make schemas  JSON Schema of every configuration file, into build/schemas'
 	@echo 'make -C arduino help  the firmware: build, upload, figures'
@@ -82,6 +83,9 @@ $(VENV)/.bench-ready: $(SETUPS) | $(PY)
 
 bench: $(VENV)/.bench-ready $(WEB)
 	$(PY) -m bench $(BENCH)
+
+pictures: $(VENV)/.run-ready $(WEB)
+	@tools/pictures $(PY)
 
 format: $(VENV)/.dev-ready
 	$(BIN)/ruff check --fix . ; $(BIN)/ruff format .

@@ -19,6 +19,7 @@ SUBJECTS = {
     "relay": "the proxy beside HAProxy and socat",
     "firmware": "the compiled firmware in the AVR simulator",
     "simulator": "the virtual aircraft against the clock",
+    "page": "from telemetry to the pixel of the ground station's page",
 }
 FAILED = "failed"
 

@@ -14,6 +14,7 @@ from bench import (
     flight_log,
     latency,
     load,
+    page,
     recorder,
     simulator,
     startup,
@@ -47,7 +48,7 @@ def check(rows, least):
 
 
 def test_every_subject_is_tested():
-    assert set(program.SUBJECTS) == {*SUBJECTS, "relay", "firmware", "simulator"}
+    assert set(program.SUBJECTS) == {*SUBJECTS, "relay", "firmware", "simulator", "page"}
 
 
 @pytest.mark.parametrize("name", SUBJECTS)
@@ -79,6 +80,20 @@ def test_rows_of_the_simulator():
     build_firmware()
     need_tool("g++")
     check(list(simulator.rows(quick=True)), 3)
+
+
+def test_rows_of_the_page():
+    """The first half alone: without the link of 100 ms it is the same again."""
+    build_firmware()
+    for program_needed in ("node", "npm", "chromium"):
+        need_tool(program_needed)
+    page.set_up()
+    paints = page.measure(2.0)
+    assert len(paints.to_pixel) > 2
+    # Sent before it was painted, by two clocks of one machine.
+    assert paints.to_pixel[0] > 0
+    assert paints.to_pixel[0] >= paints.in_page[0] > 0
+    assert all(way <= whole for way, whole in zip(paints.to_pixel, paints.attitude, strict=True))
 
 
 def test_no_output_is_lost_and_the_figures_are_ordered():

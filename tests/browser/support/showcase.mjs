@@ -1,9 +1,10 @@
 // `make run` for a test: the showcase with ports of its own, in a folder of its own.
-import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { childrenOf, Program, PYTHON, shortFolder } from "./program.mjs";
 
+const CALM = "panic threshold: 100\ncalm down threshold: 99\n";
 const ADDRESS = /(http:\/\/[^\s/]+\/?\S*)/;
 
 /** A flight under way. */
@@ -88,10 +89,17 @@ export class Showcase {
 /**
  * Start everything that `make run` starts and wait until it flies.
  * @param {string[]} options more of the showcase's options
+ * @param {{place?: string, isCalm?: boolean}} more place: for its configuration and logs, which
+ *   stay, else in a folder that `stop` removes; isCalm: a busy machine makes no panic, as browser
+ *   and aircraft share it here and not in the field
  * @returns {Promise<Showcase>} with `address` of the page, and `groundPort`, `airbornePort`
  */
-export async function startShowcase(options = []) {
-  const folder = shortFolder();
+export async function startShowcase(options = [], { place = "", isCalm = false } = {}) {
+  const folder = place ? { path: place, remove: () => {} } : shortFolder();
+  if (isCalm) {
+    mkdirSync(join(folder.path, "config"));
+    writeFileSync(join(folder.path, "config", "load_guard.yml"), CALM);
+  }
   const words = ["-m", "up_simulator.showcase", "--no-watch", "--any-ports"];
   words.push("--folder", folder.path, "--board", "host");
   words.push("--state-log", join(folder.path, "truth.csv"), ...options);

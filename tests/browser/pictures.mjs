@@ -1,0 +1,70 @@
+// Pictures of a real flight on the page, for the documentation:
+//   node pictures.mjs FOLDER
+import { join } from "node:path";
+
+import { LAPTOP, PHONE, startBrowser } from "./support/browser.mjs";
+import { GroundPage } from "./support/ground_page.mjs";
+import { Pilot } from "./support/pilot.mjs";
+import { startShowcase } from "./support/showcase.mjs";
+
+const [folder] = process.argv.slice(2);
+const TRACK_M = 450;
+
+/** Wait until the aircraft has flown some way while the page looked on. */
+async function hasFlown(ground, metres) {
+  await ground.until(
+    (metres) => {
+      const all = window.testMessages.filter(({ message }) => message.type === "frame");
+      let flown_m = 0;
+      for (let index = 1; index < all.length; index += 1) {
+        const [one, other] = [all[index - 1].message.data.location, all[index].message.data.location];
+        const north_m = (other.latitude - one.latitude) * 111320;
+        flown_m += Math.hypot(north_m, (other.longitude - one.longitude) * 71550);
+      }
+      return flown_m > metres;
+    },
+    `${metres} m of flight`,
+    metres,
+  );
+}
+
+async function take(ground, name) {
+  await ground.page.evaluate(() => document.activeElement?.blur());
+  await ground.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await ground.page.screenshot({ path: join(folder, `ground-${name}.png`) });
+}
+
+const showcase = await startShowcase(["--turbulence", "light"], { isCalm: true });
+const browser = await startBrowser();
+try {
+  const dark = { ...LAPTOP, colorScheme: "dark" };
+  const ground = await (await GroundPage.open(browser, showcase.address, dark)).isLive();
+  await ground.takeControl();
+  await ground.answerTo(() => ground.press('[data-mode="FBW"]'));
+  await hasFlown(ground, TRACK_M);
+  await take(ground, "laptop");
+  const phone = await (await GroundPage.open(browser, showcase.address, { ...PHONE, colorScheme: "dark" })).isLive();
+  await hasFlown(phone, 40);
+  await take(phone, "phone");
+  await phone.close();
+  const daylight = { ...LAPTOP, colorScheme: "light" };
+  const bright = await (await GroundPage.open(browser, showcase.address, daylight)).isLive();
+  const pilot = await new Pilot(showcase).ready();
+  pilot.move({ aux1: 2000, aux2: 2000, throttle: 1600, ailerons: 1250 });
+  await bright.until(() => Number(document.querySelector("#horizon-ball").dataset.roll) < -20, "a bank");
+  await hasFlown(bright, 40);
+  await take(bright, "daylight");
+  await pilot.leave();
+  await bright.close();
+  const proxy = showcase.pidOf("up_proxy.main");
+  process.kill(proxy, "SIGSTOP");
+  try {
+    await ground.until(() => /[3-9]\.\d s/.test(document.querySelector("#silence").textContent), "silence");
+    await take(ground, "silent");
+  } finally {
+    process.kill(proxy, "SIGCONT");
+  }
+} finally {
+  await browser.close();
+  await showcase.stop();
+}
