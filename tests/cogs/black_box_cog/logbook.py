@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 
 from black_box_cog.flight_file import FlightFile
 
-from tests.up.flight_log.flights import GOOD, FlightMaker, status
+from tests.up.flight_log.flights import GROUND, AndroidBatteryCommand, FlightMaker
 from up.commands.altitude_command import AltitudeCommand
-from up.commands.pid_tunings_commands import PIDTuningsValuesCommand
+from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.flight_controller.gains import gain_set_from_data
 
 SECOND_NS = 1_000_000_000
@@ -31,11 +32,11 @@ def quiet(maker):
 
 
 def eventful(maker):
-    """The receiver is lost, gains change, somebody sets a mark, and texts are malicious."""
+    """Gains change, somebody sets a mark, there is a truth, and texts are malicious."""
     quiet(maker)
+    maker.put(2.0, AndroidBatteryCommand(80))
+    maker.put(5.9, PIDTuningsCommand(pids=gains(3.0).data), GROUND)
     maker.put(6.0, gains(3.0))
-    maker.put(8.0, status(flags=GOOD & ~(1 << 2)))
-    maker.put(8.1, status(flags=GOOD & ~(1 << 2)))
     maker.add(9.0, "black_box.mark", text=f"look {EVIL}")
     maker.line(9.5, 4, EVIL, f"trouble {EVIL}")
     truth = {"latitude_deg": 50.0, "longitude_deg": 14.0, "altitude_m": 301.0}
@@ -58,12 +59,17 @@ def write_flight(
     part: int = 1,
 ) -> Path:
     """Write one file of a flight; return its path."""
-    folder.mkdir(parents=True, exist_ok=True)
+    path = FlightFile.first(folder, number, start_unix_s, aircraft).at_part(part).path
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(_content(fill, aircraft, start_unix_s, is_finished))
+    return path
+
+
+@functools.lru_cache(maxsize=16)
+def _content(fill, aircraft: str, start_unix_s: float, is_finished: bool) -> bytes:
     maker = FlightMaker(start_ns=round(start_unix_s * SECOND_NS))
     maker.writer.add_metadata("flight", {"aircraft": aircraft, "version": "0.1.0", "host": "pi"})
     maker.writer.add_metadata("versions", {"up": "0.1.0", "serial_cog": "1.0.0"})
     maker.writer.add_attachment("config/config.yml", "text/yaml", CONFIG, maker.start_ns)
     fill(maker)
-    path = FlightFile.first(folder, number, start_unix_s, aircraft).at_part(part).path
-    path.write_bytes(maker.finished() if is_finished else maker.out)
-    return path
+    return maker.finished() if is_finished else bytes(maker.out)

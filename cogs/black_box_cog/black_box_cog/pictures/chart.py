@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 MOST_POINTS = 4000
+GREATEST = 1e15
+"""What is greater is a fault of whoever said it, and no axis can show it beside the rest."""
 GAP_S = 1.0
 _LAPSES = 6.0
 
@@ -75,6 +77,11 @@ def drawable(curve: Curve, most: int = MOST_POINTS) -> tuple[list[float], list[f
     return thinned(*broken(curve.times_s, curve.values, curve.gap_s), most)
 
 
+def is_drawable(value: float) -> bool:
+    """Return whether a value can stand on an axis."""
+    return abs(value) <= GREATEST
+
+
 def broken(
     times_s: Sequence[float], values: Sequence[float], gap_s: float | None = None
 ) -> tuple[list[float], list[float]]:
@@ -88,7 +95,7 @@ def broken(
             found_s.append(last_s)
             found.append(math.nan)
         found_s.append(time_s)
-        found.append(value)
+        found.append(value if is_drawable(value) else math.nan)
         last_s = time_s
     return found_s, found
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from black_box_cog.pictures.canvas import Sheet
-from black_box_cog.pictures.chart import Curve, Panel, Stage, drawable
+from black_box_cog.pictures.chart import Curve, Panel, Stage, drawable, is_drawable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,13 +63,15 @@ def limits(panel: Panel, is_right: bool) -> tuple[float, float] | None:
         for curve in panel.curves
         if curve.is_right == is_right
         for value in curve.values
-        if math.isfinite(value)
+        if is_drawable(value)
     ]
     if not known:
         return None
     low, high = min(known), max(known)
     least = (5.0 if is_right else panel.least_range) or abs(high) * 0.02 or 1.0
     extra = max(0.0, least - (high - low)) / 2 + 0.06 * max(high - low, least)
+    # Ends that floating point cannot tell apart are no axis.
+    extra = max(extra, 1e-9 * max(abs(low), abs(high)))
     # What cannot be below nothing is not drawn so.
     return (min(low, 0.0) if low >= 0 > low - extra else low - extra), high + extra
 

@@ -22,6 +22,8 @@ def start_text(unix_s: float) -> str:
     """Return the local time of a start; says so where the clock cannot have been right."""
     if unix_s == SIMULATED_UNIX_S:
         return "no date (simulated)"
+    if not unix_s:
+        return "no time"
     try:
         text = datetime.fromtimestamp(unix_s).astimezone().strftime("%Y-%m-%d %H:%M:%S")
     except (OverflowError, ValueError, OSError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,6 +25,7 @@ def log(capsys, monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setenv("TZ", "UTC")
+    time.tzset()
 
     def log(*arguments: object, cwd: Path = tmp_path) -> Outcome:
         monkeypatch.chdir(cwd)
@@ -35,7 +37,9 @@ def log(capsys, monkeypatch, tmp_path):
         assert "Traceback" not in said.err
         return Outcome(status, said.out, said.err)
 
-    return log
+    yield log
+    monkeypatch.undo()
+    time.tzset()
 
 
 @pytest.fixture

@@ -1,0 +1,67 @@
+"""``up log info``."""
+
+from tests.cogs.black_box_cog.logbook import EVIL, eventful, write_flight
+
+
+def test_it_tells_the_flight(log, flights):
+    write_flight(flights, 12)
+    outcome = log("info", 12)
+    assert outcome.status == 0 and not outcome.err
+    lines = outcome.out.splitlines()
+    assert lines[0].startswith("Flight 12, kite, 2026-04-24 03:06:40, 20 s, 0.")
+    assert "what went wrong" in lines and "  nothing that the log can tell" in lines
+    words = [line.split() for line in lines]
+    for row in (
+        "armed 10 s",
+        "altitude 300 to 320 m",
+        "0:00.0 FBW 20 s",
+        "config/config.yml",
+        "serial_cog 1.0.0",
+        "up.orientation.update 200 10.1",
+    ):
+        assert row.split() in words
+
+
+def test_what_went_wrong_comes_first(log, flights):
+    write_flight(flights, 1, eventful, is_finished=False)
+    out = log("info", "last").out
+    assert "cut off" in out.splitlines()[0]
+    assert out.index("gains were changed in flight") < out.index("topics")
+    assert "problems of the files" in out
+    assert f"look {EVIL}" in out
+
+
+def test_what_a_terminal_would_carry_out_is_escaped(log, flights):
+    def fill(maker):
+        maker.add(0, "a\x1b[2Jtopic", x=1)
+        maker.add(1, "black_box.mark", text="mark\x1b[2J\nnext")
+        maker.writer.add_metadata("versions", {"a\x07": "b\x1b[1m"})
+
+    write_flight(flights, 1, fill, aircraft="kite\x1b]0;title\x07")
+    out = log("info", 1).out
+    assert "\x1b" not in out and "\x07" not in out
+    assert "kite\\x1b]0;title\\x07" in out
+
+
+def test_no_messages_at_all(log, flights):
+    write_flight(flights, 1, lambda maker: None)
+    outcome = log("info", 1)
+    assert outcome.status == 0 and "no time" in outcome.out and "never" in outcome.out
+    assert log("list").status == 0
+
+
+def test_what_is_no_flight(log, tmp_path):
+    (tmp_path / "x.mcap").write_bytes(b"nonsense")
+    outcome = log("info", "x.mcap")
+    assert outcome.status == 1
+    assert outcome.err == "x.mcap: no flight log: it does not begin as MCAP does\n"
+    for arguments in (["info"], ["info", "1", "2"], ["info", "--nonsense", "1"]):
+        assert log(*arguments).status == 2
+
+
+def test_log_alone_shows_its_verbs(log):
+    outcome = log()
+    assert outcome.status == 1
+    for verb in ("list", "info", "export", "plot", "report"):
+        assert f"    {verb} " in outcome.out
+        assert f"usage: up log {verb}" in log(verb, "--help").out

@@ -1,0 +1,71 @@
+"""``up log plot``."""
+
+import pytest
+from PIL import Image
+
+from tests.cogs.black_box_cog.logbook import EVIL, eventful, write_flight
+
+
+def size_of(path):
+    with Image.open(path) as image:
+        image.verify()
+        return image.size
+
+
+def test_the_flight_as_a_picture(log, flights, tmp_path):
+    path = write_flight(flights, 1, eventful, aircraft="$\\frac{kite")
+    outcome = log("plot", "last")
+    assert outcome.status == 0 and outcome.out.startswith(f"{path.stem}.png ")
+    width, height = size_of(tmp_path / f"{path.stem}.png")
+    assert width > 1500 and height > 500
+
+
+@pytest.mark.parametrize("order", ["plot 1 {fields} -o a.png", "plot 1 -o a.png {fields}"])
+def test_named_fields(log, flights, tmp_path, order):
+    write_flight(flights, 1, eventful)
+    fields = ("up.orientation.update.roll", "arduino.pids.values.ratePIDs.ailerons.p")
+    outcome = log(*order.replace("{fields}", " ".join(fields)).split())
+    assert outcome.status == 0, outcome.err
+    assert size_of(tmp_path / "a.png")[0] > 1000
+
+
+def test_a_wrong_name_is_told_what_there_is(log, flights):
+    write_flight(flights, 1)
+    outcome = log("plot", 1, "up.orientation.update.rol")
+    assert outcome.status == 1
+    assert outcome.err == (
+        "the log has no field with numbers up.orientation.update.rol,"
+        " did you mean up.orientation.update.roll?\n"
+    )
+    assert "; it has arduino.pids.values.ratePIDs.ailerons.d, " in log("plot", 1, "zzzzzzzz").err
+    assert log("plot", 1, "up.orientation.update").status == 1
+    assert "12 fields at most" in log("plot", 1, *(f"a.f{n}" for n in range(13))).err
+
+
+def test_what_is_there_stays(log, flights, tmp_path):
+    write_flight(flights, 1)
+    (tmp_path / "a.png").write_text("mine")
+    assert "say --force" in log("plot", 1, "-o", "a.png").err
+    assert (tmp_path / "a.png").read_text() == "mine"
+    assert "ends in .png" in log("plot", 1, "-o", "a.pdf").err
+
+
+def test_nothing_to_draw(log, flights):
+    write_flight(flights, 1, lambda maker: maker.add(0, f"a {EVIL}", text="x"))
+    outcome = log("plot", 1)
+    assert outcome.status == 1 and "neither position nor attitude: name a FIELD" in outcome.err
+
+
+def test_a_single_value_is_drawn_too(log, flights, tmp_path):
+    write_flight(flights, 1, lambda maker: maker.add(0, "a", x=1))
+    assert log("plot", 1, "a.x", "-o", "a.png").status == 0
+    assert size_of(tmp_path / "a.png")
+
+
+def test_without_matplotlib(log, flights, monkeypatch):
+    write_flight(flights, 1)
+    monkeypatch.setattr("black_box_cog.cli.plot_verb.has_matplotlib", lambda: False)
+    outcome = log("plot", 1)
+    assert outcome.status == 1 and outcome.err == (
+        "matplotlib is not installed: pip install 'raspilot[log]' brings it\n"
+    )

@@ -1,0 +1,242 @@
+"""``up log report``: one page that needs nothing else, asks nobody and runs nothing."""
+
+import base64
+import io
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import pytest
+from black_box_cog.cli.flights import find_flight
+from black_box_cog.pictures.canvas import MISSING, PictureError
+from black_box_cog.report.findings import findings_of
+from black_box_cog.report.folder import write_report
+from black_box_cog.report.html_text import markup, tag
+from black_box_cog.report.images import image_sets
+from black_box_cog.report.verdict import verdict_of
+from hypothesis import given
+from hypothesis import strategies as st
+from PIL import Image
+
+from tests.cogs.black_box_cog.logbook import EVIL, eventful, quiet, write_flight
+from up.cli.cli_error import CliError
+from up.flight_log.flight_log import FlightLog
+
+ALLOWED = set(
+    re.findall(
+        r"\w+",
+        "html head meta title style body main header section footer h1 h2 h3 p dl div dt dd ol ul"
+        " li time span figure figcaption picture source img table thead tbody tr th td details"
+        " summary pre svg line circle rect polyline text",
+    )
+)
+VOID = {"meta", "source", "img"}
+
+
+class Page(HTMLParser):
+    """What is in a page, and a list of what must not be."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.tags, self.wrong, self.images, self.words, self.open = [], [], [], [], []
+        self.policy = ""
+        self.feed(text)
+        self.close()
+        if self.open:
+            self.wrong.append(f"not closed: {self.open}")
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        if tag not in ALLOWED:
+            self.wrong.append(tag)
+        if tag not in VOID:
+            self.open.append(tag)
+        for name, value in attrs:
+            if name in ("src", "srcset"):
+                self.images.append(value)
+                if not value.startswith("data:image/png;base64,"):
+                    self.wrong.append(f"{tag} {name}={value[:40]}")
+            elif name.startswith("on") or name in ("href", "style", "action", "background"):
+                self.wrong.append(f"{tag} {name}")
+        values = dict(attrs)
+        if values.get("http-equiv"):
+            self.policy += values["content"]
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(f"/{tag}")
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] == "style":
+            if "url(" in data or "@import" in data or "expression" in data:
+                self.wrong.append("the style asks for something")
+        else:
+            self.words.append(data)
+
+    @property
+    def text(self):
+        return " ".join(" ".join(self.words).split())
+
+
+def report_of(folder, fill=quiet, **more):
+    write_flight(folder / "flights", 1, fill, **more)
+    return written(folder)
+
+
+def written(folder, on_missing=None):
+    flight = find_flight("last", lambda: folder / "flights")
+    findings = findings_of(FlightLog.read(flight.paths), flight.name, flight.number)
+    files = write_report(
+        findings,
+        folder / "report",
+        may_overwrite=False,
+        on_missing=on_missing or pytest.fail,
+    )
+    assert files[0] == folder / "report" / "report.html"
+    return Page(files[0].read_text()), files, findings
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    """The report of the malicious flight: drawing it takes seconds, so it is drawn once."""
+    return report_of(tmp_path_factory.mktemp("report"), eventful, aircraft=EVIL)
+
+
+def test_nothing_runs_and_nothing_is_asked_for(report):
+    page, _, _ = report
+    assert not page.wrong
+    assert page.policy == "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+    assert "script" not in page.tags
+
+
+def test_malicious_names_and_texts_are_shown_as_text(report):
+    page, _, _ = report
+    assert page.words.count(EVIL) >= 3
+    assert f"mark: look {EVIL}" in page.text
+    assert f"trouble {EVIL}" in page.text
+    assert f"config/{EVIL}.yml" in page.text
+
+
+def test_what_it_tells(report):
+    page, _, _ = report
+    for words in (
+        "Flight 1",
+        "20 s were recorded, 10 s of it armed, up to 211 m from home.",
+        "What went wrong",
+        "gains were changed in flight",
+        "Track",
+        "Attitude and demand",
+        "Sticks and servos",
+        "Ages of the links",
+        "Battery and load",
+        "Loop times",
+        "Measured against the truth",
+        "Events",
+        "flight mode FBW",
+        "disarmed",
+        "Gains that flew",
+        "rate ailerons p 2 3",
+        "config/config.yml",
+        "# by hand log level: info",
+        "serial_cog 1.0.0",
+        "up.rx.update 200",
+    ):
+        assert words in page.text, words
+
+
+def test_the_error_against_the_truth(report):
+    page, _, _ = report
+    # Measured 1 and 2 degrees, true 2 and 2; 300 to 320 m, true 301 m.
+    assert "roll 1.00 deg 1.00 deg pitch 0.00 deg 0.00 deg altitude" in page.text
+    assert "18.50 m" in page.text and "position" in page.text
+
+
+def test_the_pictures_are_in_the_page_and_beside_it(report):
+    page, files, findings = report
+    names = ["report.html", "track.png", *(f"{each.name}.png" for each in findings.pictures)]
+    assert [path.name for path in files] == names
+    # Wide and narrow, for daylight and for the dark.
+    assert len(page.images) == 4 * (len(files) - 1)
+    beside = {path.read_bytes() for path in files[1:]}
+    drawn = [base64.b64decode(each.partition(",")[2]) for each in page.images]
+    assert beside <= set(drawn)
+    for png in drawn:
+        with Image.open(io.BytesIO(png)) as image:
+            image.verify()
+    corners = [Image.open(io.BytesIO(png)).convert("RGB").getpixel((0, 0)) for png in drawn[:4]]
+    assert corners == [(18, 22, 27), (255, 255, 255), (18, 22, 27), (255, 255, 255)]
+
+
+def test_the_same_flight_is_the_same_picture(report):
+    _, files, findings = report
+    (drawn,) = [image for image in image_sets(replace(findings, pictures=[]))]
+    assert drawn.wide == files[1].read_bytes()
+
+
+def test_without_matplotlib_the_track_is_drawn_in_the_page(tmp_path, monkeypatch):
+    def missing(*_):
+        raise PictureError(MISSING)
+
+    monkeypatch.setattr("black_box_cog.report.images.png_of", missing)
+    told = []
+    write_flight(tmp_path / "flights", 1, eventful, aircraft=EVIL)
+    page, files, _ = written(tmp_path, told.append)
+    assert told == [f"No pictures: {MISSING}."]
+    assert [path.name for path in files] == ["report.html"]
+    assert not page.wrong and not page.images
+    assert page.tags.count("polyline") >= 2 and "50 m" in page.text
+    assert MISSING in page.text and "Measured against the truth" in page.text
+
+
+@pytest.mark.parametrize(
+    "fill",
+    [
+        lambda maker: None,
+        lambda maker: maker.add(0, "a", x=1),
+        lambda maker: maker.add(0, "up.telemetry.update", flight_mode=[], armed="yes", location=5),
+        lambda maker: [
+            maker.add(number, topic, **dict.fromkeys(("roll", "latitude", "level", "pids"), odd))
+            for number, odd in enumerate(([], {}, "x", None, True, -1e300, 10**400))
+            for topic in ("up.orientation.update", "up.location.update", "arduino.pids.tunings")
+        ],
+    ],
+)
+def test_a_log_that_tells_little_or_nonsense_has_a_page_too(tmp_path, fill):
+    page, _, _ = report_of(tmp_path, fill)
+    assert not page.wrong and "What went wrong" in page.text
+
+
+def test_a_log_that_was_cut_off_says_so(tmp_path):
+    page, _, _ = report_of(tmp_path, lambda maker: maker.add(0, "a", x=1), is_finished=False)
+    assert "cut off" in page.text
+
+
+def test_what_is_there_stays(report, tmp_path):
+    _, _, findings = report
+    (tmp_path / "report.html").write_text("mine")
+    with pytest.raises(CliError, match="say --force"):
+        write_report(findings, tmp_path, may_overwrite=False, on_missing=pytest.fail)
+    assert [path.name for path in tmp_path.iterdir()] == ["report.html"]
+    (tmp_path / "file").write_text("")
+    with pytest.raises(CliError, match="cannot be made"):
+        write_report(findings, tmp_path / "file", may_overwrite=True, on_missing=pytest.fail)
+
+
+def test_the_verdict(tmp_path):
+    write_flight(tmp_path / "flights", 1)
+    flight = find_flight("last", lambda: tmp_path / "flights")
+    findings = findings_of(FlightLog.read(flight.paths), flight.name)
+    assert verdict_of(findings.summary, findings.wrongs) == (
+        "good",
+        "20 s were recorded, 10 s of it armed, up to 211 m from home."
+        " Nothing went wrong that the log can tell.",
+    )
+
+
+@given(st.text())
+def test_any_text_is_text(text):
+    page = Page(tag("p", text, class_=text))
+    assert page.tags == ["p"] and not page.wrong
+    shown = "".join(page.words)
+    assert shown.isprintable() and (shown == text or not text.isprintable())
+    assert "<" not in markup(text)
