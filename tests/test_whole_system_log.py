@@ -8,6 +8,7 @@ import shlex
 import signal
 import struct
 import subprocess
+import urllib.request
 from bisect import bisect_left
 
 import pytest
@@ -152,6 +153,21 @@ def test_the_command_that_is_said_at_the_end_reads_it(flight):
     )  # fmt: skip
     assert done.returncode == 0, done.stdout + done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_the_other_command_that_is_said_flies_it_again_in_the_page(flight):
+    line = re.search(r"The same again in a browser: (.*)", flight.showcase.said())[1]
+    replay = subprocess.Popen(
+        [*shlex.split(line), "--listen", "127.0.0.1:0"], cwd=flight.showcase.folder,
+        stdout=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    try:
+        url = next(found[0] for said in replay.stdout if (found := re.search(r"http://\S+", said)))
+        with urllib.request.urlopen(url, timeout=LIMIT_S) as answer:
+            assert answer.status == 200
+    finally:
+        replay.terminate()
+        replay.communicate(timeout=LIMIT_S)
 
 
 def test_a_run_that_is_stopped_leaves_a_whole_log(tmp_path):

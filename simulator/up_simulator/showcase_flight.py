@@ -17,7 +17,7 @@ from up_simulator.crew.child import Child
 from up_simulator.crew.ports import Ports, choose_ports
 from up_simulator.crew.protocols import CrewError
 from up_simulator.showcase_config import FLIGHTS, write_config
-from up_simulator.showcase_hints import hints, log_hint
+from up_simulator.showcase_hints import hints, log_hints
 from up_simulator.showcase_page import Page
 
 START_LIMIT_S = 60.0
@@ -131,9 +131,8 @@ class ShowcaseFlight:
         (self._folder / "board").unlink(missing_ok=True)
         if self._children:
             self._say("Everything is stopped.")
-            hint = log_hint(self._folder / FLIGHTS)
-            if hint is not None:
-                self._say(hint)
+            for line in log_hints(self._folder / FLIGHTS):
+                self._say(line)
         self._children.clear()
 
     def _show_page(self, page: Page) -> str | None:

@@ -33,12 +33,16 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
     ]
 
 
-def log_hint(flights: Path) -> str | None:
-    """Return how to read what the black box has written; None where it has written nothing."""
+def log_hints(flights: Path) -> list[str]:
+    """Return how to read what the black box has written; none where it has written nothing."""
     if not any(flights.glob("*.mcap")):
-        return None
+        return []
     folder = os.path.relpath(flights) if flights.is_relative_to(Path.cwd()) else str(flights)
-    return f"The flight's log: {_program('up')} log report last --folder {shlex.quote(folder)}"
+    last = f"last --folder {shlex.quote(folder)}"
+    return [
+        f"The flight's log: {_program('up')} log report {last}",
+        f"The same again in a browser: {_program('up-ground')} replay {last}",
+    ]
 
 
 def _program(name: str) -> str:

@@ -12,6 +12,9 @@ from mcap.reader import make_reader
 
 from tests.simulator.scenario.minimal import log_of, scenario
 from tests.support.firmware import build_firmware
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.telemetry_frames import frames
+from up.flight_log.wrongs import wrongs
 from up_simulator.cli import main
 from up_simulator.scenario.event import CommandPart, Event
 from up_simulator.scenario.flight import FlightRecord
@@ -118,6 +121,17 @@ def test_it_says_what_flew_and_what_was_true_of_it(flown):
     assert log.metadata["scenario"]["title"] == "Flown"
     assert log.metadata["verdicts"]["It flies"].startswith("held: ")
     assert b"units: degrees per second" in log.attachments["config/pids.yml"]
+
+
+def test_what_went_wrong_and_its_telemetry_can_be_told_from_it(flown):
+    log = FlightLog.read([flown / "first/flown/flight.mcap"])
+    told = [wrong.text for wrong in wrongs(log)]
+    assert any(text.startswith("the receiver was lost") for text in told), told
+    assert any("failsafe acted" in text for text in told), told
+    newest = list(frames(log))[-1].data
+    assert newest["flight_mode"] and newest["arduino"]["failsafe"] is True
+    assert newest["location"]["latitude"] == pytest.approx(50.0, abs=0.01)
+    assert newest["source"]["orientation"] == "arduino"
 
 
 def test_without_a_phone_the_place_is_the_true_one_and_says_so(flown):
