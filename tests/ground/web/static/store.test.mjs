@@ -254,3 +254,15 @@ test("a replay's speeds are those of the flight, and a jump is no flight", () =>
   fly(300, 2);
   assert.ok(Math.abs(store.motion.groundSpeed_m_s - 10) < 0.1);
 });
+
+test("a new track begins the events anew: in a replay they are of another time", () => {
+  const event = { type: "event", aircraft: "one", number: 7, age_ms: 0, level: "info", text: "t" };
+  server.socket.say(event);
+  server.socket.say({ type: "track", aircraft: "one", points: [] });
+  assert.deepEqual(store.events, []);
+  server.socket.say({ ...event, number: 3, is_past: true });
+  assert.deepEqual(
+    store.events.map((each) => each.number),
+    [3],
+  );
+});

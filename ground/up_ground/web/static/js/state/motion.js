@@ -13,13 +13,12 @@ const AGAIN_S = 0.3;
 export class Motion {
   #places = [];
   #altitudes = [];
-  #speed;
   groundSpeed_m_s = null;
   climb_m_s = null;
 
   /** @param {number} [speed] of a replay: how many seconds of the flight pass in one */
   constructor(speed = 1) {
-    this.#speed = speed;
+    this.speed = speed;
   }
 
   /**
@@ -32,7 +31,7 @@ export class Motion {
       return;
     }
     if (keep(this.#places, { at_s, latitude, longitude }, isSamePlace)) {
-      this.groundSpeed_m_s = rate(this.#places, distance_m, this.#speed);
+      this.groundSpeed_m_s = rate(this.#places, distance_m, this.speed);
     }
   }
 
@@ -48,7 +47,7 @@ export class Motion {
       this.climb_m_s = rate(
         this.#altitudes,
         (from, to) => to.altitude_m - from.altitude_m,
-        this.#speed,
+        this.speed,
       );
     }
   }

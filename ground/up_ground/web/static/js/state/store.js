@@ -146,13 +146,20 @@ export class Store extends NewestFrame {
       alarms: () => (this.alarms = alarmsOf(message.active)),
       gains: () => (this.gains = message),
       profile: () => (this.profile = message.profile ?? null),
-      track: () => this.track.replace(message.points),
+      track: () => this.#takeTrack(message),
     };
     if (!Object.hasOwn(known, message.type)) {
       return false;
     }
     known[message.type]();
     return true;
+  }
+
+  /** Comes first after `watch` and after a jump in a replay: what was known is of another time. */
+  #takeTrack(message) {
+    this.track.replace(message.points);
+    this.#events.clear();
+    this.motion = new Motion(this.motion.speed);
   }
 
   #takeReplay(message) {
