@@ -1,0 +1,288 @@
+"""What pages say, nonsense too, without a network."""
+
+import json
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from twisted.internet.task import Clock
+
+from up_ground.web.access import Access
+from up_ground.web.page_message import PageFault, read_message
+from up_ground.web.pages import FAULTS_LIMIT, HELLO_S, KEPT_S, PAGES_LIMIT, Pages
+
+
+class Output:
+    def __init__(self):
+        self.sent = []
+
+    def send(self, message):
+        self.sent.append(message)
+
+    def send_newest(self, kind, make):
+        self.sent.append(make())
+
+    def forget(self, kind):
+        pass
+
+
+class Link:
+    """A page's connection that remembers."""
+
+    def __init__(self):
+        self.output, self.closed, self.alive = Output(), None, True
+
+    def close(self, code, reason):
+        self.closed = (code, reason)
+
+    def is_alive(self, within_s, tell):
+        tell(self.alive)
+
+    @property
+    def told(self):
+        """Return the messages, without the heads of their frames."""
+        return [json.loads(each[each.index(b"{") :]) for each in self.output.sent]
+
+    def kinds(self):
+        return [each["type"] for each in self.told]
+
+
+class Kite:
+    """An aircraft that notes what is asked of it."""
+
+    name, summary = "kite", "kite"
+
+    def __init__(self):
+        self.heard = []
+
+    def past(self):
+        return []
+
+    def frame(self):
+        return None
+
+    def status(self, page):
+        return {"type": "status", "aircraft": "kite"}
+
+    def on_control(self, page, action, to):
+        self.heard.append((action, to))
+
+    def on_command(self, page, message):
+        self.heard.append(("command", message.whole("ask"), message.text("name", 128)))
+        message.object("data")
+        message.optional_whole("beacon")
+
+    def on_replay(self, page, action, message):
+        message.number("value")
+
+    def on_away(self, page):
+        self.heard.append(("away", page.number))
+
+    def on_back(self, page):
+        self.heard.append(("back", page.number))
+
+    def on_gone(self, page):
+        self.heard.append(("gone", page.number))
+
+    def on_second(self):
+        pass
+
+
+class Bench:
+    def __init__(self, **access):
+        self.clock = Clock()
+        self.pages = Pages(self.clock, Access(**access))
+        self.kite = Kite()
+        self.pages.fleet["kite"] = self.kite
+
+    def open(self, hello=True, **more):
+        link = Link()
+        self.pages.on_opened(link)
+        if hello:
+            self.say(link, type="hello", name="Ann", **more)
+        return link
+
+    def say(self, link, **fields):
+        self.pages.on_said(link, json.dumps(fields).encode())
+
+
+@pytest.fixture
+def bench():
+    return Bench()
+
+
+def test_hello_comes_first(bench):
+    link = bench.open(hello=False)
+    bench.say(link, type="watch", aircraft="kite")
+    assert link.told[0]["type"] == "fault"
+    assert bench.kite.heard == []
+    bench.say(link, type="hello", name="Ann")
+    assert link.kinds()[1:] == ["welcome", "status"]
+    bench.say(link, type="hello", name="Ann")
+    assert link.told[-1]["text"] == "hello was said already"
+
+
+def test_who_says_no_hello_is_closed(bench):
+    link = bench.open(hello=False)
+    bench.say(link, type="ping", ping=1)
+    bench.clock.advance(HELLO_S)
+    assert link.closed[1] == "no hello"
+
+
+@pytest.mark.parametrize(
+    "payload",
+    [
+        b"",
+        b"nonsense",
+        b"[]",
+        b"7",
+        b'"hello"',
+        b"null",
+        b"{}",
+        b'{"type": 7}',
+        b'{"type": "nothing"}',
+        b'{"type": "watch"}',
+        b'{"type": "watch", "aircraft": 7}',
+        b'{"type": "watch", "aircraft": "none"}',
+        b'{"type": "watch", "aircraft": "kite", "aircraft": "kite"}',
+        b'{"type": "control", "aircraft": "kite", "action": "take"}',
+        b'{"type": "control", "aircraft": "kite", "action": "give", "to": "x"}',
+        b'{"type": "control", "aircraft": "kite", "action": "give", "to": 1e300}',
+        b'{"type": "command", "aircraft": "kite", "ask": true, "name": "x"}',
+        b'{"type": "command", "aircraft": "kite", "ask": 1.5, "name": "x"}',
+        b'{"type": "command", "aircraft": "kite", "ask": 1, "name": "x", "data": []}',
+        b'{"type": "command", "aircraft": "kite", "ask": 1, "name": "x", "beacon": "1"}',
+        b'{"type": "command", "aircraft": "kite", "ask": 9007199254740993, "name": "x"}',
+        b'{"type": "replay", "action": "seek", "value": NaN}',
+        b'{"type": "replay", "action": "seek", "value": "1"}',
+        b'{"type": "ping", "ping": {}}',
+        b'{"type": "hello\\ud800"}',
+        b"\xff\xfe",
+        b"[" * 60000,
+        b'{"type": "ping", "ping": ' + b"[" * 40 + b"]" * 40 + b"}",
+        b'{"a":' * 5000 + b"1" + b"}" * 5000,
+        b'{"type": "ping", "x": "' + b"y" * 66000 + b'"}',
+    ],
+)
+def test_nonsense_is_a_fault_and_nothing_else(bench, payload):
+    link = bench.open()
+    before = len(link.told)
+    bench.pages.on_said(link, payload)
+    (fault,) = link.told[before:]
+    assert fault["type"] == "fault"
+    assert 3 < len(fault["text"]) <= 300
+    assert link.closed is None
+
+
+def test_too_much_nonsense_ends_it(bench):
+    link = bench.open()
+    for _ in range(FAULTS_LIMIT):
+        assert link.closed is None
+        bench.pages.on_said(link, b"nonsense")
+    assert link.closed == (4008, "too many faults")
+
+
+def test_a_flood_ends_it(bench):
+    link = bench.open()
+    for _ in range(1000):
+        bench.say(link, type="ping", ping=1)
+    assert link.closed == (4008, "too many messages")
+    other = bench.open()
+    for _ in range(3000):
+        bench.clock.advance(0.02)
+        bench.say(other, type="ping", ping=1)
+    assert other.closed is None
+
+
+_VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=20),
+    lambda inner: (
+        st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=8), inner, max_size=4)
+    ),
+    max_leaves=12,
+)
+_KINDS = st.sampled_from(["hello", "watch", "control", "command", "replay", "ping", "x"])
+_KEYS = st.sampled_from(
+    ["aircraft", "action", "to", "ask", "name", "data", "beacon", "value", "ping", "key", "token"]
+)
+_FIELDS = st.dictionaries(_KEYS, _VALUES | st.sampled_from(["kite", "request", "give"]))
+
+
+@settings(max_examples=120, deadline=None)
+@given(st.lists(st.tuples(_KINDS, _FIELDS), max_size=5))
+def test_whatever_a_page_says_is_answered_or_done(said):
+    bench = Bench(key="the-right-key")
+    link = bench.open()
+    for kind, fields in said:
+        bench.pages.on_said(link, json.dumps({**fields, "type": kind}).encode())
+    assert link.closed is None
+    for message in link.told:
+        json.dumps(message, allow_nan=False)
+
+
+@settings(max_examples=120, deadline=None)
+@given(st.binary(max_size=300))
+def test_whatever_bytes_come_are_read_or_refused(payload):
+    try:
+        kind, _ = read_message(payload)
+    except PageFault as fault:
+        assert str(fault)
+    else:
+        assert isinstance(kind, str)
+
+
+def test_a_page_that_was_away_is_itself_again(bench):
+    link = bench.open()
+    token, number = link.told[0]["token"], link.told[0]["page"]
+    bench.pages.on_closed(link)
+    bench.clock.advance(KEPT_S - 0.1)
+    again = bench.open(token=token)
+    assert again.told[0]["page"] == number
+    bench.clock.advance(60)
+    assert ("gone", number) not in bench.kite.heard
+    bench.pages.on_closed(again)
+    bench.clock.advance(KEPT_S)
+    assert bench.kite.heard[-1] == ("gone", number)
+    late = bench.open(token=token)
+    assert late.told[0]["page"] != number
+
+
+def test_a_page_whose_old_link_hangs_takes_its_place(bench):
+    old = bench.open()
+    old.alive = False
+    again = bench.open(token=old.told[0]["token"])
+    assert again.told[0]["page"] == old.told[0]["page"]
+    assert old.closed[0] == 4001
+    bench.pages.on_closed(old)
+    bench.clock.advance(60)
+    assert ("gone", 1) not in bench.kite.heard
+
+
+def test_a_wrong_token_is_a_new_page(bench):
+    first = bench.open()
+    for token in ("", "x", "\u20ac", first.told[0]["token"][:-1]):
+        assert bench.open(token=token).told[0]["page"] != 1
+
+
+def test_names_are_made_harmless(bench):
+    link = bench.open(hello=False)
+    bench.say(link, type="hello", name=" <b>\u202e\n\x00" + "x" * 150)
+    name = link.told[0]["name"]
+    assert name.isprintable()
+    assert len(name) <= 40
+
+
+def test_there_are_so_many_pages_and_no_more(bench):
+    links = [bench.open() for _ in range(PAGES_LIMIT)]
+    assert bench.pages.is_full()
+    assert bench.open(hello=False).closed == (4013, "too many pages are open")
+    bench.pages.on_closed(links[0])
+
+
+def test_comings_and_goings_leave_nothing(bench):
+    for _ in range(300):
+        link = bench.open()
+        bench.pages.on_closed(link)
+    assert len(bench.pages.all()) == 0
+    bench.clock.advance(KEPT_S)
+    assert bench.clock.getDelayedCalls() == []
