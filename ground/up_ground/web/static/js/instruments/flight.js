@@ -60,7 +60,7 @@ function holderText(value) {
 
 function panicText(value, store) {
   const delay_ms = store.number("load.delay_ms");
-  return value === true ? `YES: only each ${numberText(delay_ms)} ms` : flagText(value);
+  return value === true ? `YES, each ${numberText(delay_ms)} ms` : flagText(value);
 }
 
 function showVetoes(place, store) {
