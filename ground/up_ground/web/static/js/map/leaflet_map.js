@@ -33,7 +33,10 @@ export class LeafletMap {
   constructor(L, place, { tiles, onFree, onTiles }) {
     this.#L = L;
     this.#onFree = onFree;
+    const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.#map = L.map(place, {
+      zoomAnimation: !isCalm,
+      fadeAnimation: !isCalm,
       zoomControl: false,
       attributionControl: tiles !== null,
       maxZoom: CLOSEST,

@@ -3,6 +3,7 @@ import { sayMissing, styleSheet } from "../panels/vendor.js";
 import { setAttribute, setText } from "../readout.js";
 import { homeWords, pictureOf } from "./picture.js";
 import { PlainMap } from "./plain_map.js";
+import { Wind } from "./wind.js";
 
 const MISSING =
   "The map is a plain one, as Leaflet is not installed: run tools/web_assets (it needs npm) and load this page again.";
@@ -17,7 +18,7 @@ const NO_TILES = "No pictures of the ground come: a grid of metres stands in for
  * @returns {{update: () => void}}
  */
 export function mount(place, store, connection) {
-  const canvas = element("div.map-canvas");
+  const canvas = element("div.map-canvas", { role: "region", "aria-label": "Map; arrow keys move it" });
   const follow = button("Follow", "Follow: keep the aircraft in the middle", () => setFollow(!map?.isFollowing));
   follow.id = "map-follow";
   const closer = button("+", "Closer", () => map?.zoom(1));
@@ -25,9 +26,9 @@ export function mount(place, store, connection) {
   const whole = button("All", "All of the track", () => map?.showAll());
   const tools = element("div.map-tools", {}, follow, whole, closer, farther);
   const words = element("p.map-words", { id: "map-home" });
-  const wind = element("p.map-wind", { hidden: true });
+  const wind = new Wind();
   const notice = element("p.map-notice", { id: "map-notice", hidden: true });
-  place.append(canvas, tools, element("div.map-foot", {}, words, wind), notice);
+  place.append(canvas, tools, element("div.map-foot", {}, words, wind.element), notice);
   let map = null;
   place.addEventListener("keydown", onKey);
 
@@ -89,15 +90,6 @@ export function mount(place, store, connection) {
     showFollow();
   }
 
-  function showWind() {
-    const from_deg = store.number("wind.from");
-    const speed = store.number("wind.speed");
-    wind.hidden = from_deg === null || speed === null || store.freshness(null) !== "live";
-    if (!wind.hidden) {
-      setText(wind, `wind ${speed.toFixed(1)} m/s from ${from_deg.toFixed(0)}°`);
-    }
-  }
-
   // What tiles there are is known with the welcome.
   if (connection.isOpen) {
     begin();
@@ -118,7 +110,7 @@ export function mount(place, store, connection) {
       setAttribute(place, "data-heading", isShown ? String(picture.heading_deg ?? "") : "");
       setAttribute(words, "data-freshness", picture.freshness);
       setText(words, homeWords(picture));
-      showWind();
+      wind.show(store);
     },
   };
 }

@@ -22,7 +22,7 @@ export function pictureOf(store) {
     aircraft: seen,
     heading_deg: isSeen ? headingOf(store) : null,
     freshness: seen === null ? "none" : isSeen ? freshnessOf(store) : "stale",
-    age: ageText(store.age_s("location") ?? store.age_s(null)),
+    age: ageWords(store.age_s("location") ?? store.age_s(null)),
     home: placeOf(home?.latitude, home?.longitude),
     track: store.track,
   };
@@ -44,6 +44,11 @@ export function homeWords(picture) {
   const back = headingText(bearing_deg(picture.aircraft, picture.home));
   const from = headingText(bearing_deg(picture.home, picture.aircraft));
   return `${distance} from home at ${from}°, the way back ${back}°${age}`;
+}
+
+// A place of the track alone: nobody told when that was.
+function ageWords(age_s) {
+  return age_s === null ? "some time" : ageText(age_s);
 }
 
 function headingOf(store) {
