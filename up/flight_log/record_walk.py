@@ -7,8 +7,9 @@ import stat
 from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
-from zlib import crc32
 
+from up.flight_log.checksum import Checksum
+from up.flight_log.chunk_head import LONGEST_HEAD, fault_of_chunk
 from up.flight_log.mcap_format import (
     CHUNK,
     FOOTER,
@@ -20,11 +21,17 @@ from up.flight_log.mcap_format import (
     Opcode,
 )
 from up.flight_log.problems import Problems
+from up.flight_log.resync import (
+    LAST,
+    LONGEST,
+    LONGEST_RECORD,
+    WITNESSES,
+    find_messages,
+    may_follow,
+)
 
-LONGEST_RECORD = 16 * 1024 * 1024
-"""What is longer (but a chunk, which is walked into) is passed over; the window never is."""
 _WINDOW = 1024 * 1024
-_LONGEST_COMPRESSION = 64
+_ACROSS = WITNESSES * LONGEST
 _HEAD = RECORD.size
 _IN_CHUNKS = frozenset({Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE})
 
@@ -47,11 +54,12 @@ class RecordWalk:
         self._size = os.fstat(file.fileno()).st_size
         self._base = 0
         self._pos = 0
-        self._data_sum = _Checksum(0)
-        self._chunk_sum: _Checksum | None = None
-        self._summary_sum: _Checksum | None = None
+        self._data_sum = Checksum(0)
+        self._chunk_sum: Checksum | None = None
+        self._summary_sum: Checksum | None = None
         self._limit = self._size
         self._chunk_end = 0
+        self._is_damaged = False
         self._chunk_crc = 0
 
     def __iter__(self) -> Iterator[tuple[int, int, int, int]]:
@@ -69,23 +77,30 @@ class RecordWalk:
                 self._note_end(place)
                 return
             opcode, length = RECORD.unpack_from(self.buffer, self._pos)
-            if opcode == 0 or place + _HEAD + length > self._limit:
+            end = place + _HEAD + length
+            if (
+                end > self._limit
+                or opcode == 0
+                or ((opcode > LAST or length > LONGEST) and not self._goes_on(end))
+            ):
                 if self._chunk_sum is not None:
                     self._problems.note("a chunk is damaged; the rest of it is lost", place)
                     self._chunk_crc = 0
                     self._go_to(self._limit)
                     continue
-                self._note_broken(opcode, length, place)
-                return
+                if not self._pass_over(place):
+                    self._note_broken(opcode, length, place)
+                    return
+                continue
             if opcode == Opcode.CHUNK:
                 self._enter_chunk(place, length)
                 continue
             if self._chunk_sum is not None and opcode not in _IN_CHUNKS:
-                self._go_to(place + _HEAD + length)
+                self._go_to(end)
                 continue
             if length > LONGEST_RECORD:
                 self._problems.note(f"a record of {length} bytes is passed over", place)
-                self._go_to(place + _HEAD + length)
+                self._go_to(end)
                 continue
             if not self._has(_HEAD + length):
                 raise FlightLogError(f"{self._name}: it became shorter while it was read")
@@ -97,6 +112,18 @@ class RecordWalk:
             self._pos = start + length
             if opcode == Opcode.DATA_END:
                 self._end_data(place, length)
+
+    def _goes_on(self, place: int) -> bool:
+        """Return whether what follows may be a record; asked only behind a strange one."""
+        try:
+            head = os.pread(self._file.fileno(), min(_HEAD, self._limit - place), place)
+        except OSError as error:
+            raise self._unreadable(error, place) from None
+        return may_follow(head, self._limit - place)
+
+    def _unreadable(self, error: OSError, place: int) -> FlightLogError:
+        why = error.strerror or error
+        return FlightLogError(f"{self._name}: cannot be read at byte {place}: {why}")
 
     def _note_end(self, place: int) -> None:
         left = self._size - place
@@ -116,16 +143,31 @@ class RecordWalk:
             what = f"the recording was cut off: {_bytes(left)} of a last record are lost"
         self._problems.note(what, place)
 
+    def _pass_over(self, place: int) -> bool:
+        """Go on behind a damaged place, where whole records follow again; False: none do."""
+        self._go_to(place + 1)
+        while (found := find_messages(self.buffer, self._pos)) < 0:
+            if self._base + len(self.buffer) >= self._size:
+                return False
+            # The next window begins before the end of this one: a run may lie across.
+            at = self._base + max(self._pos + 1, len(self.buffer) - _ACROSS)
+            self._go_to(at)
+            self._has(min(_WINDOW, self._size - at))
+        self._pos = found
+        self._problems.note("a damaged place is passed over", place)
+        self._is_damaged = True
+        return True
+
     def _enter_chunk(self, place: int, length: int) -> None:
         end = place + _HEAD + length
         if self._chunk_sum is not None:
             self._problems.note("a chunk inside a chunk is passed over", place)
             self._go_to(end)
             return
-        self._has(min(_HEAD + length, _HEAD + CHUNK.size + U32.size + _LONGEST_COMPRESSION + 8))
+        self._has(min(_HEAD + length, _HEAD + LONGEST_HEAD))
         at = self._pos + _HEAD
-        head = self.buffer[at : at + min(length, CHUNK.size + U32.size + _LONGEST_COMPRESSION + 8)]
-        fault, begin = _fault_of_chunk(head, length)
+        head = self.buffer[at : at + min(length, LONGEST_HEAD)]
+        fault, begin = fault_of_chunk(head, length)
         if fault:
             self._problems.note(fault, place)
             self._go_to(end)
@@ -134,7 +176,7 @@ class RecordWalk:
         self._chunk_crc = CHUNK.unpack_from(head)[3]
         begin += place + _HEAD
         self._limit = begin + U64.unpack_from(head, begin - place - _HEAD - U64.size)[0]
-        self._chunk_sum = _Checksum(begin)
+        self._chunk_sum = Checksum(begin)
         self._go_to(begin)
 
     def _leave_chunk(self) -> None:
@@ -149,11 +191,11 @@ class RecordWalk:
 
     def _end_data(self, place: int, length: int) -> None:
         self._data_sum.take(self.buffer, self._base, place)
-        self._summary_sum = _Checksum(self._base + self._pos)
+        self._summary_sum = Checksum(self._base + self._pos)
         if length < U32.size:
             return
         (told,) = U32.unpack_from(self.buffer, self._pos - length)
-        if told and told != self._data_sum.value:
+        if told and told != self._data_sum.value and not self._is_damaged:
             self._problems.note("it does not match its checksum: something is damaged", place)
 
     def _end(self, place: int, length: int) -> None:
@@ -183,9 +225,7 @@ class RecordWalk:
         try:
             self.buffer = rest + self._file.read(max(_WINDOW, needed - len(rest)))
         except OSError as error:
-            raise FlightLogError(
-                f"{self._name}: cannot be read at byte {place}: {error.strerror or error}"
-            ) from None
+            raise self._unreadable(error, place) from None
         self._base, self._pos = place, 0
         return len(self.buffer) >= needed
 
@@ -196,38 +236,6 @@ class RecordWalk:
             if not self._has(1):
                 raise FlightLogError(f"{self._name}: it became shorter while it was read")
         self._pos = place - self._base
-
-
-class _Checksum:
-    """A CRC over the file from one place on; ``end`` is how far it has come."""
-
-    def __init__(self, begin: int) -> None:
-        self.value = 0
-        self.begin = begin
-        self.end = begin
-
-    def take(self, buffer: bytes, base: int, until: int) -> None:
-        if until > self.end:
-            self.value = crc32(memoryview(buffer)[self.end - base : until - base], self.value)
-            self.end = until
-
-
-def _fault_of_chunk(head: bytes, length: int) -> tuple[str, int]:
-    """Return what forbids to walk into a chunk, and where in its content the records begin."""
-    damaged = "a chunk is damaged and passed over"
-    at = CHUNK.size + U32.size
-    if len(head) < at:
-        return damaged, 0
-    (size,) = U32.unpack_from(head, CHUNK.size)
-    begin = at + size + U64.size
-    if size > _LONGEST_COMPRESSION or len(head) < begin:
-        return damaged, 0
-    if size:
-        method = head[at : at + size].decode("ascii", "replace")
-        return f"what is compressed ({method!a}) is not read: uncompress it with mcap's tools", 0
-    if begin + U64.unpack_from(head, at)[0] > length:
-        return damaged, 0
-    return "", begin
 
 
 def _bytes(count: int) -> str:

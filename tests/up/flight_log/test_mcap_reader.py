@@ -138,6 +138,53 @@ def test_a_record_that_is_too_long_for_the_window_is_passed_over(place):
     assert "is passed over" in problems[0]
 
 
+def long_log(count: int, size: int = 150) -> tuple[bytes, list[bytes]]:
+    maker = LogMaker()
+    told = []
+    for number in range(count):
+        told.append(b'{"x": %d, "y": "%s"}' % (number, b"z" * size))
+        maker.raw(number / 100, "t", told[-1])
+    return maker.finished(), told
+
+
+@pytest.mark.parametrize("fill", [b"\0", b"\xff", b"\5", b"\x05\1\0\0\0\0\0\0\0"])
+@pytest.mark.parametrize("size", [1, 9, 500, 4096])
+def test_a_bad_block_in_the_middle_costs_only_itself(place, fill, size):
+    data, told = long_log(200)
+    begin = data.index(b'{"x": 50,') + 70
+    damaged = data[:begin] + (fill * size)[:size] + data[begin + size :]
+    records, problems = read(place, damaged)
+    found = [each.data for each in records if isinstance(each, Message)]
+    lost = set(told) - set(found)
+    assert len(lost) <= size / 150 + 2
+    assert found[:50] == told[:50]
+    assert found[-50:] == told[-50:]
+    assert problems
+    assert not any("cut off" in each for each in problems)
+
+
+@pytest.mark.parametrize("byte", range(9))
+def test_a_broken_head_costs_its_record(place, byte):
+    data, told = long_log(100)
+    at = data.index(told[50]) - 31
+    for value in (0, 1, 0x7F, 0xFF):
+        damaged = bytearray(data)
+        damaged[at + byte] = value
+        records, problems = read(place, bytes(damaged))
+        found = [each.data for each in records if isinstance(each, Message)]
+        assert set(told) - set(found) <= set(told[50:53])
+        assert bytes(damaged) == data or problems
+
+
+def test_what_goes_on_behind_more_damage_than_the_window_is_found(place):
+    data, told = long_log(200)
+    at = data.index(told[100]) - 31
+    noise = b"\xfe\x05noise" * 500_000
+    records, problems = read(place, data[:at] + noise + data[at:])
+    assert [each.data for each in records if isinstance(each, Message)] == told
+    assert problems == [f"flight.mcap: a damaged place is passed over (at byte {at})"]
+
+
 def test_zeros_after_a_power_cut_are_the_end(place):
     records, problems = read(place, head() + message(1) + bytes(4096))
     assert len(messages_of(records)) == 1
@@ -213,10 +260,15 @@ def test_chunks_without_compression_are_read(place, size):
     assert len(messages_of(records)) == 100
 
 
-def test_a_chunked_file_cut_anywhere_gives_its_whole_chunks(place):
+def test_a_chunked_file_cut_anywhere_gives_its_whole_chunks_and_of_the_last_what_it_has(place):
     data = official(CompressionType.NONE, 300)
+    whole = official_messages(data)
     for size in range(len(MAGIC), len(data), 7):
-        assert messages_of(read(place, data[:size])[0]) == official_messages(data[:size]), size
+        found, problems = read(place, data[:size])
+        told, least = messages_of(found), official_messages(data[:size])
+        assert told == whole[: len(told)], size
+        assert len(told) >= len(least), size
+        assert any("cut off" in each for each in problems), size
 
 
 def test_a_damaged_chunk_is_told_by_its_checksum(place):

@@ -1,0 +1,51 @@
+"""Finds where records go on after a damaged place in a file: a bad block of a memory card."""
+
+from __future__ import annotations
+
+import re
+
+from up.flight_log.mcap_format import MESSAGE, RECORD, Opcode
+
+WITNESSES = 3
+"""So many whole records must follow each other: text never looks like that."""
+LONGEST = 64 * 1024
+"""Of a record that is taken for one here; what a flight logs is far shorter."""
+LONGEST_RECORD = 16 * 1024 * 1024
+"""What is longer (but a chunk, which is walked into) is passed over; no window ever is."""
+_LIKELY = re.compile(rb"\x05[\s\S]{3}\0{5}")
+LAST = int(max(Opcode))
+
+
+def find_messages(buffer: bytes, begin: int) -> int:
+    """Return where, from ``begin`` on, a message and its followers begin; -1: nowhere here.
+
+    All of them must lie in the buffer.
+    """
+    for likely in _LIKELY.finditer(buffer, begin):
+        if _is_run(buffer, likely.start()):
+            return likely.start()
+    return -1
+
+
+def may_follow(head: bytes, left: int) -> bool:
+    """Return whether a record may begin with these bytes where ``left`` bytes are left."""
+    if len(head) < RECORD.size:
+        return True
+    opcode: int
+    length: int
+    opcode, length = RECORD.unpack_from(head)
+    # One that was cut off fits no more, but tells no absurd length.
+    return opcode != 0 and length <= max(left, LONGEST_RECORD)
+
+
+def _is_run(buffer: bytes, at: int) -> bool:
+    for _ in range(WITNESSES):
+        if at + RECORD.size > len(buffer):
+            return False
+        opcode, length = RECORD.unpack_from(buffer, at)
+        if not 1 <= opcode <= LAST or length > LONGEST:
+            return False
+        if opcode == Opcode.MESSAGE and length < MESSAGE.size:
+            return False
+        at += RECORD.size + length
+    return at <= len(buffer)
