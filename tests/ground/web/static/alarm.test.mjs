@@ -31,13 +31,6 @@ test("silence and a lost server are alarms without being told", () => {
   assert.deepEqual(alarmOf(store(), { isOpen: false }), { level: "alarm", text: "no server" });
 });
 
-test("a replay that is paused is silent without alarm", () => {
-  const paused = { ...store([], "silent"), replay: { is_playing: false } };
-  assert.equal(alarmOf(paused, OPEN).level, "none");
-  const playing = { ...store([], "silent"), replay: { is_playing: true } };
-  assert.equal(alarmOf(playing, OPEN).level, "alarm");
-});
-
 test("one alarm is named, several are counted", () => {
   assert.equal(alarmOf(store([FAILSAFE, BATTERY]), OPEN).text, "failsafe");
   assert.equal(alarmOf(store([FAILSAFE, { kind: "imu", level: "alarm" }]), OPEN).text, "2 alarms");

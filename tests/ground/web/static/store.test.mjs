@@ -266,3 +266,31 @@ test("a new track begins the events anew: in a replay they are of another time",
     [3],
   );
 });
+
+test("nothing grows old while a replay is paused, and all does when its server is gone", () => {
+  const replay = (is_playing) =>
+    server.socket.say({ type: "replay", name: "n", time_s: 5, length_s: 9, speed: 1, is_playing });
+  const pause = () => {
+    for (let second = 0; second < 60; second += 1) {
+      replay(false);
+      clock.advance(1);
+    }
+  };
+  frame({ altitude: 5, age_ms: { altitude: 100 } });
+  clock.advance(0.3);
+  pause();
+  assert.equal(store.aircraftState, "live");
+  assert.ok(Math.abs(store.age_s("altitude") - 0.42) < 1e-9);
+  replay(true);
+  assert.ok(Math.abs(store.age_s("altitude") - 0.42) < 1e-9);
+  clock.advance(0.7);
+  assert.equal(store.aircraftState, "silent");
+  frame({ altitude: 6 });
+  pause();
+  frame({ altitude: 7 });
+  pause();
+  assert.ok(Math.abs(store.age_s(null) - 0.02) < 1e-9);
+  server.socket.fail();
+  clock.advance(1);
+  assert.equal(store.aircraftState, "silent");
+});

@@ -52,7 +52,7 @@ export function mountShell(store, connection) {
       setText(silence, silenceText(store, state));
     }
     const frame = store.freshness(null);
-    showBar("bar-link", linkWord(connection, state), state === "none" ? "none" : frame);
+    showBar("bar-link", linkWord(store, connection), state === "none" ? "none" : frame);
     showBar("bar-mode", store.text("flight_mode"), frame);
     const armed = store.flag("armed");
     showBar("bar-armed", armed === null ? null : armed ? "ARMED" : "disarmed", frame);
@@ -82,9 +82,6 @@ export function mountShell(store, connection) {
  * @returns {string} what stands over the instruments
  */
 export function silenceText(store, state) {
-  if (store.replay?.is_playing === false) {
-    return "the replay is paused";
-  }
   return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
 }
 
@@ -94,9 +91,12 @@ function setHidden(element, isHidden) {
   }
 }
 
-function linkWord(connection, state) {
+function linkWord(store, connection) {
   if (!connection.isOpen) {
     return "no server";
   }
-  return { live: "live", silent: "silent", none: "waiting" }[state];
+  if (store.aircraftState === "live" && store.replay !== null) {
+    return store.replay.is_playing === false ? "paused" : "replay";
+  }
+  return { live: "live", silent: "silent", none: "waiting" }[store.aircraftState];
 }

@@ -11,7 +11,7 @@ export function worstLevel(alarms) {
 
 /**
  * What there is to be alarmed about; what the page notices itself stands before what it was told.
- * @param {{alarms: object[], aircraftState: string, replay?: object|null}} store
+ * @param {{alarms: object[], aircraftState: string}} store
  * @param {{isOpen: boolean}} connection
  * @returns {{level: string, text: string|null}} text: in two words; null: not known
  */
@@ -20,8 +20,7 @@ export function alarmOf(store, connection) {
     return { level: "alarm", text: "no server" };
   }
   const level = worstLevel(store.alarms);
-  const isPaused = store.replay?.is_playing === false;
-  if (level !== "alarm" && store.aircraftState === "silent" && !isPaused) {
+  if (level !== "alarm" && store.aircraftState === "silent") {
     return { level: "alarm", text: "silent" };
   }
   if (level === "none") {

@@ -6,6 +6,7 @@ export class NewestFrame {
   #clock_s;
   #frameAt_s = null;
   #frameAge_s = 0;
+  #heldAt_s = null;
 
   /** The tree as it came, not judged. */
   data = {};
@@ -32,9 +33,23 @@ export class NewestFrame {
     this.beacon = judge.number(message.beacon);
     this.frames += 1;
     this.#frameAt_s = this.now_s;
+    this.#heldAt_s = this.#heldAt_s === null ? null : this.now_s;
     const way_s = Math.max(0, judge.number(message.age_ms) ?? 0) / 1000;
     this.#frameAge_s = way_s + (roundTrip_s ?? 0) / 2;
     return true;
+  }
+
+  /** Let no age grow: the flight itself stands still, as a replay does while it is paused. */
+  hold() {
+    this.#heldAt_s ??= this.now_s;
+  }
+
+  /** Let the ages grow from where they were held. */
+  release() {
+    if (this.#heldAt_s !== null && this.#frameAt_s !== null) {
+      this.#frameAt_s += this.now_s - this.#heldAt_s;
+    }
+    this.#heldAt_s = null;
   }
 
   /** Know nothing again. */
@@ -92,7 +107,7 @@ export class NewestFrame {
     if (this.#frameAt_s === null) {
       return null;
     }
-    const frame_s = this.#frameAge_s + this.now_s - this.#frameAt_s;
+    const frame_s = this.#frameAge_s + (this.#heldAt_s ?? this.now_s) - this.#frameAt_s;
     if (reading === null || reading === undefined) {
       return frame_s;
     }

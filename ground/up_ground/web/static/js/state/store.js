@@ -51,7 +51,7 @@ export class Store extends NewestFrame {
     this.#requestFrame = parts.requestFrame ?? ((call) => requestAnimationFrame(call));
     connection.shownBeacon = () => this.shownBeacon;
     connection.on("open", ({ welcome }) => this.#opened(welcome));
-    connection.on("closed", () => this.#change());
+    connection.on("closed", () => this.#closed());
     connection.on("message", (message) => this.take(message));
   }
 
@@ -165,6 +165,11 @@ export class Store extends NewestFrame {
   #takeReplay(message) {
     const before = this.replay;
     this.replay = message;
+    if (message.is_playing === false) {
+      this.hold();
+    } else {
+      this.release();
+    }
     const speed = judge.number(message.speed) ?? 1;
     const step_s = (judge.number(message.time_s) ?? 0) - (judge.number(before?.time_s) ?? 0);
     const hasJumped = step_s < -0.01 || step_s > JUMP_S * Math.max(1, speed);
@@ -186,6 +191,11 @@ export class Store extends NewestFrame {
   #measuredAt_s(reading) {
     const age_s = this.age_s(reading);
     return age_s === null ? null : this.now_s - age_s;
+  }
+
+  #closed() {
+    this.release();
+    this.#change();
   }
 
   #opened(welcome) {
