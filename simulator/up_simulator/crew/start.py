@@ -20,7 +20,7 @@ from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.flight import FlightUnavailableError
-from up_simulator.link.relay import LinkRelayError
+from up_simulator.link.listening_relay import LinkRelayError
 from up_simulator.radio.sticks import RadioError
 
 FOR_THE_USER = (

@@ -6,13 +6,12 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from twisted.internet.error import CannotListenError
 from twisted.internet.protocol import DatagramProtocol
 
 from up.system.udp import listen_udp
+from up_simulator.link.listening_relay import ListeningRelay
 from up_simulator.link.model import LinkModel
 from up_simulator.link.pipe import LinkPipe
-from up_simulator.link.relay import LinkRelayError
 from up_simulator.link.stream import LOOK_S, Clock
 
 HEADER = 28
@@ -94,7 +93,7 @@ class _Socket(DatagramProtocol):
             transport.write(data, address)
 
 
-class DatagramRelay:
+class DatagramRelay(ListeningRelay):
     """Takes datagrams and carries them to the target, and its answers back to who sent them.
 
     Each client has a socket of its own towards the target; of more than 64 the one that came first
@@ -113,36 +112,16 @@ class DatagramRelay:
         interface: str = "127.0.0.1",
         clock: Clock | None = None,
     ) -> None:
-        self._reactor = reactor
-        self._interface = interface
-        self._target = (target_host, target_port)
-        self._listen_port = listen_port
+        super().__init__(reactor, listen_port, (target_host, target_port), interface)
         self._up = _Way(clock if clock is not None else reactor, up)
         self._down = _Way(clock if clock is not None else reactor, down)
-        self._listener: Any = None
         self._near = _Socket(self._on_client)
         self._clients: dict[Address, tuple[_Socket, Any]] = {}
-
-    @property
-    def port(self) -> int:
-        """Return where it listens."""
-        return self._listen_port if self._listener is None else self._listener.getHost().port
 
     @property
     def lost(self) -> int:
         """Return how many datagrams vanished, both ways."""
         return self._up.all_lost + self._down.all_lost
-
-    def start(self) -> int:
-        """Listen and return the port; raises ``LinkRelayError``."""
-        try:
-            self._listener = self._open(self._listen_port, self._near)
-        except CannotListenError as error:
-            raise LinkRelayError(
-                f"the link cannot listen on {self._interface}:{self._listen_port}: "
-                f"{error.socketError}"
-            ) from error
-        return self.port
 
     async def stop(self) -> None:
         """Take no more and forget what is on its way."""
@@ -154,6 +133,9 @@ class DatagramRelay:
         # All are asked to close before the first is waited for.
         for closed in [port.stopListening() for port in (listener, *ports) if port is not None]:
             await closed
+
+    def _listen(self) -> Any:
+        return self._open(self._listen_port, self._near)
 
     def _open(self, number: int, protocol: DatagramProtocol) -> Any:
         port = listen_udp(self._reactor, number, protocol, self._interface)

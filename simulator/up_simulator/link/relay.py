@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from twisted.internet.defer import Deferred
-from twisted.internet.error import CannotListenError
 from twisted.internet.protocol import ClientFactory, Factory, Protocol
 
+from up_simulator.link.listening_relay import ListeningRelay
 from up_simulator.link.model import LinkModel
 from up_simulator.link.relay_connection import RelayedConnection
 from up_simulator.link.stream import Clock
@@ -16,10 +16,6 @@ from up_simulator.link.stream import Clock
 WINDOW = 16 * 1024
 """Bytes on their way at most, each way of each connection; more is not read from its sender."""
 CONNECT_S = 30.0
-
-
-class LinkRelayError(Exception):
-    """The relay cannot listen: the message is one sentence for the user."""
 
 
 class _ClientFactory(Factory):
@@ -32,7 +28,7 @@ class _ClientFactory(Factory):
         return self._accept()
 
 
-class LinkRelay:
+class LinkRelay(ListeningRelay):
     """Listens, and carries each connection to the target and back by two models.
 
     ``up`` is the way to the target, ``down`` the way back; all connections share them. What the
@@ -40,10 +36,9 @@ class LinkRelay:
     ends stay open, and connections that arrive are taken and hang. When it is over, what is still
     wanted goes on as TCP's retransmissions do, and the peers of those who gave up are closed.
 
-    Port 0 is any free port, which ``port`` tells after ``start``. ``user_timeout_s`` closes a
-    connection whose bytes have not arrived for so long, as TCP_USER_TIMEOUT does for a peer that
-    has set it: the relay's own sockets hide the link from it. ``clock`` gives the time, of the
-    reactor if there is no other.
+    ``user_timeout_s`` closes a connection whose bytes have not arrived for so long, as
+    TCP_USER_TIMEOUT does for a peer that has set it: the relay's own sockets hide the link from
+    it. ``clock`` gives the time, of the reactor if there is no other.
     """
 
     def __init__(
@@ -60,23 +55,14 @@ class LinkRelay:
         user_timeout_s: float | None = None,
         clock: Clock | None = None,
     ) -> None:
+        super().__init__(reactor, listen_port, (target_host, target_port), interface)
         self.up = up
         self.down = down
         self.window = window
         self.user_timeout_s = user_timeout_s
         self.clock: Clock = clock if clock is not None else reactor
-        self._reactor = reactor
-        self._interface = interface
-        self._target = (target_host, target_port)
-        self._listen_port = listen_port
-        self._listener: Any = None
         self._connections: set[RelayedConnection] = set()
         self._idle: Deferred[None] | None = None
-
-    @property
-    def port(self) -> int:
-        """Return where it listens."""
-        return self._listen_port if self._listener is None else self._listener.getHost().port
 
     @property
     def connections(self) -> int:
@@ -87,19 +73,6 @@ class LinkRelay:
     def waiting(self) -> int:
         """Return how many bytes are on their way."""
         return sum(each.waiting for each in self._connections)
-
-    def start(self) -> int:
-        """Listen and return the port; raises ``LinkRelayError``."""
-        try:
-            self._listener = self._reactor.listenTCP(
-                self._listen_port, _ClientFactory(self._accept), interface=self._interface
-            )
-        except CannotListenError as error:
-            raise LinkRelayError(
-                f"the link cannot listen on {self._interface}:{self._listen_port}: "
-                f"{error.socketError}"
-            ) from error
-        return self.port
 
     async def stop(self) -> None:
         """Listen no more and end all connections."""
@@ -122,6 +95,10 @@ class LinkRelay:
         if self._idle is not None and not self._connections:
             idle, self._idle = self._idle, None
             idle.callback(None)
+
+    def _listen(self) -> Any:
+        factory = _ClientFactory(self._accept)
+        return self._reactor.listenTCP(self._listen_port, factory, interface=self._interface)
 
     def _accept(self) -> Protocol:
         connection = RelayedConnection(self)

@@ -198,11 +198,14 @@ def _put_black_boxes(found: Mapping[str, bytes], folder: Path, files: Files) -> 
         for old in folder.glob("*.mcap"):
             old.unlink()
         folder.rmdir()
-    if found:
-        folder.mkdir(exist_ok=True)
     for name, data in found.items():
-        if files.put(folder / name, partial(Path.write_bytes, data=data)):
+        if files.put(folder / name, partial(_write_below, data)):
             files.written.append(folder / name)
+
+
+def _write_below(data: bytes, path: Path) -> None:
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes(data)
 
 
 def _draw(result: Result, path: Path, files: Files, say: Say) -> None:
