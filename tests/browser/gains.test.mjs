@@ -1,6 +1,6 @@
 // Gains go from the page into the firmware and back, and not where the aircraft forbids it.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { after, afterEach, before, test } from "node:test";
 
 import { startBrowser } from "./support/browser.mjs";
 import { startCarefulFlight } from "./support/careful_flight.mjs";
@@ -29,6 +29,8 @@ after(async () => {
   await showcase?.stop();
 });
 
+afterEach(() => GroundPage.closeAll());
+
 /** What the board itself says that it flies, to another ground station. */
 async function gainsOfBoard() {
   const port = String(showcase.groundPort);
@@ -39,12 +41,6 @@ async function gainsOfBoard() {
     const found = /arduino\.pids\.values (.*)/.exec(said);
     return found && JSON.parse(found[1]);
   }, "the board's gains");
-}
-
-/** Leave control to the other ground station. */
-async function leaveControl(ground) {
-  await ground.press("#control-release");
-  await ground.untilHolder("nobody");
 }
 
 function isSame(one, other) {
@@ -67,7 +63,7 @@ test("a change reaches the firmware, its ack the page, and undo takes it back", 
   assert.match(answer.shown, /New gains: carried out after \d+ ms/);
   await ground.until(() => document.querySelector("#gains-difference").hidden, "no difference left");
 
-  await leaveControl(ground);
+  await ground.leaveControl();
   const flown = await gainsOfBoard();
   assert.ok(isSame(flown.ratePIDs.ailerons.p, wanted), JSON.stringify(flown.ratePIDs));
 
@@ -75,7 +71,7 @@ test("a change reaches the firmware, its ack the page, and undo takes it back", 
   await ground.until(() => !document.querySelector("#gains-undo").disabled, "the offer to undo");
   const undone = await ground.answerTo(() => ground.press("#gains-undo"));
   assert.equal(undone.outcome, "ack", JSON.stringify(undone));
-  await leaveControl(ground);
+  await ground.leaveControl();
   const again = await gainsOfBoard();
   assert.ok(isSame(again.ratePIDs.ailerons.p, old), JSON.stringify(again.ratePIDs));
   const others = (gains) => JSON.stringify([gains.ratePIDs.elevator, gains.stabPIDs, gains.navPIDs]);

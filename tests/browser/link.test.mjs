@@ -146,9 +146,10 @@ function livePlaces(records) {
   const now = {};
   const found = [];
   for (const { name, unix_ms, value } of records) {
-    now[name] = name === "state" ? value : Number(value);
-    if (name === "longitude" && now.state === "live") {
-      found.push({ latitude: now.latitude, longitude: now.longitude, unix_s: unix_ms / 1000 });
+    now[name] = value;
+    if (name === "longitude" && value !== "" && now.state === "live") {
+      const [latitude, longitude] = [Number(now.latitude), Number(value)];
+      found.push({ latitude, longitude, unix_s: unix_ms / 1000 });
     }
   }
   return found;

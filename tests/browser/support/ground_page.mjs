@@ -34,9 +34,13 @@ export class GroundPage {
     open.add(this);
   }
 
-  /** Close what a test has left open. */
+  /** Close what a test has left open; control is given back, as a page that vanishes keeps it. */
   static async closeAll() {
     for (const each of [...open]) {
+      const holder = await each.attribute("#control-holder", "data-holder").catch(() => null);
+      if (holder === "you" && !(await each.page.isVisible("dialog[open]"))) {
+        await each.leaveControl();
+      }
       await each.close();
     }
   }
@@ -185,6 +189,12 @@ export class GroundPage {
     await this.until(isFree, "control to be free");
     await this.press("#control-request");
     await this.untilHolder("you");
+  }
+
+  /** Give control back, to whoever asks next. */
+  async leaveControl() {
+    await this.press("#control-release");
+    await this.until(() => document.querySelector("#control-holder").dataset.holder !== "you", "no control");
   }
 
   /** Wait until control is in somebody's hands: you, page, ground, nobody. */
