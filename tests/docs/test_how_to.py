@@ -29,6 +29,16 @@ def examples(page: str) -> dict[str, str]:
     return dict(_EXAMPLE.findall(text))
 
 
+def add_lines(setup: Path, page: str) -> None:
+    """Add the lines that a page shows as part of a ``setup.py``; packages as far as they go."""
+    text = (REPOSITORY / "docs/how-to" / page).read_text()
+    (line,) = re.findall(r"<!-- line of \S+ -->\n```\w+\n(.*?)```", text, re.DOTALL)
+    shown = setup.read_text()
+    shown = shown.replace('"beacon_cog.modules"]', '"beacon_cog.modules", "beacon_cog.cli"]')
+    assert shown.endswith(")\n")
+    setup.write_text(f"{shown[:-2]}{line})\n")
+
+
 @pytest.fixture
 def plane(tmp_path):
     """Return a function that writes the application ``plane`` of a page."""
@@ -142,9 +152,13 @@ def test_the_cog_is_gathered_and_loaded(tmp_path):
         path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-    for folder in ("beacon_cog/beacon_cog", "beacon_cog/beacon_cog/modules"):
-        Path(tmp_path, folder, "__init__.py").write_text("")
+    for folder in ("", "modules", "cli"):
+        Path(tmp_path, "beacon_cog/beacon_cog", folder, "__init__.py").write_text("")
+    add_lines(tmp_path / "beacon_cog/setup.py", "cog.md")
     (tmp_path / "plane/UpFile").write_text("")
     environment = VirtualEnvironment(tmp_path / "environment")
     environment.up("gather", cwd=tmp_path / "plane")
     assert "BeaconModule" in environment.up("modules", cwd=tmp_path / "plane").stdout
+    assert "tell who the beacon says it is" in environment.up("--help", cwd=tmp_path).stdout
+    assert environment.up("beacon", cwd=tmp_path).stdout == "this is OK-UAV\n"
+    assert environment.up("beacon", "--loud", cwd=tmp_path).stdout == "OK-UAV\n"

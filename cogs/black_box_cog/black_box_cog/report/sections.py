@@ -138,7 +138,7 @@ def _figures(findings: Findings) -> Iterator[tuple[str, str]]:
     yield "armed", duration_text(summary.armed_s) if summary.armed else "never"
     if summary.highest_m is not None and summary.lowest_m is not None:
         yield "highest above sea level", f"{summary.highest_m:.0f} m"
-        yield "highest above lowest", f"{summary.highest_m - summary.lowest_m:.0f} m"
+        yield "altitude range", f"{summary.highest_m - summary.lowest_m:.0f} m"
     if summary.top_speed_m_s is not None:
         yield "top speed", f"{summary.top_speed_m_s:.1f} m/s"
     if summary.track_m is not None:
