@@ -6,7 +6,6 @@ import contextlib
 import time
 from collections import deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from twisted.logger import Logger
 
@@ -18,6 +17,7 @@ from black_box_cog.flight_folder import FlightFolder, NoRoomError
 from black_box_cog.intake import Entry, Intake, LogLine
 from black_box_cog.log_file import LogFile
 from black_box_cog.part import Part
+from black_box_cog.recorder_status import RecorderStatus
 from black_box_cog.timeline import Timeline
 from up.commands.roles import Role
 from up.log.limits import Once
@@ -36,17 +36,6 @@ _TAKE = 500
 _BATCH_S = 0.0003
 _PAUSE_S = 0.002
 _SOURCES = (Role.BOARD, Role.SENSOR)
-
-
-@dataclass(frozen=True, slots=True)
-class RecorderStatus:
-    """What telemetry tells of the recorder."""
-
-    recording: bool = False
-    file: str | None = None
-    megabytes: float = 0.0
-    dropped: int = 0
-    problem: str | None = None
 
 
 class Recorder:

@@ -3,6 +3,7 @@
 import threading
 
 import pytest
+from black_box_cog import disk
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.flight_file import flight_files
@@ -71,7 +72,7 @@ class System:
         return answer.data.get("code", "ack"), answer.data.get("reason", "")
 
     async def recording(self):
-        await until(lambda: self.box.recorder.status.recording, what="a file")
+        await until(lambda: self.box.status.recording, what="a file")
 
     @property
     def files(self):
@@ -104,7 +105,7 @@ def test_a_flight_from_the_start_to_the_stop(tmp_path):
 
 
 def test_no_call_to_the_disk_is_made_on_the_reactors_thread(tmp_path, monkeypatch):
-    monkeypatch.setattr(black_box, "Disk", TestedDisk)
+    monkeypatch.setattr(disk, "Disk", TestedDisk)
 
     async def fly():
         system = System(tmp_path)
@@ -115,17 +116,17 @@ def test_no_call_to_the_disk_is_made_on_the_reactors_thread(tmp_path, monkeypatc
         system.say(Role.OPERATOR, "black_box.mark", {"text": "now"})
         system.say(Role.SENSOR, "black_box.record", {"topic": "a.b", "content": {}})
         system.up.get_module(TelemetryController).collect()
-        system.box.disk.refuse["write"] = 5
+        system.box.recorder._disk.refuse["write"] = 5
         system.publish(1)
-        await until(lambda: system.box.recorder.status.problem, what="the problem")
+        await until(lambda: system.box.status.problem, what="the problem")
         system.say(Role.OPERATOR, "black_box.mark", {"text": "too late"})
         await life.stop()
-        return system.box.disk
+        return system.box.recorder._disk
 
-    disk = run_in_reactor(fly)
-    assert {"create", "write", "sync", "close", "make_folder", "free_bytes"} <= set(disk.calls)
-    assert len(disk.threads) == 1
-    assert threading.get_ident() not in disk.threads
+    asked = run_in_reactor(fly)
+    assert {"create", "write", "sync", "close", "make_folder", "free_bytes"} <= set(asked.calls)
+    assert len(asked.threads) == 1
+    assert threading.get_ident() not in asked.threads
 
 
 def test_a_mark_is_an_event_of_the_log(tmp_path):
@@ -177,7 +178,7 @@ def test_what_cannot_be_recorded_is_refused_with_the_reason(tmp_path):
         system = System(tmp_path)
         life = await started(system.up)
         system.publish(1)
-        await until(lambda: system.box.recorder.status.problem, what="the problem")
+        await until(lambda: system.box.status.problem, what="the problem")
         answers = [
             system.say(Role.OPERATOR, "black_box.mark", {"text": "thermal"}),
             system.say(Role.SENSOR, "black_box.record", {"topic": "a.b", "content": {}}),
@@ -332,7 +333,7 @@ def test_a_disk_that_hangs_keeps_neither_reactor_nor_stop(tmp_path, monkeypatch)
             hanging.set()
             release.wait(30)
 
-    monkeypatch.setattr(black_box, "Disk", HangingDisk)
+    monkeypatch.setattr(disk, "Disk", HangingDisk)
 
     async def fly():
         system = System(tmp_path)

@@ -6,25 +6,27 @@ import sys
 import time
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.config import BLACK_BOX, MEGABYTE
-from black_box_cog.disk import Disk
-from black_box_cog.flight_facts import FlightFacts
-from black_box_cog.flight_folder import FlightFolder, folder_of
 from black_box_cog.intake import Intake
 from black_box_cog.log_lines import LogLines
 from black_box_cog.record_policy import RecordPolicy
-from black_box_cog.recorder import Recorder
+from black_box_cog.recorder_status import RecorderStatus
 from up.base_thread_module import BaseThreadModule
 from up.commands.refusal import CommandRefusedError
 from up.commands.telemetry_commands import TelemetryCommand
 from up.registrations import note_undo
 
+if TYPE_CHECKING:
+    from black_box_cog.flight_facts import FlightFacts
+    from black_box_cog.recorder import Recorder
+
 SOURCE_S = 10.0
 """The recorder asks for telemetry itself for so long after a word of the Arduino or the phone."""
+FIRST_LOOK_S = 1.0
 
 
 class BlackBox(BaseThreadModule):
@@ -34,7 +36,7 @@ class BlackBox(BaseThreadModule):
     # First to start and last to stop: what the others say meanwhile is recorded.
     LOAD_ORDER: ClassVar[int] = -sys.maxsize
 
-    disk: Disk
+    recorder: Recorder | None = None
 
     def load(self) -> bool:
         """Return whether flights are to be recorded."""
@@ -42,10 +44,16 @@ class BlackBox(BaseThreadModule):
         return enabled
 
     @property
+    def status(self) -> RecorderStatus:
+        """Return what the recorder tells of itself."""
+        return RecorderStatus() if self.recorder is None else self.recorder.status
+
+    @property
     def wants_telemetry(self) -> bool:
         """Return whether a flight is recorded and the Arduino or the phone was heard just now."""
         return (
             self.config.telemetry
+            and self.recorder is not None
             and self.recorder.status.recording
             and time.perf_counter() - self.recorder.last_source_s < SOURCE_S
         )
@@ -53,22 +61,13 @@ class BlackBox(BaseThreadModule):
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
         """Return whether it records, into which file, and what is wrong."""
-        return {"black_box": asdict(self.recorder.status)}
+        return {"black_box": asdict(self.status)}
 
     def _execute_initialization(self) -> None:
-        config = self.config
-        self.disk = Disk()
-        self.intake = Intake(config.waiting_messages)
+        self.intake = Intake(self.config.waiting_messages)
         self._log_lines = LogLines(self.intake.note)
         executor = self.up.command_executor
         self._policy = RecordPolicy(executor.registry, self.context.reactor)
-        self.folder = FlightFolder(
-            self.disk,
-            folder_of(config.folder),
-            config.total_size_mb * MEGABYTE,
-            config.keep_free_mb * MEGABYTE,
-        )
-        self.recorder = Recorder(self.intake, config, self.folder, self._facts(), self.disk)
         executor.register_command(TelemetryCommand, self._on_telemetry)
         executor.register_command(MarkCommand, self._on_mark)
         executor.register_command(RecordCommand, self._on_record)
@@ -83,15 +82,35 @@ class BlackBox(BaseThreadModule):
         self._log_lines.stop()
 
     def _loop(self) -> None:
-        self.stop_event.wait(self.recorder.round_s)
+        assert self.recorder is not None
         self.recorder.work()
+        self.stop_event.wait(self.recorder.round_s)
 
     def _run(self) -> None:
-        super()._run()
+        self.stop_event.wait(FIRST_LOOK_S)
         try:
+            self.recorder = self._make_recorder()
+            super()._run()
             self.recorder.finish()
         except Exception:  # noqa: BLE001 - the last words of a thread; nobody else would tell
-            self.logger.failure("{name} failed to finish the flight", name=self.class_name)
+            self.faults += 1
+            self.logger.failure("{name} does not record any more", name=self.class_name)
+
+    def _make_recorder(self) -> Recorder:
+        """Return the recorder; what only it needs is imported on its thread, after the start."""
+        from black_box_cog.disk import Disk
+        from black_box_cog.flight_folder import FlightFolder, folder_of
+        from black_box_cog.recorder import Recorder
+
+        config = self.config
+        disk = Disk()
+        folder = FlightFolder(
+            disk,
+            folder_of(config.folder),
+            config.total_size_mb * MEGABYTE,
+            config.keep_free_mb * MEGABYTE,
+        )
+        return Recorder(self.intake, config, folder, self._facts(), disk)
 
     def _on_telemetry(self, command: TelemetryCommand) -> None:
         """Do nothing: the observer has it; who subscribes is asked whether frames are wanted."""
@@ -105,11 +124,13 @@ class BlackBox(BaseThreadModule):
         self.intake.note(self._policy.checked(command), self.up.command_executor.origin)
 
     def _refuse_without_file(self) -> None:
-        problem = self.recorder.status.problem
+        problem = self.status.problem
         if problem is not None:
             raise CommandRefusedError(f"the flight is not recorded: {problem}")
 
     def _facts(self) -> FlightFacts:
+        from black_box_cog.flight_facts import FlightFacts
+
         context = self.context
         modules = {type(module).__module__.partition(".")[0] for module in self.up.modules}
         return FlightFacts(
