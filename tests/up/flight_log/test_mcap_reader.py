@@ -328,7 +328,8 @@ def test_no_mutation_raises_anything_else(place, changes, cut):
     except FlightLogError:
         assert data[: len(MAGIC)] != MAGIC
         return
-    assert len(messages_of(records)) <= 9
+    # A channel's record may have become a message.
+    assert len(messages_of(records)) <= 9 + len(changes)
     if bytes(data[:cut]) != SMALL and zlib.crc32(data[:cut]) != zlib.crc32(SMALL):
         assert problems or messages_of(records) == official_messages(bytes(data[:cut]))
 
