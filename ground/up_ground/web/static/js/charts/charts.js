@@ -1,5 +1,6 @@
 import { element } from "../panels/element.js";
 import { sayMissing, styleSheet } from "../panels/vendor.js";
+import { ChartClock } from "./chart_clock.js";
 import { rollDemand_deg } from "./demand.js";
 import { History } from "./history.js";
 import { LineChart } from "./line_chart.js";
@@ -36,6 +37,8 @@ export function mount(place, store, connection) {
   place.append(notice, row);
   const names = CHARTS.flatMap((chart) => chart.lines.map((line) => line.name));
   const history = new History(names);
+  const clock = new ChartClock();
+  const now_s = () => clock.at(store.now_s, store.replay?.is_playing === false);
   let charts = [];
   let drawn_s = -Infinity;
   let aircraft = null;
@@ -66,7 +69,7 @@ export function mount(place, store, connection) {
     }
     const age_s = store.age_s(null) ?? 0;
     const live = (reading, path) => (store.freshness(reading) === "live" ? store.number(path) : null);
-    history.add(store.now_s - age_s, {
+    history.add(now_s() - age_s, {
       roll: live("orientation", "orientation.roll"),
       demand: rollDemand_deg(store),
       pitch: live("orientation", "orientation.pitch"),
@@ -98,7 +101,7 @@ export function mount(place, store, connection) {
         return;
       }
       drawn_s = store.now_s;
-      const [times_s, ...values] = history.columns(store.now_s);
+      const [times_s, ...values] = history.columns(now_s());
       let first = 0;
       CHARTS.forEach((chart, index) => {
         const own = values.slice(first, first + chart.lines.length);

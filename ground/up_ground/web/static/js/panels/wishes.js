@@ -1,4 +1,4 @@
-import { headingText, numberText } from "../state/format.js";
+import { ageText, headingText, numberText } from "../state/format.js";
 import { setText } from "../readout.js";
 import { element } from "./element.js";
 import { Field, numberBetween, textUpTo } from "./field.js";
@@ -63,9 +63,18 @@ export class Wishes {
     this.#size.look(store.data, store.frames);
     const wanted = store.number("heading.required");
     const asked = wanted === null ? "" : `, asked ${headingText(wanted)}°`;
-    setText(this.#heading.hint, `now ${headingText(store.number("heading.actual"))}°${asked}`);
-    setText(this.#altitude.hint, `now ${numberText(store.number("altitude"), 0)} m`);
+    this.#showNow(this.#heading, "heading.actual", (value) => `${headingText(value)}°${asked}`);
+    this.#showNow(this.#altitude, "altitude", (value) => `${numberText(value, 0)} m`);
     this.#showCost();
+  }
+
+  // What is not of now never reads as if it were.
+  #showNow(field, path, format) {
+    const value = this.#store.number(path);
+    const isLive = this.#store.freshnessAt(path) === "live";
+    const age = ageText(this.#store.age_s(path.split(".")[0]));
+    const was = value === null ? "not known" : `was ${format(value)}, ${age} ago`;
+    setText(field.hint, isLive ? `now ${format(value)}` : was);
   }
 
   get #fields() {
@@ -81,7 +90,8 @@ export class Wishes {
   #showCost() {
     const written = this.#period.value;
     const rate_hz = this.#store.status?.link?.rate_hz;
-    const now_ms = typeof rate_hz === "number" && rate_hz > 0 ? 1000 / rate_hz : null;
+    const isLive = this.#store.aircraftState === "live";
+    const now_ms = isLive && typeof rate_hz === "number" && rate_hz > 0 ? 1000 / rate_hz : null;
     if (written !== null) {
       setText(this.#period.hint, costWords(written, this.#size.bytes));
     } else if (now_ms !== null) {
