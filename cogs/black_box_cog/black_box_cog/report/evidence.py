@@ -10,7 +10,7 @@ from typing import Any
 
 from black_box_cog.pictures.chart import Band
 from black_box_cog.report.demand import Demand
-from black_box_cog.report.series import Series, columns
+from black_box_cog.report.series import Columns, Series, columns
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.origin_text import KEY, link_and_role
 from up.flight_log.telemetry_frames import frames
@@ -61,8 +61,7 @@ class Evidence:
 def evidence_of(log: FlightLog) -> Evidence:
     """Read it; raises FlightLogError when a file cannot be read any more."""
     told = partial(_told, log)
-    frame_list = [(frame.time_s, frame.data) for frame in frames(log)]
-    known = columns(frame_list, FRAME_FIELDS)
+    known, states, held_up = _from_frames(log)
     attitude = columns(told(ORIENTATION), ANGLES, _best_source(log, ORIENTATION))
     sticks, servos = columns(told(STICKS), INPUTS), columns(told(SERVOS), CHANNELS)
     altitude = columns(told(ALTITUDE), ("altitude",), lambda data: data.get("mode") != "required")
@@ -79,16 +78,15 @@ def evidence_of(log: FlightLog) -> Evidence:
         required_altitude=required["altitude"],
         speed=columns(told(LOCATION), ("speed",))["speed"],
         truth=columns(told(TRUTH), TRUTHS),
-        bands=list(_bands(log, frame_list)),
-        held_up=_held_up(frame_list),
+        bands=list(_bands(log, states)),
+        held_up=held_up,
         silences=_silences(log),
     )
 
 
 def bands_of(log: FlightLog) -> list[Band]:
     """Return which mode flew when, without the rest of the evidence."""
-    is_told = STATE in log.topics
-    return list(_bands(log, [] if is_told else [(each.time_s, each.data) for each in frames(log)]))
+    return list(_bands(log, [] if STATE in log.topics else _from_frames(log)[1]))
 
 
 def _told(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
@@ -111,34 +109,45 @@ def _best_source(log: FlightLog, topic: str) -> Any:
     return lambda data: link_and_role(data.get(KEY))[0] == first
 
 
-def _bands(log: FlightLog, frame_list: list[tuple[float, dict[str, Any]]]) -> Iterator[Band]:
-    """Yield which mode flew when; a lost receiver's circle is a mode of its own."""
-    told: list[tuple[float, Mapping[str, Any]]] = list(_told(log, STATE)) or list(frame_list)
+def _from_frames(log: FlightLog) -> tuple[dict[str, Series], list[tuple[float, str]], Series]:
+    """Return the series of telemetry, the modes that it told, and how often it was held up.
+
+    The frames of an hour together would take too much memory: each is looked at and let go.
+    """
+    found, held_up = Columns(FRAME_FIELDS), Series()
+    states: list[tuple[float, str]] = []
+    for frame in frames(log):
+        found.take(frame.time_s, frame.data)
+        states.append((frame.time_s, _mode_of(frame.data)))
+        counters = frame.data.get("counters")
+        reactor = counters.get("reactor") if isinstance(counters, dict) else None
+        if isinstance(reactor, dict):
+            times = sum(each for each in reactor.values() if type(each) is int)
+            held_up.add(frame.time_s, float(times))
+    return found.series, states, held_up
+
+
+def _mode_of(data: Mapping[str, Any]) -> str:
+    """Return the mode; a lost receiver's circle is one of its own."""
+    arduino = data.get("arduino")
+    is_failsafe = data.get("failsafe")
+    if is_failsafe is None and isinstance(arduino, dict):
+        is_failsafe = arduino.get("failsafe")
+    mode = data.get("flight_mode")
+    return "failsafe" if is_failsafe is True else mode if isinstance(mode, str) else ""
+
+
+def _bands(log: FlightLog, states: list[tuple[float, str]]) -> Iterator[Band]:
+    """Yield which mode flew when: as the board says, else as telemetry does."""
+    told = ((time_s, _mode_of(data)) for time_s, data in _told(log, STATE))
     begin_s, name = 0.0, ""
-    for time_s, data in told:
-        arduino = data.get("arduino")
-        is_failsafe = data.get(
-            "failsafe", arduino.get("failsafe") if isinstance(arduino, dict) else None
-        )
-        mode = data.get("flight_mode")
-        now = "failsafe" if is_failsafe is True else mode if isinstance(mode, str) else ""
+    for time_s, now in told if STATE in log.topics else states:
         if now != name:
             if name:
                 yield Band(begin_s, time_s, name)
             begin_s, name = time_s, now
     if name:
         yield Band(begin_s, log.length_s, name)
-
-
-def _held_up(frame_list: list[tuple[float, dict[str, Any]]]) -> Series:
-    """Return how often something held up the program for more than 20 ms, until each time."""
-    found = Series()
-    for time_s, data in frame_list:
-        counters = data.get("counters")
-        reactor = counters.get("reactor") if isinstance(counters, dict) else None
-        if isinstance(reactor, dict):
-            found.add(time_s, float(sum(each for each in reactor.values() if type(each) is int)))
-    return found
 
 
 def _silences(log: FlightLog) -> dict[str, Series]:

@@ -47,19 +47,30 @@ class Series:
         return self.values[at - 1] if at else None
 
 
+class Columns:
+    """Collects a series for each field (dotted paths) of the messages that it is given."""
+
+    def __init__(self, fields: Sequence[str]) -> None:
+        self.series = {name: Series() for name in fields}
+        self._paths = [(tuple(name.split(".")), self.series[name].add) for name in fields]
+
+    def take(self, time_s: float, data: Mapping[str, Any]) -> None:
+        """Take what one message tells."""
+        for path, add in self._paths:
+            add(time_s, number_at(data, path))
+
+
 def columns(
     messages: Iterable[tuple[float, Mapping[str, Any]]],
     fields: Sequence[str],
     accepts: Callable[[Mapping[str, Any]], bool] = lambda data: True,
 ) -> dict[str, Series]:
-    """Return a series for each field (dotted paths) of the messages that are accepted."""
-    found = {name: Series() for name in fields}
-    paths = [(tuple(name.split(".")), found[name].add) for name in fields]
+    """Return a series for each field of the messages that are accepted."""
+    found = Columns(fields)
     for time_s, data in messages:
         if accepts(data):
-            for path, add in paths:
-                add(time_s, number_at(data, path))
-    return found
+            found.take(time_s, data)
+    return found.series
 
 
 def turn(degrees: float) -> float:
