@@ -12,7 +12,8 @@ let first;
 let second;
 
 before(async () => {
-  [showcase, browser] = await Promise.all([startShowcase(), startBrowser()]);
+  browser = await startBrowser();
+  showcase = await startShowcase();
   first = await (await GroundPage.open(browser, showcase.address)).isLive();
   second = await (await GroundPage.open(browser, showcase.address)).isLive();
 });

@@ -22,7 +22,8 @@ let browser;
 let ground;
 
 before(async () => {
-  [showcase, browser] = await Promise.all([startShowcase(), startBrowser()]);
+  browser = await startBrowser();
+  showcase = await startShowcase();
   ground = await (await GroundPage.open(browser, showcase.address)).isLive();
 });
 

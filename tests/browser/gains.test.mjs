@@ -16,11 +16,9 @@ let careful;
 let browser;
 
 before(async () => {
-  [showcase, careful, browser] = await Promise.all([
-    startShowcase(),
-    startCarefulFlight(),
-    startBrowser(),
-  ]);
+  browser = await startBrowser();
+  showcase = await startShowcase();
+  careful = await startCarefulFlight();
 });
 
 after(async () => {

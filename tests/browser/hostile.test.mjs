@@ -26,7 +26,8 @@ let flight;
 let ground;
 
 before(async () => {
-  [flight, browser] = await Promise.all([FakeFlight.start(), startBrowser()]);
+  browser = await startBrowser();
+  flight = await FakeFlight.start();
 });
 
 after(async () => {

@@ -12,7 +12,8 @@ let showcase;
 let browser;
 
 before(async () => {
-  [showcase, browser] = await Promise.all([startShowcase(), startBrowser()]);
+  browser = await startBrowser();
+  showcase = await startShowcase();
 });
 
 after(async () => {

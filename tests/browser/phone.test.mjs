@@ -30,7 +30,8 @@ let browser;
 let pilot;
 
 before(async () => {
-  [showcase, browser] = await Promise.all([startShowcase(), startBrowser()]);
+  browser = await startBrowser();
+  showcase = await startShowcase();
   pilot = await new Pilot(showcase).ready();
 });
 

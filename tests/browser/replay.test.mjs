@@ -14,7 +14,8 @@ let replay;
 let seen;
 
 before(async () => {
-  [showcase, browser] = await Promise.all([startShowcase(), startBrowser()]);
+  browser = await startBrowser();
+  showcase = await startShowcase();
 });
 
 after(async () => {
