@@ -8,7 +8,7 @@ const CHANNELS = ["ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"];
 /** What the receiver says and what the servos get, channel by channel, 1000 to 2000 us. */
 export function mount(element, store) {
   const table = html("div", { class: "channel-table" });
-  const heads = { rx: headOf("in, us"), servo: headOf("out, us") };
+  const heads = { rx: headOf("in"), servo: headOf("out") };
   table.append(html("span"), heads.rx.element, heads.servo.element);
   const cells = [];
   for (const channel of CHANNELS) {
