@@ -1,5 +1,5 @@
 import { oldText, setAttribute, setText } from "../readout.js";
-import { numberText, UNKNOWN } from "../state/format.js";
+import { numberText } from "../state/format.js";
 import { number } from "../state/judge.js";
 import { distance_m } from "../state/motion.js";
 import { VIEW } from "./horizon.js";
@@ -103,6 +103,13 @@ function startsAtHome(store) {
   return distance_m(from, { latitude, longitude }) < NEAR_HOME_M;
 }
 
+function climbText(climb_m_s) {
+  if (climb_m_s !== null && Math.abs(climb_m_s) >= 99.5) {
+    return climb_m_s > 0 ? "99+" : "99-";
+  }
+  return numberText(climb_m_s, 0, { sign: true });
+}
+
 function climbOf() {
   const scale = svg("g", { class: "climb-scale" });
   for (const value of [-10, -5, -2, -1, 0, 1, 2, 5, 10]) {
@@ -128,7 +135,7 @@ function climbOf() {
       setAttribute(needle, "y", short(Math.min(0, -length)));
       setAttribute(needle, "height", short(Math.max(1, Math.abs(length))));
       setAttribute(text, "data-freshness", freshness);
-      setText(text, climb_m_s === null ? UNKNOWN : numberText(climb_m_s, 0, { sign: true }));
+      setText(text, climbText(climb_m_s));
     },
   };
 }
