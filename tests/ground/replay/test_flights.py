@@ -1,8 +1,12 @@
 """Which files a flight is."""
 
+import argparse
+
 import pytest
 
+from up.cli.cli_error import CliError
 from up_ground.replay.flights import FlightNotFoundError, find_flight, flights_folder
+from up_ground.replay.verb import add
 
 NAMES = (
     "0001-20261121T100000Z-kite.mcap",
@@ -49,3 +53,12 @@ def test_no_flights_at_all(tmp_path):
 def test_where_flights_are():
     assert str(flights_folder({"STATE_DIRECTORY": "/var/lib/up"})) == "/var/lib/up/flights"
     assert str(flights_folder({"XDG_STATE_HOME": "/s"})) == "/s/raspilot/flights"
+
+
+def test_it_is_a_verb_of_up_log_too():
+    verbs = argparse.ArgumentParser().add_subparsers()
+    add(verbs)
+    (parser,) = verbs.choices.values()
+    options = parser.parse_args(["last", "--listen", "127.0.0.1:0", "--folder", "/nowhere/at/all"])
+    with pytest.raises(CliError, match="/nowhere/at/all cannot be read"):
+        options.carry_out(options)
