@@ -15,6 +15,8 @@ from arduino_cog.commands.arduino_profile_commands import (
     ArduinoProfileValuesCommand,
 )
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
+from black_box_cog.commands.mark_command import MarkCommand
+from black_box_cog.commands.record_command import RecordCommand
 
 from tests.up.commands.samples import Border
 from up.commands.builtin import BUILTIN_COMMANDS
@@ -31,6 +33,8 @@ COGS = (
     ArduinoProfileRequestCommand,
     ArduinoProfileValuesCommand,
     ArduinoStatusCommand,
+    MarkCommand,
+    RecordCommand,
 )
 REGISTRY = CommandRegistry((*BUILTIN_COMMANDS, *COGS))
 NOBODY = "\N{EN DASH}"
@@ -68,6 +72,8 @@ SAMPLES = {
     "android.battery.low": {"level": 5, "low": True},
     "android.speak": {"text": "hello"},
     "arduino.calibrate": {"what": "level"},
+    "black_box.mark": {"text": "thermal"},
+    "black_box.record": {"topic": "pitot.air", "content": {}},
     "arduino.profile.request": {},
     "arduino.profile.values": {"profile": {}},
     "arduino.pids.tunings": {"pids": {"ratePIDs": GAINS, "stabPIDs": GAINS}},
