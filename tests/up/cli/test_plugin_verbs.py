@@ -107,10 +107,11 @@ def test_two_that_bring_the_same_verb_are_both_named(up, install):
 
 
 def test_our_own_verbs_cannot_be_replaced(up, install):
-    install({"check": "greeting_verbs.parser:add"})
-    assert "find every mistake in configuration" in up("check", "--help").out.replace(
-        "Find", "find"
-    )
+    install({"check": "greeting_verbs.parser:add", "greet": "greeting_verbs.parser:add"})
+    shown = up("--help").out
+    assert "find every mistake in configuration" in shown and "cannot be used" not in shown
+    assert up("greet", "Jay").status == 3
+    assert "Find every mistake in configuration" in up("check", "--help").out
 
 
 def test_our_own_verbs_load_no_plugin(up, install):

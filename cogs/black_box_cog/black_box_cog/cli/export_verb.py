@@ -20,7 +20,9 @@ from black_box_cog.export.log_track import track_of
 from black_box_cog.export.output import new_file
 from black_box_cog.report.wording import is_clock_right, start_text
 from up.cli.cli_error import CliError
+from up.fields import printable
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.spans import duration_text
 
 RATE_HZ = 10.0
@@ -35,10 +37,17 @@ def run(values: argparse.Namespace) -> int:
     if values.format != "csv" and (values.topic or values.rate):
         raise CliError(f"--topic and --rate say what a csv is, not a {values.format}", status=2)
     flight = flight_of(values)
-    log = read(flight)
+    try:
+        _export(read(flight), flight, values)
+    except FlightLogError as error:
+        raise CliError(printable(str(error))) from error
+    return 0
+
+
+def _export(log: FlightLog, flight: Flight, values: argparse.Namespace) -> None:
     if values.format == "csv":
         _export_csv(log, flight, values)
-        return 0
+        return
     track = track_of(log, *_names(log, flight))
     if not track.segments:
         raise CliError(f"{flight.paths[0].name} tells no position: there is no track")
@@ -46,7 +55,6 @@ def run(values: argparse.Namespace) -> int:
         warn("the clock was wrong when this was recorded: so are the times in the file")
     lines = gpx_lines if values.format == "gpx" else kml_lines
     _write(lines(track), values.output or Path(f"{flight.name}.{values.format}"), values.force)
-    return 0
 
 
 def _export_csv(log: FlightLog, flight: Flight, values: argparse.Namespace) -> None:

@@ -44,7 +44,7 @@ def _html(findings: Findings, images: Mapping[str, ImageSet], missing: str) -> M
         tag("p", missing) if missing else None,
         *(_picture(findings, images, picture.name) for picture in findings.pictures),
         _section("Events", events(findings)),
-        _section("Gains that flew", gains(findings)),
+        _section("Gains", gains(findings)),
         _section("Configuration", _configuration(findings)),
         _section("Record", record(findings)),
         tag("footer", f"Raspilot {VERSION}, up log report"),

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from black_box_cog.report.findings import Findings
-from black_box_cog.report.gains import GainSet, Key, changes, gain_sets
+from black_box_cog.report.gains import GainSet, Key, asked_sets, changes, gain_sets
 from black_box_cog.report.ground_track import place_error_m
 from black_box_cog.report.html_text import Markup, join, table, tag
 from black_box_cog.report.series import error_of
@@ -94,19 +94,31 @@ def truth(findings: Findings) -> Markup | None:
 
 
 def gains(findings: Findings) -> Markup | None:
-    """Return the gains at the beginning, and each change with both values."""
+    """Return the gains at the beginning, and each change with both values.
+
+    Where the board was never asked for its gains: those that it was asked to take.
+    """
     sets = gain_sets(findings.log)
+    verb = "changed"
+    parts: list[Markup] = []
     if not sets:
-        return None
-    parts = [_gain_table(sets[0])]
+        sets, verb = asked_sets(findings.log), "asked for"
+        if not sets:
+            return None
+        parts.append(tag("p", "The log does not tell which gains flew, but which were asked for."))
+        parts.append(tag("h3", _changed(sets[0], verb)))
+    parts.append(_gain_table(sets[0]))
     for before, after in pairwise(sets):
-        who = link_and_role(after.by)[0] or "somebody"
         rows = [
             [_gain_name(key), _gain(old), _gain(new)] for key, old, new in changes(before, after)
         ]
-        parts.append(tag("h3", f"{clock_text(after.time_s)} changed by {who}"))
+        parts.append(tag("h3", _changed(after, verb)))
         parts.append(table(["gain", "before", "after"], rows, right=(1, 2)))
     return join(*parts)
+
+
+def _changed(gains: GainSet, verb: str) -> str:
+    return f"{clock_text(gains.time_s)} {verb} by {link_and_role(gains.by)[0] or 'somebody'}"
 
 
 def record(findings: Findings) -> Markup:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import pytest
 from black_box_cog.export.csv_cells import cell, flat
 from black_box_cog.export.csv_table import columns_of, topic_rows, wide_rows
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 SCALARS = (
@@ -39,6 +39,7 @@ def read_again(rows):
     return list(csv.reader(io.StringIO(written, newline=""), strict=True)), written
 
 
+@settings(deadline=None)
 @given(st.lists(DATA, min_size=1, max_size=6))
 def test_a_message_is_a_row_and_a_row_a_line(contents):
     messages = [Said("a", at / 10, data) for at, data in enumerate(contents)]
@@ -56,6 +57,7 @@ def test_a_message_is_a_row_and_a_row_a_line(contents):
             assert float(shown) == value if isinstance(value, float) else int(shown) == value
 
 
+@settings(deadline=None)
 @given(st.text())
 def test_no_text_is_calculated_by_a_spreadsheet(text):
     shown = cell(text)

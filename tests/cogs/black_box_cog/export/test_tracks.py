@@ -9,7 +9,7 @@ import pytest
 from black_box_cog.export.gpx import gpx_lines
 from black_box_cog.export.kml import kml_lines
 from black_box_cog.export.track import Place, Track, TrackPoint, segments_of, utc_text
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 KML = "{http://www.opengis.net/kml/2.2}"
@@ -55,6 +55,7 @@ def close(found, meant, within):
     return abs(found - meant) <= within + 1e-12 * abs(meant)
 
 
+@settings(deadline=None)
 @given(TRACKS)
 def test_gpxpy_reads_the_gpx(track):
     document = gpxpy.parse("".join(gpx_lines(track)).encode())
@@ -88,6 +89,7 @@ def test_gpxpy_reads_the_gpx(track):
     ]
 
 
+@settings(deadline=None)
 @given(TRACKS)
 def test_the_kml_has_the_line_and_the_times(track):
     root = ElementTree.fromstring("".join(kml_lines(track)).encode())

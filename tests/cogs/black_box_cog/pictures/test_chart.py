@@ -5,7 +5,7 @@ import math
 import pytest
 from black_box_cog.pictures.chart import Curve, Panel, broken, drawable, thinned, usual_gap_s
 from black_box_cog.pictures.timeline import limits, time_text
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 VALUES = st.lists(st.floats(allow_infinity=True, allow_nan=True), max_size=200)
@@ -31,6 +31,7 @@ def test_what_no_axis_can_show_is_left_open():
     assert limits(Panel("", "", [curve]), False)[1] < 3
 
 
+@settings(deadline=None)
 @given(VALUES, st.integers(10, 50))
 def test_thinning_keeps_order_peaks_and_silences(values, most):
     times_s = [float(at) for at in range(len(values))]
@@ -44,6 +45,7 @@ def test_thinning_keeps_order_peaks_and_silences(values, most):
     assert len(found) <= max(most, 1.5 * most + 3)
 
 
+@settings(deadline=None)
 @given(st.lists(st.floats(-1e15, 1e15), min_size=1, max_size=20))
 def test_an_axis_shows_every_value(values):
     panel = Panel("", "", [Curve("x", list(range(len(values))), values, "blue")])

@@ -13,14 +13,17 @@ from black_box_cog.report.findings import findings_of
 from black_box_cog.report.folder import write_report
 from black_box_cog.report.html_text import markup, tag
 from black_box_cog.report.images import image_sets
+from black_box_cog.report.page import page_of
 from black_box_cog.report.verdict import verdict_of
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from tests.cogs.black_box_cog.logbook import EVIL, eventful, quiet, write_flight
+from tests.cogs.black_box_cog.logbook import EVIL, eventful, gains, quiet, write_flight
+from tests.up.flight_log.flights import GROUND, PIDTuningsCommand
 from up.cli.cli_error import CliError
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.mcap_format import FlightLogError
 
 ALLOWED = set(
     re.findall(
@@ -134,7 +137,7 @@ def test_what_it_tells(report):
         "Events",
         "flight mode FBW",
         "disarmed",
-        "Gains that flew",
+        "Gains loop axis P I D rate ailerons 2 0 0.1",
         "rate ailerons p 2 3",
         "config/config.yml",
         "# by hand log level: info",
@@ -233,6 +236,7 @@ def test_the_verdict(tmp_path):
     )
 
 
+@settings(deadline=None)
 @given(st.text())
 def test_any_text_is_text(text):
     page = Page(tag("p", text, class_=text))
@@ -240,3 +244,33 @@ def test_any_text_is_text(text):
     shown = "".join(page.words)
     assert shown.isprintable() and (shown == text or not text.isprintable())
     assert "<" not in markup(text)
+
+
+def test_gains_that_were_only_asked_for(tmp_path):
+    def fill(maker):
+        maker.put(1.0, PIDTuningsCommand(pids=gains(2.0).data), GROUND)
+        maker.put(3.0, PIDTuningsCommand(pids=gains(2.5).data), GROUND)
+
+    page, _, _ = report_of(tmp_path, fill)
+    assert "0:02.0 asked for by mission_control" in page.text
+    assert "rate ailerons p 2 2.5" in page.text
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.data())
+def test_a_damaged_log_has_a_page_or_a_sentence(tmp_path_factory, data):
+    """A byte of a real log is another one, or its end is missing."""
+    folder = tmp_path_factory.mktemp("damaged")
+    path = write_flight(folder, 1, eventful)
+    content = bytearray(path.read_bytes())
+    for _ in range(data.draw(st.integers(1, 5))):
+        at = data.draw(st.integers(0, len(content) - 1))
+        content[at] = data.draw(st.integers(0, 255))
+    path.write_bytes(content[: data.draw(st.integers(0, len(content)))])
+    try:
+        findings = findings_of(FlightLog.read([path]), path.stem)
+        page = Page(page_of(findings, {}))
+    except FlightLogError as error:
+        assert path.name in str(error)
+    else:
+        assert not page.wrong
