@@ -12,6 +12,8 @@ import { until } from "./support/wait.mjs";
 
 /** What wanders and jitters in the phone's GPS, metres. */
 const GPS_M = 9;
+/** What its barometer errs, metres. */
+const BAROMETER_M = 2;
 /** What the firmware makes of its IMU in turbulence, degrees. */
 const ESTIMATE_DEG = 4;
 /** A location is called old after this time, and what is live has come on the way since. */
@@ -36,7 +38,9 @@ test("the aircraft moves on the map where it truly flies", async (t) => {
   const recorded = await record(ground.page, {
     latitude: { selector: "#panel-map", attribute: "data-latitude" },
     longitude: { selector: "#panel-map", attribute: "data-longitude" },
+    altitude: { selector: '[data-key="altitude"]' },
   });
+  const track_px = await trackLength();
   const points = await until(async () => {
     const found = places(await recorded.read());
     const isFar = found.length > 4 && distance_m(found[0], found[found.length - 1]) > 60;
@@ -54,6 +58,13 @@ test("the aircraft moves on the map where it truly flies", async (t) => {
     assert.ok(near.off_m < GPS_M, `shown ${near.off_m.toFixed(1)} m off: ${JSON.stringify(point)}`);
     latest.push(near.late_s);
   }
+  const altitudes = series(await recorded.read(), "altitude");
+  for (const { unix_s, value } of altitudes.slice(1)) {
+    const off = between(truth, unix_s - LOCATION_S, unix_s + 0.1).map((row) => Math.abs(row.altitude_m - value));
+    assert.ok(Math.min(...off) < BAROMETER_M, `altitude ${value}: ${Math.min(...off)} m off`);
+  }
+  assert.ok(altitudes.length > 3);
+  assert.ok((await trackLength()) > track_px + 5, "the track grows");
   t.diagnostic(`${points.length} places, at most ${Math.max(...latest).toFixed(2)} s old`);
 });
 
@@ -104,6 +115,13 @@ function places(records) {
     }
   }
   return found.filter(({ latitude, longitude }) => latitude && longitude);
+}
+
+/** How long the line of the track is on the screen, px. */
+async function trackLength() {
+  return ground.page.evaluate(() =>
+    [...document.querySelectorAll("#panel-map path.track")].reduce((sum, path) => sum + path.getTotalLength(), 0),
+  );
 }
 
 /** By how much the horizon is turned on the screen: positive where the right wing is low. */
