@@ -110,6 +110,18 @@ class GroundLink:
         """Leave the seat free."""
         return self.status.seat is Seat.COMMAND and self.send(control_line.SEAT_RELEASE)
 
+    def reconnect(self, seat: Seat) -> None:
+        """Say hello anew for another seat: an aircraft's own listener gives it only so."""
+        self._wanted = seat
+        if seat is Seat.COMMAND:
+            self._tokens.hold()
+        else:
+            self._token = None
+            self._tokens.forget()
+        self._backoff.reset()
+        if self._connection is not None:
+            self._connection.give_up("another seat is asked for")
+
     def measure(self) -> None:
         """Look at the link's own delay and drops."""
         if self._connection is not None and self.status.is_open:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from up_ground.ground_link import GroundLink
 from up_ground.seat_wait import Standing, standing
+from up_ground.settings import Seat
+
+HELLO_AFTER = 5
+"""Requests between two hellos to an aircraft's own listener, which tells not who has the seat."""
 
 
 class SeatAtProxy:
@@ -12,6 +16,7 @@ class SeatAtProxy:
     def __init__(self, link: GroundLink, is_direct: bool) -> None:
         self._link = link
         self._is_direct = is_direct
+        self._unheard = 0
 
     @property
     def standing(self) -> Standing:
@@ -30,7 +35,15 @@ class SeatAtProxy:
         return asked
 
     def request(self) -> None:
-        """Ask for it."""
+        """Ask for it; whoever knows no such request is asked by a new hello."""
+        if self.standing is not Standing.LATER:
+            self._unheard = 0
+        elif self._unheard % HELLO_AFTER == 1:
+            self._unheard += 1
+            self._link.reconnect(Seat.COMMAND)
+            return
+        else:
+            self._unheard += 1
         self._link.request_seat()
 
     def give(self, to: int) -> None:
@@ -39,4 +52,9 @@ class SeatAtProxy:
 
     def release(self) -> None:
         """Leave it free."""
-        self._link.release_seat()
+        self._unheard = 0
+        status = self._link.status
+        if status.seat is Seat.COMMAND and not status.is_holder_known and not self._is_direct:
+            self._link.reconnect(Seat.LISTEN)
+        else:
+            self._link.release_seat()
