@@ -5,9 +5,12 @@ import { after, before, test } from "node:test";
 import { startBrowser } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { Pilot } from "./support/pilot.mjs";
+import { record } from "./support/recorder.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 import { until } from "./support/wait.mjs";
 
+/** How long a press must last, less what a frame of the screen takes. */
+const HELD_MS = 1450;
 let showcase;
 let browser;
 let ground;
@@ -74,7 +77,14 @@ test("what no aircraft could do is not sent", async () => {
 });
 
 test("a disarm in flight is refused by the aircraft, and the page says why", async () => {
+  const recorded = await record(ground.page, {
+    press: { selector: "#disarm-button", attribute: "data-press" },
+  });
   const answer = await ground.answerTo(() => ground.hold("#disarm-button"));
+  const presses = await recorded.read();
+  const done = presses.findIndex(({ value }) => value === "done");
+  assert.equal(presses[done - 1].value, "pressed");
+  assert.ok(presses[done].unix_ms - presses[done - 1].unix_ms > HELD_MS, "it is held");
   assert.equal(answer.outcome, "nack");
   assert.equal(answer.code, "refused");
   assert.match(answer.reason, /throttle/);
@@ -86,7 +96,7 @@ test("a press that does not last does nothing", async () => {
   const before = await answers();
   const hand = ground.mouse("#disarm-button");
   await hand.down();
-  await ground.until(() => document.querySelector("#disarm-button").dataset.press === "pressed", "press");
+  await ground.until(() => Number(document.querySelector("#disarm-button").dataset.progress) > 0.3, "a press");
   await hand.up();
   assert.match(await ground.text("#arming-note"), /let go too early/);
   assert.equal(await answers(), before);
