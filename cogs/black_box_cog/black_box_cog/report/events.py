@@ -76,7 +76,7 @@ def _told(log: FlightLog) -> Iterator[Event]:
         ),
     }
     known = [topic for topic in (*takers, *_TEXT_FIELDS) if topic in log.topics]
-    before: tuple[str, str] | None = None
+    states: dict[str, bool] = {}
     for message in log.messages(*known) if known else ():
         if message.topic in _TEXT_FIELDS:
             text = _word(message.data.get(_TEXT_FIELDS[message.topic]))
@@ -84,10 +84,18 @@ def _told(log: FlightLog) -> Iterator[Event]:
             yield Event(message.time_s, f"{who}: {text}")
             continue
         told = takers[message.topic](message.data)
-        # What is said again and again (panic, a link that stays) happened once.
-        if told is not None and told != before:
-            before = told
+        if told is not None and _is_news(message.topic, message.data, states):
             yield Event(message.time_s, *told)
+
+
+def _is_news(topic: str, data: Mapping[str, Any], states: dict[str, bool]) -> bool:
+    """Return whether a state is another one now; at first there is no link and no panic."""
+    key = {"up.link.state": "connected", "up.panic": "panic"}.get(topic)
+    if key is None:
+        return True
+    name, is_on = f"{topic} {data.get('link')}", data.get(key) is True
+    was_on, states[name] = states.get(name, False), is_on
+    return is_on != was_on
 
 
 def _link(data: Mapping[str, Any]) -> tuple[str, str] | None:

@@ -153,7 +153,7 @@ def _bands(log: FlightLog, states: list[tuple[float, str]]) -> Iterator[Band]:
 def _silences(log: FlightLog) -> dict[str, Series]:
     """Return how long the silence was in which each moment lies: of board, phone and ground."""
     found = {}
-    positions = _first_link(log, LOCATION)
+    positions = first_link(log, LOCATION)
     phone = "phone" if positions in ("", "android") else f"positions ({positions})"
     for name, topics in (("board", BOARD_TOPICS), (phone, PHONE_TOPICS)):
         times_s = sorted(
@@ -167,7 +167,8 @@ def _silences(log: FlightLog) -> dict[str, Series]:
     return found
 
 
-def _first_link(log: FlightLog, topic: str) -> str:
+def first_link(log: FlightLog, topic: str) -> str:
+    """Return the link that the first message of a topic came from; empty: there is none."""
     return next((link_and_role(data.get(KEY))[0] for _, data in _told(log, topic)), "")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
+from black_box_cog.report.evidence import LOCATION, first_link
 from black_box_cog.report.findings import Findings
 from black_box_cog.report.gains import GainSet, Key, asked_sets, changes, gain_sets
 from black_box_cog.report.ground_track import place_error_m
@@ -77,15 +78,17 @@ def truth(findings: Findings) -> Markup | None:
     """Return how far what was measured was from the truth, in figures."""
     evidence = findings.evidence
     rows = []
+    # Where nobody measured a position the log has the true one, and says so.
+    has_source = first_link(findings.log, LOCATION) != "simulator"
     for name, series, true, unit in (
         ("roll", evidence.attitude["roll"], evidence.truth["roll_deg"], "deg"),
         ("pitch", evidence.attitude["pitch"], evidence.truth["pitch_deg"], "deg"),
         ("altitude", evidence.altitude, evidence.truth["altitude_m"], "m"),
     ):
         _, found = error_of(series, true, is_angle=unit == "deg")
-        if found is not None:
+        if found is not None and (has_source or unit == "deg"):
             rows.append([name, f"{found.rms:.2f} {unit}", f"{found.greatest:.2f} {unit}"])
-    place = place_error_m(evidence).values
+    place = place_error_m(evidence).values if has_source else []
     if place:
         rms = (sum(value * value for value in place) / len(place)) ** 0.5
         rows.append(["position", f"{rms:.1f} m", f"{max(place):.1f} m"])
@@ -126,7 +129,7 @@ def record(findings: Findings) -> Markup:
     log = findings.log
     seconds = max(log.length_s, 1e-9)
     facts = [
-        [f"{record} {key}", value]
+        [f"{record} {key}", value.strip()]
         for record, values in log.metadata.items()
         for key, value in values.items()
     ]
