@@ -81,7 +81,7 @@ def _track(findings: Findings, images: Mapping[str, ImageSet]) -> Markup | None:
     image = images.get("track")
     drawn = svg_track(findings.track) if image is None else _image(image, "the track from above")
     note = "Metres from the home, which is the first position."
-    if findings.track.wind is not None:
+    if findings.track.wind is not None and image is not None:
         note += " The wind is the simulator's."
     figure = tag("figure", drawn, tag("figcaption", note))
     return _section("Track", tag("div", figure, modes(findings), class_="beside"))

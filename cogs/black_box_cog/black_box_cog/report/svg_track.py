@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from black_box_cog.pictures.track_picture import Path, TrackView
 from black_box_cog.report.html_text import Markup, join, tag
 
-_SIZE, _EDGE, _MOST_LINES = 640.0, 46.0, 8
+_SIZE, _EDGE, _MOST_LINES = 640.0, 60.0, 8
 _MOST_POINTS = 3000
 _LEAST_M = 40.0
 _STEPS_M = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000, 20_000, 50_000)
