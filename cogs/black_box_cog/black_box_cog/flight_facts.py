@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 from up.version import VERSION
@@ -59,11 +60,22 @@ def version_of(package: str) -> str:
         return ""
     # What is installed editable has its metadata elsewhere on the path.
     for place in (Path(origin).resolve().parent.parent, *map(Path, sys.path)):
-        for pattern, name in (("*.dist-info", "METADATA"), ("*.egg-info", "PKG-INFO")):
-            for folder in place.glob(pattern):
-                if package in _text(folder / "top_level.txt").split():
-                    return _field(_text(folder / name), "Version")
+        version = _versions_in(place).get(package)
+        if version is not None:
+            return version
     return ""
+
+
+@cache
+def _versions_in(place: Path) -> dict[str, str]:
+    """Return the versions of the packages whose metadata lie in a folder; read once."""
+    found: dict[str, str] = {}
+    for pattern, name in (("*.egg-info", "PKG-INFO"), ("*.dist-info", "METADATA")):
+        for folder in place.glob(pattern):
+            packages = _text(folder / "top_level.txt").split()
+            if packages:
+                found |= dict.fromkeys(packages, _field(_text(folder / name), "Version"))
+    return found
 
 
 def _field(text: str, name: str) -> str:

@@ -3,7 +3,6 @@
 import threading
 
 import pytest
-from black_box_cog import disk
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.flight_file import flight_files
@@ -105,7 +104,7 @@ def test_a_flight_from_the_start_to_the_stop(tmp_path):
 
 
 def test_no_call_to_the_disk_is_made_on_the_reactors_thread(tmp_path, monkeypatch):
-    monkeypatch.setattr(disk, "Disk", TestedDisk)
+    monkeypatch.setattr(black_box, "Disk", TestedDisk)
 
     async def fly():
         system = System(tmp_path)
@@ -333,7 +332,7 @@ def test_a_disk_that_hangs_keeps_neither_reactor_nor_stop(tmp_path, monkeypatch)
             hanging.set()
             release.wait(30)
 
-    monkeypatch.setattr(disk, "Disk", HangingDisk)
+    monkeypatch.setattr(black_box, "Disk", HangingDisk)
 
     async def fly():
         system = System(tmp_path)

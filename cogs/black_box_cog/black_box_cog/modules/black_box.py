@@ -6,23 +6,23 @@ import sys
 import time
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.config import BLACK_BOX, MEGABYTE
+from black_box_cog.disk import Disk
+from black_box_cog.flight_facts import FlightFacts
+from black_box_cog.flight_folder import FlightFolder, folder_of
 from black_box_cog.intake import Intake
 from black_box_cog.log_lines import LogLines
 from black_box_cog.record_policy import RecordPolicy
+from black_box_cog.recorder import Recorder
 from black_box_cog.recorder_status import RecorderStatus
 from up.base_thread_module import BaseThreadModule
 from up.commands.refusal import CommandRefusedError
 from up.commands.telemetry_commands import TelemetryCommand
 from up.registrations import note_undo
-
-if TYPE_CHECKING:
-    from black_box_cog.flight_facts import FlightFacts
-    from black_box_cog.recorder import Recorder
 
 SOURCE_S = 10.0
 """The recorder asks for telemetry itself for so long after a word of the Arduino or the phone."""
@@ -97,11 +97,7 @@ class BlackBox(BaseThreadModule):
             self.logger.failure("{name} does not record any more", name=self.class_name)
 
     def _make_recorder(self) -> Recorder:
-        """Return the recorder; what only it needs is imported on its thread, after the start."""
-        from black_box_cog.disk import Disk
-        from black_box_cog.flight_folder import FlightFolder, folder_of
-        from black_box_cog.recorder import Recorder
-
+        """Return the recorder, made on the thread that it lives on."""
         config = self.config
         disk = Disk()
         folder = FlightFolder(
@@ -129,8 +125,6 @@ class BlackBox(BaseThreadModule):
             raise CommandRefusedError(f"the flight is not recorded: {problem}")
 
     def _facts(self) -> FlightFacts:
-        from black_box_cog.flight_facts import FlightFacts
-
         context = self.context
         modules = {type(module).__module__.partition(".")[0] for module in self.up.modules}
         return FlightFacts(
