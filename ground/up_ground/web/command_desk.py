@@ -69,6 +69,7 @@ class CommandDesk:
         name = message.text("name", 128)
         data = message.object("data")
         beacon = message.optional_whole("beacon")
+        is_forced = message.fields.get("force") is True
         content = json.dumps([self._name, name, data], sort_keys=True)
         known = page.asks.get(number)
         if known is not None:
@@ -96,7 +97,7 @@ class CommandDesk:
             if page.asks is asks:
                 page.tell(ask.answer)
 
-        self._carry_out(page, name, data, beacon, tell)
+        self._carry_out(page, name, data, beacon, is_forced, tell)
 
     def on_message(self, message: GeneralMessage) -> None:
         """Take what the aircraft says besides telemetry."""
@@ -140,10 +141,11 @@ class CommandDesk:
         name: str,
         data: dict[str, Any],
         beacon: int | None,
+        is_forced: bool,
         tell: Callable[[Answer], object],
     ) -> None:
         role = self._telemetry.text("ground", "role")
-        checked = self._checks.check(name, data, beacon, role)
+        checked = self._checks.check(name, data, beacon, role, is_forced)
         refused = checked if isinstance(checked, Answer) else self._refusal(page, checked)
         if refused is not None:
             tell(refused)

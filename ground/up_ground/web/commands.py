@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +11,7 @@ from up.commands.roles import Role
 from up_ground.catalogue import Catalogue, fault_of, role_of
 from up_ground.web.answers import Answer
 
+_NAME = re.compile(r"[A-Za-z0-9_.-]{1,128}", re.ASCII)
 _ROLES = {role.value: role for role in (Role.OBSERVER, Role.OPERATOR, Role.PILOT, Role.ADMIN)}
 
 
@@ -27,14 +29,23 @@ class Checks:
         self._catalogue = catalogue
 
     def check(
-        self, name: str, data: dict[str, Any], beacon: int | None, role: str | None
+        self,
+        name: str,
+        data: dict[str, Any],
+        beacon: int | None,
+        role: str | None,
+        is_forced: bool = False,
     ) -> Checked | Answer:
         """Return what to know about a Command, or why it is not sent.
 
-        ``role`` is what the aircraft's link permits; None: not known, the aircraft decides.
+        ``role`` is what the aircraft's link permits; None: not known, the aircraft decides. A name
+        that is not known here, which an aircraft may have all the same, is only sent when
+        ``is_forced``.
         """
         cls = self._catalogue.get(name)
         if cls is None:
+            if is_forced and _NAME.fullmatch(name):
+                return Checked(needs_control=True)
             near = self._catalogue.suggestions(name)
             more = f"; did you mean {' or '.join(near)}?" if near else ""
             return Answer("refused", "unknown", f"no Command is called {name[:60]}{more}")

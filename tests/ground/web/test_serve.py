@@ -120,9 +120,15 @@ def test_a_refusal_of_the_aircraft_and_one_of_the_ground(proxy, server):
             answer = await page.command(name, data)
             assert (answer["outcome"], answer["code"]) == ("refused", code), name
 
+        answer = await page.command("my.own", {"x": 1}, force=True)
+        assert answer["outcome"] == "ack"
+        answer = await page.command("up.system.stop", {}, force=True)
+        assert (answer["outcome"], answer["code"]) == ("refused", "forbidden")
+
     with Aircraft(proxy.airborne_port, answers={MODE: refuse}) as aircraft:
         with_pages(server, fly, "pilot")
-        assert {each["name"] for each in aircraft.received} <= {MODE, "arduino.pids.tunings"}
+        names = {each["name"] for each in aircraft.received}
+        assert names <= {MODE, "my.own", "arduino.pids.tunings"}
 
 
 def test_what_the_links_role_does_not_allow_is_refused_here(proxy, server):
