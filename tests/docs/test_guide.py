@@ -8,17 +8,24 @@ import re
 import shlex
 import signal
 import subprocess
+import sys
 import time
+import urllib.request
 from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
 from tests.docs.flying import LIMIT_S, copy_of_the_tree, files_of, flying, lines_of
+from tests.support.tools import need_tool, unavailable
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
+from up.flight_log.flight_log import FlightLog
 
 PAGE = "guide.md"
 FILES = files_of(PAGE)
+TEXT = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
+PROXY = "$(pgrep -f 'up_proxy.main --config .*run/showcase')"
+ADDRESS = r"http://127\.0\.0\.1:\d+/"
 FBW, OUTPUT = (
     "board: FBW, the Arduino holds the attitude",
     "board: OUTPUT, Raspilot moves the servos",
@@ -32,6 +39,37 @@ def flight(tmp_path_factory):
         yield flight
 
 
+def test_the_steps_in_the_page(flight):
+    node = need_tool("node", "nodejs")
+    need_tool("npm")
+    need_tool("chromium")
+    modules = [REPOSITORY / "tools" / "npm_modules", REPOSITORY / "tests" / "browser"]
+    installed = subprocess.run(modules, capture_output=True, text=True)
+    if installed.returncode != 0:
+        unavailable(installed.stderr.strip())
+    # Of all proxies on this machine only this flight's.
+    proxy = _child(flight.process.pid, "up_proxy.main")
+    words = Path(f"/proc/{proxy}/cmdline").read_text().replace("\0", " ")
+    assert lines_of(PAGE, "cut") == [f"kill -STOP {PROXY}"]
+    assert lines_of(PAGE, "mend") == [f"kill -CONT {PROXY}"]
+    assert re.search(re.search(r"'(.*)'", PROXY)[1], words), words
+    address = re.search(ADDRESS, flight.said.read_text())[0]
+    steps = [node, Path(__file__).with_name("guide_page.mjs"), address, str(proxy)]
+    done = subprocess.run(
+        steps, env={**os.environ, "UP_PYTHON": sys.executable}, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    written = re.search(r"Write `([^`]+)` under \*Mark in the flight log\*", TEXT)[1]
+    # The mark that the cut link held back was refused.
+    flight.wait_for(lambda: _marks(flight) == [written])
+
+
+def _marks(flight):
+    """Return the marks of the newest flight, that one that is still recorded."""
+    parts = sorted((flight.tree / "run" / "showcase" / "flights").glob("*.mcap"))
+    return [each.data["text"] for each in FlightLog.read(parts).messages("black_box.mark")]
+
+
 @pytest.mark.parametrize("line", [line for line in lines_of(PAGE, "flying") if line[:2] == "up"])
 def test_a_command_of_the_flying_part(flight, line):
     done = flight.run(line)
@@ -42,8 +80,7 @@ def test_a_command_of_the_flying_part(flight, line):
 
 def test_the_module_is_shorter_than_15_lines_and_its_value_is_in_telemetry(flight):
     assert len(FILES["modules/bank_module.py"].splitlines()) < 15
-    text = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
-    done = flight.run(re.search(r"up-ground watch --json .*", text)[0])
+    done = flight.run(re.search(r"up-ground watch --json .*", TEXT)[0])
     assert json.loads(done.stdout.removeprefix('"bank": '))["steepest"] > 0, done.stderr
 
 
@@ -63,13 +100,13 @@ def test_a_remark_that_is_too_long_is_refused_in_words(flight):
 
 def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
     make_run = "make run CONTROLLER=raspberry"
-    text = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
-    assert all(f"`{words}`" in text for words in (make_run, FBW, OUTPUT))
+    assert all(f"`{words}`" in TEXT for words in (make_run, FBW, OUTPUT))
     with flying(tmp_path / "flight", {}, make_run) as flight:
         os.kill(_child(flight.process.pid, "up_simulator"), signal.SIGKILL)
         assert flight.process.wait(LIMIT_S) == 1
         said = flight.said.read_text()
         assert "aircraft ended by itself with signal 9; its log " in said
+        _look_at_the_flight(flight, said)
         proxy, simulator, daemon, _watch = lines_of(PAGE, "by hand")
         general, orientation = re.findall(
             r"port: (\d+)", (flight.tree / "run/showcase/config/android.yml").read_text()
@@ -97,6 +134,24 @@ def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
             _wait_for(FBW, board_said)
             start(daemon, "aircraft 2")
             _wait_for(OUTPUT, board_said)
+
+
+def _look_at_the_flight(flight, said):
+    """Run what the guide says of a flight that has ended."""
+    for line in lines_of(PAGE, "after"):
+        done = flight.run(line)
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert "default" in done.stdout or "report.html" in done.stdout
+    assert (flight.tree / "my_flight" / "report.html").is_file()
+    (line,) = lines_of(PAGE, "replay")
+    # The last lines of make run say the same of this flight.
+    assert line in said and lines_of(PAGE, "after")[-1].partition(" -o")[0] in said
+    with ExitStack() as stack:
+        words = flight.tree / "replay said"
+        _started(stack, f"{line} --listen 127.0.0.1:0", flight.tree, flight.environ, words)
+        _wait_for("Ctrl-C ends it", words)
+        with urllib.request.urlopen(re.search(ADDRESS, words.read_text())[0]) as page:
+            assert b"<title>Up ground station</title>" in page.read()
 
 
 def _child(parent: int, name: str) -> int:

@@ -1,0 +1,92 @@
+// The guide's steps in the page, with a real browser: node guide_page.mjs ADDRESS PROXY
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
+import { LAPTOP, startBrowser } from "../browser/support/browser.mjs";
+import { GroundPage } from "../browser/support/ground_page.mjs";
+
+const GUIDE = readFileSync(join(import.meta.dirname, "../../docs/guide.md"), "utf8");
+const PAGE = GUIDE.slice(GUIDE.indexOf("<!-- steps: page -->"), GUIDE.indexOf("\n## 3"));
+const ROLL_P = '#gains input[name="ratePIDs.ailerons.p"]';
+const MARK = /Write `([^`]+)` under \*Mark in the flight log\*/.exec(PAGE)[1];
+const [address, proxy] = process.argv.slice(2);
+let place = 0;
+
+/** Press the button that the guide names next. */
+async function press(name) {
+  const found = PAGE.indexOf(`**${name}**`, place);
+  assert.notEqual(found, -1, `the guide does not say **${name}** there`);
+  place = found + name.length;
+  await ground.page.getByRole("button", { name, exact: true }).click();
+}
+
+/** Wait until the page says what the guide quotes, whatever its numbers are. */
+async function says(selector, quoted) {
+  assert.ok(PAGE.includes(`\`${quoted}\``), `the guide does not quote ${quoted}`);
+  const pattern = quoted.replace(/[.?*+^$()[\]{}|\\]/g, "\\$&").replace(/\d+(\\\.\d+)?/g, "[\\d.]+");
+  await ground.until(
+    ([s, words]) => [...document.querySelectorAll(s)].some((each) => new RegExp(words).test(each.textContent)),
+    `"${quoted}" in ${selector}`,
+    [selector, pattern],
+  );
+}
+
+async function carriedOut(action) {
+  const answer = await ground.answerTo(action);
+  assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+}
+
+const browser = await startBrowser();
+const ground = await (await GroundPage.open(browser, address, LAPTOP)).isLive();
+try {
+  await press("Ask for control");
+  await says("#control-holder", "You have control. All others watch.");
+  for (const mode of ["RATE", "FBW"]) {
+    await ground.until((m) => !document.querySelector(`[data-mode="${m}"]`).disabled, "the mode", mode);
+    assert.ok(PAGE.includes(`**${mode}**, `), mode);
+    await ground.page.click(`[data-mode="${mode}"]`);
+    await carriedOut(() => press(`Fly ${mode}`));
+  }
+  assert.match(PAGE, /`Flight mode RATE: carried out after 12 ms`/);
+  assert.match(await ground.text("#last-answer"), /^Flight mode FBW: carried out after \d+ ms$/);
+
+  await ground.until((s) => document.querySelector(s)?.value, "the gains that fly", ROLL_P);
+  const [, wanted] = /write ([\d.]+) over the P of \*Rate\*, \*roll\*/.exec(PAGE);
+  await ground.page.fill(ROLL_P, wanted);
+  const quoted = /`(rate roll P [^`]+)`/.exec(PAGE)[1];
+  await ground.until((words) => document.querySelector("#gains-difference").textContent === words, quoted, quoted);
+  await press("Send gains");
+  await carriedOut(() => press("Send"));
+  await ground.until(() => !document.querySelector("#gains-undo").disabled, "the offer to undo");
+  await press("Undo");
+  await carriedOut(() => press("Send"));
+  assert.match(PAGE, /\*History\* has both/);
+  await ground.until(() => document.querySelectorAll("#panel-gains details li").length === 2, "both in the history");
+
+  await ground.page.getByLabel("Mark in the flight log").fill(MARK);
+  await carriedOut(() => press("Mark"));
+
+  process.kill(Number(proxy), "SIGSTOP");
+  try {
+    await says("#silence", "no news for 1.2 s");
+    await says("#alarms [role=alert]", "the aircraft is silent");
+    // Then nothing that is sent now can be fresh again.
+    await ground.until(() => parseFloat(/for ([\d.]+)/.exec(document.querySelector("#silence").textContent)[1]) > 2.5, "2.5 s");
+    place = PAGE.indexOf("no news for");
+    const late = await ground.answerTo(() => press("Mark now"));
+    assert.equal(late.outcome, "timeout", JSON.stringify(late));
+    assert.match(late.shown, /no answer .*nobody knows whether it was carried out/);
+  } finally {
+    process.kill(Number(proxy), "SIGCONT");
+  }
+  await ground.isLive();
+  await ground.untilHolder("you");
+  const told = () => [...document.querySelectorAll("#events li")].map((each) => each.textContent).join("\n");
+  await ground.until(`/telemetry comes again/.test((${told})())`, "it said");
+  await press("Leave control");
+  await ground.until(() => document.querySelector("#control-holder").dataset.holder === "nobody", "nobody");
+  ground.assertClean();
+} finally {
+  await browser.close();
+}
