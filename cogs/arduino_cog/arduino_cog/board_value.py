@@ -27,11 +27,18 @@ class BoardValue(Generic[T]):
 
     ``held`` is what the board said last, None while that is not known. ``decode`` raises
     ValueError for bytes that cannot be; ``what`` names the value in sentences. Failures are
-    CommandRefusedError, their texts are for the asker.
+    CommandRefusedError, their texts are for the asker. ``on_changed`` hears what the board holds,
+    the first time and whenever it is something else.
     """
 
     def __init__(
-        self, board: Board, ask: str, answer: str, decode: Callable[[bytes], T], what: str
+        self,
+        board: Board,
+        ask: str,
+        answer: str,
+        decode: Callable[[bytes], T],
+        what: str,
+        on_changed: Callable[[T], object],
     ) -> None:
         self.held: T | None = None
         self.is_setting = False
@@ -40,6 +47,8 @@ class BoardValue(Generic[T]):
         self._answer = answer
         self._decode = decode
         self._what = what
+        self._on_changed = on_changed
+        self._told: T | None = None
 
     def read(self) -> Deferred[T]:
         """Ask for the value; the result is what the board holds now."""
@@ -69,6 +78,9 @@ class BoardValue(Generic[T]):
             raise CommandRefusedError(
                 f"what the Arduino holds as {self._what} is not usable: {error}"
             ) from None
+        if self.held != self._told:
+            self._told = self.held
+            self._on_changed(self.held)
         return self.held
 
     def _compare(self, held: T, is_held: Callable[[T], bool]) -> None:

@@ -6,7 +6,7 @@ import pytest
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
 
 from tests.cogs.arduino_cog.board import FACTORY, PUSHED, Ground
-from up.commands.pid_tunings_commands import PIDTuningsCommand
+from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller import gains_keeper
 from up.flight_controller.gains import gain_set_to_data
@@ -63,6 +63,18 @@ def test_a_board_that_does_not_differ_is_left_alone(tuned):
     rig.alive(2)
     assert rig.sent("G") == [b""]
     assert rig.sent(PUSHED) == []
+
+
+def test_the_bus_hears_what_flies_at_first_and_when_it_changes(tuned):
+    rig = tuned()
+    told = []
+    rig.up.command_executor.register_command(PIDTuningsValuesCommand, told.append)
+    rig.connect()
+    rig.alive(2)
+    assert [each.data["ratePIDs"]["ailerons"]["p"] for each in told] == [FACTORY[0], 2.0]
+    rig.up.command_executor.execute_command(PIDTuningsCommand(request=True))
+    rig.alive(1)
+    assert len(told) == 2
 
 
 def test_a_board_whose_eeprom_holds_none_gets_them_stored(tuned):

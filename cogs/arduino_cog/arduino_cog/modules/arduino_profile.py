@@ -60,7 +60,7 @@ class ArduinoProfile(BaseModule):
 
     def _execute_initialization(self) -> None:
         self._wishes = dict(flat(plain_value(AIRFRAME.shape, self.config)))
-        self._board = BoardValue(self.arduino, "c", "C", read_profile, "profile")
+        self._board = BoardValue(self.arduino, "c", "C", read_profile, "profile", self._tell_bus)
         executor = self.up.command_executor
         executor.register_command(ArduinoProfileRequestCommand, self.on_request)
         if not self._wishes:
@@ -183,6 +183,10 @@ class ArduinoProfile(BaseModule):
         reason = failure.getErrorMessage()
         self._log_warning(f"profile: {reason}")
         self.up.vetoes.set(_VETO, f"the Arduino's profile is not as it says: {reason}")
+
+    def _tell_bus(self, held: Profile) -> None:
+        """Publish what flies, so that a flight's log has it."""
+        self.up.command_executor.execute_command(ArduinoProfileValuesCommand.of(held))
 
     def _send_values(self, held: Profile) -> None:
         assert self.mission_control is not None

@@ -64,7 +64,9 @@ class PIDTuningsProvider(BaseModule):
         self._load()
         self._is_thesis = not self.arduino.is_checked
         type_ = "T" if self._is_thesis else "G"
-        self._board = BoardValue(self.arduino, type_, type_, read_gains, "set of gains")
+        self._board = BoardValue(
+            self.arduino, type_, type_, read_gains, "set of gains", self._tell_bus
+        )
         self.arduino.add_board_listener(self.on_board_begun)
         executor = self.up.command_executor
         executor.register_command(PIDTuningsCommand, self.on_tunings)
@@ -105,9 +107,15 @@ class PIDTuningsProvider(BaseModule):
 
     def _send_values(self, held: GainSet) -> None:
         assert self.mission_control is not None
-        values = PIDTuningsValuesCommand.of(held.completed(self._saved))
-        if not self.mission_control.send_command(values):
+        if not self.mission_control.send_command(self._values_of(held)):
             raise CommandRefusedError("the ground station is not connected", Code.UNAVAILABLE)
+
+    def _tell_bus(self, held: GainSet) -> None:
+        """Publish what flies, so that a flight's log has it."""
+        self.up.command_executor.execute_command(self._values_of(held))
+
+    def _values_of(self, held: GainSet) -> PIDTuningsValuesCommand:
+        return PIDTuningsValuesCommand.of(held.completed(self._saved))
 
     def _reconcile(self) -> None:
         """Send pids.yml to the board, if that is needed and harms nothing."""
