@@ -12,6 +12,7 @@ from up_ground.ground_link import GroundLink
 from up_ground.seat_wait import Standing
 from up_ground.telemetry import Telemetry
 from up_ground.web.answers import Answer, Answers
+from up_ground.web.command_words import GAINS, in_words
 from up_ground.web.commands import Checked, Checks
 from up_ground.web.control import Control
 from up_ground.web.gains_history import GainsHistory
@@ -21,7 +22,6 @@ from up_ground.web.seat_at_proxy import SeatAtProxy
 
 ASKS_KEPT = 256
 UNANSWERED_LIMIT = 32
-GAINS = "arduino.pids.tunings"
 _VALUES = "arduino.pids.values"
 _PROFILE = "arduino.profile.values"
 
@@ -30,7 +30,7 @@ class CommandDesk:
     """Sends what may be sent now or says why it is not; nothing waits for a better moment.
 
     ``tell_all`` says something to the pages that watch the aircraft; ``report`` hears of every
-    outcome in words, with whether it was what was wanted.
+    outcome: its kind, its words, and whether it was what was wanted.
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class CommandDesk:
         telemetry: Telemetry,
         checks: Checks,
         tell_all: Callable[[dict[str, Any]], object],
-        report: Callable[[str, bool], object],
+        report: Callable[[str, str, bool], object],
     ) -> None:
         self.gains = GainsHistory()
         self.profile: dict[str, Any] | None = None
@@ -155,7 +155,8 @@ class CommandDesk:
         def on_answer(answer: Answer) -> None:
             if name == GAINS and data.get("request") is not True:
                 self._on_gains_answer(page, before, data.get("pids") or {}, answer)
-            self._report(_in_words(page, name, answer), answer.outcome == "ack")
+            kind, text = in_words(page.name, name, data, before, answer)
+            self._report(kind, text, answer.outcome == "ack")
             tell(answer)
 
         self._send(name, data, beacon, on_answer)
@@ -213,11 +214,3 @@ class CommandDesk:
 
     def _show_gains(self) -> None:
         self._tell_all(self.gains_message())
-
-
-def _in_words(page: Page, name: str, answer: Answer) -> str:
-    if answer.outcome == "ack":
-        return f"{page.name}: {name} carried out"
-    if answer.outcome == "nack":
-        return f"{page.name}: {name} refused: {answer.reason} ({answer.code})"
-    return f"{page.name}: {name}: {answer.reason}"

@@ -238,10 +238,10 @@ class Station:
         if self._notes.take():
             self.judge.note("command", INFO, safe_text(text, 300), self._reactor.seconds())
 
-    def _on_outcome(self, text: str, is_good: bool) -> None:
+    def _on_outcome(self, kind: str, text: str, is_good: bool) -> None:
         if self._notes.take():
             level = INFO if is_good else WARNING
-            self.judge.note("command", level, safe_text(text, 400), self._reactor.seconds())
+            self.judge.note(kind, level, safe_text(text, 400), self._reactor.seconds())
 
     def _show_status(self) -> None:
         self._audience.show_status(self.name)
