@@ -24,6 +24,17 @@ function listen() {
   };
 }
 
+/** One element of each of the parts that draw themselves. */
+const PARTS = [
+  "#horizon-ball",
+  '[data-key="altitude"]',
+  '[data-key="flight_mode"]',
+  "#panel-map[data-latitude]",
+  "#control-holder",
+  "#arm-button",
+  "#gains",
+  "#events",
+];
 const open = new Set();
 
 /** A user in front of the page. */
@@ -51,8 +62,10 @@ export class GroundPage {
     return new GroundPage(page);
   }
 
-  /** Wait until frames of an aircraft are shown. */
+  /** Wait until all parts of the page are there and show an aircraft. */
   async isLive() {
+    const isThere = (selectors) => selectors.every((each) => document.querySelector(each));
+    await this.until(isThere, "the parts of the page", PARTS);
     await this.until(() => document.documentElement.dataset.aircraftState === "live", "live");
     return this;
   }
