@@ -71,7 +71,7 @@ def describe(cls: type[BaseCommand]) -> Iterator[str]:
     elif role:
         role = f"{role} or more"
     yield f"{cls.NAME}   [{role or 'no ground may send it'}]"
-    yield f"    {_sentence(cls.__doc__)}"
+    yield f"    {about(cls)}"
     if cls.ALIASES:
         yield f"    also called {', '.join(cls.ALIASES)}"
     if cls.NEEDS_BEACON:
@@ -81,6 +81,11 @@ def describe(cls: type[BaseCommand]) -> Iterator[str]:
         optional = field.default is not dataclasses.MISSING
         mark = "?" if optional else ""
         yield f"      {wire_name(field)}{mark:1}  {constraint_of(field, hints).describe()}"
+
+
+def about(cls: type[BaseCommand]) -> str:
+    """Return what a Command is for, one sentence."""
+    return _sentence(cls.__doc__)
 
 
 def wire_name(field: dataclasses.Field[Any]) -> str:

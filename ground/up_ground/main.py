@@ -131,10 +131,12 @@ def serve(options: argparse.Namespace) -> int:
         page, chosen = PageOptions.of(options, os.environ), fleet_of(options)
     except ServeError as error:
         return _usage([printable(str(error))])
+    catalogue = Catalogue.installed()
     return run(
         lambda reactor: page.server(
             reactor,
-            lambda audience: make_stations(reactor, chosen, os.environ, audience),
+            lambda audience: make_stations(reactor, chosen, os.environ, audience, catalogue),
+            catalogue=catalogue,
             say=say,
             complain=complain,
         )

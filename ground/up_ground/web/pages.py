@@ -51,12 +51,14 @@ class Pages:
         access: Access,
         *,
         tiles: Mapping[str, Any] | None = None,
+        catalogue: Mapping[str, Any] | None = None,
         is_replay: bool = False,
     ) -> None:
         self.fleet: dict[str, WatchedAircraft] = {}
         self._clock = clock
         self._access = access
         self._tiles = tiles
+        self._catalogue = None if catalogue is None else message_bytes(catalogue)
         self._is_replay = is_replay
         self._visits: dict[PageConnection, _Visit] = {}
         self._pages: dict[int, Page] = {}
@@ -266,6 +268,8 @@ class Pages:
                 "is_replay": self._is_replay,
             }
         )
+        if self._catalogue is not None:
+            page.tell_bytes(self._catalogue)
         for aircraft in self.fleet.values():
             aircraft.on_back(page)
             self.show_status(aircraft.name)

@@ -107,10 +107,14 @@ def _tiles_of(source: str, environ: Mapping[str, str]) -> MakeTiles | None:
 
 
 def make_stations(
-    reactor: Any, chosen: Iterable[Settings], environ: Mapping[str, str], audience: Audience
+    reactor: Any,
+    chosen: Iterable[Settings],
+    environ: Mapping[str, str],
+    audience: Audience,
+    catalogue: Catalogue,
 ) -> Iterable[WatchedAircraft]:
     """Yield an aircraft for each of the settings."""
-    checks = Checks(Catalogue.installed())
+    checks = Checks(catalogue)
     for settings in chosen:
         tokens = TokenStore(state_folder(environ), settings)
         yield Station(reactor, settings.aircraft, settings, tokens, checks, audience)

@@ -8,8 +8,10 @@ from typing import Any
 
 from twisted.internet.error import CannotListenError
 
+from up_ground.catalogue import Catalogue
 from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
 from up_ground.web.access import Access
+from up_ground.web.catalogue_message import catalogue_message
 from up_ground.web.connections import Connections
 from up_ground.web.listen_address import ListenAddress, authority
 from up_ground.web.page_link import link_resource
@@ -37,6 +39,7 @@ class Server(Errand):
         complain: Say,
         tiles: Tiles | None = None,
         attribution: str = "",
+        catalogue: Catalogue | None = None,
         is_replay: bool = False,
         folder: Path = STATIC,
     ) -> None:
@@ -44,7 +47,9 @@ class Server(Errand):
         told = None
         if tiles is not None:
             told = {"url": "/tiles/{z}/{x}/{y}", "attribution": attribution}
-        self.pages = Pages(reactor, access, tiles=told, is_replay=is_replay)
+        # Where nothing can be commanded there is nothing to offer.
+        offered = None if catalogue is None else catalogue_message(catalogue)
+        self.pages = Pages(reactor, access, tiles=told, catalogue=offered, is_replay=is_replay)
         for aircraft in make_fleet(self.pages):
             self.pages.fleet[aircraft.name] = aircraft
         self._reactor = reactor

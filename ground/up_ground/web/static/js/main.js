@@ -27,6 +27,8 @@ const PARTS = [
   ["panel-gains", "./panels/gains.js"],
   ["panel-profile", "./panels/profile.js"],
   ["panel-events", "./panels/events.js"],
+  ["panel-any-command", "./panels/any_command.js"],
+  ["panel-telemetry", "./panels/telemetry_tree.js"],
 ];
 
 /** A part that fails is named and left out; the others go on. */

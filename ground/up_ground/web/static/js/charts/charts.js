@@ -1,6 +1,7 @@
 import { element } from "../panels/element.js";
 import { sayMissing, styleSheet } from "../panels/vendor.js";
 import { ChartClock } from "./chart_clock.js";
+import { ChosenChart } from "./chosen_chart.js";
 import { rollDemand_deg } from "./demand.js";
 import { History } from "./history.js";
 import { LineChart } from "./line_chart.js";
@@ -40,6 +41,7 @@ export function mount(place, store, connection) {
   const clock = new ChartClock();
   const now_s = () => clock.at(store.now_s, store.replay?.is_playing === false);
   let charts = [];
+  let chosen = null;
   let drawn_s = -Infinity;
   let aircraft = null;
   let lastReplay = null;
@@ -49,13 +51,19 @@ export function mount(place, store, connection) {
       const { default: UPlot } = await import("../../vendor/uplot/uPlot.esm.js");
       await styleSheet("vendor/uplot/uPlot.min.css");
       charts = CHARTS.map((each) => new LineChart(UPlot, each));
-      row.append(...charts.map((each) => each.element));
+      chosen = new ChosenChart(UPlot);
+      row.append(...charts.map((each) => each.element), chosen.element);
     } catch (error) {
       console.warn(error);
       notice.textContent = MISSING;
       notice.hidden = false;
       sayMissing(MISSING);
     }
+  }
+
+  function clear() {
+    history.clear();
+    chosen?.clear();
   }
 
   // The store has taken the frame before: it hears every message first.
@@ -65,7 +73,7 @@ export function mount(place, store, connection) {
     }
     if (message.aircraft !== aircraft) {
       aircraft = message.aircraft;
-      history.clear();
+      clear();
     }
     const age_s = store.age_s(null) ?? 0;
     const live = (reading, path) => (store.freshness(reading) === "live" ? store.number(path) : null);
@@ -76,12 +84,13 @@ export function mount(place, store, connection) {
       altitude: live("altitude", "altitude"),
       age: age_s * 1000,
     });
+    chosen?.take(store, now_s() - age_s);
   }
 
   function takeReplay(message) {
     const isJump = lastReplay !== null && Math.abs(message.time_s - lastReplay.time_s) > 3 * Math.max(1, message.speed);
     if (isJump) {
-      history.clear();
+      clear();
     }
     lastReplay = message;
   }
@@ -108,6 +117,7 @@ export function mount(place, store, connection) {
         first += chart.lines.length;
         charts[index]?.show([times_s, ...own]);
       });
+      chosen?.show(now_s());
     },
   };
 }

@@ -1,6 +1,6 @@
 import { element } from "../panels/element.js";
 import { setText } from "../readout.js";
-import { numberText } from "../state/format.js";
+import { numberText, plainNumber } from "../state/format.js";
 import { WINDOW_S } from "./history.js";
 
 const HEIGHT_PX = 104;
@@ -18,12 +18,14 @@ export class LineChart {
   #canvas = element("div.chart-canvas", { role: "img" });
   #now = [];
   #title;
+  #onTheme = () => this.#rebuild();
 
   /**
    * @param {Function} UPlot
-   * @param {{title: string, unit: string, decimals: number, leastSpan: number,
+   * @param {{title: string, unit: string, decimals: number|null, leastSpan: number|null,
    *   lines: {name: string, label: string, colour: string, dash?: number[]}[]}} options
-   *   leastSpan: the least that the vertical axis shows
+   *   decimals: null: as many as it has; leastSpan: the least that the vertical axis shows, null:
+   *   a fiftieth of the values
    */
   constructor(UPlot, { title, unit, decimals, leastSpan, lines }) {
     this.#UPlot = UPlot;
@@ -39,7 +41,13 @@ export class LineChart {
       head.append(now);
     }
     this.element = element("div.chart", {}, head, this.#canvas);
-    document.addEventListener("up-theme", () => this.#rebuild());
+    document.addEventListener("up-theme", this.#onTheme);
+  }
+
+  /** Draw no more. */
+  end() {
+    document.removeEventListener("up-theme", this.#onTheme);
+    this.#rebuild();
   }
 
   /** @param {(number|null)[][]} columns seconds before now, then the values of each line */
@@ -104,7 +112,11 @@ export class LineChart {
   }
 
   #text(value) {
-    return Number.isFinite(value) ? `${numberText(value, this.#decimals)}${this.#unit}` : "--";
+    if (!Number.isFinite(value)) {
+      return "--";
+    }
+    const words = this.#decimals === null ? plainNumber(value) : numberText(value, this.#decimals);
+    return `${words}${this.#unit}`;
   }
 
   #summary(values) {
@@ -120,15 +132,16 @@ export class LineChart {
 /**
  * @param {number|null} least
  * @param {number|null} most
- * @param {number} leastSpan
+ * @param {number|null} leastSpan null: a fiftieth of the values
  * @returns {[number, number]} what the axis shows: all values, and never a sliver
  */
 export function span(least, most, leastSpan) {
   if (least === null || most === null || !Number.isFinite(least) || !Number.isFinite(most)) {
-    return [-leastSpan / 2, leastSpan / 2];
+    return [-(leastSpan ?? 1) / 2, (leastSpan ?? 1) / 2];
   }
+  const narrowest = leastSpan ?? (Math.max(Math.abs(least), Math.abs(most)) / 50 || 1);
   const margin = (most - least) * 0.08;
-  const missing = Math.max(0, leastSpan - (most - least) - 2 * margin) / 2;
+  const missing = Math.max(0, narrowest - (most - least) - 2 * margin) / 2;
   return [least - margin - missing, most + margin + missing];
 }
 

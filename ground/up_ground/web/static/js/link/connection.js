@@ -111,14 +111,16 @@ export class Connection {
    * Send a Command to an aircraft; the promise never fails, its outcome says what happened.
    * @param {string} name of the Command
    * @param {object} data
-   * @param {string} aircraft
+   * @param {{aircraft?: string, isForced?: boolean}} [more] isForced: sent although the server does
+   *   not know the name
    * @returns {Promise<{outcome: string, code: ?string, reason: string, round_trip_ms: ?number,
    *   data: ?object}>}
    */
-  command(name, data, aircraft = this.aircraft) {
+  command(name, data, { aircraft = this.aircraft, isForced = false } = {}) {
     const { ask, answer } = this.#asks.add();
     const beacon = this.shownBeacon();
-    if (!this.send({ type: "command", ask, aircraft, name, data, beacon })) {
+    const force = isForced ? { force: true } : {};
+    if (!this.send({ type: "command", ask, aircraft, name, data, beacon, ...force })) {
       this.#asks.take({
         ask,
         outcome: "unsent",

@@ -24,11 +24,12 @@ export class Asker {
   /**
    * @param {string} name of the Command
    * @param {object} data
-   * @param {{note: HTMLElement, question?: object|null}} where note: says how it goes; question:
-   *   for dialog.js, null: nothing is asked
+   * @param {{note: HTMLElement, question?: object|null, isForced?: boolean}} where note: says how it
+   *   goes; question: for dialog.js, null: nothing is asked; isForced: a name that the server does
+   *   not know is sent all the same
    * @returns {Promise<object|null>} the answer; null: it was not sent
    */
-  async ask(name, data, { note, question = null }) {
+  async ask(name, data, { note, question = null, isForced = false }) {
     if (question !== null && !(await confirm(question))) {
       tell(note, "not sent: you said no", "plain");
       return null;
@@ -43,7 +44,7 @@ export class Asker {
     const words = commandWords(name, data);
     tell(note, "sent, waiting for the answer", "plain");
     tellLast(words, "sent, waiting for the answer", "plain");
-    const answer = await this.#connection.command(name, data);
+    const answer = await this.#connection.command(name, data, { isForced });
     tell(note, answerWords(answer), answerLook(answer));
     tellLast(words, answerWords(answer), answerLook(answer));
     return answer;

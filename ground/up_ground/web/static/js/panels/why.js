@@ -22,7 +22,7 @@ export function objection(store, connection, name, data = {}) {
     }
   }
   const role = store.status?.role ?? null;
-  if (!isOnlyRequest(name, data) && !roleAllows(role, name)) {
+  if (!isOnlyRequest(name, data) && !roleAllows(role, name, store.catalogue?.role(name))) {
     return `The aircraft's link has the role ${role}, which does not allow it (role in its mission_control.yml).`;
   }
   return "";

@@ -19,6 +19,17 @@ export function numberText(value, decimals = 0, { sign = false } = {}) {
 }
 
 /**
+ * @param {number} value of which nothing is known but itself
+ * @returns {string} with as many figures as mean something, 9 at most
+ */
+export function plainNumber(value) {
+  if (!Number.isFinite(value)) {
+    return UNKNOWN;
+  }
+  return String(Number.isSafeInteger(value) ? value : Number(value.toPrecision(9)));
+}
+
+/**
  * @param {number|null} age_s
  * @returns {string} as `0.03 s`, `12.4 s`, `3 min`, `2 h`
  */

@@ -48,8 +48,17 @@ export function texts(found) {
  * @returns {unknown} what lies there of its own, undefined where nothing does
  */
 export function at(tree, path) {
+  return atKeys(tree, path.split("."));
+}
+
+/**
+ * @param {unknown} tree
+ * @param {string[]} keys which may have dots in them
+ * @returns {unknown} as at()
+ */
+export function atKeys(tree, keys) {
   let found = tree;
-  for (const key of path.split(".")) {
+  for (const key of keys) {
     if (found === null || typeof found !== "object" || !Object.hasOwn(found, key)) {
       return undefined;
     }

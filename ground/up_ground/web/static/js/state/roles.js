@@ -12,13 +12,14 @@ const NEEDED = {
 /**
  * @param {string|null} role what the aircraft's link allows; null: unknown, the aircraft refuses
  * @param {string} name of the Command
+ * @param {string|null} [least] role as the server's catalogue has it; null: the table above decides
  * @returns {boolean} whether to offer it
  */
-export function roleAllows(role, name) {
+export function roleAllows(role, name, least = null) {
   if (role === null || !Object.hasOwn(RANK, role)) {
     return true;
   }
-  const needed = Object.hasOwn(NEEDED, name) ? NEEDED[name] : "operator";
+  const needed = least ?? (Object.hasOwn(NEEDED, name) ? NEEDED[name] : "operator");
   return RANK[role] >= RANK[needed];
 }
 

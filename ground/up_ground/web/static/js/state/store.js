@@ -1,5 +1,6 @@
 import { now_s, TIMERS } from "../link/clock.js";
 import { READINGS } from "./ages.js";
+import { Catalogue } from "./catalogue.js";
 import { EventList } from "./event_list.js";
 import * as judge from "./judge.js";
 import { Motion } from "./motion.js";
@@ -16,7 +17,7 @@ const JUMP_S = 1.5;
  *
  * Fields to read: `aircraft` (the name watched), `names` (all), `data` (the newest frame's tree,
  * not judged), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
- * (by name), `alarms` ([{kind, level, text}]), `gains`, `profile`, `replay`, `fault` (text),
+ * (by name), `catalogue` (the Commands that the server knows), `alarms` ([{kind, level, text}]), `gains`, `profile`, `replay`, `fault` (text),
  * `track` (points, version, startAltitude_m), `motion` (groundSpeed_m_s, climb_m_s), `events`
  * (list, the newest last), `eventsVersion`.
  */
@@ -32,6 +33,7 @@ export class Store extends NewestFrame {
   names = [];
   shownBeacon = null;
   statuses = new Map();
+  catalogue = new Catalogue();
   alarms = [];
   gains = null;
   profile = null;
@@ -120,7 +122,7 @@ export class Store extends NewestFrame {
       return false;
     }
     const isMine = this.status?.control?.holder === "you" || isOnlyRequest(name, data);
-    return isMine && roleAllows(judge.text(this.status?.role), name);
+    return isMine && roleAllows(judge.text(this.status?.role), name, this.catalogue.role(name));
   }
 
   /** @param {object} message of the server */
@@ -129,6 +131,8 @@ export class Store extends NewestFrame {
       this.statuses.set(message.aircraft, message);
     } else if (message.type === "replay") {
       this.#takeReplay(message);
+    } else if (message.type === "catalogue") {
+      this.catalogue = new Catalogue(message.commands);
     } else if (message.type === "fault") {
       this.fault = judge.text(message.text) ?? "";
     } else if (message.aircraft !== this.aircraft || this.aircraft === null) {

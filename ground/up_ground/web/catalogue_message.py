@@ -1,0 +1,58 @@
+"""What a page is told of the Commands: enough to offer a form for each of them."""
+
+from __future__ import annotations
+
+import dataclasses
+import typing
+from typing import Any
+
+from up.commands.command import BaseCommand, constraint_of
+from up_ground.catalogue import Catalogue, about, role_of, wire_name
+
+COMMANDS_LIMIT = 500
+LONGEST_TEXT = 400
+_TYPES = {
+    bool: "boolean",
+    int: "integer",
+    float: "number",
+    str: "text",
+    dict: "object",
+    list: "list",
+}
+
+
+def catalogue_message(catalogue: Catalogue) -> dict[str, Any]:
+    """Return the message ``catalogue``: every Command that some ground may send, by name."""
+    offered = catalogue.sendable()[:COMMANDS_LIMIT]
+    return {"type": "catalogue", "commands": [_command(cls) for cls in offered]}
+
+
+def _command(cls: type[BaseCommand]) -> dict[str, Any]:
+    hints = typing.get_type_hints(cls)
+    return {
+        "name": cls.NAME,
+        "aliases": list(cls.ALIASES),
+        # "depends": a field decides who may send it, the aircraft and the server look at it.
+        "role": role_of(cls),
+        "text": about(cls)[:LONGEST_TEXT],
+        "needs_beacon": cls.NEEDS_BEACON,
+        "fields": [_field(each, hints) for each in dataclasses.fields(cls)],
+    }
+
+
+def _field(field: dataclasses.Field[Any], hints: dict[str, Any]) -> dict[str, Any]:
+    constraint = constraint_of(field, hints)
+    missing = dataclasses.MISSING
+    choices = constraint.choices
+    return {
+        "name": wire_name(field),
+        "type": _TYPES[constraint.type_],
+        "unit": constraint.unit,
+        "minimum": constraint.minimum,
+        "maximum": constraint.maximum,
+        "choices": None if choices is None else list(choices),
+        "max_length": constraint.max_length,
+        "nullable": constraint.nullable,
+        "required": field.default is missing and field.default_factory is missing,
+        "text": constraint.describe()[:LONGEST_TEXT],
+    }

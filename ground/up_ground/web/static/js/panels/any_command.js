@@ -1,0 +1,175 @@
+import { setText } from "../readout.js";
+import { Asker } from "./asker.js";
+import { KnownFields, UnknownFields } from "./command_form.js";
+import { element } from "./element.js";
+import { nameProblem } from "./field_value.js";
+
+const LONGEST_SHOWN = 600;
+
+/** What takes more than a question is done where it is asked for as it must be. */
+const ELSEWHERE = {
+  "up.arm": "Arming takes the button that is held, under Commands.",
+  "up.disarm": "Disarming takes the button that is held, under Commands.",
+};
+
+/**
+ * Every Command that the server knows, and by name those that it does not.
+ * @param {HTMLElement} place
+ * @param {object} store
+ * @param {object} connection
+ * @returns {{update: () => void}}
+ */
+export function mount(place, store, connection) {
+  const asker = new Asker(store, connection);
+  const why = element("p.why", { id: "any-why" });
+  const names = element("datalist", { id: "any-names" });
+  const input = element("input", {
+    id: "any-name",
+    type: "text",
+    list: "any-names",
+    autocomplete: "off",
+    autocapitalize: "off",
+    spellcheck: "false",
+    placeholder: "type its name",
+    "aria-describedby": "any-about any-note",
+    on: { input: () => choose() },
+  });
+  const about = element("p.quiet", { id: "any-about" });
+  const fields = element("div");
+  const send = element("button", { type: "submit", id: "any-send", text: "Send" });
+  const note = element("p.note", { id: "any-note", role: "status" });
+  const form = element(
+    "form",
+    { novalidate: true, on: { submit: (event) => submit(event) } },
+    element("div.field", {}, element("label", { for: "any-name", text: "Command" }), input, names),
+    about,
+    fields,
+    element("div.row", {}, send),
+    note,
+  );
+  const details = element("details", { id: "any-command" }, element("summary", { text: "Any Command" }), why, form);
+  place.append(details);
+  let offered = null;
+  let offeredWords = "";
+  let chosen = { name: "", command: null, part: null };
+
+  function list() {
+    const { commands } = store.catalogue;
+    const words = JSON.stringify(commands);
+    // After a lost connection the same ones come again: what was written stays.
+    if (words !== offeredWords && commands.length > 0) {
+      offeredWords = words;
+      names.replaceChildren(...commands.map(({ name }) => element("option", { value: name })));
+      chosen = { name: "", command: null, part: null };
+      fields.replaceChildren();
+      choose();
+    }
+  }
+
+  function choose() {
+    const name = input.value.trim();
+    const command = store.catalogue.get(name);
+    if (name === chosen.name && command === chosen.command) {
+      return;
+    }
+    // While an unknown name is typed on, its fields stay.
+    const isSame = chosen.part !== null && command === null && chosen.command === null && name !== "";
+    const part = isSame ? chosen.part : name === "" ? null : partOf(command);
+    chosen = { name, command, part };
+    if (!isSame) {
+      fields.replaceChildren(...(part === null ? [] : [part.element]));
+    }
+    setText(about, aboutWords(name, command));
+    setText(note, "");
+    offer();
+  }
+
+  function objection() {
+    const { name, command } = chosen;
+    const known = command?.name ?? name;
+    return (
+      asker.objection(known === "" ? "up.flight_mode.set" : known) ||
+      (Object.hasOwn(ELSEWHERE, known) ? ELSEWHERE[known] : "")
+    );
+  }
+
+  function offer() {
+    const words = objection();
+    setText(why, words);
+    why.hidden = words === "";
+    chosen.part?.offer(words === "");
+    send.disabled = words !== "" || chosen.part === null;
+  }
+
+  async function submit(event) {
+    event.preventDefault();
+    const { name, command, part } = chosen;
+    if (part === null || objection() !== "") {
+      return;
+    }
+    const problem = command === null ? nameProblem(name) : "";
+    const data = problem ? null : part.read();
+    if (data === null) {
+      note.setAttribute("data-look", "bad");
+      setText(note, problem);
+      return;
+    }
+    const sent = command?.name ?? name;
+    await asker.ask(sent, data, {
+      note,
+      question: questionOf(sent, data, command),
+      isForced: command === null,
+    });
+  }
+
+  return {
+    update() {
+      place.hidden = connection.welcome?.is_replay === true;
+      if (!details.open) {
+        return;
+      }
+      if (store.catalogue !== offered) {
+        offered = store.catalogue;
+        list();
+      }
+      offer();
+    },
+  };
+}
+
+function partOf(command) {
+  return command === null ? new UnknownFields() : new KnownFields(command);
+}
+
+function aboutWords(name, command) {
+  if (name === "") {
+    return "";
+  }
+  if (command === null) {
+    return "This ground station does not know it. The aircraft may: an application has Commands of its own.";
+  }
+  const role = command.role === "depends" ? "" : ` [${command.role} or more]`;
+  const alias = name === command.name ? "" : `${command.name}: `;
+  return `${alias}${command.text}${role}`;
+}
+
+/**
+ * @param {string} name
+ * @param {object} data
+ * @param {object|null} command null: nobody here knows it
+ * @returns {{title: string, text: string, yes: string, no: string, isDanger: boolean}}
+ */
+export function questionOf(name, data, command) {
+  const written = JSON.stringify(data);
+  const shown = written.length > LONGEST_SHOWN ? `${written.slice(0, LONGEST_SHOWN)}...` : written;
+  const lines = written === "{}" ? "Without fields." : shown;
+  return command !== null
+    ? { title: `Send ${name}?`, text: `${command.text}\n\n${lines}`, yes: "Send", no: "Do not send", isDanger: false }
+    : {
+        title: `Send ${name} unchecked?`,
+        text: `Nobody on the ground knows this Command: nothing has checked its name and its fields, and nothing here can say what it does. If the aircraft has it, it carries it out.\n\n${lines}`,
+        yes: "Send unchecked",
+        no: "Do not send",
+        isDanger: true,
+      };
+}

@@ -1,0 +1,110 @@
+const NAME = /^[A-Za-z0-9_.-]{1,128}$/;
+
+/**
+ * What a person wrote into a field of a Command, judged by its type and bounds.
+ * @param {object} field of Catalogue.get()
+ * @param {string} text empty: left out; for a field with choices and for true or false: JSON
+ * @param {boolean} [isNull] whether null was chosen
+ * @returns {{problem: string, isLeftOut?: boolean, value?: any}} problem: one sentence, or empty
+ */
+export function fieldValue(field, text, isNull = false) {
+  if (isNull && field.isNullable) {
+    return { problem: "", value: null };
+  }
+  const written = field.type === "text" ? text : text.trim();
+  if (written === "") {
+    return field.isRequired ? { problem: wanted(field) } : { problem: "", isLeftOut: true };
+  }
+  const value = valueOf(field, written);
+  if (value === undefined || !fits(field, value)) {
+    return { problem: wanted(field) };
+  }
+  return { problem: "", value };
+}
+
+/**
+ * @param {object} field of Catalogue.get()
+ * @returns {string} what it must be, as `up-ground commands` says it
+ */
+export function wanted(field) {
+  return field.text === "" ? "is missing or not what it must be" : `must be ${field.text}`;
+}
+
+/**
+ * The fields of a Command that nobody here knows, written as JSON.
+ * @param {string} text empty: none
+ * @returns {{problem: string, value?: object}}
+ */
+export function jsonFields(text) {
+  if (text.trim() === "") {
+    return { problem: "", value: {} };
+  }
+  let value;
+  try {
+    value = JSON.parse(text);
+  } catch (error) {
+    return { problem: `this is no JSON: ${error.message}` };
+  }
+  return isObject(value)
+    ? { problem: "", value }
+    : { problem: 'write an object: {"field": value}' };
+}
+
+/**
+ * @param {string} name
+ * @returns {string} why no Command can have that name; empty: one can
+ */
+export function nameProblem(name) {
+  return NAME.test(name) ? "" : "a name has letters, digits, dots, _ and - alone, 128 at most";
+}
+
+function valueOf(field, text) {
+  if (field.choices === null) {
+    if (field.type === "text") {
+      return text;
+    }
+    if (field.type === "number" || field.type === "integer") {
+      return Number(text);
+    }
+  }
+  try {
+    return JSON.parse(text);
+  } catch {
+    return undefined;
+  }
+}
+
+function fits(field, value) {
+  if (field.choices !== null) {
+    return field.choices.includes(value);
+  }
+  switch (field.type) {
+    case "boolean":
+      return typeof value === "boolean";
+    case "integer":
+      return Number.isSafeInteger(value) && isWithin(field, value);
+    case "number":
+      return Number.isFinite(value) && isWithin(field, value);
+    case "text":
+      // Counted as the aircraft counts: characters, not halves of them.
+      return isShort(field, [...value].length);
+    case "object":
+      return isObject(value) && isShort(field, Object.keys(value).length);
+    case "list":
+      return Array.isArray(value) && isShort(field, value.length);
+    default:
+      return true;
+  }
+}
+
+function isWithin(field, value) {
+  return value >= (field.minimum ?? -Infinity) && value <= (field.maximum ?? Infinity);
+}
+
+function isShort(field, length) {
+  return length <= (field.longest ?? Infinity);
+}
+
+function isObject(value) {
+  return value !== null && typeof value === "object" && !Array.isArray(value);
+}

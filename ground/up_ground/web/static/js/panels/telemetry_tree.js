@@ -1,0 +1,121 @@
+import { chartChoice } from "../charts/chart_choice.js";
+import { Pace } from "../pace.js";
+import { setText } from "../readout.js";
+import { ageText } from "../state/format.js";
+import { element } from "./element.js";
+import { leavesOf, matches, MOST_LEAVES, pathWords } from "./telemetry_leaves.js";
+import { TelemetryRow } from "./telemetry_row.js";
+
+/**
+ * Every value of the newest frame, also those that no other part of the page knows.
+ * @param {HTMLElement} place
+ * @param {object} store
+ * @returns {{update: () => void}}
+ */
+export function mount(place, store) {
+  const filter = element("input", {
+    id: "telemetry-filter",
+    type: "search",
+    autocomplete: "off",
+    spellcheck: "false",
+    placeholder: "words of the path",
+    on: { input: () => show() },
+  });
+  const count = element("p.quiet", { id: "telemetry-count" });
+  const note = element("p.note", { id: "telemetry-note", role: "status" });
+  const list = element("ul.leaves", { id: "telemetry-list" });
+  const details = element(
+    "details",
+    { id: "telemetry", on: { toggle: () => toggled() } },
+    element("summary", { text: "All telemetry" }),
+    element("div.field", {}, element("label", { for: "telemetry-filter", text: "Filter" }), filter),
+    count,
+    note,
+    list,
+  );
+  place.append(details);
+  const pace = new Pace();
+  const rows = new Map();
+  let order = "";
+
+  function toggled() {
+    if (details.open) {
+      show();
+    } else {
+      clear();
+    }
+  }
+
+  // What is closed says nothing: not even what it said last.
+  function clear() {
+    rows.clear();
+    list.replaceChildren();
+    order = "";
+  }
+
+  function draw(keys) {
+    const isDrawn = chartChoice.is(keys);
+    chartChoice.choose(isDrawn ? null : keys);
+    setText(note, isDrawn ? "" : `${pathWords(keys.join("."))} is drawn under Charts.`);
+    show();
+  }
+
+  function show() {
+    const { leaves, isCut } = leavesOf(store.data);
+    const chosen = leaves.filter(({ path }) => matches(path, filter.value));
+    arrange(chosen);
+    for (const leaf of chosen) {
+      rows.get(keyOf(leaf)).show(leaf.value, store, chartChoice.is(leaf.keys));
+    }
+    setText(count, countWords(chosen.length, leaves.length, isCut));
+  }
+
+  function countWords(shown, all, isCut) {
+    if (all === 0) {
+      return "No telemetry came yet.";
+    }
+    const old = store.isSilent ? `, ${ageText(store.age_s(null))} old` : "";
+    const more = isCut ? ` (the frame has more: the first ${MOST_LEAVES} are here)` : "";
+    return `${shown} of ${all} values of the newest frame${old}${more}`;
+  }
+
+  function arrange(leaves) {
+    const keys = leaves.map(keyOf);
+    const now = keys.join("\n");
+    if (now === order) {
+      return;
+    }
+    order = now;
+    const kept = new Set(keys);
+    for (const [key, row] of rows) {
+      if (!kept.has(key)) {
+        row.element.remove();
+        rows.delete(key);
+      }
+    }
+    // Only what is out of place moves, so that a button keeps the focus.
+    let next = list.firstElementChild;
+    leaves.forEach((leaf, index) => {
+      const row = rows.get(keys[index]) ?? new TelemetryRow(leaf, draw);
+      rows.set(keys[index], row);
+      if (row.element === next) {
+        next = next.nextElementSibling;
+      } else {
+        list.insertBefore(row.element, next);
+      }
+    });
+  }
+
+  return {
+    update() {
+      if (details.open && !document.hidden && pace.isTime(store.now_s)) {
+        show();
+      }
+    },
+  };
+}
+
+// Keys may have dots in them: two values may have one path.
+function keyOf({ keys }) {
+  return JSON.stringify(keys);
+}

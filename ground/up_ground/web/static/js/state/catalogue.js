@@ -1,0 +1,79 @@
+import * as judge from "./judge.js";
+
+const MOST_COMMANDS = 500;
+const MOST_FIELDS = 64;
+const TYPES = ["boolean", "integer", "number", "text", "object", "list"];
+
+/** The Commands that the ground server knows, its own and those of the cogs that it has. */
+export class Catalogue {
+  #byName = new Map();
+
+  /** @param {unknown} [commands] of the server's `catalogue`; what is no Command is left out */
+  constructor(commands = []) {
+    const all = Array.isArray(commands) ? commands.slice(0, MOST_COMMANDS) : [];
+    this.commands = all.map(commandOf).filter((each) => each !== null);
+    for (const command of this.commands) {
+      for (const name of [command.name, ...command.aliases]) {
+        if (!this.#byName.has(name)) {
+          this.#byName.set(name, command);
+        }
+      }
+    }
+  }
+
+  /**
+   * @param {string} name or alias
+   * @returns {object|null} {name, aliases, role, text, needsBeacon, fields: [{name, type, unit,
+   *   choices, minimum, maximum, longest, isNullable, isRequired, text}]}
+   */
+  get(name) {
+    return this.#byName.get(name) ?? null;
+  }
+
+  /**
+   * @param {string} name
+   * @returns {string|null} the least role that may send it; null: not known, or a field decides
+   */
+  role(name) {
+    const role = this.get(name)?.role ?? "";
+    return role === "" || role === "depends" ? null : role;
+  }
+}
+
+function commandOf(found) {
+  const name = judge.text(judge.at(found, "name"));
+  if (!name) {
+    return null;
+  }
+  const fields = judge.at(found, "fields");
+  const read = (Array.isArray(fields) ? fields.slice(0, MOST_FIELDS) : []).map(fieldOf);
+  return {
+    name,
+    aliases: judge.texts(found.aliases) ?? [],
+    role: judge.text(found.role) ?? "",
+    text: judge.text(found.text) ?? "",
+    needsBeacon: found.needs_beacon === true,
+    fields: read.filter((each) => each !== null),
+  };
+}
+
+function fieldOf(found) {
+  const name = judge.text(judge.at(found, "name"));
+  if (!name) {
+    return null;
+  }
+  return {
+    name,
+    // A type of a later server is written as JSON: that server judges it.
+    type: TYPES.includes(found.type) ? found.type : "json",
+    unit: judge.text(found.unit) ?? "",
+    // Bounds may be as large as numbers are.
+    minimum: Number.isFinite(found.minimum) ? found.minimum : null,
+    maximum: Number.isFinite(found.maximum) ? found.maximum : null,
+    choices: Array.isArray(found.choices) ? found.choices : null,
+    longest: judge.number(found.max_length),
+    isNullable: found.nullable === true,
+    isRequired: found.required === true,
+    text: judge.text(found.text) ?? "",
+  };
+}
