@@ -49,7 +49,7 @@ export class Pilot {
 
   /** Give the sticks back and go. */
   async leave() {
-    this._program._process.stdin.end();
+    this._program.endInput();
     return this._program.ended();
   }
 }

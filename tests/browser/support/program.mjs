@@ -1,6 +1,6 @@
 // The project's programs, started as a user starts them, with what they say kept.
 import { spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -66,6 +66,11 @@ export class Program {
 
   write(text) {
     this._process.stdin.write(text);
+  }
+
+  /** End its standard input. */
+  endInput() {
+    this._process.stdin.end();
   }
 
   /**
@@ -171,11 +176,6 @@ export function childrenOf(pid) {
     }
   }
   return found;
-}
-
-/** Whether the virtual environment is there at all. */
-export function isInstalled() {
-  return existsSync(PYTHON);
 }
 
 function userEnvironment() {
