@@ -5,42 +5,18 @@ from __future__ import annotations
 import contextlib
 import fcntl
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 
 from black_box_cog.config import MEGABYTE
 from black_box_cog.disk import Disk
-from black_box_cog.flight_file import FlightFile, flight_files
+from up.flight_log.flight_file import FlightFile, flight_files
 
-_LEAF = "flights"
 _ATTEMPTS = 100
 
 
 class NoRoomError(Exception):
     """Too little is free, and no flight is left to delete; the text is one sentence."""
-
-
-def default_folder(environ: Mapping[str, str] = os.environ) -> Path:
-    """Return where flights are kept unless the configuration says it.
-
-    A service has a state directory of systemd's, a user $XDG_STATE_HOME (XDG Base Directory
-    Specification), which is ~/.local/state.
-    """
-    given = environ.get("STATE_DIRECTORY", "").split(":")[0]
-    if given:
-        return Path(given, _LEAF)
-    home = environ.get("XDG_STATE_HOME", "")
-    try:
-        state = Path(home) if Path(home).is_absolute() else Path("~/.local/state").expanduser()
-    except RuntimeError:
-        # A user without a home: where the state directory of a service would be.
-        state = Path("/var/lib")
-    return state / "raspilot" / _LEAF
-
-
-def folder_of(configured: str, environ: Mapping[str, str] = os.environ) -> Path:
-    """Return the folder that ``folder`` of black_box.yml means."""
-    return Path(configured).expanduser() if configured else default_folder(environ)
 
 
 class FlightFolder:

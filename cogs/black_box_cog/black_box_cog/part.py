@@ -12,13 +12,13 @@ from typing import Any
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.encoders import OriginTexts, encoder_of
 from black_box_cog.flight_facts import FlightFacts
-from black_box_cog.flight_file import FlightFile
 from black_box_cog.intake import Entry, LogLine, Recorded
 from black_box_cog.log_file import LogFile
 from black_box_cog.timeline import Timeline
 from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
 from up.flight_log.command_schema import schema_of
+from up.flight_log.flight_file import FlightFile
 from up.flight_log.foxglove import (
     LOCATION_FIX,
     LOCATION_FIX_SCHEMA,

@@ -12,7 +12,6 @@ from twisted.logger import Logger
 from black_box_cog.config import MEGABYTE, BlackBoxConfig
 from black_box_cog.disk import Disk
 from black_box_cog.flight_facts import FlightFacts
-from black_box_cog.flight_file import FlightFile
 from black_box_cog.flight_folder import FlightFolder, NoRoomError
 from black_box_cog.intake import Entry, Intake, LogLine
 from black_box_cog.log_file import LogFile
@@ -20,6 +19,7 @@ from black_box_cog.part import Part
 from black_box_cog.recorder_status import RecorderStatus
 from black_box_cog.timeline import Timeline
 from up.commands.roles import Role
+from up.flight_log.flight_file import FlightFile
 from up.log.limits import Once
 
 BUSY_S = 0.2

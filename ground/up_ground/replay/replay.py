@@ -10,9 +10,11 @@ from typing import Any
 from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.flight_options import PLACE
+from up.flight_log.flights import find_flight_of
+from up.flight_log.flights_folder import folder_of
 from up.flight_log.mcap_format import FlightLogError
 from up_ground.errand import EXIT_USAGE, complain, say
-from up_ground.replay.flights import FlightNotFoundError, find_flight, flights_folder
 from up_ground.replay.replayed_aircraft import ReplayedAircraft
 from up_ground.replay.story import Story
 from up_ground.run_errand import run as run_errand
@@ -24,12 +26,11 @@ def run(options: argparse.Namespace) -> int:
     """Serve the page with a flight; returns the exit status. Raises CliError."""
     try:
         page = PageOptions.of(options, os.environ)
-        folder = Path(options.folder) if options.folder else flights_folder(os.environ)
-        paths = find_flight(options.flight, folder)
+        paths = find_flight_of(options.flight, lambda: _folder(options)).paths
         say(f"reading {printable(', '.join(path.name for path in paths))} ...")
         log = FlightLog.read(paths)
         story = Story(log, aircraft_of(log))
-    except (ServeError, FlightNotFoundError, FlightLogError) as error:
+    except (ServeError, FlightLogError) as error:
         raise CliError(printable(str(error)), EXIT_USAGE) from None
     if not log.topics:
         raise CliError(f"{printable(paths[0].name)} holds no message", EXIT_USAGE)
@@ -47,6 +48,12 @@ def run(options: argparse.Namespace) -> int:
         )
 
     return run_errand(make)
+
+
+def _folder(options: argparse.Namespace) -> Path:
+    """Return where flights are looked up: as ``up log`` knows it, where that was asked."""
+    place = getattr(options, PLACE, None)
+    return place(options) if place is not None else folder_of(options.folder or "")
 
 
 def aircraft_of(log: FlightLog) -> str:

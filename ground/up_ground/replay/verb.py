@@ -8,9 +8,10 @@ from typing import Any
 from up_ground.page_options import add_page_options
 
 EPILOG = """\
-FLIGHT is a file of the black box (its other parts are taken along), a folder with flights (the
-newest), the number of a flight, or 'last'. The page shows it as the ground station shows an
-aircraft, with a bar to play, pause, go to a moment and play faster or slower. It takes no Commands.
+FLIGHT is the number of a flight, 'last', a file of a flight (its later parts are taken along; or
+several files, the parts of one), or a folder that holds the parts of one. The page shows it as the
+ground station shows an aircraft, with a bar to play, pause, go to a moment and play faster or
+slower. It takes no Commands.
 
 examples
   up-ground replay last
@@ -19,17 +20,25 @@ examples
 
 
 def add(verbs: Any) -> None:
-    """Add ``up log replay``."""
+    """Add ``up log replay``, which looks for flights where the other verbs of ``up log`` do."""
     from up.cli.verb import add_verb
+    from up.flight_log.flight_options import take_folder
 
     text = "play a flight in the page of the ground station"
-    add_arguments(add_verb(verbs, "replay", "up_ground.replay.replay", text, epilog=EPILOG))
+    parser = add_verb(verbs, "replay", "up_ground.replay.replay", text, epilog=EPILOG)
+    _add_flight(parser)
+    take_folder(parser)
+    add_page_options(parser)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what the verb takes."""
-    parser.add_argument("flight", nargs="+", metavar="FLIGHT", help="see below")
+    """Add what ``up-ground replay`` takes, which knows no application."""
+    _add_flight(parser)
     parser.add_argument(
         "--folder", metavar="DIR", help="where the black box's flights are (default: its usual one)"
     )
     add_page_options(parser)
+
+
+def _add_flight(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("flight", nargs="+", metavar="FLIGHT", help="see below")

@@ -9,7 +9,6 @@ import threading
 from black_box_cog.config import MEGABYTE, BlackBoxConfig
 from black_box_cog.disk import Disk
 from black_box_cog.flight_facts import FlightFacts
-from black_box_cog.flight_file import flight_files
 from black_box_cog.flight_folder import FlightFolder
 from black_box_cog.intake import Intake
 from black_box_cog.log_lines import LogLines
@@ -22,6 +21,7 @@ from mcap.stream_reader import StreamReader
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
+from up.flight_log.flight_file import flight_files
 
 BOARD = Origin("arduino", Role.BOARD, 10)
 PHONE = Origin("android", Role.SENSOR)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 
-from black_box_cog.flight_file import FlightFile
-
 from tests.up.flight_log.flights import GROUND, AndroidBatteryCommand, FlightMaker
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.flight_controller.gains import gain_set_from_data
+from up.flight_log.flight_file import FlightFile
 
 SECOND_NS = 1_000_000_000
 START_UNIX_S = 1_777_000_000

@@ -12,10 +12,10 @@ import time
 from pathlib import Path
 
 import pytest
-from black_box_cog.flight_file import flight_files
 
 from tests.cogs.black_box_cog.flights import lines_in, messages
 from tests.proxy.program import until
+from up.flight_log.flight_file import flight_files
 from up.flight_log.flight_log import FlightLog
 
 ROOT = Path(__file__).parents[3]

@@ -5,7 +5,6 @@ import threading
 import pytest
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
-from black_box_cog.flight_file import flight_files
 from black_box_cog.modules import black_box
 from black_box_cog.modules.black_box import BlackBox
 from twisted.internet.task import Clock
@@ -28,6 +27,7 @@ from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import INTERNAL
 from up.commands.roles import Role
 from up.commands.telemetry_commands import TelemetryCommand
+from up.flight_log.flight_file import flight_files
 from up.flight_log.flight_log import FlightLog
 from up.protocols.general_message import GeneralMessage, decode
 from up.telemetry_controller import TelemetryController

@@ -2,14 +2,13 @@ import fcntl
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from black_box_cog.disk import Disk
-from black_box_cog.flight_file import flight_files
-from black_box_cog.flight_folder import FlightFolder, NoRoomError, default_folder, folder_of
+from black_box_cog.flight_folder import FlightFolder, NoRoomError
 
 from tests.cogs.black_box_cog.flights import START_UNIX_S, TestedDisk
+from up.flight_log.flight_file import flight_files
 
 STRANGERS = ("holiday.mcap", "0001-notes.txt", "0000-20260101T000000Z-kite.mcap.bak")
 
@@ -154,15 +153,3 @@ def test_when_that_is_not_enough_it_is_one_sentence(tmp_path):
     old(tmp_path, 1)
     with pytest.raises(NoRoomError, match=r"^50 MB are free in .*, and 200 MB shall stay free"):
         folder_in(tmp_path, keep_free=200e6, disk=disk).make_room()
-
-
-def test_where_flights_are_kept_by_default(monkeypatch):
-    assert default_folder({"STATE_DIRECTORY": "/var/lib/raspilot:/b"}) == Path(
-        "/var/lib/raspilot/flights"
-    )
-    assert default_folder({"XDG_STATE_HOME": "/x"}) == Path("/x/raspilot/flights")
-    monkeypatch.setenv("HOME", "/home/pilot")
-    for environ in ({}, {"XDG_STATE_HOME": "relative"}, {"STATE_DIRECTORY": ""}):
-        assert default_folder(environ) == Path("/home/pilot/.local/state/raspilot/flights")
-    assert folder_of("~/flown", {}) == Path("/home/pilot/flown")
-    assert folder_of("", {"XDG_STATE_HOME": "/x"}) == Path("/x/raspilot/flights")

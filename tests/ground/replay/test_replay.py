@@ -100,3 +100,16 @@ def test_a_flight_that_was_cut_off_is_played_as_far_as_it_goes(tmp_path):
     path.write_bytes(path.read_bytes()[:-20_000])
     with Replay(tmp_path, str(path)) as replay:
         assert "kite: flight" in replay.said
+
+
+def test_without_an_application_it_takes_the_folder_that_is_named(tmp_path):
+    for word, sentence in (
+        ("last", "no flight has been recorded: there is no folder"),
+        ("3", "no flight has been recorded: there is no folder"),
+        ("x.mcap", "x.mcap: no such flight"),
+    ):
+        status, _, complained = ground(
+            tmp_path, 1, "replay", word, "--folder", str(tmp_path / "none")
+        )
+        assert status == 2
+        assert complained.startswith(f"up-ground: {sentence}")

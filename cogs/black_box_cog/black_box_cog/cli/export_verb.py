@@ -9,7 +9,6 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from black_box_cog.cli.flights import Flight
 from black_box_cog.cli.near import no_such_topic
 from black_box_cog.cli.open_flight import flight_of, read
 from black_box_cog.cli.terminal import tell, warn
@@ -22,6 +21,7 @@ from black_box_cog.report.wording import is_clock_right, start_text
 from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.flights import Flight
 from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.spans import duration_text
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterable, Iterator, Sequence
 
-from black_box_cog.cli.flights import Flight
 from black_box_cog.cli.open_flight import flight_of, read
 from black_box_cog.cli.terminal import table, tell
 from black_box_cog.report.wording import clock_text, size_text, start_text
@@ -13,6 +12,7 @@ from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.facts import Facts
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.flights import Flight
 from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.spans import duration_text
 from up.flight_log.summary import FlightSummary, Wrong, summarise, wrongs

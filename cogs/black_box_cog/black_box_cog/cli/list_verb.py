@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from black_box_cog.cli.flights import Flight, flights_in
 from black_box_cog.cli.overview import Overview, is_being_recorded, overview_of
 from black_box_cog.cli.overview_cache import OverviewCache, cache_path
 from black_box_cog.cli.place import folder_of
@@ -19,6 +18,8 @@ from black_box_cog.cli.terminal import table, tell, warn
 from black_box_cog.report.wording import is_clock_right, size_text, start_text
 from up.cli.cli_error import CliError
 from up.fields import printable
+from up.flight_log.flights import Flight, flights_in
+from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.spans import duration_text
 
 HEAD = ("no.", "start", "length", "aircraft", "armed", "highest", "size", "")
@@ -52,7 +53,10 @@ def run(values: argparse.Namespace) -> int:
     folder = folder_of(values)
     if not folder.is_dir() and values.folder is not None:
         raise CliError(f"{folder} is no folder")
-    flights = flights_in(folder) if folder.is_dir() else []
+    try:
+        flights = flights_in(folder) if folder.is_dir() else []
+    except FlightLogError as error:
+        raise CliError(str(error)) from error
     lines = lines_of(flights, OverviewCache(cache_path(os.environ)))
     if values.json:
         tell(json.dumps(document(folder, lines), indent=2))

@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 import sys
 
-from black_box_cog.cli.flights import Flight, find_flight
 from black_box_cog.cli.place import folder_of
 from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.flights import Flight, find_flight
 from up.flight_log.mcap_format import FlightLogError
 
 _LARGE = 20_000_000
@@ -18,7 +18,10 @@ _LARGE = 20_000_000
 def flight_of(values: argparse.Namespace) -> Flight:
     """Return the flight that FLIGHT names; raises CliError and ConfigErrors."""
     # Only what is no path needs a folder, and so a configuration without mistakes.
-    flight = find_flight(values.flight, lambda: folder_of(values))
+    try:
+        flight = find_flight(values.flight, lambda: folder_of(values))
+    except FlightLogError as error:
+        raise CliError(str(error)) from error
     if sys.stderr.isatty() and flight.size > _LARGE:
         sys.stderr.write(f"reading {len(flight.paths)} files, {flight.size / 1e6:.0f} MB ...\n")
     return flight

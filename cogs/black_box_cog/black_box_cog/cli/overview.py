@@ -6,9 +6,9 @@ import fcntl
 from dataclasses import dataclass
 from pathlib import Path
 
-from black_box_cog.cli.flights import Flight
 from up.flight_log.facts import Facts
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.flights import Flight
 from up.flight_log.mcap_format import FlightLogError
 
 _ALTITUDES = (

@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from black_box_cog.cli.flights import Flight
 from black_box_cog.cli.overview import Overview
 from up.config.writing import write_atomically
+from up.flight_log.flights import Flight
 
 FORMAT = 1
 MOST = 5000

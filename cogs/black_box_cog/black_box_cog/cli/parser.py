@@ -9,6 +9,7 @@ from typing import Any, cast
 from black_box_cog.cli.mixed_parser import MixedParser
 from up.cli.plugin_verbs import add_plugin_verbs
 from up.cli.verb import add_verb
+from up.flight_log.flight_options import PLACE, take_folder
 
 LOG_VERBS = "up.log_verbs"
 """The group of entry points by which other distributions add verbs below `up log`."""
@@ -52,7 +53,7 @@ def add(verbs: Any) -> None:
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    log.set_defaults(parser=log)
+    log.set_defaults(parser=log, **{PLACE: _place})
     below = log.add_subparsers(title="verbs", metavar="VERB", parser_class=MixedParser)
     _add_list(below)
     _add_info(below)
@@ -68,19 +69,6 @@ def take_flight(parser: argparse.ArgumentParser) -> None:
         "flight", metavar="FLIGHT", help="its number, 'last', a file, or a folder of parts"
     )
     take_folder(parser)
-
-
-def take_folder(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say where flights are."""
-    parser.add_argument(
-        "--folder",
-        type=Path,
-        metavar="DIR",
-        help="where the flights are (default: as black_box.yml says)",
-    )
-    parser.add_argument(
-        "--config", type=Path, metavar="DIR", help="folder with black_box.yml (default: config)"
-    )
 
 
 def _add_list(verbs: Any) -> None:
@@ -138,6 +126,13 @@ def _add_report(verbs: Any) -> None:
 def _take_output(parser: argparse.ArgumentParser, what: str, text: str) -> None:
     parser.add_argument("-o", "--output", type=Path, metavar=what, help=text)
     parser.add_argument("--force", action="store_true", help="overwrite what is there")
+
+
+def _place(values: argparse.Namespace) -> Path:
+    # Imported when it is asked for, so that help stays quick.
+    from black_box_cog.cli.place import folder_of
+
+    return folder_of(values)
 
 
 def _rate(text: str) -> float:

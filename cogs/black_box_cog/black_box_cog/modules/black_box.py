@@ -13,7 +13,7 @@ from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.config import BLACK_BOX, MEGABYTE
 from black_box_cog.disk import Disk
 from black_box_cog.flight_facts import FlightFacts
-from black_box_cog.flight_folder import FlightFolder, folder_of
+from black_box_cog.flight_folder import FlightFolder
 from black_box_cog.intake import Intake
 from black_box_cog.log_lines import LogLines
 from black_box_cog.record_policy import RecordPolicy
@@ -22,6 +22,7 @@ from black_box_cog.recorder_status import RecorderStatus
 from up.base_thread_module import BaseThreadModule
 from up.commands.refusal import CommandRefusedError
 from up.commands.telemetry_commands import TelemetryCommand
+from up.flight_log.flights_folder import folder_of
 from up.registrations import note_undo
 
 SOURCE_S = 10.0

@@ -5,12 +5,12 @@ import json
 import os
 
 import pytest
-from black_box_cog.cli.flights import flights_in
 from black_box_cog.cli.list_verb import lines_of
 from black_box_cog.cli.overview_cache import MOST, OverviewCache
 from black_box_cog.cli.progress import Progress
 
 from tests.cogs.black_box_cog.logbook import START_UNIX_S, write_flight
+from up.flight_log.flights import flights_in
 
 
 def test_each_flight_is_a_line(log, flights):

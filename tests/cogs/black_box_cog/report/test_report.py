@@ -7,7 +7,6 @@ from dataclasses import replace
 from html.parser import HTMLParser
 
 import pytest
-from black_box_cog.cli.flights import find_flight
 from black_box_cog.pictures.canvas import MISSING, PictureError
 from black_box_cog.report.findings import findings_of
 from black_box_cog.report.folder import write_report
@@ -23,6 +22,7 @@ from tests.cogs.black_box_cog.logbook import EVIL, eventful, gains, quiet, write
 from tests.up.flight_log.flights import GROUND, PIDTuningsCommand
 from up.cli.cli_error import CliError
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.flights import find_flight
 from up.flight_log.mcap_format import FlightLogError
 
 ALLOWED = set(

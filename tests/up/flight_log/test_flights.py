@@ -1,10 +1,9 @@
 """Which flight a user means."""
 
 import pytest
-from black_box_cog.cli.flights import find_flight
 
 from tests.cogs.black_box_cog.logbook import START_UNIX_S, write_flight
-from up.cli.cli_error import CliError
+from up.flight_log.flights import FlightNotFoundError, find_flight, find_flight_of
 
 
 def found(named, folder):
@@ -48,10 +47,12 @@ def test_parts_with_names_of_their_own(tmp_path):
 def test_two_aircraft_with_one_number(tmp_path):
     for name in ("kite", "glider"):
         write_flight(tmp_path, 1, aircraft=name)
-    with pytest.raises(CliError, match=r"2 flights have the number 1: name .*glider.* or .*kite"):
+    with pytest.raises(
+        FlightNotFoundError, match=r"2 flights have the number 1: name .*glider.* or .*kite"
+    ):
         find_flight("1", lambda: tmp_path)
     write_flight(tmp_path, 1, start_unix_s=START_UNIX_S + 60)
-    with pytest.raises(CliError, match="3 flights have the number 1"):
+    with pytest.raises(FlightNotFoundError, match="3 flights have the number 1"):
         find_flight("1", lambda: tmp_path)
 
 
@@ -69,16 +70,48 @@ def test_two_aircraft_with_one_number(tmp_path):
 )
 def test_what_is_none_is_one_sentence(folder, named, sentence):
     (folder / "empty").mkdir()
-    with pytest.raises(CliError) as caught:
+    with pytest.raises(FlightNotFoundError) as caught:
         find_flight(named.replace("{folder}", str(folder)), lambda: folder)
     assert str(caught.value).startswith(sentence.replace("{folder}", str(folder)))
 
 
 def test_where_nothing_was_recorded(tmp_path):
-    with pytest.raises(CliError, match="no flight has been recorded: there is no folder"):
+    with pytest.raises(
+        FlightNotFoundError, match="no flight has been recorded: there is no folder"
+    ):
         find_flight("last", lambda: tmp_path / "nowhere")
-    with pytest.raises(CliError, match="no flight is in"):
+    with pytest.raises(FlightNotFoundError, match="no flight is in"):
         find_flight("1", lambda: tmp_path)
     write_flight(tmp_path, 2)
-    with pytest.raises(CliError, match="it has 2 only"):
+    with pytest.raises(FlightNotFoundError, match="it has 2 only"):
         find_flight("1", lambda: tmp_path)
+
+
+def test_several_files_are_the_parts_of_one_flight(folder):
+    names = [
+        "0004-20260424T030640Z-kite.mcap",
+        "0004-20260424T030640Z-kite.2.mcap",
+        "0004-20260424T030640Z-kite.10.mcap",
+    ]
+    words = [str(folder / name) for name in (names[2], names[0], names[1])]
+    assert [path.name for path in find_flight_of(words, lambda: folder).paths] == names
+    assert find_flight_of(["3"], lambda: folder).number == 3
+    (folder / names[2]).rename(folder / "a.mcap")
+    words = [str(folder / name) for name in (names[0], "a.mcap")]
+    assert [str(path) for path in find_flight_of(words, lambda: folder).paths] == words
+
+
+def test_files_that_are_not_of_one_flight(folder):
+    three, four = (str(folder / f"000{n}-20260424T030640Z-kite.mcap") for n in (3, 4))
+    with pytest.raises(FlightNotFoundError, match="are of several flights: name one"):
+        find_flight_of([three, four], lambda: folder)
+    for other in (str(folder), "last", str(folder / "absent.mcap")):
+        with pytest.raises(FlightNotFoundError, match="is no file: name one flight, or the files"):
+            find_flight_of([three, other], lambda: folder)
+
+
+@pytest.mark.parametrize("named", ["9" * 5000, "x\0y"])
+def test_what_can_be_no_path_is_no_flight(folder, named):
+    with pytest.raises(FlightNotFoundError, match="no such flight") as caught:
+        find_flight(named, lambda: folder)
+    assert len(str(caught.value)) < 500

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 
-from black_box_cog.flight_file import FlightFile, flight_files
-from up.cli.cli_error import CliError
 from up.fields import printable
+from up.flight_log.flight_file import FlightFile, flight_files
+from up.flight_log.mcap_format import FlightLogError
 
 SUFFIX = ".mcap"
 LAST = "last"
+_LONGEST_NUMBER = 9
+_LONGEST_SHOWN = 300
+
+
+class FlightNotFoundError(FlightLogError):
+    """There is no such flight; the text is one sentence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,12 +45,12 @@ class Flight:
 def flights_in(folder: Path) -> list[Flight]:
     """Return the flights of a folder, the oldest first; files with other names are not looked at.
 
-    Raises CliError where the folder cannot be read.
+    Raises FlightNotFoundError where the folder cannot be read.
     """
     try:
         files = flight_files(folder)
     except OSError as error:
-        raise CliError(f"{folder}: {error.strerror or error}") from error
+        raise FlightNotFoundError(f"{folder}: {error.strerror or error}") from error
     return [
         Flight(tuple(file.path for file in parts), number, aircraft)
         for (number, _, aircraft), parts in groupby(files, lambda file: file.flight)
@@ -51,29 +58,55 @@ def flights_in(folder: Path) -> list[Flight]:
 
 
 def find_flight(named: str, folder: Callable[[], Path]) -> Flight:
-    """Return the flight that a user means; raises CliError, in one sentence.
+    """Return the flight that a user means; raises FlightNotFoundError, in one sentence.
 
     ``named`` is a number or ``last``, looked up in what ``folder`` returns, or the path of a file
     or of a folder.
     """
     if named == LAST:
         return _those_in(folder())[-1]
-    if named.isascii() and named.isdigit():
+    if named.isascii() and named.isdigit() and len(named) <= _LONGEST_NUMBER:
         return _numbered(int(named), folder())
     path = Path(named)
-    if path.is_dir():
-        return _only_one(path)
-    if path.exists():
-        return _with_its_parts(path)
-    raise CliError(f"{printable(named)}: no such flight{_hint(named)}")
+    # What the system takes for no path at all (too long, a NUL inside) is none either.
+    with contextlib.suppress(OSError, ValueError):
+        if path.is_dir():
+            return _only_one(path)
+        if path.exists():
+            return _with_its_parts(path)
+    named = named if len(named) <= _LONGEST_SHOWN else f"{named[:_LONGEST_SHOWN]}..."
+    raise FlightNotFoundError(f"{printable(named)}: no such flight{_hint(named)}")
+
+
+def find_flight_of(words: Sequence[str], folder: Callable[[], Path]) -> Flight:
+    """Return the flight that one word means, as ``find_flight`` does, or that several files are.
+
+    Files that the black box named are put in their order, others stay in that of ``words``. Raises
+    FlightNotFoundError.
+    """
+    if len(words) == 1:
+        return find_flight(words[0], folder)
+    paths = [Path(word) for word in words]
+    for path in paths:
+        if not path.is_file():
+            raise FlightNotFoundError(
+                f"{printable(str(path))} is no file: name one flight, or the files of one"
+            )
+    files = [file for file in map(FlightFile.of, paths) if file is not None]
+    if len({file.flight for file in files}) > 1:
+        raise FlightNotFoundError(f"{_listed(paths)} are of several flights: name one")
+    if len(files) < len(paths):
+        return Flight(tuple(paths), None, "")
+    files.sort(key=lambda file: file.part)
+    return Flight(tuple(file.path for file in files), files[0].number, files[0].aircraft)
 
 
 def _those_in(folder: Path) -> list[Flight]:
     if not folder.is_dir():
-        raise CliError(f"no flight has been recorded: there is no folder {folder}")
+        raise FlightNotFoundError(f"no flight has been recorded: there is no folder {folder}")
     flights = flights_in(folder)
     if not flights:
-        raise CliError(f"no flight is in {folder}")
+        raise FlightNotFoundError(f"no flight is in {folder}")
     return flights
 
 
@@ -82,13 +115,15 @@ def _numbered(number: int, folder: Path) -> Flight:
     found = [flight for flight in flights if flight.number == number]
     if not found:
         numbers = [flight.number for flight in flights]
-        raise CliError(
+        raise FlightNotFoundError(
             f"there is no flight {number} in {folder}: it has {numbers[0]} to {numbers[-1]}"
             if len(numbers) > 1
             else f"there is no flight {number} in {folder}: it has {numbers[0]} only"
         )
     if len(found) > 1:
-        raise CliError(f"{len(found)} flights have the number {number}: name {_files(found)}")
+        raise FlightNotFoundError(
+            f"{len(found)} flights have the number {number}: name {_files(found)}"
+        )
     return found[0]
 
 
@@ -97,11 +132,13 @@ def _only_one(folder: Path) -> Flight:
     if len(flights) == 1:
         return flights[0]
     if flights:
-        raise CliError(f"{folder} has {len(flights)} flights: say --folder {folder} and a number")
+        raise FlightNotFoundError(
+            f"{folder} has {len(flights)} flights: say --folder {folder} and a number"
+        )
     # Parts that somebody has renamed are still those of a flight, in the order of their names.
     paths = sorted(folder.glob(f"*{SUFFIX}"))
     if not paths:
-        raise CliError(f"no flight is in {folder}: it has no file that ends in {SUFFIX}")
+        raise FlightNotFoundError(f"no flight is in {folder}: it has no file that ends in {SUFFIX}")
     return Flight(tuple(paths), None, "")
 
 
@@ -117,6 +154,10 @@ def _with_its_parts(path: Path) -> Flight:
         (flight for flight in flights if path in flight.paths),
         Flight((path,), named.number, named.aircraft),
     )
+
+
+def _listed(paths: Sequence[Path]) -> str:
+    return printable(" and ".join(path.name for path in paths))
 
 
 def _files(flights: Sequence[Flight]) -> str:

@@ -1,9 +1,10 @@
 from pathlib import Path
 
 import pytest
-from black_box_cog.flight_file import FlightFile, flight_files
 from hypothesis import given
 from hypothesis import strategies as st
+
+from up.flight_log.flight_file import FlightFile, flight_files
 
 HERE = Path("flights")
 
