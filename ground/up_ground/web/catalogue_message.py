@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import typing
 from typing import Any
 
 from up.commands.command import BaseCommand, constraint_of
 from up_ground.catalogue import Catalogue, about, role_of, wire_name
 
-COMMANDS_LIMIT = 500
+BYTES_LIMIT = 1 << 18
+"""A page for which more waits is cut off; this must never do that."""
 LONGEST_TEXT = 400
 _TYPES = {
     bool: "boolean",
@@ -23,8 +25,15 @@ _TYPES = {
 
 def catalogue_message(catalogue: Catalogue) -> dict[str, Any]:
     """Return the message ``catalogue``: every Command that some ground may send, by name."""
-    offered = catalogue.sendable()[:COMMANDS_LIMIT]
-    return {"type": "catalogue", "commands": [_command(cls) for cls in offered]}
+    commands: list[dict[str, Any]] = []
+    size = 0
+    for cls in catalogue.sendable():
+        told = _command(cls)
+        size += len(json.dumps(told))
+        if size > BYTES_LIMIT:
+            break
+        commands.append(told)
+    return {"type": "catalogue", "commands": commands}
 
 
 def _command(cls: type[BaseCommand]) -> dict[str, Any]:
