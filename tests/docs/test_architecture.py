@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import re
 import socket
 import struct
+import subprocess
 import sys
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,7 +20,20 @@ from twisted.python.failure import Failure
 
 from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
 from tests.cogs.arduino_cog.board import BoardRig
+from tests.cogs.black_box_cog.flights import BOARD, Flight
+from tests.ground.aircraft import Aircraft as Kite
+from tests.ground.web.page import Page, Serve
+from tests.proxy.program import Program
+from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.tools import need_tool, unavailable
 from tests.support.virtual_environment import REPOSITORY
+from up.commands.servo_command import ServoCommand
+from up_ground.catalogue import Catalogue
+from up_ground.settings import Settings
+from up_ground.web.access import Access
+from up_ground.web.listen_address import ListenAddress
+from up_ground.web.serve import make_stations
+from up_ground.web.server import Server
 
 PAGE = (REPOSITORY / "docs" / "architecture.md").read_text(encoding="utf-8")
 HELLO = b"UP1 ok aircraft=default seat=air token=" + b"0" * 32 + b"\n"
@@ -110,8 +125,8 @@ def assert_in_order(wanted, calls):
     rest = iter(calls)
     done = []
     for path, function in wanted:
-        # A cog's package lies one folder deeper in the tree than where it is installed.
-        step = (re.sub(r"^cogs/\w+/", "", path), function)
+        # These packages lie deeper in the tree than where they are installed.
+        step = (re.sub(r"^(cogs/\w+|ground)/", "", path), function)
         assert step in rest, f"after {done[-3:]} comes no {step}"
         done.append(step)
 
@@ -156,6 +171,106 @@ def test_a_wrong_order_would_be_found(aircraft):
 
 
 def test_every_file_of_the_tables_exists():
-    for name in ("frame", "telemetry", "command"):
+    for name in ("frame", "telemetry", "command", "page", "click", "recorder"):
+        assert steps(name)
         for path, _ in steps(name):
             assert (REPOSITORY / Path(path)).is_file()
+
+
+@pytest.fixture
+def proxy(tmp_path):
+    with Program(tmp_path / "proxy", "metrics: false\n") as program, Kite(program.airborne_port):
+        yield program
+
+
+def in_a_page(proxy, folder, act):
+    """Serve the page in this process; return what is called while a page acts there."""
+
+    async def run():
+        catalogue = Catalogue.installed()
+        settings = Settings("127.0.0.1", proxy.ground_port)
+        environ = {"XDG_STATE_HOME": str(folder)}
+        server = Server(
+            reactor,
+            ListenAddress("127.0.0.1", 0),
+            Access(frozenset(), None, False),
+            lambda pages: make_stations(reactor, [settings], environ, pages, catalogue),
+            catalogue=catalogue,
+            say=lambda text: None,
+            complain=pytest.fail,
+        )
+        server.start()
+        try:
+            page = Page(server._port.getHost().port)
+            await page.hello()
+            await page.next("frame")
+            await page.control()
+            with traced() as calls:
+                await act(page)
+            await page.leave()
+            return calls
+        finally:
+            await server.stop()
+
+    return run_in_reactor(run)
+
+
+def test_a_frame_on_its_way_to_the_page(proxy, tmp_path):
+    async def look(page):
+        count = len(page.of("frame"))
+        await until(lambda: len(page.of("frame")) > count + 2)
+
+    assert_in_order(steps("page"), in_a_page(proxy, tmp_path, look))
+
+
+def test_a_command_of_the_page(proxy, tmp_path):
+    async def select(page):
+        answer = await page.command("up.flight_mode.set", {"mode": "FBW"})
+        assert answer["outcome"] == "ack"
+
+    calls = in_a_page(proxy, tmp_path, select)
+    assert_in_order(steps("click"), calls)
+    with pytest.raises(AssertionError):
+        assert_in_order(steps("click")[::-1], calls)
+
+
+def scripts(name):
+    """The file and function of each row of one of the page's tables of JavaScript."""
+    table = re.search(rf"<!-- scripts: {name} -->\n\|.*\n\|[-|]+\n((?:\|.*\n)+)", PAGE)[1]
+    return re.findall(r"^\| `([^`]+)` \| `(?:\w+\.)?([^`]+)` \|", table, re.MULTILINE)
+
+
+def test_what_runs_in_the_browser(proxy, tmp_path):
+    node = need_tool("node", "nodejs")
+    need_tool("npm")
+    need_tool("chromium")
+    modules = [REPOSITORY / "tools" / "npm_modules", REPOSITORY / "tests" / "browser"]
+    installed = subprocess.run(modules, capture_output=True, text=True)
+    if installed.returncode != 0:
+        unavailable(installed.stderr.strip())
+    with Serve(tmp_path, proxy.ground_port) as server:
+        address = f"http://127.0.0.1:{server.port}/"
+        program = Path(__file__).with_name("architecture_page.mjs")
+        done = subprocess.run([node, program, address], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    called = json.loads(done.stdout)
+    later = [("js/link/pending_asks.js", "take"), ("js/panels/words.js", "answerWords")]
+    assert all(f"{function}`" in PAGE for _, function in later)
+    for name, more in (("page", []), ("click", later)):
+        assert len(scripts(name)) > 5
+        missing = [each for each in scripts(name) + more if list(each) not in called[name]]
+        assert not missing
+    assert ["js/panels/flight_modes.js", "#select"] not in called["page"]
+
+
+def test_what_is_recorded(tmp_path):
+    flight = Flight(tmp_path)
+    flight.say(1)
+    flight.recorder.work()
+    with traced() as calls:
+        flight.intake.observe(ServoCommand(1500, 1500, 1000, 1500), BOARD)
+        flight.pass_s(2)
+        flight.recorder.work()
+    flight.recorder.finish()
+    Flight.stop_all()
+    assert_in_order(steps("recorder"), calls)
