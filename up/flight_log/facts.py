@@ -79,6 +79,12 @@ class Facts:
             newest = message.data
         return newest
 
+    def first_telemetry(self, since_s: float) -> dict[str, Any]:
+        """Return the first frame of telemetry from a time on; empty: there was none."""
+        for message in self.log.messages(TELEMETRY, since_s=since_s):
+            return message.data
+        return {}
+
     def spans(self, states: Iterable[tuple[float, bool]]) -> list[Span]:
         """Return when something held, up to the end of the log."""
         return spans_of(states, self.log.length_s)

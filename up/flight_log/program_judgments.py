@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from up.flight_log.facts import Facts, LogLine
+from up.flight_log.gain_changes import changes_text
 from up.flight_log.json_message import number_at
 from up.flight_log.origin_text import KEY
 from up.flight_log.spans import Span, duration_text
@@ -27,15 +28,28 @@ _RECORDER: tuple[tuple[re.Pattern[str], Level, str], ...] = (
 
 
 def held_up(facts: Facts) -> Iterator[Wrong]:
-    """Whoever held the reactor, and with it everything; logged once, counted in telemetry."""
-    counts: Any = facts.last_telemetry.get("counters")
+    """Whoever held the reactor, and with it everything; logged once, counted in telemetry.
+
+    While the program starts nobody flies by it yet: that is told, and is nothing that went wrong.
+    """
+    known = (state.time_s for state in facts.states if state.flight_mode is not None)
+    begin_s = next(known, float("-inf"))
     for line in facts.log_lines:
         match = _HELD.match(line.text)
-        if match is not None:
-            count = number_at(counts, ("reactor", match[1]))
-            often = f", {count:.0f} times in all" if count is not None and count > 1 else ""
-            text = f"Raspilot was held up for more than {match[2]} ms by {match[1]}{often}"
+        if match is None:
+            continue
+        text = f"Raspilot was held up for more than {match[2]} ms by {match[1]}"
+        count = _holds(facts.last_telemetry, match[1])
+        if line.time_s >= begin_s:
+            often = f", {count:.0f} times in all" if count > 1 else ""
+            yield Wrong(line.time_s, "warning", f"{text}{often}")
+            continue
+        later = count - _holds(facts.first_telemetry(begin_s), match[1])
+        if later > 0:
+            text += f" while it started, and {_times(later)} in flight"
             yield Wrong(line.time_s, "warning", text)
+        else:
+            yield Wrong(line.time_s, "info", f"{text} while it started")
 
 
 def panic(facts: Facts) -> Iterator[Wrong]:
@@ -56,7 +70,7 @@ def gains_changed(facts: Facts) -> Iterator[Wrong]:
         if not isinstance(gains, dict) or each.data.get("request") is True:
             continue
         if is_set and _flies(facts, each.time_s):
-            changes = ", ".join(_changes(known, gains)) or "to what they were"
+            changes = changes_text(known, gains) or "to what they were"
             who = each.data.get(KEY)
             by = f" by {who}" if isinstance(who, str) else ""
             yield Wrong(each.time_s, "warning", f"gains were changed in flight{by}: {changes}")
@@ -132,18 +146,13 @@ def _flies(facts: Facts, time_s: float) -> bool:
     return state is not None and (state.is_armed is True or state.is_auto is True)
 
 
-def _changes(before: Mapping[str, Any], after: Mapping[str, Any], path: str = "") -> Iterator[str]:
-    """Yield what differs, ``ratePIDs.ailerons.p 2 to 2.5``."""
-    for key, value in after.items():
-        if key.startswith("_"):
-            continue
-        place, old = f"{path}.{key}" if path else key, before.get(key)
-        if isinstance(value, dict):
-            yield from _changes(old if isinstance(old, dict) else {}, value, place)
-        elif value != old:
-            known, new = number_at(before, (key,)), number_at(after, (key,))
-            told = value if new is None else f"{new:g}"
-            yield f"{place} {told}" if known is None else f"{place} {known:g} to {told}"
+def _holds(frame: Mapping[str, Any], culprit: str) -> float:
+    """Return how often somebody had held the reactor; the line of the log is the first time."""
+    return max(1.0, number_at(frame.get("counters"), ("reactor", culprit)) or 0.0)
+
+
+def _times(count: float) -> str:
+    return "once" if count == 1 else f"{count:.0f} times"
 
 
 PROGRAM_JUDGMENTS: tuple[Judge, ...] = (

@@ -76,6 +76,6 @@ PROPERTIES: dict[str, Any] = {
         }
     ),
     "counters": _ANYTHING,
-    "system": _object({"providers": _TEXTS, "uptime_s": _number("s")}),
+    "system": _object({"providers": _TEXTS, "uptime_s": _number("s"), "clock_ms": _number("ms")}),
 }
 """What a module contributes besides is in the messages and not in the schema."""

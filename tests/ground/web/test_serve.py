@@ -187,9 +187,7 @@ def test_gains_are_asked_for_set_and_remembered(proxy, server):
             assert (change["by"], change["outcome"]) == ("pilot", "ack")
             assert (change["before"], change["after"]) == (GAINS, changed)
             event = await each.next("event", lambda each: each["kind"] == "gains")
-            assert event["text"] == "pilot changed the gains (rate rudder P 1.0 to 3.0," + (
-                " rate rudder I 0.5 to 0)"
-            )
+            assert event["text"] == "pilot changed gains: rate yaw P 1 to 3, rate yaw I 0.5 to 0"
 
     with Aircraft(proxy.airborne_port, answers={"arduino.pids.tunings": tune}):
         with_pages(server, fly, "pilot", "other")

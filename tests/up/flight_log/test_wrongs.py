@@ -241,7 +241,7 @@ def test_gains_that_were_changed_in_flight_are_told_with_their_difference(maker,
     maker.put(7, PIDTuningsCommand(None, gains(9.0)), GROUND)
     by = "gains were changed in flight by mission_control (pilot)"
     assert texts(maker, tmp_path) == [
-        (3.0, "warning", f"{by}: ratePIDs.elevator.p 2 to 2.5"),
+        (3.0, "warning", f"{by}: rate pitch P 2 to 2.5"),
         (4.0, "warning", f"{by}: to what they were"),
     ]
 
@@ -253,6 +253,24 @@ def test_who_held_the_reactor_is_told_with_the_count(maker, tmp_path):
     assert only(maker, tmp_path).text == (
         "Raspilot was held up for more than 20 ms by SlowModule, 37 times in all"
     )
+
+
+@pytest.mark.parametrize(
+    ("count", "level", "more"),
+    [
+        (3, "info", "while it started"),
+        (4, "warning", "while it started, and once in flight"),
+        (9, "warning", "while it started, and 6 times in flight"),
+    ],
+)
+def test_who_held_the_reactor_while_it_started_did_no_harm(maker, tmp_path, count, level, more):
+    maker.line(0.1, 4, "ReactorMonitor", "SlowModule holds the reactor for more than 20 ms, and so")
+    maker.every(1, 6, 0.5, lambda time_s: FlightStateCommand("FBW", False, False, False))
+    maker.put(1.2, TelemetryCommand({"counters": {"reactor": {"SlowModule": 3}}}, 1))
+    maker.put(5, TelemetryCommand({"counters": {"reactor": {"SlowModule": count}}}, 2))
+    found = only(maker, tmp_path)
+    text = f"Raspilot was held up for more than 20 ms by SlowModule {more}"
+    assert (found.level, found.text) == (level, text)
 
 
 def test_what_the_recorder_says_of_the_disk(maker, tmp_path):

@@ -2,23 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from up.flight_log.flight_log import FlightLog
-from up.flight_log.json_message import number_at
+from up.flight_log.gain_changes import Key, gains_of
 from up.flight_log.origin_text import KEY
 
 VALUES, TUNINGS = "arduino.pids.values", "arduino.pids.tunings"
-LOOPS = {
-    "ratePIDs": "rate",
-    "stabPIDs": "stabilize",
-    "stabilizePIDs": "stabilize",
-    "navPIDs": "navigation",
-}
-AXES, TERMS = ("ailerons", "elevator", "rudder"), ("p", "i", "d")
-Key = tuple[str, str, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +29,7 @@ def gain_sets(log: FlightLog) -> list[GainSet]:
             if message.data.get("request") is not True:
                 asked_by = str(message.data.get(KEY, ""))
             continue
-        values = dict(_values(message.data))
+        values = gains_of(message.data)
         if values and (not found or values != found[-1].values):
             found.append(GainSet(message.time_s, values, asked_by if found else ""))
     return found
@@ -48,7 +38,7 @@ def gain_sets(log: FlightLog) -> list[GainSet]:
 def asked_sets(log: FlightLog) -> list[GainSet]:
     """Return what was asked for, whether or not the board took it."""
     return [
-        GainSet(message.time_s, dict(_values(data)), str(message.data.get(KEY, "")))
+        GainSet(message.time_s, gains_of(data), str(message.data.get(KEY, "")))
         for message in (log.messages(TUNINGS) if TUNINGS in log.topics else ())
         if message.data.get("request") is not True
         and isinstance(data := message.data.get("pids"), dict)
@@ -60,12 +50,3 @@ def changes(before: GainSet, after: GainSet) -> list[tuple[Key, float | None, fl
     keys = dict.fromkeys([*before.values, *after.values])
     pairs = ((key, before.values.get(key), after.values.get(key)) for key in keys)
     return [(key, old, new) for key, old, new in pairs if old != new]
-
-
-def _values(data: Mapping[str, Any]) -> Iterator[tuple[Key, float]]:
-    for loop, name in LOOPS.items():
-        for axis in AXES:
-            for term in TERMS:
-                value = number_at(data, (loop, axis, term))
-                if value is not None:
-                    yield (name, axis, term), value

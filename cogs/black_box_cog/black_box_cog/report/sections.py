@@ -7,12 +7,13 @@ from itertools import pairwise
 
 from black_box_cog.report.evidence import LOCATION, first_link
 from black_box_cog.report.findings import Findings
-from black_box_cog.report.gains import GainSet, Key, asked_sets, changes, gain_sets
+from black_box_cog.report.gains import GainSet, asked_sets, changes, gain_sets
 from black_box_cog.report.ground_track import place_error_m
 from black_box_cog.report.html_text import Markup, join, table, tag
 from black_box_cog.report.series import error_of
 from black_box_cog.report.verdict import LEVELS
 from black_box_cog.report.wording import clock_text
+from up.flight_log.gain_changes import Key
 from up.flight_log.origin_text import link_and_role
 from up.flight_log.spans import duration_text
 

@@ -137,8 +137,8 @@ def test_what_it_tells(report):
         "Events",
         "flight mode FBW",
         "disarmed",
-        "Gains loop axis P I D rate ailerons 2 0 0.1",
-        "rate ailerons p 2 3",
+        "Gains loop axis P I D rate roll 2 0 0.1",
+        "rate roll p 2 3",
         "config/config.yml",
         "# by hand log level: info",
         "serial_cog 1.0.0",
@@ -253,7 +253,7 @@ def test_gains_that_were_only_asked_for(tmp_path):
 
     page, _, _ = report_of(tmp_path, fill)
     assert "0:02.0 asked for by mission_control" in page.text
-    assert "rate ailerons p 2 2.5" in page.text
+    assert "rate roll p 2 2.5" in page.text
 
 
 @settings(max_examples=60, deadline=None)

@@ -1,0 +1,53 @@
+"""Which gains differ between two sets, in the words of the ground station."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from up.flight_log.json_message import number_at
+
+LOOPS = {
+    "ratePIDs": "rate",
+    "stabPIDs": "stabilize",
+    "stabilizePIDs": "stabilize",
+    "navPIDs": "navigation",
+}
+AXES = {"ailerons": "roll", "elevator": "pitch", "rudder": "yaw"}
+TERMS = ("p", "i", "d")
+Key = tuple[str, str, str]
+"""Loop, axis and term, in words: rate, roll, p."""
+
+
+def gains_of(data: Any) -> dict[Key, float]:
+    """Return what a set as on the wire (``{ratePIDs: {ailerons: {p: 3}}}``) has of gains."""
+    return dict(_cells(data)) if isinstance(data, dict) else {}
+
+
+def changes_text(before: Any, after: Any, most: int = 27) -> str:
+    """Return ``rate roll P 3 to 2.4, ...``; empty: nothing differs.
+
+    Of a gain that ``before`` does not have its new value alone is told; beyond ``most`` of them
+    how many there are.
+    """
+    known = gains_of(before)
+    found = [
+        f"{loop} {axis} {term.upper()} {_from(known.get((loop, axis, term)))}{value:g}"
+        for (loop, axis, term), value in gains_of(after).items()
+        if known.get((loop, axis, term)) != value
+    ]
+    more = f" and {len(found) - most} more" if len(found) > most else ""
+    return ", ".join(found[:most]) + more
+
+
+def _from(value: float | None) -> str:
+    return "" if value is None else f"{value:g} to "
+
+
+def _cells(data: Mapping[str, Any]) -> Iterator[tuple[Key, float]]:
+    for loop, loop_word in LOOPS.items():
+        for axis, axis_word in AXES.items():
+            for term in TERMS:
+                value = number_at(data, (loop, axis, term))
+                if value is not None:
+                    yield (loop_word, axis_word, term), value
