@@ -99,9 +99,13 @@ class Up:
     def telemetry_content(self) -> Mapping[str, Any]:
         """Return what the system itself contributes to telemetry."""
         executor = self.command_executor
+        now_s = self.context.reactor.seconds()
         return {
             "vetoes": self.vetoes.all,
-            "system": {"uptime_s": round(self.context.reactor.seconds() - self.started_at_s)},
+            "system": {
+                "uptime_s": round(now_s - self.started_at_s),
+                "clock_ms": round(now_s * 1000),
+            },
             "counters": {
                 "bus": dict(executor.counters),
                 "receiver": dict(self.command_receiver.counters),

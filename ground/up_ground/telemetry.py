@@ -7,6 +7,7 @@ from collections import deque
 from typing import Any
 
 from up.protocols.general_message import GeneralMessage
+from up_ground.delay import Delay
 from up_ground.safe_text import safe_text
 
 NAME = "up.telemetry.update"
@@ -15,6 +16,8 @@ SILENT_S = 0.9
 _STALE_S = {"location": 1.9, "altitude": 1.9, "heading": 1.9, "battery": 120.0}
 """Sources that come once a second or more seldom are stale later than SILENT_S."""
 _LARGEST_GAP = 1000
+_ONE_LIFE = 1_000_000
+"""Beacons of one life of an aircraft are nearer: each life draws its first at random."""
 _GREATEST = 1e12
 
 
@@ -22,16 +25,21 @@ class Telemetry:
     """The newest frame, read with suspicion: a field of a wrong type is a field not known.
 
     Times are the clock's seconds. ``lost`` counts the frames that the beacon's numbers say were
-    sent and did not come. ``delay_s`` is the link's own delay as far as it is known.
+    sent and did not come. ``way_s`` is how long the newest one was on its way, as far as that is
+    known: half of the round trip to the proxy, and by how much it came later than the quickest one
+    by the aircraft's own clock, where it tells one (``system.clock_ms``).
     """
 
     def __init__(self) -> None:
         self.frames = 0
         self.lost = 0
-        self.delay_s = 0.0
         self.beacon: int | None = None
         self.data: dict[str, Any] = {}
         self._received_s: float | None = None
+        self._delay = Delay()
+        self._held_s: float | None = None
+        self._round_trip_s = 0.0
+        self._least_trip_s: float | None = None
         self._times_s: deque[float] = deque(maxlen=32)
 
     def take(self, message: GeneralMessage, now_s: float) -> bool:
@@ -42,16 +50,40 @@ class Telemetry:
             gap = message.beacon - self.beacon
             if 1 < gap <= _LARGEST_GAP:
                 self.lost += gap - 1
+            if abs(gap) > _ONE_LIFE:
+                self._delay.forget()
         self.beacon = message.beacon
         self.data = message.data
         self.frames += 1
+        self._held_s = self._delay.take(self.number("system", "clock_ms"), now_s)
+        if self._delay.has_begun:
+            self._least_trip_s = None
         self._received_s = now_s
         self._times_s.append(now_s)
         return True
 
+    def on_round_trip(self, round_trip_ms: float | None) -> None:
+        """Take how long it is to the proxy and back now; None: not known."""
+        self._round_trip_s = (round_trip_ms or 0.0) / 1000
+        if round_trip_ms is not None:
+            self._least_trip_s = min(self._round_trip_s, self._least_trip_s or self._round_trip_s)
+
+    @property
+    def way_s(self) -> float:
+        """Return how long the newest frame was on its way, as far as that is known."""
+        if self._held_s is None:
+            return self._round_trip_s / 2
+        # What queues on the way to the proxy is in the held time: the least is the way itself.
+        return (self._least_trip_s or self._round_trip_s) / 2 + self._held_s
+
     def age_s(self, now_s: float) -> float | None:
-        """Return the age of the newest frame with the link's delay; None: there was none."""
-        return None if self._received_s is None else now_s - self._received_s + self.delay_s
+        """Return the age of the newest frame with its way; None: there was none."""
+        return None if self._received_s is None else now_s - self._received_s + self.way_s
+
+    def is_late(self, now_s: float) -> bool:
+        """Say whether frames come, but so late that they are as good as silence."""
+        received_s = self._received_s
+        return received_s is not None and now_s - received_s <= SILENT_S < self.way_s
 
     def is_silent(self, now_s: float) -> bool:
         """Say whether nothing on the screen can be trusted to be of now."""

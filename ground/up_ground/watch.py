@@ -93,8 +93,7 @@ class Watch(Errand):
         if now_s - self._measured_s >= MEASURE_S:
             self._measured_s = now_s
             self.link.measure()
-            # Half of the way there and back to the proxy is known; what lies beyond is not.
-            self.state.telemetry.delay_s = (self.state.status.round_trip_ms or 0.0) / 2000
+            self.state.telemetry.on_round_trip(self.state.status.round_trip_ms)
         self.on_tick(now_s)
         self.after(self._reactor, "tick", self.PERIOD_S, self._tick)
 

@@ -26,7 +26,7 @@ def test_nothing_is_known_before_the_first_frame():
 
 def test_the_age_of_a_reading_is_that_on_board_and_on_the_way_and_since():
     telemetry = told()
-    telemetry.delay_s = 0.1
+    telemetry.on_round_trip(200.0)
     assert telemetry.reading_age_s("orientation", 100.5) == pytest.approx(0.012 + 0.1 + 0.5)
     assert telemetry.reading_age_s("nothing", 100.5) is None
 

@@ -160,7 +160,9 @@ class ReplayedAircraft:
 
     def _show(self, frame: Frame) -> None:
         self._frames += 1
-        self._frame = FrameMessage(self.name, frame.beacon, frame.data, lambda: 0.0)
+        self._frame = FrameMessage(
+            self.name, frame.beacon, frame.data, lambda now_s: 0.0, self._clock.seconds
+        )
         self._audience.show(self.name, "frame", self._frame)
 
     def _on_moved(self, before_s: float, now_s: float) -> None:

@@ -33,6 +33,8 @@ class LinkFacts:
     is_aircraft_online: bool | None
     was_heard: bool
     is_silent: bool
+    is_late: bool = False
+    """Telemetry comes, but what it says is as old as if it were silent."""
 
 
 class Alarms:
@@ -100,4 +102,4 @@ def _silence(link: LinkFacts) -> str:
         return f"no link: {link.reason}"[:300] if link.reason else "no link"
     if link.is_aircraft_online is False:
         return "the aircraft is not connected to the proxy"
-    return "the aircraft is silent"
+    return "telemetry comes too late" if link.is_late else "the aircraft is silent"

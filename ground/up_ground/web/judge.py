@@ -87,8 +87,9 @@ class Judge:
         self._settled.on_moment(now_s)
         if self._alarms.take(telemetry, link, now_s):
             kinds = {each.kind for each in self._alarms.active}
+            silence = "telemetry comes too late" if link.is_late else "no telemetry any more"
             for kind, gone, back in (
-                ("silent", "no telemetry any more", "telemetry comes again"),
+                ("silent", silence, "telemetry comes again"),
                 ("battery", "the phone's battery is low", "the phone's battery is charged"),
             ):
                 self._say_alarm(kind, kind in kinds, gone, back, now_s)

@@ -17,24 +17,28 @@ def message_bytes(fields: Mapping[str, Any]) -> bytes:
 
 
 class FrameMessage:
-    """A frame of telemetry: put into JSON once for all pages, its age at the moment it leaves.
+    """A frame of telemetry: put into JSON once for all pages, with the moment it leaves.
 
-    ``age_s`` returns the age now.
+    ``age_s`` returns its age at a moment of the monotonic clock ``now_s``.
     """
 
-    __slots__ = ("_age_s", "_body")
+    __slots__ = ("_age_s", "_body", "_now_s")
 
     def __init__(
         self,
         aircraft: str,
         beacon: int | None,
         data: Mapping[str, Any],
-        age_s: Callable[[], float],
+        age_s: Callable[[float], float],
+        now_s: Callable[[], float],
     ) -> None:
         fields = {"type": "frame", "aircraft": aircraft, "beacon": beacon, "data": data}
         self._body = _ENCODER.encode(fields)[:-1].encode("ascii") + b',"age_ms":'
         self._age_s = age_s
+        self._now_s = now_s
 
     def __call__(self) -> bytes:
         """Return the message as it is true now."""
-        return text_frame(b"%b%.1f}" % (self._body, self._age_s() * 1000))
+        now_s = self._now_s()
+        age_ms, sent_ms = self._age_s(now_s) * 1000, now_s * 1000
+        return text_frame(b'%b%.1f,"sent_ms":%.1f}' % (self._body, age_ms, sent_ms))

@@ -172,7 +172,9 @@ class Pages:
             ping = message.fields.get("ping")
             if isinstance(ping, str | dict | list):
                 raise PageFault("ping is no number")
-            link.output.send(message_bytes({"type": "pong", "ping": ping}))
+            link.output.send(
+                message_bytes({"type": "pong", "ping": ping, "sent_ms": self._now_ms()})
+            )
         elif page is None:
             raise PageFault("the first message must be hello")
         elif kind == "watch":
@@ -266,6 +268,7 @@ class Pages:
                 "why_not": "this is a replay" if self._is_replay else page.why_not,
                 "tiles": self._tiles,
                 "is_replay": self._is_replay,
+                "sent_ms": self._now_ms(),
             }
         )
         if self._catalogue is not None:
@@ -287,6 +290,10 @@ class Pages:
 
     def _show_status(self, page: Page, aircraft: WatchedAircraft) -> None:
         page.news(f"status {aircraft.name}", lambda: message_bytes(aircraft.status(page)))
+
+    def _now_ms(self) -> float:
+        """Return the clock by which pages tell how long the way from here was."""
+        return round(self._clock.seconds() * 1000, 1)
 
     def _forget(self, page: Page) -> None:
         self._timers.pop(page.number, None)

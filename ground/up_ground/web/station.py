@@ -97,11 +97,13 @@ class Station:
         """Take what the aircraft says."""
         came_s = self._reactor.seconds()
         if self.telemetry.take(message, came_s):
+            made_s = came_s - self.telemetry.way_s
             frame = FrameMessage(
                 self.name,
                 message.beacon,
                 message.data,
-                lambda: self._reactor.seconds() - came_s + self.telemetry.delay_s,
+                lambda now_s: now_s - made_s,
+                self._reactor.seconds,
             )
             self._frame = frame
             self._audience.show(self.name, "frame", frame)
@@ -151,8 +153,7 @@ class Station:
     def on_second(self) -> None:
         """Measure the link."""
         self.link.measure()
-        # Half of the way there and back to the proxy is known; what lies beyond is not.
-        self.telemetry.delay_s = (self.link.status.round_trip_ms or 0.0) / 2000
+        self.telemetry.on_round_trip(self.link.status.round_trip_ms)
 
     def status(self, page: Page) -> dict[str, Any]:
         """Return the status as this page sees it."""
@@ -232,6 +233,7 @@ class Station:
             status.is_aircraft_online,
             self.telemetry.frames > 0,
             self.telemetry.is_silent(now_s),
+            self.telemetry.is_late(now_s),
         )
 
     def _on_control_news(self, text: str) -> None:

@@ -10,6 +10,7 @@ export function mount(element, store, connection) {
   element.append(list);
   const plain = {
     age: new PlainRow(list, "Newest frame", "link.age"),
+    ages: new PlainRow(list, "Ages are told", "link.ages"),
     rate: new PlainRow(list, "Rate", "link.rate"),
     lost: new PlainRow(list, "Lost, dropped", "link.lost"),
     page: new PlainRow(list, "This page", "link.page"),
@@ -33,6 +34,7 @@ export function mount(element, store, connection) {
         ageShown = age_s === null ? null : ageText(age_s);
       }
       plain.age.show(ageShown, store.isSilent ? "warning" : "");
+      plain.ages.show(agesText(store));
       showPage(plain.page, connection);
       showProxy(plain.proxy, link, isDoubtful);
       showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isDoubtful);
@@ -52,6 +54,15 @@ export function mount(element, store, connection) {
 /** A proxy that hangs is connected as far as the server knows: what it says is of before. */
 function saysMoreThanIsHeard(link, store) {
   return store.isSilent && link.state === "connected" && link.aircraft_online !== false;
+}
+
+function agesText(store) {
+  if (store.frames === 0 || store.replay !== null) {
+    return null;
+  }
+  return store.number("system.clock_ms") === null
+    ? "without the way to the proxy: the aircraft tells no clock"
+    : "by the aircraft's clock, from its quickest frame on";
 }
 
 function joined(isThere) {

@@ -2,10 +2,12 @@ import { Backoff } from "./backoff.js";
 import { now_s, TIMERS } from "./clock.js";
 import { keepsakeOf } from "./keepsake.js";
 import { PendingAsks } from "./pending_asks.js";
+import { Way } from "./way.js";
 
 const PING_S = 1;
 const DEAF_S = 4;
 const CONNECT_S = 5;
+const PINGS_KEPT = 64;
 const LOST = "the connection to the ground server was lost before an answer came";
 
 /**
@@ -32,11 +34,15 @@ export class Connection {
   #pinger = null;
   #pings = new Map();
   #ping = 0;
+  #hello_s = null;
+  #way = new Way();
 
   /** The server's `welcome`, null while there is no connection. */
   welcome = null;
   /** The page's own round trip in seconds, null until measured. */
   roundTrip_s = null;
+  /** How long the message that is being heard was on its way, in seconds. */
+  way_s = 0;
   /** Which frame the page has shown: set by the page, echoed in Commands. */
   shownBeacon = () => null;
 
@@ -153,6 +159,8 @@ export class Connection {
     const token = this.#memory.get("token");
     // Without a name of its own the server gives it one.
     const name = this.#memory.get("name") ?? keepsakeOf("localStorage").get("name") ?? "";
+    this.#hello_s = this.#now_s();
+    this.#way = new Way();
     socket.send(JSON.stringify({ type: "hello", name, key: this.#key, token }));
   }
 
@@ -167,6 +175,7 @@ export class Connection {
     if (message === null || typeof message !== "object" || typeof message.type !== "string") {
       return;
     }
+    this.#timeWay(message);
     if (message.type === "welcome") {
       this.#welcomed(message);
     } else if (message.type === "pong") {
@@ -188,19 +197,30 @@ export class Connection {
     this.#tell("open", { welcome: message });
   }
 
+  /** A server that tells no clock leaves half of the round trip. */
+  #timeWay(message) {
+    const asked_s = message.type === "welcome" ? this.#hello_s : this.#pings.get(message.ping);
+    const way_s = this.#way.take(message.sent_ms, this.#heard_s, asked_s ?? null);
+    this.way_s = way_s ?? (this.roundTrip_s ?? 0) / 2;
+  }
+
   #ponged(message) {
     const sent_s = this.#pings.get(message.ping);
     if (sent_s !== undefined) {
       this.roundTrip_s = this.#now_s() - sent_s;
-      this.#pings.clear();
+      this.#forgetPings((ping) => ping <= message.ping);
+    }
+  }
+
+  #forgetPings(isOver) {
+    for (const ping of [...this.#pings.keys()].filter(isOver)) {
+      this.#pings.delete(ping);
     }
   }
 
   #sendPing() {
     this.#ping += 1;
-    if (this.#pings.size > 8) {
-      this.#pings.clear();
-    }
+    this.#forgetPings((ping) => ping <= this.#ping - PINGS_KEPT);
     this.#pings.set(this.#ping, this.#now_s());
     this.send({ type: "ping", ping: this.#ping });
   }

@@ -22,10 +22,10 @@ export class NewestFrame {
 
   /**
    * @param {object} message the server's `frame`
-   * @param {number|null} roundTrip_s between page and server
+   * @param {number} way_s how long it was on its way from the server
    * @returns {boolean} whether it was one
    */
-  takeFrame(message, roundTrip_s) {
+  takeFrame(message, way_s) {
     if (message.data === null || typeof message.data !== "object") {
       return false;
     }
@@ -34,8 +34,7 @@ export class NewestFrame {
     this.frames += 1;
     this.#frameAt_s = this.now_s;
     this.#heldAt_s = this.#heldAt_s === null ? null : this.now_s;
-    const way_s = Math.max(0, judge.number(message.age_ms) ?? 0) / 1000;
-    this.#frameAge_s = way_s + (roundTrip_s ?? 0) / 2;
+    this.#frameAge_s = Math.max(0, judge.number(message.age_ms) ?? 0) / 1000 + way_s;
     return true;
   }
 

@@ -145,7 +145,7 @@ export class Store extends NewestFrame {
 
   #takeOfAircraft(message) {
     const known = {
-      frame: () => this.takeFrame(message, this.#connection.roundTrip_s) && this.#follow(),
+      frame: () => this.takeFrame(message, this.#connection.way_s) && this.#follow(),
       event: () => this.#events.take(message, this.now_s),
       alarms: () => (this.alarms = alarmsOf(message.active)),
       gains: () => (this.gains = message),

@@ -1,0 +1,52 @@
+"""How long messages were held up on their way, told by their sender's clock."""
+
+from __future__ import annotations
+
+DRIFT = 1e-4
+"""Two clocks run apart by no more than this: 0.1 ms in a second."""
+NEW_CLOCK_S = 30.0
+"""No message is held up by so much more than the one before: links are given up sooner."""
+
+
+class Delay:
+    """Tells how much longer than the quickest one a message was on its way.
+
+    The two clocks need not agree on any moment: what even the quickest message took is in no
+    figure. Of the quickest one nothing is forgotten but the drift, so that a queue that stands for
+    minutes is not taken for the length of the way: after a time t the figure is too small by up to
+    2 t ``DRIFT``, and never too great. A clock that goes back, or falls behind by ``NEW_CLOCK_S``
+    at once, is another clock: it begins anew.
+    """
+
+    def __init__(self) -> None:
+        self.has_begun = False
+        """Whether the last message was the first of its clock."""
+        self._least_s: float | None = None
+        self._excess_s = 0.0
+        self._stamp_s = 0.0
+        self._now_s = 0.0
+
+    def forget(self) -> None:
+        """Begin anew, with another clock or another way."""
+        self._least_s = None
+
+    def take(self, stamp_ms: float | None, now_s: float) -> float | None:
+        """Take a message that comes now; return the seconds it was held up.
+
+        ``stamp_ms`` is its sender's clock when it left, None where none is told: None then.
+        """
+        self.has_begun = False
+        if stamp_ms is None:
+            return None
+        stamp_s = stamp_ms / 1000
+        apart_s = now_s - stamp_s
+        if self._least_s is not None:
+            least_s = min(apart_s, self._least_s + DRIFT * (now_s - self._now_s))
+            has_jumped = apart_s - least_s > self._excess_s + NEW_CLOCK_S
+            self._least_s = None if stamp_s < self._stamp_s or has_jumped else least_s
+        if self._least_s is None:
+            self.has_begun = True
+            self._least_s = apart_s
+        self._stamp_s, self._now_s = stamp_s, now_s
+        self._excess_s = apart_s - self._least_s
+        return self._excess_s
