@@ -60,6 +60,9 @@ test("a number of which nothing is known has the figures that mean something", (
   assert.equal(plainNumber(0.1 + 0.2), "0.3");
   assert.equal(plainNumber(49.2123456), "49.2123456");
   assert.equal(plainNumber(954428466), "954428466");
+  assert.equal(plainNumber(Math.fround(27.59)), "27.59");
+  assert.equal(plainNumber(Math.fround(1 / 3)), "0.33333334");
+  assert.equal(plainNumber(1e-7), "1e-7");
   assert.equal(plainNumber(-0), "0");
   assert.equal(plainNumber(NaN), "--");
 });

@@ -47,7 +47,7 @@ export function mount(place, store, connection) {
     element("div.row", {}, send),
     note,
   );
-  const details = element("details", { id: "any-command" }, element("summary", { text: "Any Command" }), why, form);
+  const details = element("details", { id: "any-command" }, element("summary", {}, place.querySelector("h2")), why, form);
   place.append(details);
   let offered = null;
   let offeredWords = "";

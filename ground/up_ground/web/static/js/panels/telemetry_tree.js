@@ -27,7 +27,7 @@ export function mount(place, store) {
   const details = element(
     "details",
     { id: "telemetry", on: { toggle: () => toggled() } },
-    element("summary", { text: "All telemetry" }),
+    element("summary", {}, place.querySelector("h2")),
     element("div.field", {}, element("label", { for: "telemetry-filter", text: "Filter" }), filter),
     count,
     note,

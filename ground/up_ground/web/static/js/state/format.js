@@ -26,7 +26,13 @@ export function plainNumber(value) {
   if (!Number.isFinite(value)) {
     return UNKNOWN;
   }
-  return String(Number.isSafeInteger(value) ? value : Number(value.toPrecision(9)));
+  if (Number.isSafeInteger(value)) {
+    return String(value);
+  }
+  // What was measured in single precision has no more figures than tell it from its neighbours.
+  const isSingle = Math.fround(value) === value;
+  const figures = [6, 7, 8].find((each) => isSingle && Math.fround(Number(value.toPrecision(each))) === value);
+  return String(Number(value.toPrecision(figures ?? 9)));
 }
 
 /**
