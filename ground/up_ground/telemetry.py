@@ -57,7 +57,7 @@ class Telemetry:
         self.frames += 1
         self._held_s = self._delay.take(self.number("system", "clock_ms"), now_s)
         if self._delay.has_begun:
-            self._least_trip_s = None
+            self._least_trip_s = self._round_trip_s or None
         self._received_s = now_s
         self._times_s.append(now_s)
         return True

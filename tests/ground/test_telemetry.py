@@ -31,6 +31,66 @@ def test_the_age_of_a_reading_is_that_on_board_and_on_the_way_and_since():
     assert telemetry.reading_age_s("nothing", 100.5) is None
 
 
+def clocked(telemetry, clock_ms, now_s, beacon=None):
+    """Take a frame that tells the aircraft's clock; return its age."""
+    data = frame(system={"clock_ms": clock_ms})
+    telemetry.take(GeneralMessage(NAME, data, None, beacon), now_s)
+    return telemetry.age_s(now_s)
+
+
+def test_a_frame_that_was_held_up_is_old_when_it_comes():
+    telemetry = Telemetry()
+    telemetry.on_round_trip(40.0)
+    assert clocked(telemetry, 1000, 10.0) == pytest.approx(0.02)
+    assert not telemetry.is_stale("orientation", 10.0)
+    assert clocked(telemetry, 2000, 14.0) == pytest.approx(3.02, abs=0.001)
+    assert telemetry.is_silent(14.0)
+    assert telemetry.is_late(14.0)
+    assert telemetry.is_stale("orientation", 14.0)
+    assert telemetry.reading_age_s("orientation", 14.0) == pytest.approx(3.032, abs=0.001)
+    assert clocked(telemetry, 5100, 14.1) == pytest.approx(0.02, abs=0.001)
+    assert not telemetry.is_late(14.1)
+
+
+def test_a_queue_before_the_proxy_is_not_counted_twice():
+    telemetry = Telemetry()
+    telemetry.on_round_trip(40.0)
+    clocked(telemetry, 1000, 10.0)
+    telemetry.on_round_trip(2040.0)
+    assert clocked(telemetry, 2000, 13.0) == pytest.approx(2.02, abs=0.001)
+
+
+def test_an_aircraft_without_a_clock_is_judged_by_the_round_trip_alone():
+    telemetry = told()
+    for round_trip_ms, age_s in ((40.0, 0.02), (2040.0, 1.02), (None, 0.0)):
+        telemetry.on_round_trip(round_trip_ms)
+        assert telemetry.age_s(100.0) == pytest.approx(age_s)
+    assert not telemetry.is_late(100.0)
+
+
+def test_silence_is_not_lateness():
+    telemetry = told()
+    assert not Telemetry().is_late(0)
+    assert not telemetry.is_late(105.0)
+
+
+@pytest.mark.parametrize("clock_ms", [float("nan"), float("inf"), 10**30, "1000", True, None, [1]])
+def test_a_clock_that_is_none_is_as_if_it_were_not_told(clock_ms):
+    telemetry = Telemetry()
+    telemetry.on_round_trip(40.0)
+    clocked(telemetry, 1000, 10.0)
+    assert clocked(telemetry, clock_ms, 14.0) == pytest.approx(0.02)
+
+
+def test_an_aircraft_that_was_started_anew_has_another_clock():
+    telemetry = Telemetry()
+    clocked(telemetry, 1000, 10.0, beacon=5_000_000)
+    # It looks like one that was held up for 12 s, but its beacons are others.
+    assert clocked(telemetry, 2000, 23.0, beacon=900_000_000) == 0
+    assert clocked(telemetry, 3000, 24.5, beacon=900_000_001) == pytest.approx(0.5, abs=0.001)
+    assert clocked(telemetry, 100, 25.0, beacon=900_000_002) == 0
+
+
 def test_everything_is_stale_before_a_second_of_silence_is_over():
     telemetry = told()
     assert not telemetry.is_stale("orientation", 100.5)

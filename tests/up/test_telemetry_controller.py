@@ -68,6 +68,13 @@ def test_ten_a_second_with_beacons_that_count_up(rig):
     assert rig.up.beacons.is_fresh(first)
 
 
+def test_each_frame_tells_the_clock_of_the_moment_it_was_collected(rig):
+    rig.run(0.45)
+    told_ms = [content["system"]["clock_ms"] for _, content, _ in rig.frames]
+    assert told_ms == [round(time_s * 1000) for time_s in rig.times]
+    assert all(type(each) is int for each in told_ms)
+
+
 def test_the_ground_sets_the_period(rig):
     rig.period(20)
     rig.run(0.2)
@@ -158,7 +165,7 @@ def test_the_systems_own_part(rig):
     content = rig.frames[0][1]
     assert content["vetoes"] == ["pids.yml: is corrupt"]
     assert content["counters"]["reactor"] == {"SlowModule": 3}
-    assert content["system"] == {"uptime_s": 0}
+    assert content["system"] == {"uptime_s": 0, "clock_ms": 110}
     assert content["mode"] == "flight controller"
 
 

@@ -174,3 +174,13 @@ def test_the_past_is_bounded(bench):
     past = list(bench.judge.past(bench.now_s))
     assert len(past) == EVENTS_KEPT + 1
     assert past[-2]["number"] == 1000
+
+
+def test_telemetry_that_comes_too_late_is_an_alarm(bench):
+    late = LinkFacts(True, "", True, True, True, is_late=True)
+    bench.wait(0.25, late)
+    assert bench.texts == ["telemetry comes too late"]
+    (alarm,) = [each["active"] for each in bench.told if each["type"] == "alarms"][-1]
+    assert (alarm["kind"], alarm["text"]) == ("silent", "telemetry comes too late")
+    bench.wait(3)
+    assert bench.texts[-1] == "telemetry comes again"

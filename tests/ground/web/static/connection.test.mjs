@@ -164,6 +164,34 @@ test("a server that never answers a Command is a timeout", async () => {
   assert.equal((await answer).outcome, "timeout");
 });
 
+test("the way of a message is told from the hello on, by the server's clock", () => {
+  page.start();
+  server.socket.open();
+  clock.advance(0.04);
+  server.socket.say({ type: "welcome", aircraft: [], sent_ms: 7000 });
+  assert.ok(Math.abs(page.way_s - 0.02) < 1e-6);
+  clock.advance(2);
+  server.socket.say({ type: "frame", sent_ms: 7100 });
+  assert.ok(Math.abs(page.way_s - 1.92) < 0.001);
+  server.socket.say({ type: "status" });
+  assert.equal(page.way_s, 0);
+});
+
+test("a ping is answered however many are on their way", () => {
+  page.start();
+  server.welcome();
+  for (let second = 0; second < 20; second += 1) {
+    clock.advance(1);
+    server.socket.say({ type: "status" });
+  }
+  const pings = server.socket.of("ping");
+  assert.equal(pings.length, 21);
+  server.socket.say({ type: "pong", ping: pings[1].ping });
+  assert.ok(Math.abs(page.roundTrip_s - 19) < 1e-9);
+  server.socket.say({ type: "pong", ping: pings[20].ping });
+  assert.ok(page.roundTrip_s < 1e-9);
+});
+
 test("what is no message is dropped", () => {
   const heard = [];
   page.on("message", (message) => heard.push(message.type));

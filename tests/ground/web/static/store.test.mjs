@@ -49,6 +49,31 @@ test("an age is that on board, on the link, half the page's round trip, and sinc
   assert.equal(store.age_s("rx"), null);
 });
 
+test("a frame of a backlog is as old as it is, and is drawn so at once", () => {
+  const sent = (before_s) => ({ sent_ms: (clock.seconds + 5000 - before_s) * 1000 });
+  const [ping] = server.socket.of("ping");
+  clock.advance(0.06);
+  server.socket.say({ type: "pong", ping: ping.ping, ...sent(0.03) });
+  frame({ altitude: 5 }, sent(0.03));
+  assert.ok(Math.abs(store.age_s(null) - (0.02 + 0.03)) < 1e-6);
+  clock.advance(3);
+  frame({ altitude: 6 }, sent(3));
+  assert.ok(Math.abs(store.age_s(null) - (0.02 + 3)) < 0.001);
+  assert.equal(store.aircraftState, "silent");
+  assert.equal(store.freshnessAt("altitude"), "stale");
+  frame({ altitude: 7 }, sent(0.04));
+  assert.equal(store.freshnessAt("altitude"), "live");
+});
+
+test("another connection has another clock", () => {
+  frame({ altitude: 5 }, { sent_ms: 9_000_000 });
+  server.socket.fail();
+  clock.advance(0.25);
+  server.welcome({ sent_ms: 100 });
+  frame({ altitude: 5 }, { sent_ms: 100 });
+  assert.ok(store.age_s(null) < 0.03);
+});
+
 test("every value of a frame is judged", () => {
   const odd = { roll: "1", pitch: null, yaw: [1] };
   frame({ orientation: odd, altitude: 1e300, armed: "yes", vetoes: "no", flight_mode: 3 });
