@@ -67,6 +67,11 @@ try {
   await ground.page.getByLabel("Mark in the flight log").fill(MARK);
   await carriedOut(() => press("Mark"));
 
+  // What the guide's module adds to telemetry is there without another file.
+  assert.ok(GUIDE.includes("*All telemetry*, as `bank.steepest`"));
+  await ground.page.locator("summary", { hasText: "All telemetry" }).click();
+  await ground.until(() => /bank\.steepest/.test(document.querySelector("#telemetry-list").textContent), "the bank");
+
   process.kill(Number(proxy), "SIGSTOP");
   try {
     await says("#silence", "no news for 1.2 s");

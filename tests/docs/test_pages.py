@@ -107,6 +107,17 @@ def definitions(path):
     return found
 
 
+def test_the_browser_tests_that_are_named_exist():
+    rows = text_of(REPOSITORY / "docs" / "failure-modes.md").splitlines()
+    named = 0
+    for row in rows:
+        for path, titles in re.findall(r"`(tests/browser/[\w.]+)`: ((?:\*[^*]+\*(?:, )?)+)", row):
+            for title in re.findall(r"\*([^*]+)\*", titles):
+                assert f'test("{title}"' in text_of(REPOSITORY / path), title
+                named += 1
+    assert named > 10
+
+
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
 def test_the_functions_that_it_names_stand_in_the_files_that_it_names(page):
     for path, function in _SPOT.findall(text_of(page)):
