@@ -142,4 +142,9 @@ test("a daemon that stands still leaves nothing in the list that looks new", asy
   );
 });
 
+test("closed again, the list is empty and costs nothing", async () => {
+  await ground.page.click("#telemetry > summary");
+  await ground.until(() => document.querySelector("#telemetry-list li") === null, "an empty list");
+});
+
 test("the page has done nothing that it may not", () => ground.assertClean());
