@@ -5,13 +5,18 @@ from __future__ import annotations
 import dataclasses
 import importlib
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from tests.ground.aircraft import Aircraft, frame
+from tests.ground.web.page import Serve
+from tests.proxy.program import Program as Proxy
 from tests.support.application import plan_of, write_application
+from tests.support.tools import need_tool, unavailable
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.origin import INTERNAL, Origin
@@ -49,6 +54,42 @@ def plane(tmp_path):
     yield write
     for name in [name for name in sys.modules if name.split(".")[0] == "plane"]:
         del sys.modules[name]
+
+
+def test_the_instrument_shows_the_modules_value(tmp_path, monkeypatch):
+    text = (REPOSITORY / "docs/how-to/module.md").read_text()
+    file, script = re.search(r"<!-- script: (\S+) -->\n```js\n(.*?)```", text, re.DOTALL).groups()
+    node = need_tool("node", "nodejs")
+    need_tool("npm")
+    need_tool("chromium")
+    modules = [REPOSITORY / "tools" / "npm_modules", REPOSITORY / "tests" / "browser"]
+    installed = subprocess.run(modules, capture_output=True, text=True)
+    if installed.returncode != 0:
+        unavailable(installed.stderr.strip())
+    # The three places, in a copy that is served instead.
+    copy = tmp_path / "copy" / "up_ground"
+    shutil.copytree(REPOSITORY / "ground" / "up_ground", copy)
+    static = copy / "web" / "static"
+    (static / file).write_text(script)
+    index, main = static / "index.html", static / "js" / "main.js"
+    place, line = '<p id="ceiling"></p>', f'["ceiling", "./{file.removeprefix("js/")}"],'
+    index.write_text(index.read_text().replace("</main>", f"{place}</main>"))
+    main.write_text(main.read_text().replace("const PARTS = [", f"const PARTS = [{line}"))
+    monkeypatch.setenv("PYTHONPATH", str(copy.parent))
+    data = frame(ceiling={"highest_m": 412.4})
+    with (
+        Proxy(tmp_path / "proxy", "metrics: false\n") as proxy,
+        Aircraft(proxy.airborne_port, data=data),
+        Serve(tmp_path, proxy.ground_port) as server,
+    ):
+        program = REPOSITORY / "tests" / "docs" / "instrument_page.mjs"
+        done = subprocess.run(
+            [node, program, f"http://127.0.0.1:{server.port}/", "ceiling"],
+            capture_output=True,
+            text=True,
+            timeout=120,
+        )
+    assert (done.returncode, done.stdout) == (0, "highest 412 m\n"), done.stderr
 
 
 def test_the_module_is_shorter_than_15_lines_and_works(plane, tmp_path):
