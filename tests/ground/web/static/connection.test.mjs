@@ -69,6 +69,45 @@ test("after a success the attempts begin anew", () => {
   assert.equal(page.retry_s, 0.25);
 });
 
+test("a server that is full is asked every five seconds, and told from one that is gone", () => {
+  page.start();
+  for (const _ of [1, 2, 3]) {
+    const before = server.sockets.length;
+    server.socket.open();
+    server.socket.fail("16 pages", 4013);
+    assert.equal(page.isFull, true);
+    clock.advance(4.9);
+    assert.equal(server.sockets.length, before);
+    clock.advance(0.2);
+    assert.equal(server.sockets.length, before + 1);
+  }
+  server.welcome();
+  assert.equal(page.isFull, false);
+  server.socket.fail("the server ends", 4001);
+  assert.equal(page.isFull, false);
+  assert.equal(page.retry_s, 0.25);
+});
+
+test("who throws keeps nobody else from a message, and who hears all hears it first", (t) => {
+  t.mock.method(console, "error", () => {});
+  const heard = [];
+  page.on("alarms", () => heard.push("alarms"));
+  page.on("alarms", () => {
+    throw new Error("a listener that fails");
+  });
+  page.on("alarms", () => heard.push("alarms too"));
+  page.on("message", ({ type }) => {
+    heard.push(`message ${type}`);
+    throw new Error("another one");
+  });
+  page.start();
+  server.welcome();
+  heard.length = 0;
+  server.socket.say({ type: "alarms", aircraft: "one", active: [] });
+  assert.deepEqual(heard, ["message alarms", "alarms", "alarms too"]);
+  assert.equal(console.error.mock.callCount(), 3);
+});
+
 test("a server that says nothing for four seconds is left", () => {
   page.start();
   server.welcome();

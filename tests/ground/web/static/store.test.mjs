@@ -213,25 +213,6 @@ test("events come once each, in order, with the time they happened", () => {
   assert.equal(store.events[0].at_s, clock.seconds - 2);
 });
 
-test("a Command needs control and a role", () => {
-  const status = (holder, role) =>
-    server.socket.say({ type: "status", aircraft: "one", link: {}, control: { holder }, role });
-  assert.equal(store.canCommand("up.flight_mode.set"), false);
-  status("page", "pilot");
-  assert.equal(store.canCommand("up.flight_mode.set"), false);
-  assert.equal(store.canCommand("arduino.pids.tunings", { request: true }), true);
-  status("you", "operator");
-  assert.equal(store.canCommand("up.flight_mode.set"), true);
-  assert.equal(store.canCommand("up.arm"), false);
-  assert.equal(store.canCommand("arduino.pids.tunings", { pids: {} }), false);
-  status("you", "pilot");
-  assert.equal(store.canCommand("up.arm"), true);
-  status("you", null);
-  assert.equal(store.canCommand("up.arm"), true);
-  server.socket.fail();
-  assert.equal(store.canCommand("up.arm"), false);
-});
-
 test("the track grows by live fixes only", () => {
   server.socket.say({ type: "track", aircraft: "one", points: [[50, 8, 100], "odd", [95, 8, 0]] });
   assert.deepEqual(store.track.points, [[50, 8, 100]]);

@@ -1,3 +1,4 @@
+import { Crew } from "./crew.js";
 import { mountHelp } from "./help.js";
 import { Connection } from "./link/connection.js";
 import { mountShell } from "./shell.js";
@@ -31,41 +32,13 @@ const PARTS = [
   ["panel-telemetry", "./panels/telemetry_tree.js"],
 ];
 
-/** A part that fails is named and left out; the others go on. */
-class Crew {
-  #parts = [];
-
-  add(name, part) {
-    this.#parts.push({ name, part });
-  }
-
-  update() {
-    for (const each of this.#parts) {
-      try {
-        each.part.update();
-      } catch (error) {
-        this.#parts = this.#parts.filter((other) => other !== each);
-        sayMissing(`${each.name} stopped: ${error.message}`);
-        console.error(error);
-      }
-    }
-  }
-}
-
-function sayMissing(sentence) {
-  const place = document.getElementById("missing");
-  const line = document.createElement("span");
-  line.textContent = sentence;
-  place.append(line);
-  place.hidden = false;
-}
-
 async function mountPart(crew, [id, path], store, connection) {
   try {
     const { mount } = await import(path);
-    crew.add(id, mount(document.getElementById(id), store, connection));
+    const element = document.getElementById(id);
+    crew.add(id, mount(element, store, connection), element);
   } catch (error) {
-    sayMissing(`${id} is not there: ${error.message}`);
+    crew.say(`${id} is not there: ${error.message}`);
     console.error(error);
   }
 }
@@ -77,11 +50,11 @@ async function begin() {
   const asked = new URLSearchParams(location.hash.slice(1));
   const connection = new Connection(address.href, { key: asked.get("key") });
   const store = new Store(connection);
-  const crew = new Crew();
+  const crew = new Crew(document.getElementById("missing"));
   mountTheme(document.getElementById("theme-button"));
   mountSound(document.getElementById("sound-button"), store, connection);
   mountHelp();
-  crew.add("shell", mountShell(store, connection));
+  crew.add("bar", mountShell(store, connection), document.getElementById("bar-state"));
   store.subscribe(() => crew.update());
   store.start();
   connection.start();

@@ -8,8 +8,8 @@ import { ageText, UNKNOWN } from "./state/format.js";
  */
 export function setText(element, text) {
   if (element.shownText !== text) {
-    element.shownText = text;
     element.textContent = text;
+    element.shownText = text;
   }
 }
 
@@ -22,8 +22,8 @@ export function setText(element, text) {
 export function setAttribute(element, name, value) {
   const shown = (element.shownAttributes ??= {});
   if (shown[name] !== value) {
-    shown[name] = value;
     element.setAttribute(name, value);
+    shown[name] = value;
   }
 }
 

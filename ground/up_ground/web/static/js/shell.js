@@ -34,8 +34,7 @@ export function mountShell(store, connection) {
     setHidden(banner, connection.isOpen);
     if (!connection.isOpen) {
       const retry_s = connection.retry_s;
-      const why = reason === "" ? "" : ` (${reason})`;
-      setText(at("link-banner-text"), `No connection to the ground server${why}:`);
+      setText(at("link-banner-text"), lostText(reason, connection.isFull));
       const next = retry_s === null ? "trying now" : `next attempt in ${retry_s.toFixed(1)} s`;
       setText(at("link-banner-next"), next);
     }
@@ -73,6 +72,12 @@ export function mountShell(store, connection) {
       showLink();
       showState();
     },
+    /** What stands outside of the bar's states and is not of now any more. */
+    fail() {
+      setAttribute(document.documentElement, "data-aircraft-state", "none");
+      setAttribute(at("bar-alarm"), "data-level", "warning");
+      setText(at("bar-alarm"), UNKNOWN);
+    },
   };
 }
 
@@ -85,6 +90,18 @@ export function silenceText(store, state) {
   return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
 }
 
+/**
+ * @param {string} reason with which the connection was closed
+ * @param {boolean} isFull whether the server is there and takes no more pages
+ * @returns {string} why there is none
+ */
+export function lostText(reason, isFull) {
+  if (isFull) {
+    return `The ground server is full (${reason || "too many pages"}):`;
+  }
+  return `No connection to the ground server${reason === "" ? "" : ` (${reason})`}:`;
+}
+
 function setHidden(element, isHidden) {
   if (element.hidden !== isHidden) {
     element.hidden = isHidden;
@@ -93,7 +110,7 @@ function setHidden(element, isHidden) {
 
 function linkWord(store, connection) {
   if (!connection.isOpen) {
-    return "no server";
+    return connection.isFull ? "server full" : "no server";
   }
   if (store.aircraftState === "live" && store.replay !== null) {
     return store.replay.is_playing === false ? "paused" : "replay";

@@ -105,6 +105,11 @@ test("why a Command is not offered is one sentence", () => {
   assert.match(arm(store({ holder: "page", holder_name: "Anna" })), /^Anna has control/);
   assert.match(arm(store({ holder: "nobody" })), /ask for it/);
   assert.match(arm(store({ holder: "you" }, "operator")), /role operator/);
+  assert.equal(objection(store({ holder: "you" }, "operator"), connection, "up.flight_mode.set"), "");
+  assert.match(
+    objection(store({ holder: "you" }, "operator"), connection, "arduino.pids.tunings", { pids: {} }),
+    /role operator/,
+  );
   assert.equal(arm(store({ holder: "you" }, null)), "");
   assert.match(objection(store({ holder: "you" }), { isOpen: false, welcome: null }, "up.arm"), /no connection/);
   const replay = { isOpen: true, welcome: { ...WELCOME, is_replay: true } };

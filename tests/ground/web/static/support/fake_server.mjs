@@ -53,9 +53,9 @@ class FakeSocket {
     this.onmessage({ data: typeof message === "string" ? message : JSON.stringify(message) });
   }
 
-  fail(reason = "") {
+  fail(reason = "", code = 1006) {
     this.readyState = 3;
-    this.onclose({ reason });
+    this.onclose({ reason, code });
   }
 
   /** @returns {object[]} what the page sent of a type */

@@ -76,7 +76,7 @@ function warnIfGone(isThere) {
 function showPage(row, connection) {
   const trip_s = connection.roundTrip_s;
   if (!connection.isOpen) {
-    row.show("no ground server", "alarm");
+    row.show(connection.isFull ? "the ground server is full" : "no ground server", "alarm");
   } else {
     row.show(trip_s === null ? "connected" : `connected, ${numberText(trip_s * 1000)} ms`);
   }

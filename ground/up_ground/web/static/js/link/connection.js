@@ -8,13 +8,17 @@ const PING_S = 1;
 const DEAF_S = 4;
 const CONNECT_S = 5;
 const PINGS_KEPT = 64;
+/** The closing code of a server with too many pages, and how long to wait then. */
+const FULL = 4013;
+const FULL_S = 5;
 const LOST = "the connection to the ground server was lost before an answer came";
 
 /**
  * The page's line to the ground server: opens, comes back by itself, asks and gets answers.
  *
  * `on(type, call)` hears every message of the server by its type, and besides
- * `open` ({welcome}), `closed` ({reason, retry_s}) and `message` (each one).
+ * `open` ({welcome}), `closed` ({reason, retry_s}) and `message` (each one, first of all).
+ * Who throws keeps nobody else from hearing it.
  */
 export class Connection {
   #url;
@@ -39,6 +43,8 @@ export class Connection {
 
   /** The server's `welcome`, null while there is no connection. */
   welcome = null;
+  /** Whether there is none because the server takes no more pages. */
+  isFull = false;
   /** The page's own round trip in seconds, null until measured. */
   roundTrip_s = null;
   /** How long the message that is being heard was on its way, in seconds. */
@@ -152,7 +158,7 @@ export class Connection {
     this.#socket = socket;
     socket.onopen = () => this.#hello(socket);
     socket.onmessage = (event) => socket === this.#socket && this.#heard(event.data);
-    socket.onclose = (event) => socket === this.#socket && this.#lost(event.reason);
+    socket.onclose = (event) => socket === this.#socket && this.#lost(event.reason, event.code);
   }
 
   #hello(socket) {
@@ -183,12 +189,13 @@ export class Connection {
     } else if (message.type === "answer") {
       this.#asks.take(message);
     }
-    this.#tell(message.type, message);
     this.#tell("message", message);
+    this.#tell(message.type, message);
   }
 
   #welcomed(message) {
     this.welcome = message;
+    this.isFull = false;
     this.#backoff.reset();
     if (typeof message.token === "string") {
       this.#memory.set("token", message.token);
@@ -237,7 +244,7 @@ export class Connection {
     }
   }
 
-  #lost(reason) {
+  #lost(reason, code = 0) {
     const socket = this.#socket;
     this.#socket = null;
     socket?.close();
@@ -245,7 +252,9 @@ export class Connection {
     this.roundTrip_s = null;
     this.#pings.clear();
     this.#asks.giveUp(LOST);
-    const retry_s = this.#backoff.next_s();
+    // A place becomes free when somebody goes: who asks at every moment only keeps it busy.
+    this.isFull = code === FULL;
+    const retry_s = this.isFull ? FULL_S : this.#backoff.next_s();
     this.#retryAt_s = this.#now_s() + retry_s;
     this.#timers.cancel(this.#timer);
     this.#timer = this.#timers.once(() => this.#attempt(), retry_s);
@@ -254,7 +263,11 @@ export class Connection {
 
   #tell(type, message) {
     for (const call of this.#calls.get(type) ?? []) {
-      call(message);
+      try {
+        call(message);
+      } catch (error) {
+        console.error(error);
+      }
     }
   }
 }

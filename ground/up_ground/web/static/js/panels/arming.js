@@ -34,11 +34,11 @@ export class Arming {
 
   update() {
     const isLive = this.#store.freshness(null) === "live";
-    const armed = isLive ? this.#store.flag("armed") : null;
+    const armed = this.#armed();
     setText(this.#state, armed === null ? "in a state not known" : armed ? "ARMED" : "disarmed");
     setAttribute(this.#state, "data-armed", String(armed));
-    this.#arm.button.disabled = armed === true || this.#refusal("up.arm") !== "";
-    this.#disarm.button.disabled = armed === false || this.#refusal("up.disarm") !== "";
+    this.#arm.button.disabled = this.#refusal("up.arm") !== "";
+    this.#disarm.button.disabled = this.#refusal("up.disarm") !== "";
     this.#arm.update();
     this.#disarm.update();
     setText(this.#line, this.#lineText(isLive, armed));
@@ -60,7 +60,19 @@ export class Arming {
     if (why) {
       return why;
     }
-    return this.#store.aircraftState === "live" ? "" : "The aircraft is silent.";
+    if (this.#store.aircraftState !== "live") {
+      return "The aircraft is silent.";
+    }
+    const armed = this.#armed();
+    if (armed !== null && armed === (name === "up.arm")) {
+      return armed ? "The motor is armed already." : "The motor is disarmed already.";
+    }
+    return "";
+  }
+
+  /** Whether the motor is armed, null while that is not known of now. */
+  #armed() {
+    return this.#store.freshnessAt("armed") === "live" ? this.#store.flag("armed") : null;
   }
 
   #lineText(isLive, armed) {

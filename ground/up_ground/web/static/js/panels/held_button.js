@@ -9,7 +9,8 @@ const KEYS = new Set([" ", "Enter"]);
 /**
  * A button that does what it says only when it is held, by pointer, touch or key.
  *
- * `objection()` tells why it may not be pressed now; it is asked all the while it is held. `fire()`
+ * `objection()` tells why it may not be pressed now; it is asked all the while it is held, and a
+ * button that is disabled is not pressed either: browsers give pointers to it all the same. `fire()`
  * is called once when the press has lasted. What became of a press that did not is said in `note`.
  */
 export class HeldButton {
@@ -75,9 +76,6 @@ export class HeldButton {
     });
     button.addEventListener("pointerleave", () => this.#abandon("the pointer left the button"));
     button.addEventListener("pointercancel", () => this.#abandon("the touch was interrupted"));
-    button.addEventListener("pointerup", (event) =>
-      this.#end(() => this.#press.release(`pointer ${event.pointerId}`)),
-    );
     button.addEventListener("contextmenu", (event) => event.preventDefault());
     button.addEventListener("keydown", (event) => {
       if (KEYS.has(event.key)) {
@@ -92,9 +90,11 @@ export class HeldButton {
     button.addEventListener("keyup", (event) => {
       if (KEYS.has(event.key)) {
         event.preventDefault();
-        this.#end(() => this.#press.release(`key ${event.key}`));
       }
     });
+    // What presses may be let go elsewhere: a button that became disabled hears no key any more.
+    window.addEventListener("pointerup", ({ pointerId }) => this.#release(`pointer ${pointerId}`), true);
+    window.addEventListener("keyup", ({ key }) => this.#release(`key ${key}`), true);
     button.addEventListener("blur", () => this.#abandon("the focus went elsewhere"));
     window.addEventListener("blur", () => this.#abandon("the window lost the focus"));
     document.addEventListener("visibilitychange", () => {
@@ -105,8 +105,7 @@ export class HeldButton {
   }
 
   #begin(by, now_s) {
-    const why = this.#objection();
-    this.#press.press(by, now_s, why);
+    this.#press.press(by, now_s, this.#refusal());
     const isPressed = this.#press.state === "pressed";
     tell(this.#note, isPressed ? "keep holding" : `not sent: ${this.#press.why}`, "plain");
     if (isPressed && !this.#isLooking) {
@@ -127,10 +126,27 @@ export class HeldButton {
 
   #look() {
     this.#end(() => {
-      if (this.#press.look(this.#clock_s(), this.#objection())) {
+      if (this.#press.look(this.#clock_s(), this.#refusal())) {
         this.#fire();
       }
     });
+  }
+
+  #refusal() {
+    const why = this.#objection();
+    if (why) {
+      return why;
+    }
+    if (this.button.closest("[inert]") !== null) {
+      return "this part of the page has stopped";
+    }
+    return this.button.disabled ? "it is not offered now" : "";
+  }
+
+  #release(by) {
+    if (this.#press.state !== "idle") {
+      this.#end(() => this.#press.release(by));
+    }
   }
 
   #abandon(why) {

@@ -12,12 +12,12 @@ export function worstLevel(alarms) {
 /**
  * What there is to be alarmed about; what the page notices itself stands before what it was told.
  * @param {{alarms: object[], aircraftState: string}} store
- * @param {{isOpen: boolean}} connection
+ * @param {{isOpen: boolean, isFull: boolean}} connection
  * @returns {{level: string, text: string|null}} text: in two words; null: not known
  */
 export function alarmOf(store, connection) {
   if (!connection.isOpen) {
-    return { level: "alarm", text: "no server" };
+    return { level: "alarm", text: connection.isFull ? "server full" : "no server" };
   }
   const level = worstLevel(store.alarms);
   if (level !== "alarm" && store.aircraftState === "silent") {

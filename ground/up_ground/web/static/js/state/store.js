@@ -5,7 +5,6 @@ import { EventList } from "./event_list.js";
 import * as judge from "./judge.js";
 import { Motion } from "./motion.js";
 import { NewestFrame } from "./newest_frame.js";
-import { isOnlyRequest, roleAllows } from "./roles.js";
 import { Track } from "./track.js";
 
 const REPAINT_S = 0.2;
@@ -17,9 +16,9 @@ const JUMP_S = 1.5;
  *
  * Fields to read: `aircraft` (the name watched), `names` (all), `data` (the newest frame's tree,
  * not judged), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
- * (by name), `catalogue` (the Commands that the server knows), `alarms` ([{kind, level, text}]), `gains`, `profile`, `replay`, `fault` (text),
- * `track` (points, version, startAltitude_m), `motion` (groundSpeed_m_s, climb_m_s), `events`
- * (list, the newest last), `eventsVersion`.
+ * (by name), `catalogue` (the Commands that the server knows), `alarms` ([{kind, level, text}]),
+ * `gains`, `profile`, `replay`, `fault` (text), `track` (points, version, startAltitude_m),
+ * `motion` (groundSpeed_m_s, climb_m_s), `events` (list, the newest last), `eventsVersion`.
  */
 export class Store extends NewestFrame {
   #connection;
@@ -112,19 +111,6 @@ export class Store extends NewestFrame {
     return this.#events.version;
   }
 
-  /**
-   * @param {string} name of a Command
-   * @param {object} [data]
-   * @returns {boolean} whether control and role allow it
-   */
-  canCommand(name, data = {}) {
-    if (!this.#connection.isOpen || this.aircraft === null) {
-      return false;
-    }
-    const isMine = this.status?.control?.holder === "you" || isOnlyRequest(name, data);
-    return isMine && roleAllows(judge.text(this.status?.role), name, this.catalogue.role(name));
-  }
-
   /** @param {object} message of the server */
   take(message) {
     if (message.type === "status") {
@@ -161,7 +147,7 @@ export class Store extends NewestFrame {
 
   /** Comes first after `watch` and after a jump in a replay: what was known is of another time. */
   #takeTrack(message) {
-    this.track.replace(message.points);
+    this.track.replace(message.points, this.now_s);
     this.#events.clear();
     this.motion = new Motion(this.motion.speed);
   }
@@ -186,7 +172,7 @@ export class Store extends NewestFrame {
     const latitude = this.number("location.latitude");
     const longitude = this.number("location.longitude");
     if (this.freshness("location") === "live") {
-      this.track.append(latitude, longitude, this.number("location.altitude"));
+      this.track.append(latitude, longitude, this.number("location.altitude"), this.now_s);
     }
     this.motion.place(latitude, longitude, this.#measuredAt_s("location"));
     this.motion.height(this.number("altitude"), this.#measuredAt_s("altitude"));
