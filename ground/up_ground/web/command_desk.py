@@ -16,6 +16,7 @@ from up_ground.web.command_words import GAINS, in_words
 from up_ground.web.commands import Checked, Checks
 from up_ground.web.control import Control
 from up_ground.web.gains_history import GainsHistory
+from up_ground.web.heard_beacons import HeardBeacons
 from up_ground.web.page import Ask, Page
 from up_ground.web.page_message import PageFault, Reader
 from up_ground.web.seat_at_proxy import SeatAtProxy
@@ -57,6 +58,7 @@ class CommandDesk:
         self._tell_all = tell_all
         self._report = report
         self._answers = Answers(clock)
+        self._beacons = HeardBeacons(clock, telemetry)
         self._are_gains_due = True
 
     def stop(self) -> None:
@@ -119,7 +121,8 @@ class CommandDesk:
         self.on_moment()
 
     def on_moment(self) -> None:
-        """Ask for the gains when they are due and somebody here has control."""
+        """Hear of a frame; ask for the gains when they are due and somebody here has control."""
+        self._beacons.look()
         if not self._are_gains_due or self._control.holder is None or self._unsent():
             return
         if self._telemetry.is_silent(self._clock.seconds()):
@@ -146,7 +149,9 @@ class CommandDesk:
     ) -> None:
         role = self._telemetry.text("ground", "role")
         checked = self._checks.check(name, data, beacon, role, is_forced)
-        refused = checked if isinstance(checked, Answer) else self._refusal(page, checked)
+        refused = (
+            checked if isinstance(checked, Answer) else self._refusal(page, checked, name, beacon)
+        )
         if refused is not None:
             tell(refused)
             return
@@ -161,7 +166,9 @@ class CommandDesk:
 
         self._send(name, data, beacon, on_answer)
 
-    def _refusal(self, page: Page, checked: Checked) -> Answer | None:
+    def _refusal(
+        self, page: Page, checked: Checked, name: str, beacon: int | None
+    ) -> Answer | None:
         if checked.needs_control and page is not self._control.holder:
             reason = "this page has no control: ask for it first"
             if not page.may_control:
@@ -169,7 +176,12 @@ class CommandDesk:
             return Answer("refused", "no_control", reason)
         if len(self._answers) >= UNANSWERED_LIMIT:
             return Answer("refused", "busy", "too many Commands wait for their answer")
-        return self._unsent()
+        unsent = self._unsent()
+        if unsent is None and checked.needs_control:
+            # The page may hang, or what it shows be late: nobody commands what they do not see.
+            fault = self._beacons.fault(name, beacon)
+            return None if fault is None else Answer("refused", *fault)
+        return unsent
 
     def _unsent(self) -> Answer | None:
         """Return why nothing can be sent now."""

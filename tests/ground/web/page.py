@@ -88,11 +88,22 @@ class Page:
         return await until(find, what=f"a status; the newest is {self.newest('status')}")
 
     async def command(self, name, data=None, aircraft="default", **more):
-        """Send a Command and return its answer."""
+        """Send a Command, with the beacon that it was told last, and return its answer."""
+        if "beacon" not in more:
+            more["beacon"] = await self.beacon()
         self.asks += 1
         ask = self.asks
         self.say("command", ask=ask, aircraft=aircraft, name=name, data=data or {}, **more)
         return await self.next("answer", lambda each: each["ask"] == ask)
+
+    async def beacon(self):
+        """Return the newest frame's beacon; None where there is no aircraft to send one."""
+        if not self.of("frame"):
+            status = await self.next("status")
+            if not (self.newest("status") or status)["link"]["aircraft_online"]:
+                return None
+            await self.next("frame")
+        return self.newest("frame")["beacon"]
 
     async def control(self):
         self.say("control", aircraft="default", action="request")

@@ -61,7 +61,9 @@ def test_a_page_sees_the_aircraft(aircraft, server):
         assert status["link"]["state"] == "connected"
         assert status["link"]["aircraft_online"] is True
         assert abs(status["home"]["latitude"] - 50.0757) < 0.001
-        track = await page.next("track")
+        # The first track may be one of before the first frame: a page that comes now has points.
+        page.say("watch", aircraft="default")
+        track = await page.next("track", lambda each: each["points"])
         assert track["points"][-1][:2] == [50.0755, 14.4378]
         page.say("ping", ping=7)
         assert (await page.next("pong"))["ping"] == 7
@@ -115,13 +117,14 @@ def test_a_refusal_of_the_aircraft_and_one_of_the_ground(proxy, server):
             ("up.flight_mode.sett", {}, "unknown"),
             (MODE, {"mode": "ACRO"}, "invalid"),
             (MODE, {"mode": "FBW", "more": 1}, "invalid"),
-            ("up.arm", {}, "no_beacon"),
             ("up.system.stop", {}, "forbidden"),
             ("up.ack", {"id": "1"}, "forbidden"),
         ):
             answer = await page.command(name, data)
             assert (answer["outcome"], answer["code"]) == ("refused", code), name
 
+        answer = await page.command("up.arm", beacon=None)
+        assert (answer["outcome"], answer["code"]) == ("refused", "no_beacon")
         answer = await page.command("my.own", {"x": 1}, force=True)
         assert answer["outcome"] == "ack"
         answer = await page.command("up.system.stop", {}, force=True)
@@ -131,6 +134,30 @@ def test_a_refusal_of_the_aircraft_and_one_of_the_ground(proxy, server):
         with_pages(server, fly, "pilot")
         names = {each["name"] for each in aircraft.received}
         assert names <= {MODE, "my.own", "arduino.pids.tunings"}
+
+
+def test_no_command_leaves_without_telemetry_that_was_seen(aircraft, server):
+    async def fly(page):
+        await page.control()
+        seen = await page.beacon()
+        # None is what a page sends that has drawn nothing; the others were never heard.
+        for beacon, code in (
+            (None, "no_beacon"),
+            (7, "stale"),
+            (-5, "stale"),
+            (seen + 10**6, "stale"),
+        ):
+            answer = await page.command(MODE, FBW, beacon=beacon)
+            assert (answer["outcome"], answer["code"]) == ("refused", code), beacon
+        answer = await page.command("up.arm", beacon=7)
+        assert (answer["outcome"], answer["code"]) == ("refused", "stale")
+        assert (await page.command(MODE, FBW))["outcome"] == "ack"
+        return page.newest("frame")["beacon"]
+
+    beacon = with_pages(server, fly, "pilot")
+    (one,) = sent(aircraft)
+    assert one["beacon"] <= beacon
+    assert sent(aircraft, "up.arm") == []
 
 
 def test_what_the_links_role_does_not_allow_is_refused_here(proxy, server):
@@ -150,8 +177,9 @@ def test_what_the_links_role_does_not_allow_is_refused_here(proxy, server):
 def test_one_ask_is_sent_once(aircraft, server):
     async def fly(page):
         await page.control()
+        beacon = await page.beacon()
         for _ in range(3):
-            page.say("command", ask=1, aircraft="default", name=MODE, data=FBW)
+            page.say("command", ask=1, aircraft="default", name=MODE, data=FBW, beacon=beacon)
         await soon(lambda: page.of("answer"))
         page.say("command", ask=1, aircraft="default", name=MODE, data=FBW)
         await soon(lambda: len(page.of("answer")) == 2)

@@ -1,0 +1,69 @@
+"""Which beacons of a page's Commands count as seen, by a clock of the test's own."""
+
+import pytest
+from twisted.internet.task import Clock
+
+from up.protocols.general_message import GeneralMessage
+from up_ground.telemetry import Telemetry
+from up_ground.web.heard_beacons import KEPT, HeardBeacons
+
+NAME = "up.flight_mode.set"
+
+
+class Desk:
+    def __init__(self):
+        self.clock, self.telemetry = Clock(), Telemetry()
+        self.heard = HeardBeacons(self.clock, self.telemetry)
+
+    def frame(self, beacon):
+        message = GeneralMessage("up.telemetry.update", {}, None, beacon)
+        self.telemetry.take(message, self.clock.seconds())
+        self.heard.look()
+
+    def code(self, beacon):
+        fault = self.heard.fault(NAME, beacon)
+        return fault and fault[0]
+
+
+@pytest.fixture
+def desk():
+    return Desk()
+
+
+def test_before_the_first_frame_nothing_counts(desk):
+    assert desk.code(None) == "no_beacon"
+    assert desk.code(0) == "stale"
+
+
+def test_a_beacon_counts_for_two_seconds(desk):
+    desk.frame(100)
+    desk.clock.advance(1.0)
+    desk.frame(101)
+    for _ in range(50):
+        # Time goes on without a frame: what is looked at again is no new one.
+        desk.heard.look()
+    assert [desk.code(each) for each in (99, 100, 101, 102)] == ["stale", None, None, "stale"]
+    desk.clock.advance(1.0)
+    assert desk.code(100) is None
+    desk.clock.advance(0.1)
+    assert [desk.code(each) for each in (100, 101)] == ["stale", None]
+    desk.clock.advance(1.0)
+    assert desk.code(101) == "stale"
+    assert desk.code(None) == "no_beacon"
+
+
+def test_an_aircraft_without_beacons_takes_commands_without_one(desk):
+    desk.frame(None)
+    assert desk.code(None) is None
+    assert desk.code(5) == "stale"
+    desk.frame(5)
+    assert desk.code(5) is None
+    desk.frame(None)
+    assert desk.code(None) == "no_beacon"
+
+
+def test_a_flood_of_frames_costs_no_memory(desk):
+    for beacon in range(10 * KEPT):
+        desk.frame(beacon)
+    assert desk.code(10 * KEPT - 1) is None
+    assert desk.code(9 * KEPT - 1) == "stale"
