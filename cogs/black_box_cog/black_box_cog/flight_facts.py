@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache
 from pathlib import Path
 
+from black_box_cog.package_versions import look_for, version_of
 from up.version import VERSION
 
 _FILES_LIMIT = 64
@@ -45,49 +45,14 @@ class FlightFacts:
             found[package] = version_of(package)
         return found
 
+    def prepare(self) -> Iterator[None]:
+        """Find the versions beforehand, in pieces."""
+        for package in self.packages:
+            yield from look_for(package)
+
     def config_files(self) -> list[tuple[str, bytes]]:
         """Return the configuration as it is now; a file that cannot be read is left out."""
         return list(_read_all(self.config_folder)) if self.config_folder is not None else []
-
-
-def version_of(package: str) -> str:
-    """Return the version of the distribution that an imported package came with, or ''.
-
-    Read from the metadata beside it, as importlib.metadata would take more memory than all else.
-    """
-    origin = getattr(sys.modules.get(package), "__file__", None)
-    if origin is None:
-        return ""
-    # What is installed editable has its metadata elsewhere on the path.
-    for place in (Path(origin).resolve().parent.parent, *map(Path, sys.path)):
-        version = _versions_in(place).get(package)
-        if version is not None:
-            return version
-    return ""
-
-
-@cache
-def _versions_in(place: Path) -> dict[str, str]:
-    """Return the versions of the packages whose metadata lie in a folder; read once."""
-    found: dict[str, str] = {}
-    for pattern, name in (("*.egg-info", "PKG-INFO"), ("*.dist-info", "METADATA")):
-        for folder in place.glob(pattern):
-            packages = _text(folder / "top_level.txt").split()
-            if packages:
-                found |= dict.fromkeys(packages, _field(_text(folder / name), "Version"))
-    return found
-
-
-def _field(text: str, name: str) -> str:
-    head = f"{name}: "
-    return next((line[len(head) :] for line in text.splitlines() if line.startswith(head)), "")
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return ""
 
 
 def _read_all(folder: Path) -> Iterable[tuple[str, bytes]]:

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
+from black_box_cog.command_form import form_of
 from black_box_cog.commands.record_command import RecordCommand
-from black_box_cog.encoders import OriginTexts, encoder_of
+from black_box_cog.encoders import OriginTexts
 from black_box_cog.flight_facts import FlightFacts
 from black_box_cog.intake import Entry, LogLine, Recorded
 from black_box_cog.log_file import LogFile
 from black_box_cog.timeline import Timeline
 from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
-from up.flight_log.command_schema import schema_of
 from up.flight_log.flight_file import FlightFile
 from up.flight_log.foxglove import (
     LOCATION_FIX,
@@ -45,9 +45,7 @@ class Part:
     A Command that cannot be encoded is left out: ``unwritten`` counts by topic.
     """
 
-    def __init__(
-        self, file: LogFile, name: FlightFile, facts: FlightFacts, timeline: Timeline
-    ) -> None:
+    def __init__(self, file: LogFile, name: FlightFile, timeline: Timeline) -> None:
         self.file = file
         self.name = name
         self.unwritten: Counter[str] = Counter()
@@ -55,7 +53,19 @@ class Part:
         self._writer = McapWriter(file.put)
         self._channels: dict[Any, _Channel] = {}
         self._origins = OriginTexts()
-        self._begin(facts)
+
+    def head(self, facts: FlightFacts) -> Iterator[None]:
+        """Write what a file begins with, in pieces: all of them are to be walked through."""
+        started = timestamp_text(self._timeline.start_unix_s)
+        self._writer.start()
+        self._writer.add_metadata("flight", facts.flight(started) | {"part": str(self.name.part)})
+        yield
+        self._writer.add_metadata("versions", facts.versions())
+        yield
+        now_ns = int(self._timeline.start_unix_s * 1e9)
+        for name, data in facts.config_files():
+            self._writer.add_attachment(f"config/{name}", "text/yaml", data, now_ns)
+            yield
 
     def put(self, entry: Entry) -> None:
         """Take one entry; it is written with the next flush of the file."""
@@ -86,22 +96,13 @@ class Part:
         self.file.flush()
         self.file.sync()
 
-    def _begin(self, facts: FlightFacts) -> None:
-        started = timestamp_text(self._timeline.start_unix_s)
-        self._writer.start()
-        self._writer.add_metadata("flight", facts.flight(started) | {"part": str(self.name.part)})
-        self._writer.add_metadata("versions", facts.versions())
-        now_ns = int(self._timeline.start_unix_s * 1e9)
-        for name, data in facts.config_files():
-            self._writer.add_attachment(f"config/{name}", "text/yaml", data, now_ns)
-
     def _open(self, kind: Any, subject: Any) -> _Channel:
         """Write schema and channel of what comes for the first time."""
         if isinstance(subject, BaseCommand):
             cls = type(subject)
-            schema = self._writer.add_schema(cls.NAME, schema_of(cls))
-            encode = encoder_of(cls)
-            channel = _Channel(self._writer.add_channel(cls.NAME, schema), encode)
+            form = form_of(cls)
+            schema = self._writer.add_schema(cls.NAME, form.schema)
+            channel = _Channel(self._writer.add_channel(cls.NAME, schema), form.encode)
         elif isinstance(subject, Recorded):
             schema = self._writer.add_schema(kind, _ANY_OBJECT)
             channel = _Channel(self._writer.add_channel(kind, schema))
@@ -140,13 +141,15 @@ def _line(line: LogLine, time_ns: int) -> bytes:
 def _place(command: LocationCommand, time_ns: int) -> bytes:
     """Return a position as Foxglove's map takes it; an accuracy is a radius of 68 %."""
     variance = 0.0 if command.accuracy_m is None else command.accuracy_m**2
-    content = {
+    content: dict[str, Any] = {
         "timestamp": timestamp(time_ns),
         "frame_id": "",
         "latitude": command.latitude_deg,
         "longitude": command.longitude_deg,
-        "altitude": command.altitude_m or 0.0,
         "position_covariance": [variance, 0.0, 0.0, 0.0, variance, 0.0, 0.0, 0.0, variance],
         "position_covariance_type": 1 if variance else 0,
     }
+    # A height that nobody knows is none, and not that of the sea.
+    if command.altitude_m is not None:
+        content["altitude"] = command.altitude_m
     return json.dumps(content, separators=(",", ":")).encode("ascii")

@@ -115,12 +115,12 @@ def test_no_call_to_the_disk_is_made_on_the_reactors_thread(tmp_path, monkeypatc
         system.say(Role.OPERATOR, "black_box.mark", {"text": "now"})
         system.say(Role.SENSOR, "black_box.record", {"topic": "a.b", "content": {}})
         system.up.get_module(TelemetryController).collect()
-        system.box.recorder._disk.refuse["write"] = 5
+        system.box.recorder._parts._disk.refuse["write"] = 5
         system.publish(1)
         await until(lambda: system.box.status.problem, what="the problem")
         system.say(Role.OPERATOR, "black_box.mark", {"text": "too late"})
         await life.stop()
-        return system.box.recorder._disk
+        return system.box.recorder._parts._disk
 
     asked = run_in_reactor(fly)
     assert {"create", "write", "sync", "close", "make_folder", "free_bytes"} <= set(asked.calls)

@@ -1,9 +1,8 @@
-import errno
-import shutil
-
 import pytest
+from black_box_cog import pace
+from black_box_cog.held_entries import HELD
 from black_box_cog.intake import LogLine, Recorded
-from black_box_cog.recorder import HELD, IDLE_S, LINGER_S
+from black_box_cog.recorder import IDLE_S, LINGER_S
 
 from tests.cogs.black_box_cog.flights import (
     BOARD,
@@ -11,10 +10,8 @@ from tests.cogs.black_box_cog.flights import (
     PHONE,
     START_UNIX_S,
     Flight,
-    HalfFullDisk,
     lines_in,
     messages,
-    numbers_in,
     summary_of,
 )
 from tests.up.commands.samples import Log
@@ -32,10 +29,6 @@ def flight(tmp_path):
 
 class FloodedError(Exception):
     """Raised by a Command that cannot tell its data."""
-
-
-def logged_errors(log):
-    return [event for event in log.events if event["log_level"].name == "error"]
 
 
 # When it records
@@ -185,6 +178,13 @@ def test_a_command_that_cannot_tell_its_data_costs_no_other(flight):
     assert log.text().count("test.broken cannot be written") == 1
 
 
+def test_a_place_without_a_height_has_none_on_the_map(flight):
+    flight.intake.observe(LocationCommand(47.5, 19.25), PHONE)
+    flight.recorder.finish()
+    fix = next(data for topic, _, data in messages(flight.files[0]) if topic == "/location")
+    assert "altitude" not in fix
+
+
 # Bounds
 
 
@@ -238,6 +238,22 @@ def test_a_long_queue_is_written_in_batches_with_pauses(flight):
     assert flight.paused >= 1
 
 
+def test_the_begin_of_a_file_is_written_in_pieces_with_pauses(flight, tmp_path, monkeypatch):
+    # As if each piece took longer than the interpreter may be held.
+    monkeypatch.setattr(pace, "BATCH_S", -1.0)
+    for number in range(9):
+        (tmp_path / f"{number}.yml").write_text("a: 1\n")
+    flight.fly(2, origin=INTERNAL)
+    flight.say(20)
+    flight.recorder.work()
+    metadata, attached, said = 2, 9, 21
+    assert flight.paused == metadata + attached + said
+    flight.recorder.prepare(range(5))
+    assert flight.paused == metadata + attached + said + 5
+    flight.recorder.finish()
+    assert len(FlightLog.read(flight.files).attachments) == 9
+
+
 def test_the_end_of_the_program_waits_for_no_pause(flight):
     flight.fly(1)
     for number in range(10, 5010):
@@ -246,136 +262,6 @@ def test_the_end_of_the_program_waits_for_no_pause(flight):
     flight.recorder.finish()
     assert flight.paused == before
     assert flight.numbers == list(range(5010))
-
-
-# When the disk fails
-
-
-@pytest.mark.parametrize(
-    ("call", "number"),
-    [
-        ("write", errno.ENOSPC),
-        ("write", errno.EIO),
-        ("sync", errno.EIO),
-        ("make_folder", errno.EROFS),
-    ],
-)
-def test_a_disk_that_refuses_is_said_once_and_tried_again_each_minute(tmp_path, call, number):
-    flight = Flight(tmp_path)
-    said = flight.fly(15)
-    with Log() as log:
-        flight.disk.refuse[call] = number
-        said = flight.fly(200, first=said)
-    assert not flight.status.recording
-    assert flight.status.problem is not None and flight.status.dropped > 0
-    assert [event["log_namespace"] for event in logged_errors(log)] == ["BlackBox"]
-    tried = flight.disk.calls.count(call)
-    flight.fly(30, first=said)
-    assert flight.disk.calls.count(call) - tried <= 1
-    del flight.disk.refuse[call]
-    with Log() as log:
-        said = flight.fly(61, first=said + 300)
-    assert flight.status.recording and flight.status.problem is None
-    assert log.text().count("records again") == 1
-    flight.recorder.finish()
-    log = FlightLog.read(flight.files)
-    assert not [each for each in log.problems if "damaged" in each]
-    lines = [line for path in flight.files for line in lines_in(path)]
-    assert sum("the flight is not recorded" in line for line in lines) == 1
-    numbers = flight.numbers
-    assert numbers == sorted(numbers) and numbers[-1] == said - 1
-
-
-@pytest.mark.parametrize("room", range(0, 3000, 97))
-def test_a_disk_that_is_full_at_any_byte_leaves_files_that_end_with_a_whole_record(tmp_path, room):
-    disk = HalfFullDisk()
-    flight = Flight(tmp_path, disk)
-    flight.fly(2)
-    disk.room = room
-    said = flight.fly(65, first=20)
-    disk.room = None
-    flight.fly(65, first=said)
-    flight.recorder.finish()
-    first, second = flight.files
-    assert second.name.endswith("kite.2.mcap")
-    cut, whole = FlightLog.read([first]), FlightLog.read([second])
-    assert whole.is_complete
-    assert not cut.is_complete
-    assert ends_with_a_whole_record(first)
-    numbers = numbers_in(first)
-    assert numbers == list(range(len(numbers)))
-
-
-def ends_with_a_whole_record(path):
-    data = path.read_bytes()
-    place = 8
-    while place < len(data):
-        place += 9 + int.from_bytes(data[place + 1 : place + 9], "little")
-    return place == len(data)
-
-
-def test_a_try_without_success_leaves_no_file(tmp_path):
-    flight = Flight(tmp_path, HalfFullDisk())
-    flight.disk.room = 100
-    flight.fly(200)
-    assert flight.status.problem.endswith("No space left on device")
-    assert flight.files == []
-
-
-def test_with_too_little_free_it_ends_politely_and_goes_on_later(tmp_path):
-    flight = Flight(tmp_path, keep_free_mb=200.0)
-    flight.disk.free = 300_000_000
-    flight.fly(15)
-    flight.disk.free = 100_000_000
-    with Log() as log:
-        said = flight.fly(100, first=150)
-        flight.disk.free = 90_000_000
-        said = flight.fly(100, first=said)
-    assert len(logged_errors(log)) == 1
-    assert flight.status.problem.startswith("90 MB are free in ")
-    assert FlightLog.read(flight.files).is_complete
-    flight.disk.free = 300_000_000
-    flight.fly(61, first=said)
-    assert flight.status.recording and len(flight.files) == 2
-
-
-def test_what_could_not_be_written_is_counted(tmp_path):
-    flight = Flight(tmp_path)
-    flight.fly(5)
-    flight.disk.refuse["write"] = errno.EIO
-    said = flight.fly(300, first=50)
-    del flight.disk.refuse["write"]
-    flight.fly(61, first=said)
-    flight.recorder.finish()
-    assert len(flight.numbers) + flight.status.dropped == pytest.approx(50 + 3000 + 610, abs=3)
-
-
-@pytest.mark.parametrize("what", ["file", "folder"])
-def test_one_whose_file_is_removed_in_flight_begins_another(tmp_path, what):
-    flight = Flight(tmp_path)
-    flight.fly(5)
-    if what == "file":
-        flight.files[0].unlink()
-    else:
-        shutil.rmtree(flight.path)
-    with Log() as log:
-        flight.fly(5, first=50)
-    flight.recorder.finish()
-    assert log.text().count("was removed; a new file is begun") == 1
-    (path,) = flight.files
-    assert path.name.endswith("kite.2.mcap")
-    numbers = flight.numbers
-    assert numbers[0] <= 60 and numbers == list(range(numbers[0], 100))
-
-
-def test_a_folder_that_is_a_file_is_said(tmp_path):
-    flight = Flight(tmp_path)
-    flight.path.write_text("no folder")
-    with Log() as log:
-        flight.fly(5)
-    assert flight.status.problem == f"{flight.path}: File exists"
-    assert len(logged_errors(log)) == 1
-    flight.recorder.finish()
 
 
 # What is synced

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from typing import Any, ClassVar
 
+from black_box_cog.command_form import form_of
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.config import BLACK_BOX, MEGABYTE
@@ -90,7 +92,9 @@ class BlackBox(BaseThreadModule):
     def _run(self) -> None:
         self.stop_event.wait(FIRST_LOOK_S)
         try:
-            self.recorder = self._make_recorder()
+            recorder = self._make_recorder()
+            recorder.prepare(self._preparations())
+            self.recorder = recorder
             super()._run()
             self.recorder.finish()
         except Exception:  # noqa: BLE001 - the last words of a thread; nobody else would tell
@@ -108,6 +112,17 @@ class BlackBox(BaseThreadModule):
             config.keep_free_mb * MEGABYTE,
         )
         return Recorder(self.intake, config, folder, self._facts(), disk)
+
+    def _preparations(self) -> Iterator[None]:
+        """Yield after each piece of what a flight's begin would have to work out at once."""
+        yield from self._facts().prepare()
+        for cls in self.up.command_executor.registry:
+            if self.stop_event.is_set():
+                return
+            # One that anybody made wrongly is left out when it comes, and said then.
+            with contextlib.suppress(Exception):
+                form_of(cls)
+            yield
 
     def _on_telemetry(self, command: TelemetryCommand) -> None:
         """Do nothing: the observer has it; who subscribes is asked whether frames are wanted."""

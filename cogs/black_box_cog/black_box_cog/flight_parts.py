@@ -1,0 +1,78 @@
+"""Makes the files of a flight, one after the other."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Sequence
+
+from black_box_cog.disk import Disk
+from black_box_cog.flight_facts import FlightFacts
+from black_box_cog.flight_folder import FlightFolder
+from black_box_cog.intake import Entry
+from black_box_cog.log_file import LogFile
+from black_box_cog.pace import Pace
+from black_box_cog.part import Part
+from black_box_cog.timeline import Timeline
+from up.flight_log.flight_file import FlightFile
+
+
+class FlightParts:
+    """Opens the next file of the flight that is on; ``make_timeline`` begins one for a new flight.
+
+    The methods raise OSError and NoRoomError.
+    """
+
+    def __init__(
+        self,
+        folder: FlightFolder,
+        facts: FlightFacts,
+        disk: Disk,
+        pace: Pace,
+        make_timeline: Callable[[], Timeline],
+    ) -> None:
+        self._folder = folder
+        self._facts = facts
+        self._disk = disk
+        self._pace = pace
+        self._make_timeline = make_timeline
+        self._timeline = make_timeline()
+        self._last: FlightFile | None = None
+
+    def open(self, entries: Sequence[Entry] = ()) -> Part:
+        """Open a file that begins with these entries; without success none is left."""
+        if self._last is None:
+            self._timeline = self._make_timeline()
+        self._folder.make_room(self._last)
+        name, descriptor = self._create()
+        file = LogFile(self._disk, name.path, descriptor)
+        try:
+            part = Part(file, name, self._timeline)
+            self._pace.walk(part.head(self._facts))
+            self._pace.walk(map(part.put, entries))
+            file.flush()
+            file.sync()
+            self._disk.sync_folder(name.folder)
+        except OSError:
+            file.close()
+            with contextlib.suppress(OSError):
+                self._disk.remove(name.path)
+            raise
+        self._last = name
+        return part
+
+    def make_room(self) -> None:
+        """Delete old flights while one is recorded."""
+        self._folder.make_room(self._last)
+
+    def end_flight(self) -> None:
+        """Let the next file be another flight's."""
+        self._last = None
+
+    def jump_s(self) -> float | None:
+        """Return how far the wall clock jumped from the log's time; None: it did not."""
+        return self._timeline.jump_s()
+
+    def _create(self) -> tuple[FlightFile, int]:
+        if self._last is not None:
+            return self._folder.create_part(self._last)
+        return self._folder.create(self._timeline.start_unix_s, self._facts.aircraft)

@@ -1,0 +1,209 @@
+"""What the recorder does when the disk fails."""
+
+import errno
+import shutil
+
+import pytest
+from black_box_cog.recorder import HUNG_S
+
+from tests.cogs.black_box_cog.flights import (
+    Flight,
+    HalfFullDisk,
+    TestedDisk,
+    lines_in,
+    numbers_in,
+)
+from tests.up.commands.samples import Log
+from up.flight_log.flight_log import FlightLog
+
+
+def logged_errors(log):
+    return [event for event in log.events if event["log_level"].name == "error"]
+
+
+@pytest.mark.parametrize(
+    ("call", "number"),
+    [
+        ("write", errno.ENOSPC),
+        ("write", errno.EIO),
+        ("sync", errno.EIO),
+        ("make_folder", errno.EROFS),
+    ],
+)
+def test_a_disk_that_refuses_is_said_once_and_tried_again_each_minute(tmp_path, call, number):
+    flight = Flight(tmp_path)
+    said = flight.fly(15)
+    with Log() as log:
+        flight.disk.refuse[call] = number
+        said = flight.fly(200, first=said)
+    assert not flight.status.recording
+    assert flight.status.problem is not None and flight.status.dropped > 0
+    assert [event["log_namespace"] for event in logged_errors(log)] == ["BlackBox"]
+    tried = flight.disk.calls.count(call)
+    flight.fly(30, first=said)
+    assert flight.disk.calls.count(call) - tried <= 1
+    del flight.disk.refuse[call]
+    with Log() as log:
+        said = flight.fly(61, first=said + 300)
+    assert flight.status.recording and flight.status.problem is None
+    assert log.text().count("records again") == 1
+    flight.recorder.finish()
+    log = FlightLog.read(flight.files)
+    assert not [each for each in log.problems if "damaged" in each]
+    lines = [line for path in flight.files for line in lines_in(path)]
+    assert sum("the flight is not recorded" in line for line in lines) == 1
+    numbers = flight.numbers
+    assert numbers == sorted(numbers) and numbers[-1] == said - 1
+
+
+@pytest.mark.parametrize("room", range(0, 3000, 97))
+def test_a_disk_that_is_full_at_any_byte_leaves_files_that_end_with_a_whole_record(tmp_path, room):
+    disk = HalfFullDisk()
+    flight = Flight(tmp_path, disk)
+    flight.fly(2)
+    disk.room = room
+    said = flight.fly(65, first=20)
+    disk.room = None
+    flight.fly(65, first=said)
+    flight.recorder.finish()
+    first, second = flight.files
+    assert second.name.endswith("kite.2.mcap")
+    cut, whole = FlightLog.read([first]), FlightLog.read([second])
+    assert whole.is_complete
+    assert not cut.is_complete
+    assert ends_with_a_whole_record(first)
+    numbers = numbers_in(first)
+    assert numbers == list(range(len(numbers)))
+
+
+def ends_with_a_whole_record(path):
+    data = path.read_bytes()
+    place = 8
+    while place < len(data):
+        place += 9 + int.from_bytes(data[place + 1 : place + 9], "little")
+    return place == len(data)
+
+
+def test_a_try_without_success_leaves_no_file(tmp_path):
+    flight = Flight(tmp_path, HalfFullDisk())
+    flight.disk.room = 100
+    flight.fly(200)
+    assert flight.status.problem.endswith("No space left on device")
+    assert flight.files == []
+
+
+def test_with_too_little_free_it_ends_politely_and_goes_on_later(tmp_path):
+    flight = Flight(tmp_path, keep_free_mb=200.0)
+    flight.disk.free = 300_000_000
+    flight.fly(15)
+    flight.disk.free = 100_000_000
+    with Log() as log:
+        said = flight.fly(100, first=150)
+        flight.disk.free = 90_000_000
+        said = flight.fly(100, first=said)
+    assert len(logged_errors(log)) == 1
+    assert flight.status.problem.startswith("90 MB are free in ")
+    assert FlightLog.read(flight.files).is_complete
+    flight.disk.free = 300_000_000
+    flight.fly(61, first=said)
+    assert flight.status.recording and len(flight.files) == 2
+
+
+def test_what_could_not_be_written_is_counted(tmp_path):
+    flight = Flight(tmp_path)
+    flight.fly(5)
+    flight.disk.refuse["write"] = errno.EIO
+    said = flight.fly(300, first=50)
+    del flight.disk.refuse["write"]
+    flight.fly(61, first=said)
+    flight.recorder.finish()
+    assert len(flight.numbers) + flight.status.dropped == pytest.approx(50 + 3000 + 610, abs=3)
+
+
+@pytest.mark.parametrize("what", ["file", "folder"])
+def test_one_whose_file_is_removed_in_flight_begins_another(tmp_path, what):
+    flight = Flight(tmp_path)
+    flight.fly(5)
+    if what == "file":
+        flight.files[0].unlink()
+    else:
+        shutil.rmtree(flight.path)
+    with Log() as log:
+        flight.fly(5, first=50)
+    flight.recorder.finish()
+    assert log.text().count("was removed; a new file is begun") == 1
+    (path,) = flight.files
+    assert path.name.endswith("kite.2.mcap")
+    numbers = flight.numbers
+    assert numbers[0] <= 60 and numbers == list(range(numbers[0], 100))
+
+
+def test_a_folder_that_is_a_file_is_said(tmp_path):
+    flight = Flight(tmp_path)
+    flight.path.write_text("no folder")
+    with Log() as log:
+        flight.fly(5)
+    assert flight.status.problem == f"{flight.path}: File exists"
+    assert len(logged_errors(log)) == 1
+    flight.recorder.finish()
+
+
+class HangingDisk(TestedDisk):
+    """A disk whose sync lets something happen before it ends."""
+
+    meanwhile = None
+
+    def sync(self, descriptor):
+        if self.meanwhile is not None:
+            self.meanwhile()
+        super().sync(descriptor)
+
+
+def test_a_disk_that_hangs_is_a_problem_while_it_does(tmp_path):
+    disk = HangingDisk()
+    flight = Flight(tmp_path, disk, limit=100)
+    told = []
+
+    def hang():
+        for _ in range(5):
+            flight.pass_s(HUNG_S / 2)
+            for number in range(60):
+                flight.say(number)
+            told.append((flight.status.problem, flight.status.dropped))
+
+    flight.fly(5)
+    disk.meanwhile = hang
+    flight.pass_s(1)
+    flight.recorder.work()
+    problems, dropped = zip(*told, strict=True)
+    assert problems[0] is None
+    assert problems[-1] == "nothing has been written for 8 s: the disk does not answer"
+    assert dropped[-1] == 200
+    assert flight.status.problem is None and flight.status.recording
+
+
+def test_a_round_that_fails_is_a_problem_and_what_it_had_is_counted(tmp_path, monkeypatch):
+    flight = Flight(tmp_path)
+    flight.fly(5)
+
+    def fail():
+        raise RuntimeError("a fault of the recorder's own")
+
+    with monkeypatch.context() as broken:
+        broken.setattr(flight.recorder._part.file, "flush", fail)
+        for number in range(8):
+            flight.say(number)
+            flight.pass_s(1)
+            with pytest.raises(RuntimeError):
+                flight.recorder.work()
+    assert flight.status.problem.startswith("nothing has been written for ")
+    flight.recorder.work()
+    assert (flight.status.problem, flight.status.dropped) == (None, 8)
+
+
+def test_after_the_end_nothing_is_wrong_with_a_recorder_that_is_silent(tmp_path):
+    flight = Flight(tmp_path)
+    flight.fly(1)
+    flight.recorder.finish()
+    flight.pass_s(1000)
+    assert flight.status.problem is None
