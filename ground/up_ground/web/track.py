@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections import deque
 from math import cos, radians
 from typing import Any
 
@@ -10,21 +11,29 @@ from up_ground.telemetry import Telemetry
 
 POINTS_LIMIT = 4000
 NEAREST_M = 2.0
+GAP_S = 0.9
+"""Nothing known for longer is a silence, unless places come more seldom than that."""
 _METRES_A_DEGREE = 111_195.0
 
-Point = tuple[float, float, float | None]
+_INTERVALS = 5
+
+Point = tuple[float, float, float | None] | tuple[float, float, float | None, bool]
 
 
 class Track:
     """Points at least ``NEAREST_M`` apart; when there are too many, every second one is left out.
 
-    Degrees, degrees, metres. The newest place is always the last point.
+    Degrees, degrees, metres; and true where a silence lies before the point, so that no line leads
+    to it. The newest place is always the last point.
     """
 
     def __init__(self) -> None:
         self._points: list[Point] = []
         self._times_s: list[float] = []
         self._newest: Point | None = None
+        self._known_s: float | None = None
+        self._intervals_s: deque[float] = deque(maxlen=_INTERVALS)
+        self._is_after_silence = False
 
     def take(self, telemetry: Telemetry, time_s: float) -> None:
         """Take the place of a frame, where it has one that is one; time only goes on."""
@@ -35,12 +44,17 @@ class Track:
         altitude = telemetry.number("location", "altitude")
         if altitude is None:
             altitude = telemetry.number("altitude")
+        if not telemetry.is_stale("location", time_s):
+            self._is_after_silence |= self._was_silent(time_s)
         self._newest = (latitude, longitude, altitude)
         if not self._points or _distance_m(self._points[-1], self._newest) >= NEAREST_M:
+            if self._is_after_silence and self._points:
+                self._newest = (latitude, longitude, altitude, True)
+            self._is_after_silence = False
             self._points.append(self._newest)
             self._times_s.append(time_s)
             if len(self._points) >= POINTS_LIMIT:
-                del self._points[1:-1:2], self._times_s[1:-1:2]
+                self._thin()
 
     def points(self) -> list[Point]:
         """Return the points from the oldest to the newest."""
@@ -51,6 +65,30 @@ class Track:
     def points_until(self, time_s: float) -> list[Point]:
         """Return the points up to a moment."""
         return self._points[: bisect_right(self._times_s, time_s)]
+
+    def _was_silent(self, time_s: float) -> bool:
+        known_s, self._known_s = self._known_s, time_s
+        if known_s is None:
+            return False
+        period_s = 0.0
+        if len(self._intervals_s) == _INTERVALS:
+            period_s = sorted(self._intervals_s)[_INTERVALS // 2]
+        self._intervals_s.append(time_s - known_s)
+        return time_s - known_s > max(GAP_S, 2.5 * period_s)
+
+    def _thin(self) -> None:
+        """Leave out every second point; what was told of it, the next one tells."""
+        points: list[Point] = []
+        times_s: list[float] = []
+        is_after_silence = False
+        last = len(self._points) - 1
+        for place, point in enumerate(self._points):
+            is_after_silence |= len(point) == 4
+            if place % 2 == 0 or place == last:
+                points.append((*point[:3], True) if is_after_silence else point)
+                times_s.append(self._times_s[place])
+                is_after_silence = False
+        self._points, self._times_s = points, times_s
 
 
 def track_message(aircraft: str, points: list[Point]) -> dict[str, Any]:

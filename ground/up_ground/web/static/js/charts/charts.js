@@ -66,15 +66,21 @@ export function mount(place, store, connection) {
     chosen?.clear();
   }
 
+  // The curves of two aircraft never are one line, nor those of the first the second's.
+  function follow() {
+    if (store.aircraft !== aircraft) {
+      aircraft = store.aircraft;
+      clear();
+      drawn_s = -Infinity;
+    }
+  }
+
   // The store has taken the frame before: it hears every message first.
   function take(message) {
     if (message.aircraft !== store.aircraft) {
       return;
     }
-    if (message.aircraft !== aircraft) {
-      aircraft = message.aircraft;
-      clear();
-    }
+    follow();
     const age_s = store.age_s(null) ?? 0;
     const live = (reading, path) => (store.freshness(reading) === "live" ? store.number(path) : null);
     history.add(now_s() - age_s, {
@@ -106,6 +112,7 @@ export function mount(place, store, connection) {
 
   return {
     update() {
+      follow();
       if (document.hidden || store.now_s - drawn_s < DRAW_S) {
         return;
       }

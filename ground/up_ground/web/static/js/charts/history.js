@@ -1,11 +1,7 @@
+import { GAP_S, Silence } from "../state/silence.js";
+
 /** How much of the past a chart shows. */
 export const WINDOW_S = 60;
-
-/** Where nothing came for longer than this, no line is drawn; a slow period makes it longer. */
-const GAP_S = 0.9;
-
-/** How many intervals tell the period; a silence among them does not change their median. */
-const INTERVALS = 5;
 
 /**
  * The last minute of some values, with holes where nothing came.
@@ -16,7 +12,7 @@ export class History {
   #names;
   #times_s = [];
   #values;
-  #intervals_s = [];
+  #silence = new Silence();
 
   /** @param {string[]} names of the values */
   constructor(names) {
@@ -35,15 +31,11 @@ export class History {
    */
   add(time_s, values) {
     const last_s = this.#times_s.at(-1);
-    if (last_s !== undefined) {
-      const since_s = time_s - last_s;
-      if (!(since_s > 0)) {
-        return;
-      }
-      if (since_s > this.gap_s) {
-        this.#push(last_s + since_s / 2, {});
-      }
-      this.#intervals_s = [...this.#intervals_s, since_s].slice(-INTERVALS);
+    if (last_s !== undefined && !(time_s > last_s)) {
+      return;
+    }
+    if (this.#silence.take(time_s)) {
+      this.#push((last_s + time_s) / 2, {});
     }
     this.#push(time_s, values);
     this.#forget(time_s - WINDOW_S - GAP_S);
@@ -53,14 +45,12 @@ export class History {
   clear() {
     this.#times_s = [];
     this.#values = this.#names.map(() => []);
-    this.#intervals_s = [];
+    this.#silence.clear();
   }
 
   /** @returns {number} the silence in seconds across which no line goes */
   get gap_s() {
-    const known = this.#intervals_s;
-    const period_s = known.length < INTERVALS ? 0 : known.toSorted((a, b) => a - b)[INTERVALS >> 1];
-    return Math.max(GAP_S, 2.5 * period_s);
+    return this.#silence.limit_s;
   }
 
   /**

@@ -19,6 +19,7 @@ export class LeafletMap {
   #wayHome;
   #track;
   #hasView = false;
+  #name = null;
   #onFree;
 
   isFollowing = true;
@@ -107,6 +108,10 @@ export class LeafletMap {
   /** @param {import("./picture.js").Picture} picture */
   show(picture) {
     const { aircraft, home } = picture;
+    if (picture.name !== this.#name) {
+      this.#name = picture.name;
+      this.#forget(picture);
+    }
     if (!this.#hasView) {
       const first = aircraft ?? home;
       if (first === null) {
@@ -121,6 +126,20 @@ export class LeafletMap {
     const ends = home === null || aircraft === null ? [] : [latLng(home), latLng(aircraft)];
     this.#wayHome.setLatLngs(ends).addTo(this.#map);
     this.#track.show(picture.track);
+  }
+
+  // Another aircraft flies elsewhere: nothing of the first stays, not even what the grid counts from.
+  #forget(picture) {
+    this.#showAircraft({ ...picture, aircraft: null });
+    this.#showHome(null);
+    this.#wayHome.setLatLngs([]);
+    this.#track.show({ points: [], version: -1 });
+    this.#grid?.remove();
+    this.#grid = null;
+    if (this.#hasView) {
+      this.#hasView = false;
+      this.follow();
+    }
   }
 
   #showAircraft({ aircraft, heading_deg, freshness, age }) {

@@ -2,8 +2,8 @@ import { bearing_deg, distance_m, distanceText, placeOf } from "./earth.js";
 import { ageText, headingText } from "../state/format.js";
 
 /**
- * What a map draws: the aircraft where it was seen last, home, the track.
- * @typedef {{aircraft: ?{latitude: number, longitude: number}, heading_deg: ?number,
+ * What a map draws: the name of the aircraft, where it was seen last, home, the track.
+ * @typedef {{name: ?string, aircraft: ?{latitude: number, longitude: number}, heading_deg: ?number,
  *   freshness: "live"|"stale"|"none", age: string, home: ?{latitude: number, longitude: number},
  *   track: object}} Picture
  */
@@ -19,6 +19,7 @@ export function pictureOf(store) {
   const home = store.status?.home;
   const isSeen = aircraft !== null;
   return {
+    name: store.aircraft,
     aircraft: seen,
     heading_deg: isSeen ? headingOf(store) : null,
     freshness: seen === null ? "none" : isSeen ? freshnessOf(store) : "stale",

@@ -3,6 +3,7 @@ import { linesBetween, stepOf, stepText, windowOf } from "./grid.js";
 import { drawn } from "../panels/element.js";
 import { setAttribute, setText } from "../readout.js";
 import { AircraftSymbol } from "./aircraft_symbol.js";
+import { piecesOf } from "./track_line.js";
 
 const MOST_POINTS = 1500;
 /** What the line of words below the map covers. */
@@ -12,7 +13,7 @@ const FOOT_PX = 40;
 export class PlainMap {
   #symbol = new AircraftSymbol();
   #lines = drawn("path.grid");
-  #track = drawn("polyline.track");
+  #track = drawn("path.track");
   #home = drawn("path.home-symbol");
   #scale = drawn("text.scale", { x: 12 });
   #step_m = 0;
@@ -43,21 +44,20 @@ export class PlainMap {
       return;
     }
     const every = Math.ceil(track.points.length / MOST_POINTS) || 1;
-    const path = track.points
-      .filter((_, index) => index % every === 0)
-      .map(([latitude, longitude]) => offsetOf(origin, { latitude, longitude }));
+    const pieces = piecesOf(track.points).map((piece) =>
+      piece
+        .filter((_, index) => index % every === 0 || index === piece.length - 1)
+        .map(([latitude, longitude]) => offsetOf(origin, { latitude, longitude })),
+    );
     const craft = aircraft === null ? null : offsetOf(origin, aircraft);
-    const shown = craft === null ? path : [...path, craft];
+    const shown = craft === null ? pieces.flat() : [...pieces.flat(), craft];
     const view = windowOf([...shown, { east_m: 0, north_m: 0 }], size);
     const x = (each) => size.width_px / 2 + (each.east_m - view.east_m) / view.metresPerPixel;
     const y = (each) => size.height_px / 2 - (each.north_m - view.north_m) / view.metresPerPixel;
     setAttribute(this.element, "viewBox", `0 0 ${size.width_px} ${size.height_px}`);
     this.#drawGrid(view, size, x, y);
-    setAttribute(
-      this.#track,
-      "points",
-      shown.map((each) => `${x(each).toFixed(1)},${y(each).toFixed(1)}`).join(" "),
-    );
+    const point = (each) => `${x(each).toFixed(1)} ${y(each).toFixed(1)}`;
+    setAttribute(this.#track, "d", pieces.map((piece) => `M${piece.map(point).join("L")}`).join(""));
     const at = { east_m: 0, north_m: 0 };
     const isHome = home !== null;
     setAttribute(this.#home, "d", isHome ? `M${x(at)} ${y(at) - 9} l9 9 h-3 v8 h-12 v-8 h-3 Z` : "");

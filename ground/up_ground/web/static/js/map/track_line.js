@@ -51,8 +51,9 @@ export class TrackLine {
       const begin = Math.max(0, Number.isFinite(upTo) ? points.length - upTo : 0);
       if (index === 0 || isDue) {
         const part = points.slice(begin, end + (index === 0 ? 0 : 1));
-        line.setLatLngs(part);
-        this.#casings[index]?.setLatLngs(part);
+        const pieces = piecesOf(part);
+        line.setLatLngs(pieces);
+        this.#casings[index]?.setLatLngs(pieces);
       }
       end = begin;
     });
@@ -67,4 +68,19 @@ export class TrackLine {
     this.#points.forEach(([latitude, longitude]) => bounds.extend([latitude, longitude]));
     return bounds;
   }
+}
+
+/**
+ * @param {(number|null|true)[][]} points of a Track
+ * @returns {number[][][]} latitude and longitude of each in pieces: no line goes across a silence
+ */
+export function piecesOf(points) {
+  const pieces = [];
+  for (const point of points) {
+    if (pieces.length === 0 || point[3] === true) {
+      pieces.push([]);
+    }
+    pieces.at(-1).push([point[0], point[1]]);
+  }
+  return pieces;
 }

@@ -1,19 +1,29 @@
 import { number } from "./judge.js";
+import { Silence } from "./silence.js";
 
 const MOST = 20000;
 const STEP_DEG = 0.00001;
 
-/** Where the aircraft flew: [latitude, longitude, altitude|null] each, the oldest first. */
+/**
+ * Where the aircraft flew: [latitude, longitude, altitude|null] each, the oldest first. A fourth
+ * that is true: before it nothing was known for a while, and no line leads to it.
+ */
 export class Track {
-  /** @type {[number, number, number|null][]} */
+  #silence = new Silence();
+
+  /** @type {[number, number, number|null, true?][]} */
   points = [];
   /** Counts the times it was replaced or emptied; points appended do not change it. */
   version = 0;
   /** The altitude where it begins, m; null while none is known. */
   startAltitude_m = null;
 
-  /** @param {unknown} points the server's, taken in place of what was here */
-  replace(points) {
+  /**
+   * @param {unknown} points the server's, taken in place of what was here
+   * @param {number|null} now_s a silence counts from then on
+   */
+  replace(points, now_s = null) {
+    this.#silence.clear(now_s);
     this.points = (Array.isArray(points) ? points : [])
       .map(pointOf)
       .filter((each) => each !== null);
@@ -25,12 +35,20 @@ export class Track {
    * @param {number|null} latitude
    * @param {number|null} longitude
    * @param {number|null} altitude
+   * @param {number} now_s when it was known to be there
    */
-  append(latitude, longitude, altitude) {
+  append(latitude, longitude, altitude, now_s) {
     const point = pointOf([latitude, longitude, altitude]);
-    const last = this.points.at(-1);
-    if (point === null || (last !== undefined && isNear(last, point))) {
+    if (point === null) {
       return;
+    }
+    const wasSilent = this.#silence.take(now_s);
+    const last = this.points.at(-1);
+    if (last !== undefined && isNear(last, point)) {
+      return;
+    }
+    if (wasSilent && last !== undefined) {
+      point.push(true);
     }
     this.points.push(point);
     this.startAltitude_m ??= point[2];
@@ -45,14 +63,15 @@ function pointOf(each) {
   if (!Array.isArray(each)) {
     return null;
   }
-  const [latitude, longitude, altitude] = each.map(number);
+  const [latitude, longitude, altitude] = each.slice(0, 3).map(number);
   if (latitude === null || longitude === null) {
     return null;
   }
   if (Math.abs(latitude ?? 91) > 90 || Math.abs(longitude ?? 181) > 180) {
     return null;
   }
-  return [latitude, longitude, altitude ?? null];
+  const point = [latitude, longitude, altitude ?? null];
+  return each[3] === true ? [...point, true] : point;
 }
 
 function isNear(one, other) {

@@ -1,0 +1,42 @@
+/** Where nothing came for longer than this, no line is drawn; a slow period makes it longer. */
+export const GAP_S = 0.9;
+
+/** How many intervals tell the period; a silence among them does not change their median. */
+const INTERVALS = 5;
+
+/** Tells a silence from the period in which something comes. */
+export class Silence {
+  #last_s = null;
+  #intervals_s = [];
+
+  /** @returns {number} how long nothing must come to be a silence, seconds */
+  get limit_s() {
+    const known = this.#intervals_s;
+    const period_s = known.length < INTERVALS ? 0 : known.toSorted((a, b) => a - b)[INTERVALS >> 1];
+    return Math.max(GAP_S, 2.5 * period_s);
+  }
+
+  /**
+   * Something has come.
+   * @param {number} time_s
+   * @returns {boolean} whether there was a silence before it
+   */
+  take(time_s) {
+    const since_s = this.#last_s === null ? 0 : time_s - this.#last_s;
+    const wasSilent = since_s > this.limit_s;
+    if (this.#last_s !== null) {
+      this.#intervals_s = [...this.#intervals_s, since_s].slice(-INTERVALS);
+    }
+    this.#last_s = time_s;
+    return wasSilent;
+  }
+
+  /**
+   * Forget what came.
+   * @param {number|null} from_s a silence counts from then on; null: from what comes next
+   */
+  clear(from_s = null) {
+    this.#last_s = from_s;
+    this.#intervals_s = [];
+  }
+}
