@@ -18,9 +18,11 @@ from up_ground.web.messages import message_bytes
 from up_ground.web.page import Page, PageConnection
 from up_ground.web.page_message import PageFault, Reader, read_message
 from up_ground.web.page_output import Make
+from up_ground.web.places import PAGES_LIMIT, WATCHERS_LIMIT, NoPlaceError, make_place
 from up_ground.web.watched import WatchedAircraft
 
-PAGES_LIMIT = 16
+GREETING_LIMIT = 16
+"""Of so many links that have said no hello yet the oldest goes."""
 HELLO_S = 10.0
 KEPT_S = 5.0
 """A page that vanishes is expected back for so long."""
@@ -83,10 +85,6 @@ class Pages:
                 link.close(GOING_AWAY, "the server ends")
             await self._all_closed
 
-    def is_full(self) -> bool:
-        """Say whether no more pages are let in."""
-        return len(self._visits) >= PAGES_LIMIT
-
     # What an aircraft asks.
 
     def all(self) -> list[Page]:
@@ -120,11 +118,13 @@ class Pages:
     # What a page's link tells.
 
     def on_opened(self, link: PageConnection) -> None:
-        """Wait for the page's hello."""
+        """Wait for the page's hello, which says whether it has a right to a place."""
+        greeting = [each for each, visit in self._visits.items() if visit.page is None]
+        if len(greeting) >= GREETING_LIMIT:
+            silent = (each for each in greeting if not self._visits[each].is_greeting)
+            self._turn_away(next(silent, greeting[0]), "too many pages say no hello")
         timer = self._clock.callLater(HELLO_S, link.close, VIOLATION, "no hello")
         self._visits[link] = _Visit(self._clock, timer)
-        if len(self._visits) > PAGES_LIMIT:
-            link.close(LATER, "too many pages are open")
 
     def on_said(self, link: PageConnection, payload: bytes) -> None:
         """Do what a page says; nonsense is told to it, and after too much of it the page goes."""
@@ -236,11 +236,37 @@ class Pages:
         return found
 
     def _welcome_new(self, link: PageConnection, name: str, why_not: str) -> None:
+        limit = PAGES_LIMIT if self._access.is_watch_only else WATCHERS_LIMIT
+        try:
+            leaving = make_place(self._pages.values(), not why_not, limit)
+        except NoPlaceError as error:
+            self._turn_away(link, str(error))
+            return
+        if leaving is not None:
+            self._push_out(leaving)
         self._number += 1
         number = self._number
         page = Page(number, name or f"page {number}", secrets.token_hex(16), why_not)
         self._pages[number] = page
         self._welcome(link, page)
+
+    def _push_out(self, page: Page) -> None:
+        link, page.link = page.link, None
+        timer = self._timers.get(page.number)
+        if timer is not None and timer.active():
+            timer.cancel()
+        if link is not None:
+            self._turn_away(link, "a page that may control needs the place")
+            for aircraft in self.fleet.values():
+                aircraft.on_away(page)
+        self._forget(page)
+
+    def _turn_away(self, link: PageConnection, reason: str) -> None:
+        """Close a link that is nobody's any more."""
+        visit = self._visits.pop(link)
+        if visit.timer.active():
+            visit.timer.cancel()
+        link.close(LATER, reason)
 
     def _welcome_back(self, link: PageConnection, page: Page, name: str, why_not: str) -> None:
         timer = self._timers.pop(page.number, None)

@@ -58,7 +58,7 @@ class Server(Errand):
         self._tiles = tiles
         link = link_resource(reactor, self.pages)
         files = StaticFiles(folder)
-        resource = GroundResource(access, files, link, self.pages.is_full, tiles)
+        resource = GroundResource(access, files, link, tiles)
         self._factory = Connections(reactor, make_site(reactor, resource))
         self._port: Any = None
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 from typing import Protocol as Interface
 
@@ -55,14 +54,12 @@ class GroundResource(Resource):
         access: Access,
         files: StaticFiles,
         link: Any,
-        is_full: Callable[[], bool],
         tiles: Tiles | None = None,
     ) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
         self._access = access
         self._files = files
         self._link = link
-        self._is_full = is_full
         self._tiles = tiles
 
     def render(self, request: Any) -> Any:
@@ -95,8 +92,6 @@ class GroundResource(Resource):
             origin, _only(request, b"host")
         ):
             return refuse(request, http.FORBIDDEN, "a page of another site may not connect")
-        if self._is_full():
-            return refuse(request, http.SERVICE_UNAVAILABLE, "too many pages are open")
         return self._link.render(request)
 
     def _render_file(self, request: Any) -> Any:

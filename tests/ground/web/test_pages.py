@@ -9,7 +9,8 @@ from twisted.internet.task import Clock
 
 from up_ground.web.access import Access
 from up_ground.web.page_message import PageFault, read_message
-from up_ground.web.pages import FAULTS_LIMIT, HELLO_S, KEPT_S, PAGES_LIMIT, Pages
+from up_ground.web.pages import FAULTS_LIMIT, GREETING_LIMIT, HELLO_S, KEPT_S, Pages
+from up_ground.web.places import PAGES_LIMIT, WATCHERS_LIMIT
 
 
 class Output:
@@ -274,9 +275,59 @@ def test_names_are_made_harmless(bench):
 
 def test_there_are_so_many_pages_and_no_more(bench):
     links = [bench.open() for _ in range(PAGES_LIMIT)]
-    assert bench.pages.is_full()
-    assert bench.open(hello=False).closed == (4013, "too many pages are open")
+    assert bench.open().closed == (4013, "too many pages are open")
+    assert all(link.closed is None for link in links)
     bench.pages.on_closed(links[0])
+    # Its place is kept while it may come back; then it is anybody's.
+    assert bench.open().closed is not None
+    bench.clock.advance(KEPT_S)
+    assert bench.open().kinds()[0] == "welcome"
+
+
+def test_the_page_that_comes_back_finds_its_place_in_a_full_house(bench):
+    first = bench.open()
+    for _ in range(PAGES_LIMIT - 1):
+        bench.open()
+    bench.pages.on_closed(first)
+    assert bench.open().closed is not None
+    again = bench.open(token=first.told[0]["token"])
+    assert again.told[0]["page"] == first.told[0]["page"]
+    assert again.closed is None
+
+
+def test_watchers_leave_places_for_those_who_may_control():
+    bench = Bench(key="the-right-key")
+    watchers = [bench.open() for _ in range(WATCHERS_LIMIT)]
+    assert bench.open().closed == (4013, "too many pages are open")
+    pilots = [bench.open(key="the-right-key") for _ in range(PAGES_LIMIT - WATCHERS_LIMIT)]
+    assert all(link.closed is None for link in (*watchers, *pilots))
+    # A full house: the youngest watcher goes, and does not come back by its token.
+    assert bench.open(key="the-right-key").told[0]["may_control"] is True
+    assert watchers[-1].closed == (4013, "a page that may control needs the place")
+    assert all(link.closed is None for link in watchers[:-1])
+    assert ("gone", WATCHERS_LIMIT) in bench.kite.heard
+    bench.pages.on_closed(watchers[-1])
+    assert bench.open(token=watchers[-1].told[0]["token"]).closed is not None
+    for _ in range(WATCHERS_LIMIT - 1):
+        assert bench.open(key="the-right-key").closed is None
+    assert bench.open(key="the-right-key").closed == (4013, "too many pages are open")
+    assert len(bench.pages.all()) == PAGES_LIMIT
+
+
+def test_where_nobody_may_control_all_places_are_for_watchers():
+    bench = Bench(is_watch_only=True)
+    assert all(bench.open().closed is None for _ in range(PAGES_LIMIT))
+    assert bench.open().closed is not None
+
+
+def test_links_that_say_nothing_keep_nobody_out(bench):
+    silent = [bench.open(hello=False) for _ in range(GREETING_LIMIT)]
+    assert bench.open().kinds()[0] == "welcome"
+    assert silent[0].closed == (4013, "too many pages say no hello")
+    assert silent[1].closed is None
+    bench.pages.on_closed(silent[0])
+    for link in silent[1:]:
+        bench.pages.on_closed(link)
 
 
 def test_comings_and_goings_leave_nothing(bench):

@@ -9,6 +9,7 @@ from tests.ground.web.page import Page, Serve, get
 from tests.proxy.program import Program
 from tests.support.reactor import run_in_reactor
 from tests.support.reactor import until as soon
+from up_ground.web.places import WATCHERS_LIMIT
 
 MODE = "up.flight_mode.set"
 FBW = {"mode": "FBW"}
@@ -410,6 +411,22 @@ def test_who_has_no_key_only_watches(aircraft, proxy, tmp_path, arguments):
             await pilot.leave()
 
         with_pages(server, look, "guest")
+
+
+def test_who_has_the_key_gets_in_where_watchers_have_filled_the_house(proxy, tmp_path):
+    with Serve(tmp_path, proxy.ground_port, "--key", "a-good-key") as server:
+
+        async def look(*watchers):
+            late = await Page(server.port).open()
+            late.say("hello", name="late")
+            await soon(lambda: late.is_closed, what="the end of a page too many")
+            assert (late.code, late.why) == (4013, "too many pages are open")
+            pilot = Page(server.port)
+            assert (await pilot.hello("pilot", key="a-good-key"))["may_control"] is True
+            assert not any(watcher.is_closed for watcher in watchers)
+            await pilot.leave()
+
+        with_pages(server, look, *(f"watcher {number}" for number in range(WATCHERS_LIMIT)))
 
 
 def test_watch_only_is_for_everybody(aircraft, proxy, tmp_path):

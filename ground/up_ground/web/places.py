@@ -1,0 +1,34 @@
+"""How many pages there may be, and who leaves when somebody with a right to a place comes."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from up_ground.web.page import Page
+
+PAGES_LIMIT = 16
+WATCHERS_LIMIT = 12
+"""Pages that may not control leave places for those that may."""
+
+
+class NoPlaceError(Exception):
+    """There is no place for one more page; the text is the reason it is closed with."""
+
+
+def make_place(pages: Collection[Page], may_control: bool, watchers_limit: int) -> Page | None:
+    """Return which page must leave for a new one; None: there is a place, nobody must.
+
+    ``pages`` are those that are here or expected back, which keep their places. Raises
+    NoPlaceError.
+    """
+    watchers = [page for page in pages if not page.may_control]
+    is_full = len(pages) >= PAGES_LIMIT
+    if not may_control:
+        if is_full or len(watchers) >= watchers_limit:
+            raise NoPlaceError("too many pages are open")
+        return None
+    if not is_full:
+        return None
+    if not watchers:
+        raise NoPlaceError("too many pages are open")
+    return max(watchers, key=lambda page: page.number)
