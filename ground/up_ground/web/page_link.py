@@ -17,6 +17,7 @@ from up_ground.web.page_output import PageOutput
 USER_TIMEOUT_MS = 5000
 PING_S = 5.0
 NOT_TEXT = 4003
+TOO_LONG = 4008
 
 
 class LinkOwner(Interface):
@@ -93,6 +94,12 @@ class PageLink(WebSocketServerProtocol):
         """Say why, and close."""
         self.output.finish()
         self.sendClose(code, reason)
+
+    def _max_message_size_exceeded(self, msg_size: int, max_msg_size: int, reason: str) -> None:
+        """Say why, where the library would cut the connection without a word."""
+        # It stores nothing of what still comes.
+        self.failedByMe = True
+        self.close(TOO_LONG, f"a message has at most {LONGEST_MESSAGE} bytes")
 
     def _on_overrun(self) -> None:
         # It has not read for long: a closing handshake would wait behind all of that.

@@ -29,6 +29,8 @@ HEADERS = {
 }
 MISDIRECTED_REQUEST = 421
 UPGRADE_REQUIRED = 426
+_WORDS = {MISDIRECTED_REQUEST: b"Misdirected Request", UPGRADE_REQUIRED: b"Upgrade Required"}
+"""Those that Twisted has no words for."""
 LINK = b"/link"
 TILES = b"/tiles/"
 _PLAIN = b"text/plain; charset=utf-8"
@@ -115,6 +117,12 @@ class GroundRequest(Request):
             length = 0
         super().gotLength(length)  # type: ignore[no-untyped-call]
 
+    def process(self) -> None:
+        """Let the resource answer; Twisted itself answers ``*``, in its own name."""
+        if self.path == b"*":
+            self.path = b"/*"
+        super().process()  # type: ignore[no-untyped-call]
+
 
 class _Site(Site):
     noisy = False
@@ -133,7 +141,7 @@ def make_site(reactor: Any, resource: GroundResource) -> Site:
 
 def refuse(request: Any, code: int, sentence: str) -> bytes:
     """Return an answer that says why there is nothing else."""
-    request.setResponseCode(code)
+    request.setResponseCode(code, _WORDS.get(code))
     request.setHeader(b"content-type", _PLAIN)
     return send(request, f"{sentence}\n".encode())
 

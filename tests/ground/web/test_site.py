@@ -5,7 +5,7 @@ import socket
 import pytest
 
 from tests.ground.web.page import Page, Serve, get
-from tests.support.reactor import run_in_reactor
+from tests.support.reactor import run_in_reactor, until
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:;"
@@ -132,6 +132,44 @@ def test_the_links_address_is_no_page(server):
     check_headers(headers)
 
 
+def test_a_message_too_long_is_closed_with_the_reason(server):
+    async def say(length):
+        page = Page(server.port)
+        await page.hello(watch=None)
+        head = '{"type": "ping", "ping": 1, "x": "'
+        page.raw(head + "y" * (length - len(head) - 2) + '"}')
+        return page
+
+    async def talk():
+        page = await say(65536)
+        assert (await page.next("pong"))["ping"] == 1
+        await page.leave()
+        for length in (65537, 300_000):
+            page = await say(length)
+            await until(lambda page=page: page.is_closed, what="the end")
+            assert (page.code, page.why) == (4008, "a message has at most 65536 bytes")
+            assert page.of("pong") == []
+
+    run_in_reactor(talk)
+
+
+@pytest.mark.parametrize(
+    ("request_bytes", "first"),
+    [
+        (b"GET * HTTP/1.1\r\nHost: 127.0.0.1\r\n", b"HTTP/1.1 404 Not Found"),
+        (b"OPTIONS * HTTP/1.1\r\nHost: 127.0.0.1\r\n", b"HTTP/1.1 405 Method Not Allowed"),
+        (b"GET / HTTP/1.1\r\nHost: evil.example\r\n", b"HTTP/1.1 421 Misdirected Request"),
+        (b"GET /link HTTP/1.1\r\nHost: 127.0.0.1\r\n", b"HTTP/1.1 426 Upgrade Required"),
+    ],
+)
+def test_refusals_have_the_standards_words_and_the_sites_headers(server, request_bytes, first):
+    said = raw(server.port, request_bytes + b"Connection: close\r\n\r\n")
+    lines = said.lower().split(b"\r\n")
+    assert said.startswith(first + b"\r\n")
+    assert [line for line in lines if line.startswith(b"server:")] == [b"server: up-ground"]
+    assert f"content-security-policy: {POLICY}".lower().encode() in lines
+
+
 @pytest.mark.parametrize(
     "request_bytes",
     [
@@ -147,4 +185,5 @@ def test_nonsense_and_bodies_are_cut_off(server, request_bytes):
     said = raw(server.port, request_bytes)
     assert b"200 OK" not in said
     assert b"Traceback" not in said
+    assert b"twisted" not in said.lower()
     assert get(server.port, "/")[0] == 200
