@@ -34,7 +34,7 @@ export function mount(element, store, connection) {
         ageShown = age_s === null ? null : ageText(age_s);
       }
       plain.age.show(ageShown, store.isSilent ? "warning" : "");
-      plain.ages.show(agesText(store));
+      plain.ages.show(agesText(store), "", isOld || store.isSilent);
       showPage(plain.page, connection);
       showProxy(plain.proxy, link, isDoubtful);
       showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isDoubtful);
