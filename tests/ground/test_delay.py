@@ -58,7 +58,7 @@ def test_a_queue_that_stands_for_an_hour_is_not_taken_for_the_way():
     delay.take(0, 0.0)
     for second in range(1, 3601):
         told_s = delay.take(second * 1000, second + min(second / 10, 3.0))
-    assert told_s == pytest.approx(3.0, abs=3600 * DRIFT + ROUNDING_S)
+    assert told_s == pytest.approx(3.0, abs=0.37)
     assert delay.take(3601_000, 3601.0) < ROUNDING_S
 
 
@@ -71,8 +71,8 @@ def test_hours_of_drift_make_nothing_old(ppm):
 
 def test_a_clock_that_began_anew_is_another_clock():
     delay = Delay()
-    delay.take(900_000, 10.0)
-    assert delay.take(901_000, 14.0) == pytest.approx(3.0, abs=0.01)
+    delay.take(12_000, 10.0)
+    assert delay.take(13_000, 14.0) == pytest.approx(3.0, abs=0.01)
     assert delay.take(4_000, 20.0) == 0
     assert delay.has_begun
     assert delay.take(5_000, 21.2) == pytest.approx(0.2, abs=0.01)
