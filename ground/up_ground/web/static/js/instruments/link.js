@@ -10,7 +10,7 @@ export function mount(element, store, connection) {
   element.append(list);
   const plain = {
     age: new PlainRow(list, "Newest frame", "link.age"),
-    ages: new PlainRow(list, "Ages are told", "link.ages"),
+    ages: new PlainRow(list, "Ages", "link.ages"),
     rate: new PlainRow(list, "Rate", "link.rate"),
     lost: new PlainRow(list, "Lost, dropped", "link.lost"),
     page: new PlainRow(list, "This page", "link.page"),
@@ -62,7 +62,7 @@ function agesText(store) {
   }
   return store.number("system.clock_ms") === null
     ? "without the way to the proxy: the aircraft tells no clock"
-    : "by the aircraft's clock, from its quickest frame on";
+    : "by the aircraft's clock";
 }
 
 function joined(isThere) {
