@@ -1,8 +1,11 @@
 """The module in a system: on the reactor, with its real thread and files."""
 
+import subprocess
+import sys
 import threading
 
 import pytest
+from black_box_cog import recorder_maker
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.modules import black_box
@@ -104,7 +107,7 @@ def test_a_flight_from_the_start_to_the_stop(tmp_path):
 
 
 def test_no_call_to_the_disk_is_made_on_the_reactors_thread(tmp_path, monkeypatch):
-    monkeypatch.setattr(black_box, "Disk", TestedDisk)
+    monkeypatch.setattr(recorder_maker, "Disk", TestedDisk)
 
     async def fly():
         system = System(tmp_path)
@@ -332,7 +335,7 @@ def test_a_disk_that_hangs_keeps_neither_reactor_nor_stop(tmp_path, monkeypatch)
             hanging.set()
             release.wait(30)
 
-    monkeypatch.setattr(black_box, "Disk", HangingDisk)
+    monkeypatch.setattr(recorder_maker, "Disk", HangingDisk)
 
     async def fly():
         system = System(tmp_path)
@@ -354,3 +357,22 @@ def test_a_disk_that_hangs_keeps_neither_reactor_nor_stop(tmp_path, monkeypatch)
     took_s, text = run_in_reactor(fly)
     assert took_s < 10
     assert "did not end in time" in text
+
+
+def test_the_start_waits_for_nothing_that_only_the_thread_needs_and_that_comes_in_small_pieces():
+    code = """
+import importlib, sys
+from up.commands import builtin
+from black_box_cog.modules import black_box
+ours = lambda: {name for name in sys.modules if name.startswith(("black_box_cog", "up."))}
+at_start, pieces = ours(), []
+for name in black_box.LATER:
+    before = ours()
+    importlib.import_module(name)
+    pieces.append(len(ours() - before))
+print("black_box_cog.recorder" in at_start, max(pieces), min(pieces))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    is_recorder_there, largest, least = done.stdout.split()
+    assert (is_recorder_there, least) == ("False", "1")
+    assert int(largest) <= 3

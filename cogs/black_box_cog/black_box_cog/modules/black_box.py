@@ -2,34 +2,51 @@
 
 from __future__ import annotations
 
-import contextlib
+import gc
+import importlib
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from black_box_cog.command_form import form_of
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
-from black_box_cog.config import BLACK_BOX, MEGABYTE
-from black_box_cog.disk import Disk
-from black_box_cog.flight_facts import FlightFacts
-from black_box_cog.flight_folder import FlightFolder
+from black_box_cog.config import BLACK_BOX
 from black_box_cog.intake import Intake
 from black_box_cog.log_lines import LogLines
 from black_box_cog.record_policy import RecordPolicy
-from black_box_cog.recorder import Recorder
 from black_box_cog.recorder_status import RecorderStatus
 from up.base_thread_module import BaseThreadModule
 from up.commands.refusal import CommandRefusedError
 from up.commands.telemetry_commands import TelemetryCommand
-from up.flight_log.flights_folder import folder_of
 from up.registrations import note_undo
+
+if TYPE_CHECKING:
+    from black_box_cog.recorder import Recorder
 
 SOURCE_S = 10.0
 """The recorder asks for telemetry itself for so long after a word of the Arduino or the phone."""
 FIRST_LOOK_S = 1.0
+PAUSE_S = 0.005
+LATER = (
+    "up.flight_log.flight_file",
+    "black_box_cog.flight_folder",
+    "black_box_cog.package_versions",
+    "black_box_cog.flight_facts",
+    "up.flight_log.telemetry_schema",
+    "up.flight_log.command_schema",
+    "black_box_cog.command_form",
+    "up.flight_log.mcap_format",
+    "up.flight_log.mcap_writer",
+    "black_box_cog.timeline",
+    "black_box_cog.part",
+    "black_box_cog.flight_parts",
+    "black_box_cog.trouble",
+    "black_box_cog.recorder",
+    "black_box_cog.recorder_maker",
+)
+"""What only the recorder's thread needs, in the order of import: the start does not wait for it."""
 
 
 class BlackBox(BaseThreadModule):
@@ -92,9 +109,7 @@ class BlackBox(BaseThreadModule):
     def _run(self) -> None:
         self.stop_event.wait(FIRST_LOOK_S)
         try:
-            recorder = self._make_recorder()
-            recorder.prepare(self._preparations())
-            self.recorder = recorder
+            self.recorder = self._make_recorder()
             super()._run()
             self.recorder.finish()
         except Exception:  # noqa: BLE001 - the last words of a thread; nobody else would tell
@@ -102,27 +117,17 @@ class BlackBox(BaseThreadModule):
             self.logger.failure("{name} does not record any more", name=self.class_name)
 
     def _make_recorder(self) -> Recorder:
-        """Return the recorder, made on the thread that it lives on."""
-        config = self.config
-        disk = Disk()
-        folder = FlightFolder(
-            disk,
-            folder_of(config.folder),
-            config.total_size_mb * MEGABYTE,
-            config.keep_free_mb * MEGABYTE,
-        )
-        return Recorder(self.intake, config, folder, self._facts(), disk)
+        """Return the recorder, whose code comes in pieces: all at once would hold control up."""
+        for name in LATER:
+            importlib.import_module(name)
+            self.stop_event.wait(PAUSE_S)
+        if not gc.isenabled():
+            # As with what was there at the start: no collection is to walk through it again.
+            gc.freeze()
+        from black_box_cog.recorder_maker import make_recorder
 
-    def _preparations(self) -> Iterator[None]:
-        """Yield after each piece of what a flight's begin would have to work out at once."""
-        yield from self._facts().prepare()
-        for cls in self.up.command_executor.registry:
-            if self.stop_event.is_set():
-                return
-            # One that anybody made wrongly is left out when it comes, and said then.
-            with contextlib.suppress(Exception):
-                form_of(cls)
-            yield
+        up, context = self.up, self.context
+        return make_recorder(self.intake, self.config, up, context, self.stop_event.is_set)
 
     def _on_telemetry(self, command: TelemetryCommand) -> None:
         """Do nothing: the observer has it; who subscribes is asked whether frames are wanted."""
@@ -139,23 +144,3 @@ class BlackBox(BaseThreadModule):
         problem = self.status.problem
         if problem is not None:
             raise CommandRefusedError(f"the flight is not recorded: {problem}")
-
-    def _facts(self) -> FlightFacts:
-        context = self.context
-        modules = {type(module).__module__.partition(".")[0] for module in self.up.modules}
-        return FlightFacts(
-            self._aircraft(),
-            {
-                "instance": context.instance,
-                "mode": context.mode.value,
-                "flight_controller": context.application.flight_controller,
-            },
-            tuple(sorted(modules)),
-            context.config_folder,
-        )
-
-    def _aircraft(self) -> str:
-        """Return the name that the ground knows this aircraft by."""
-        provider = self.up.mission_control_provider
-        config = None if provider is None or provider.CONFIG is None else provider.config
-        return getattr(config, "aircraft", "") or self.context.instance or "default"

@@ -1,0 +1,69 @@
+"""Makes the recorder, on the thread that it lives on, and works out beforehand what it needs."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from black_box_cog.command_form import form_of
+from black_box_cog.config import MEGABYTE, BlackBoxConfig
+from black_box_cog.disk import Disk
+from black_box_cog.flight_facts import FlightFacts
+from black_box_cog.flight_folder import FlightFolder
+from black_box_cog.intake import Intake
+from black_box_cog.recorder import Recorder
+from up.commands.command_registry import CommandRegistry
+from up.flight_log.flights_folder import folder_of
+
+
+def make_recorder(
+    intake: Intake,
+    config: BlackBoxConfig,
+    up: Any,
+    context: Any,
+    is_over: Callable[[], bool],
+) -> Recorder:
+    """Return a recorder for which everything is ready, unless the program is over meanwhile."""
+    disk = Disk()
+    total, keep_free = config.total_size_mb * MEGABYTE, config.keep_free_mb * MEGABYTE
+    folder = FlightFolder(disk, folder_of(config.folder), total, keep_free)
+    facts = _facts(up, context)
+    recorder = Recorder(intake, config, folder, facts, disk)
+    recorder.prepare(_preparations(facts, up.command_executor.registry, is_over))
+    return recorder
+
+
+def _preparations(
+    facts: FlightFacts, registry: CommandRegistry, is_over: Callable[[], bool]
+) -> Iterator[None]:
+    """Yield after each piece of what a flight's begin would have to work out at once."""
+    yield from facts.prepare()
+    for cls in registry:
+        if is_over():
+            return
+        # One that anybody made wrongly is left out when it comes, and said then.
+        with contextlib.suppress(Exception):
+            form_of(cls)
+        yield
+
+
+def _facts(up: Any, context: Any) -> FlightFacts:
+    modules = {type(module).__module__.partition(".")[0] for module in up.modules}
+    return FlightFacts(
+        _aircraft(up, context),
+        {
+            "instance": context.instance,
+            "mode": context.mode.value,
+            "flight_controller": context.application.flight_controller,
+        },
+        tuple(sorted(modules)),
+        context.config_folder,
+    )
+
+
+def _aircraft(up: Any, context: Any) -> str:
+    """Return the name that the ground knows this aircraft by."""
+    provider = up.mission_control_provider
+    config = None if provider is None or provider.CONFIG is None else provider.config
+    return getattr(config, "aircraft", "") or context.instance or "default"
