@@ -1,7 +1,7 @@
 """A message that was held up on its way is known to be old."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from up_ground.delay import DRIFT, NEW_CLOCK_S, Delay
@@ -31,6 +31,7 @@ STEPS = st.lists(
 )
 
 
+@settings(deadline=None)
 @given(STEPS, st.floats(-DRIFT, DRIFT), st.floats(-1e5, 1e5), st.integers(0, 3))
 def test_what_is_told_is_never_too_much_and_too_little_by_no_more_than_the_drift(
     steps, drift, apart_s, digits
@@ -44,6 +45,7 @@ def test_what_is_told_is_never_too_much_and_too_little_by_no_more_than_the_drift
         assert told_s >= held_s - quickest_s - 2 * DRIFT * (came_s + 20) - ROUNDING_S
 
 
+@settings(deadline=None)
 @given(STEPS)
 def test_with_clocks_that_agree_it_is_exact_to_the_drift_that_is_allowed(steps):
     delay = Delay()
@@ -116,6 +118,7 @@ def test_what_was_known_can_be_forgotten():
     assert delay.take(2_000, 5.0) == 0
 
 
+@settings(deadline=None)
 @given(st.lists(st.tuples(st.floats(-1e12, 1e12), st.floats(0, 1e6)), max_size=30))
 def test_no_stamps_break_it(messages):
     delay = Delay()

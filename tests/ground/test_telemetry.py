@@ -1,7 +1,7 @@
 """How old is what is known."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.ground.aircraft import frame
@@ -151,6 +151,7 @@ JSON = st.recursive(
 )
 
 
+@settings(deadline=None)
 @given(st.dictionaries(st.sampled_from(["age_ms", "source", "a"]), JSON))
 def test_no_data_break_it(data):
     telemetry = told(data)
