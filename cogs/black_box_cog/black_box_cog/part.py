@@ -10,7 +10,6 @@ from datetime import UTC, datetime
 from typing import Any
 
 from black_box_cog.command_form import form_of
-from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.encoders import OriginTexts
 from black_box_cog.flight_facts import FlightFacts
 from black_box_cog.intake import Entry, LogLine, Recorded
@@ -70,9 +69,6 @@ class Part:
     def put(self, entry: Entry) -> None:
         """Take one entry; it is written with the next flush of the file."""
         time_s, subject, origin = entry
-        if type(subject) is RecordCommand:
-            # Its content comes by itself, as Recorded, when it was permitted.
-            return
         kind = subject.topic if type(subject) is Recorded else type(subject)
         time_ns = self._timeline.log_ns(time_s)
         try:
