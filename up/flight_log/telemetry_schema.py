@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-READINGS = ("orientation", "rx", "servo", "location", "altitude", "heading", "battery")
+READINGS = (
+    *("orientation", "rx", "servo", "flight"),
+    *("location", "altitude", "heading", "battery"),
+)
 _STICKS = ("ailerons", "elevator", "throttle", "rudder")
 _ANGLES = ("roll", "pitch", "yaw")
 _FLAG: dict[str, Any] = {"type": "boolean", "nullable": True}
@@ -37,6 +40,7 @@ PROPERTIES: dict[str, Any] = {
     ),
     "home": _object({"distance": _number("m"), "bearing": _number("deg")}),
     "altitude": _number("m"),
+    "altitude_required": _number("m"),
     "heading": _numbers(("actual", "required"), "deg"),
     "android": _object({"connected": _FLAG, "batteryLevel": _number("percent")}),
     "arduino": _object(

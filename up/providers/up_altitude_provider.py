@@ -29,8 +29,12 @@ class UpAltitudeProvider(BaseProvider[float]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the altitude."""
-        return {"altitude": self.altitude, **self._ages()}
+        """Return the altitude, and the one that was asked for."""
+        return {
+            "altitude": self.altitude,
+            "altitude_required": self.required_altitude,
+            **self._ages(),
+        }
 
     def _value_of(self, command: Any) -> float | None:
         if command.mode == "required":

@@ -7,6 +7,7 @@ from up_ground.web.command_words import in_words
 
 ACK = Answer("ack", "", "")
 NACK = Answer("nack", "forbidden", "not in flight")
+BOARD = Answer("nack", "refused", "the Arduino refused: the throttle is not low")
 BEFORE = {"ratePIDs": {"ailerons": {"p": 3.0, "i": 0.0, "d": 0.0}}}
 AFTER = {"ratePIDs": {"ailerons": {"p": 2.4, "i": 0.0, "d": 0.0}}}
 
@@ -14,8 +15,31 @@ AFTER = {"ratePIDs": {"ailerons": {"p": 2.4, "i": 0.0, "d": 0.0}}}
 @pytest.mark.parametrize(
     ("name", "data", "answer", "kind", "text"),
     [
-        ("up.arm", {}, ACK, "command", "page 2: up.arm carried out"),
-        ("up.arm", {}, NACK, "command", "page 2: up.arm refused: not in flight (forbidden)"),
+        ("up.arm", {}, ACK, "command", "page 2: Arm carried out"),
+        ("up.arm", {}, NACK, "command", "page 2: Arm refused by the aircraft: not in flight"),
+        (
+            "up.disarm",
+            {},
+            BOARD,
+            "command",
+            "page 2: Disarm refused by the Arduino: the throttle is not low",
+        ),
+        (
+            "up.altitude.change",
+            {"altitude": 400, "mode": "required"},
+            ACK,
+            "command",
+            "page 2: Altitude 400 m carried out",
+        ),
+        (
+            "up.telemetry.frequency",
+            {"frequency": 100},
+            ACK,
+            "command",
+            "page 2: Telemetry every 100 ms carried out",
+        ),
+        ("android.speak", {"text": "{0.x}_"}, ACK, "command", 'page 2: Say "{0.x}_" carried out'),
+        ("a.cog", {"text": 1}, ACK, "command", "page 2: a.cog carried out"),
         (
             "arduino.pids.tunings",
             {"pids": AFTER},
@@ -28,7 +52,7 @@ AFTER = {"ratePIDs": {"ailerons": {"p": 2.4, "i": 0.0, "d": 0.0}}}
             {"pids": AFTER},
             NACK,
             "gains",
-            "page 2: gains (rate roll P 3 to 2.4) refused: not in flight (forbidden)",
+            "page 2: gains (rate roll P 3 to 2.4) refused by the aircraft: not in flight",
         ),
         (
             "arduino.pids.tunings",
@@ -42,7 +66,7 @@ AFTER = {"ratePIDs": {"ailerons": {"p": 2.4, "i": 0.0, "d": 0.0}}}
             {"request": True},
             ACK,
             "command",
-            "page 2: arduino.pids.tunings carried out",
+            "page 2: Ask for the gains carried out",
         ),
         ("black_box.mark", {"text": "gust"}, ACK, "mark", "page 2 marks: gust"),
         (
@@ -50,7 +74,7 @@ AFTER = {"ratePIDs": {"ailerons": {"p": 2.4, "i": 0.0, "d": 0.0}}}
             {"text": "gust"},
             NACK,
             "mark",
-            "page 2: the mark gust refused: not in flight (forbidden)",
+            "page 2: the mark gust refused by the aircraft: not in flight",
         ),
     ],
 )

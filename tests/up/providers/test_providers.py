@@ -163,6 +163,7 @@ def test_altitude_measured_and_asked_for(rig):
     rig.publish(AltitudeCommand(120.5), PHONE)
     rig.publish(AltitudeCommand(300, "required"), OPERATOR)
     assert (provider.altitude, provider.required_altitude) == (120.5, 300)
+    assert provider.telemetry_content["altitude_required"] == 300
 
 
 def test_home_is_the_first_place_and_the_way_back_is_computed_here(rig):

@@ -18,8 +18,16 @@ test("an answer says what became of it", () => {
   assert.equal(words({ outcome: "ack", round_trip_ms: 20, reason: half }), half);
   assert.equal(
     words({ outcome: "nack", code: "forbidden", reason: "the aircraft is armed." }),
-    "refused by the aircraft: the aircraft is armed (forbidden)",
+    "refused by the aircraft: the aircraft is armed",
   );
+  assert.equal(
+    words({ outcome: "nack", code: "refused", reason: "the Arduino refused: the throttle is not low" }),
+    "refused by the Arduino: the throttle is not low",
+  );
+  assert.equal(words({ outcome: "nack", code: "stale", reason: "" }), "refused by the aircraft: stale");
+  assert.equal(words({ outcome: "nack" }), "refused by the aircraft: no reason given");
+  assert.equal(answerWords({ outcome: "ack", round_trip_ms: 4 }, "noted"), "noted");
+  assert.match(answerWords({ outcome: "nack", reason: "no" }, "noted"), /^refused/);
   assert.equal(
     words({ outcome: "timeout", reason: "no answer in 5 s; it is not known whether it was carried out" }),
     "no answer in 5 s: nobody knows whether it was carried out",

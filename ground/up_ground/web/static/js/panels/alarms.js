@@ -1,15 +1,31 @@
 import { setAttribute, setText } from "../readout.js";
 import { acknowledge, forgetOthers, isAcknowledged } from "./acknowledged.js";
 import { element } from "./element.js";
+import { awayWords } from "./why.js";
 
 /**
  * The alarms that stand: a bar each, until it is over. Acknowledging silences it.
  * @param {HTMLElement} place
  * @param {object} store
+ * @param {object} connection
  * @returns {{update: () => void}}
  */
-export function mount(place, store) {
+export function mount(place, store, connection) {
   const bars = new Map();
+  const away = element("div.alarm", { id: "aircraft-away", role: "alert", "data-level": "warning" }, element("strong"));
+  let aircraft = store.aircraft;
+
+  // The alarm of an aircraft that was heard before says so itself.
+  function showAway(standing) {
+    const isSaid = standing.some(({ text }) => text.includes("not connected to the proxy"));
+    const words = isSaid || !connection.isOpen ? "" : awayWords(store);
+    if (words === "") {
+      away.remove();
+    } else if (!away.isConnected) {
+      place.prepend(away);
+    }
+    setText(away.firstChild, words);
+  }
 
   function barOf(alarm) {
     const text = element("strong");
@@ -29,7 +45,9 @@ export function mount(place, store) {
   return {
     update() {
       const standing = store.alarms.filter((each) => typeof each?.text === "string");
-      forgetOthers(standing);
+      // What was acknowledged of one aircraft is not of another.
+      forgetOthers(store.aircraft === aircraft ? standing : []);
+      aircraft = store.aircraft;
       const keys = new Set(standing.map(keyOf));
       for (const [key, { bar }] of bars) {
         if (!keys.has(key)) {
@@ -49,7 +67,8 @@ export function mount(place, store) {
         setAttribute(bar, "data-acknowledged", String(isSeen));
         button.disabled = isSeen;
       }
-      place.hidden = bars.size === 0;
+      showAway(standing);
+      place.hidden = place.childElementCount === 0;
     },
   };
 }

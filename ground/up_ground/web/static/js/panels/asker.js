@@ -1,7 +1,9 @@
 import { confirm } from "../dialog.js";
-import { setAttribute, setText } from "../readout.js";
+import { notesOf } from "./answer_notes.js";
 import { answerLook, answerWords, commandWords } from "./words.js";
 import { objection } from "./why.js";
+
+export { tell } from "./answer_notes.js";
 
 /**
  * Sends Commands as a person does: asks back where it matters, says that it is under way and
@@ -10,10 +12,12 @@ import { objection } from "./why.js";
 export class Asker {
   #store;
   #connection;
+  #notes;
 
   constructor(store, connection) {
     this.#store = store;
     this.#connection = connection;
+    this.#notes = notesOf(store, connection);
   }
 
   /** @returns {string} why a Command is not offered; empty: it is */
@@ -24,46 +28,45 @@ export class Asker {
   /**
    * @param {string} name of the Command
    * @param {object} data
-   * @param {{note: HTMLElement, question?: object|null, isForced?: boolean}} where note: says how it
-   *   goes; question: for dialog.js, null: nothing is asked; isForced: a name that the server does
-   *   not know is sent all the same
+   * @param {{note: HTMLElement, question?: object|null, isForced?: boolean, isDone?: string}} where
+   *   note: says how it goes; question: for dialog.js, null: nothing is asked; isForced: a name that
+   *   the server does not know is sent all the same; isDone: what an ack means, where it is less
+   *   than that it was carried out
    * @returns {Promise<object|null>} the answer; null: it was not sent
    */
-  async ask(name, data, { note, question = null, isForced = false }) {
+  async ask(name, data, { note, question = null, isForced = false, isDone = "" }) {
+    const { aircraft } = this.#store;
     if (question !== null && !(await confirm(question))) {
-      tell(note, "not sent: you said no", "plain");
+      this.#notes.tell(note, "not sent: you said no", "plain");
       return null;
     }
     // While the question stood there, control may have gone elsewhere.
-    const why = this.objection(name, data);
+    const why = this.#moved(aircraft) || this.objection(name, data);
     if (why) {
-      tell(note, `not sent: ${why}`, "bad");
-      tellLast(commandWords(name, data), `not sent: ${why}`, "bad");
+      this.#notes.tell(note, `not sent: ${why}`, "bad");
+      this.#tellLast(commandWords(name, data), `not sent: ${why}`, "bad");
       return null;
     }
     const words = commandWords(name, data);
-    tell(note, "sent, waiting for the answer", "plain");
-    tellLast(words, "sent, waiting for the answer", "plain");
-    const answer = await this.#connection.command(name, data, { isForced });
-    tell(note, answerWords(answer), answerLook(answer));
-    tellLast(words, answerWords(answer), answerLook(answer));
+    this.#notes.tell(note, "sent, waiting for the answer", "plain");
+    this.#tellLast(words, "sent, waiting for the answer", "plain");
+    const answer = await this.#connection.command(name, data, { aircraft, isForced });
+    // An answer of another aircraft than the one that is looked at is no news of this one.
+    if (!this.#moved(aircraft)) {
+      this.#notes.tell(note, answerWords(answer, isDone), answerLook(answer));
+      this.#tellLast(words, answerWords(answer, isDone), answerLook(answer));
+    }
     return answer;
   }
-}
 
-/**
- * @param {HTMLElement} note
- * @param {string} text
- * @param {"plain"|"good"|"bad"} look
- */
-export function tell(note, text, look) {
-  setText(note, text);
-  setAttribute(note, "data-look", look);
-}
+  #moved(aircraft) {
+    return this.#store.aircraft === aircraft ? "" : "another aircraft was chosen meanwhile";
+  }
 
-function tellLast(words, text, look) {
-  const last = document.getElementById("last-answer");
-  if (last !== null) {
-    tell(last, `${words}: ${text}`, look);
+  #tellLast(words, text, look) {
+    const last = document.getElementById("last-answer");
+    if (last !== null) {
+      this.#notes.tell(last, `${words}: ${text}`, look);
+    }
   }
 }

@@ -1,10 +1,13 @@
 import { setAttribute, setText } from "../readout.js";
 import { element } from "./element.js";
-import { PageName } from "./page_name.js";
+import { ControlNotice } from "./control_notice.js";
 import { controlWords, offeredActions } from "./control_words.js";
+import { ControlWishes } from "./control_wishes.js";
+import { PageName } from "./page_name.js";
 
+const ASK = "Ask for control";
 const BUTTONS = [
-  ["request", "Ask for control"],
+  ["request", ASK],
   ["give", "Give it"],
   ["deny", "Keep it"],
   ["release", "Leave control"],
@@ -19,12 +22,12 @@ const BUTTONS = [
  */
 export function mount(place, store, connection) {
   const holder = element("p.holder", { id: "control-holder", role: "status" });
-  const asked = element("p.asked", { id: "control-asked", role: "alert", hidden: true });
+  const asked = element("p.asked", { id: "control-asked", hidden: true });
   const note = element("p.note", { id: "control-note", role: "status" });
   const others = element("p.quiet", { id: "control-pages" });
   const buttons = new Map();
   for (const [action, text] of BUTTONS) {
-    const press = () => send(action);
+    const press = () => send(action === "request" && isWaiting ? "release" : action);
     const button = element(`button.${action}`, { type: "button", id: `control-${action}`, text, on: { click: press } });
     buttons.set(action, button);
   }
@@ -32,46 +35,31 @@ export function mount(place, store, connection) {
   const own = element("div.buttons", {}, buttons.get("request"), buttons.get("release"));
   const name = new PageName(connection);
   place.append(holder, asked, answers, own, note, others, name.element);
-  let sentAt_s = null;
-  let sentFor = "";
+  const wishes = new ControlWishes();
+  const notice = new ControlNotice(store, connection, send);
+  document.body.append(notice.element);
+  let isWaiting = false;
   // A wish that was denied is told so.
-  connection.on("fault", (message) => {
-    sentAt_s = null;
-    setText(note, String(message.text ?? ""));
-  });
+  connection.on("fault", (message) => wishes.fault(String(message.text ?? ""), store.aircraft, store.now_s));
+  connection.on("closed", () => wishes.forget());
 
-  function send(action) {
-    const control = store.status?.control;
+  function send(action, aircraft = store.aircraft) {
+    const control = store.statuses.get(aircraft)?.control;
     const to = action === "give" || action === "deny" ? (control?.asked_by?.page ?? null) : null;
-    const isSent = connection.send({ type: "control", aircraft: store.aircraft, action, to });
-    setText(note, isSent ? "" : "not sent: there is no connection to the ground server");
-    if (isSent && action === "request" && control?.holder !== "nobody") {
-      sentAt_s = store.now_s;
-      sentFor = String(control?.holder_name || "the other one");
-    }
-  }
-
-  function showWaiting(control) {
-    if (sentAt_s === null) {
-      return;
-    }
-    if (control?.holder === "you" || control?.holder === "nobody") {
-      sentAt_s = null;
-      setText(note, "");
-    } else {
-      const waited_s = Math.floor(store.now_s - sentAt_s);
-      setText(note, `${sentFor} was asked ${waited_s} s ago`);
-      if (waited_s >= 30) {
-        sentAt_s = null;
-        setText(note, `${sentFor} did not give control within 30 s`);
-      }
+    const isSent = connection.send({ type: "control", aircraft, action, to });
+    if (isSent && action === "request") {
+      wishes.asked(aircraft, String(control?.holder_name || ""), store.now_s);
+    } else if (isSent) {
+      wishes.withdraw(aircraft);
     }
   }
 
   return {
     update() {
       const control = connection.isOpen ? (store.status?.control ?? null) : null;
+      const page = connection.welcome?.page ?? null;
       const words = controlWords(control, connection.isOpen ? connection.welcome : null);
+      isWaiting = control !== null && wishes.isWaiting(store.aircraft, control, page, store.now_s);
       setText(holder, words.holder);
       setAttribute(holder, "data-holder", control?.holder ?? "unknown");
       setText(asked, words.asked);
@@ -85,7 +73,10 @@ export function mount(place, store, connection) {
       }
       answers.hidden = !offered.has("give");
       own.hidden = !offered.has("request") && !offered.has("release");
-      showWaiting(control);
+      setText(buttons.get("request"), isWaiting ? "Waiting for control (withdraw)" : ASK);
+      setAttribute(buttons.get("request"), "data-waiting", String(isWaiting));
+      setText(note, wishes.words(store.aircraft, store.now_s));
+      notice.update();
       name.update();
     },
   };

@@ -1,3 +1,4 @@
+import { isAsker } from "./control_wishes.js";
 import { sentence } from "./why.js";
 
 /**
@@ -15,7 +16,7 @@ export function controlWords(control, welcome) {
   }
   return {
     holder: [holderWords(control), watchWords(control, welcome)].filter(Boolean).join(" "),
-    asked: askedWords(control),
+    asked: askedWords(control, welcome),
     pages: pagesWords(control, welcome),
   };
 }
@@ -58,8 +59,9 @@ function watchWords(control, welcome) {
   return `This page may only watch: ${sentence(welcome.why_not || "the server says so")}`;
 }
 
-function askedWords(control) {
-  if (!control?.asked_by) {
+function askedWords(control, welcome) {
+  // What this page asks itself is told beside its button.
+  if (!control?.asked_by || isAsker(control, welcome.page)) {
     return "";
   }
   const name = String(control.asked_by.name || `page ${control.asked_by.page}`);

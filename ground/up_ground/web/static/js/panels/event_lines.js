@@ -37,19 +37,21 @@ export class EventLines {
    */
   show(events, now_s) {
     const wasAtNewest = this.isAtNewest;
-    const wanted = new Set(events.map((each) => each.number));
-    for (const [number, { line }] of this.#lines) {
-      if (!wanted.has(number)) {
+    const wanted = new Set(events.map(keyOf));
+    for (const [key, { line }] of this.#lines) {
+      if (!wanted.has(key)) {
         line.remove();
-        this.#lines.delete(number);
+        this.#lines.delete(key);
       }
     }
     let before = null;
     for (const event of [...events].reverse()) {
-      if (!this.#lines.has(event.number)) {
+      const key = keyOf(event);
+      if (!this.#lines.has(key)) {
         this.#add(event, before);
       }
-      before = this.#lines.get(event.number).line;
+      this.#lines.get(key).at_s = event.at_s;
+      before = this.#lines.get(key).line;
     }
     this.#agesAt_s = -Infinity;
     this.showAges(now_s);
@@ -75,6 +77,11 @@ export class EventLines {
     const text = element("span", { text: `${WORD[event.level] ?? ""}${event.text}` });
     const line = element("li", { "data-level": event.level, "data-kind": event.kind }, text, age);
     this.#list.insertBefore(line, before);
-    this.#lines.set(event.number, { line, age, at_s: event.at_s });
+    this.#lines.set(keyOf(event), { line, age, at_s: event.at_s });
   }
+}
+
+// Another aircraft, and a server that was started anew, count from one again.
+function keyOf({ number, level, text }) {
+  return JSON.stringify([number, level, text]);
 }

@@ -43,6 +43,12 @@ export class Field {
     return problem ? null : value;
   }
 
+  /** Be as at first: what was written was meant for something else. */
+  clear() {
+    this.input.value = "";
+    this.#say("");
+  }
+
   #judge() {
     const { problem } = this.input.value === "" ? { problem: "" } : this.#read(this.input.value);
     this.#say(problem);

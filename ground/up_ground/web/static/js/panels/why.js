@@ -21,11 +21,23 @@ export function objection(store, connection, name, data = {}) {
       return control;
     }
   }
+  const away = awayWords(store);
+  if (away) {
+    return sentence(away);
+  }
   const role = store.status?.role ?? null;
   if (!isOnlyRequest(name, data) && !roleAllows(role, name, store.catalogue?.role(name))) {
     return `The aircraft's link has the role ${role}, which does not allow it (role in its mission_control.yml).`;
   }
   return "";
+}
+
+/**
+ * @param {object} store
+ * @returns {string} that the aircraft cannot be reached at all; empty: nothing says so
+ */
+export function awayWords(store) {
+  return store.status?.link?.aircraft_online === false ? `the aircraft ${store.aircraft} is not connected to the proxy` : "";
 }
 
 /**

@@ -6,6 +6,9 @@ import { heading } from "./flight_modes.js";
 import { FrameSize } from "./frame_size.js";
 import { costWords } from "./words.js";
 
+/** As long as the aircraft takes them (android.speak, black_box.mark). */
+const LONGEST_TEXT = 200;
+
 /** Heading and altitude asked for, telemetry's period, the phone's voice, a mark in the log. */
 export class Wishes {
   #store;
@@ -16,6 +19,7 @@ export class Wishes {
   #period;
   #speak;
   #mark;
+  #aircraft = null;
 
   constructor(store, asker) {
     this.#store = store;
@@ -56,25 +60,29 @@ export class Wishes {
   }
 
   update() {
+    if (this.#store.aircraft !== this.#aircraft) {
+      this.#aircraft = this.#store.aircraft;
+      this.#size = new FrameSize();
+      this.#fields.forEach(([field]) => field.clear());
+    }
     for (const [field, name, data] of this.#fields) {
       field.offer(this.#asker.objection(name, data) === "");
     }
     const store = this.#store;
     this.#size.look(store.data, store.frames);
-    const wanted = store.number("heading.required");
-    const asked = wanted === null ? "" : `, asked ${headingText(wanted)}°`;
-    this.#showNow(this.#heading, "heading.actual", (value) => `${headingText(value)}°${asked}`);
-    this.#showNow(this.#altitude, "altitude", (value) => `${numberText(value, 0)} m`);
+    this.#showNow(this.#heading, "heading.actual", "heading.required", (value) => `${headingText(value)}°`);
+    this.#showNow(this.#altitude, "altitude", "altitude_required", (value) => `${numberText(value, 0)} m`);
     this.#showCost();
   }
 
   // What is not of now never reads as if it were.
-  #showNow(field, path, format) {
+  #showNow(field, path, wanted, format) {
     const value = this.#store.number(path);
     const isLive = this.#store.freshnessAt(path) === "live";
     const age = ageText(this.#store.age_s(path.split(".")[0]));
     const was = value === null ? "not known" : `was ${format(value)}, ${age} ago`;
-    setText(field.hint, isLive ? `now ${format(value)}` : was);
+    const asked = this.#store.number(wanted);
+    setText(field.hint, `${isLive ? `now ${format(value)}` : was}${asked === null ? "" : `, asked ${format(asked)}`}`);
   }
 
   get #fields() {
@@ -104,13 +112,14 @@ export class Wishes {
   #fly(name, data, field) {
     const isHeading = name === "up.heading.change";
     const what = isHeading ? `heading ${data.heading}°` : `altitude ${data.altitude} m`;
+    const noted = notedWords(this.#store);
     const question = {
       title: `Ask for ${what}?`,
-      text: "An aircraft that navigates by itself turns to it; in other modes it is only noted.",
+      text: wishWords(isHeading, noted),
       yes: "Ask for it",
       no: "Leave it",
     };
-    return this.#asker.ask(name, data, { note: field.note, question });
+    return this.#asker.ask(name, data, { note: field.note, question, isDone: noted });
   }
 
   #send(name, data, field) {
@@ -123,7 +132,27 @@ export class Wishes {
   }
 
   #text(id, label, button, send) {
-    const input = { type: "text", maxlength: 200, autocomplete: "off" };
-    return new Field({ id, label, button, input, read: textUpTo(200), send });
+    // Without maxlength: it counts in halves of some characters, and cuts silently.
+    const input = { type: "text", autocomplete: "off" };
+    return new Field({ id, label, button, input, read: textUpTo(LONGEST_TEXT), send });
   }
+}
+
+/**
+ * @param {object} store
+ * @returns {string} that a wish is noted only; empty: the aircraft navigates, or nobody knows
+ */
+export function notedWords(store) {
+  const mode = store.freshness(null) === "live" ? store.text("flight_mode") : null;
+  return ["ACRO", "RATE", "FBW"].includes(mode) ? `noted; nothing flies by it in ${mode}` : "";
+}
+
+/**
+ * @param {boolean} isHeading or it is an altitude
+ * @param {string} noted as notedWords() tells it
+ * @returns {string} what a wish does
+ */
+export function wishWords(isHeading, noted) {
+  const flown = `An aircraft that navigates by itself ${isHeading ? "turns to it" : "climbs or sinks to it"}`;
+  return noted === "" ? `${flown}; in other modes it is only noted.` : `${flown}. Now it is ${noted}.`;
 }

@@ -48,9 +48,10 @@ export function commandWords(name, data = {}) {
 
 /**
  * @param {{outcome: string, code?: ?string, reason?: ?string, round_trip_ms?: ?number}} answer
+ * @param {string} [isDone] what an ack means, where it is less than that it was carried out
  * @returns {string} what became of a Command, in plain words
  */
-export function answerWords(answer) {
+export function answerWords(answer, isDone = "") {
   const reason = String(answer.reason ?? "")
     .replace(/^not sent: /, "")
     .replace(/; it is not known whether it was carried out$/, "")
@@ -61,11 +62,14 @@ export function answerWords(answer) {
       if (reason) {
         return reason;
       }
+      if (isDone) {
+        return isDone;
+      }
       return Number.isFinite(after_ms)
         ? `carried out after ${Math.round(after_ms)} ms`
         : "carried out";
     case "nack":
-      return `refused by the aircraft: ${reason || "no reason given"}${codeWords(answer.code, reason)}`;
+      return refusalWords(reason || String(answer.code ?? ""));
     case "timeout":
       return `${reason || "no answer"}: nobody knows whether it was carried out`;
     case "unsent":
@@ -133,8 +137,10 @@ export function clockWords(time_s) {
     : `${minutes}:${seconds}`;
 }
 
-function codeWords(code, reason) {
-  return code && code !== reason ? ` (${code})` : "";
+// The board's own refusal comes with its name: it is said once who refused.
+function refusalWords(reason) {
+  const [, ofBoard] = /^the Arduino refused: (.+)$/s.exec(reason) ?? [];
+  return ofBoard ? `refused by the Arduino: ${ofBoard}` : `refused by the aircraft: ${reason || "no reason given"}`;
 }
 
 function trimmed(value) {

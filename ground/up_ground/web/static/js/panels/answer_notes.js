@@ -1,0 +1,116 @@
+import { setAttribute, setText } from "../readout.js";
+import { agoWords } from "./words.js";
+
+/** From then on an answer tells its age. */
+const AGED_S = 5;
+/** From then on it is grey. */
+const OLD_S = 15;
+/** Then it goes: what was asked stands among the events. */
+const GONE_S = 120;
+
+/**
+ * The answers of Commands on the page: each with its age, grey after a while, then gone. They go at
+ * once with what they were about: the connection, control, the aircraft.
+ */
+export class AnswerNotes {
+  #store;
+  #notes = new Map();
+  #aircraft;
+  #wasHolder = false;
+
+  /**
+   * @param {object} store
+   * @param {object} connection
+   */
+  constructor(store, connection) {
+    this.#store = store;
+    this.#aircraft = store.aircraft;
+    // What was under way is told afterwards: that nobody knows what became of it.
+    connection.on("closed", () => this.clear());
+    store.subscribe(() => this.look());
+  }
+
+  /**
+   * @param {HTMLElement} note
+   * @param {string} text
+   * @param {"plain"|"good"|"bad"} look
+   */
+  tell(note, text, look) {
+    tell(note, text, look);
+    this.#notes.set(note, { text, at_s: this.#store.now_s });
+    showAge(note, "", false);
+  }
+
+  /** Look what has become old, and what is over. */
+  look() {
+    const { aircraft, now_s } = this.#store;
+    const isHolder = this.#store.status?.control?.holder === "you";
+    if (aircraft !== this.#aircraft || (this.#wasHolder && !isHolder)) {
+      this.clear();
+    }
+    this.#aircraft = aircraft;
+    this.#wasHolder = isHolder;
+    for (const [note, { text, at_s }] of this.#notes) {
+      const age_s = now_s - at_s;
+      if (note.textContent !== text) {
+        // Something else stands there now: what is wrong with what was written, say.
+        this.#forget(note);
+      } else if (age_s >= GONE_S) {
+        this.#empty(note);
+      } else {
+        showAge(note, age_s >= AGED_S ? agoWords(age_s) : "", age_s >= OLD_S);
+      }
+    }
+  }
+
+  /** Take all of them away. */
+  clear() {
+    for (const [note, { text }] of [...this.#notes]) {
+      if (note.textContent === text) {
+        this.#empty(note);
+      } else {
+        this.#forget(note);
+      }
+    }
+  }
+
+  #empty(note) {
+    tell(note, "", "plain");
+    this.#forget(note);
+  }
+
+  #forget(note) {
+    showAge(note, "", false);
+    this.#notes.delete(note);
+  }
+}
+
+const ofStores = new WeakMap();
+
+/**
+ * @param {object} store
+ * @param {object} connection
+ * @returns {AnswerNotes} the page's
+ */
+export function notesOf(store, connection) {
+  if (!ofStores.has(store)) {
+    ofStores.set(store, new AnswerNotes(store, connection));
+  }
+  return ofStores.get(store);
+}
+
+/**
+ * @param {HTMLElement} note
+ * @param {string} text
+ * @param {"plain"|"good"|"bad"} look
+ */
+export function tell(note, text, look) {
+  setText(note, text);
+  setAttribute(note, "data-look", look);
+}
+
+// The style sheet writes the age: a text would be read out each second.
+function showAge(note, words, isOld) {
+  setAttribute(note, "data-age", words);
+  setAttribute(note, "data-old", String(isOld));
+}

@@ -1,0 +1,56 @@
+import { setText } from "../readout.js";
+import { element } from "./element.js";
+
+/** Somebody asks this page for control: said where it is seen wherever the page is scrolled to. */
+export class ControlNotice {
+  #store;
+  #connection;
+  #text = element("strong", { id: "control-notice-text" });
+  #aircraft = null;
+
+  /**
+   * @param {object} store
+   * @param {object} connection
+   * @param {(action: "give"|"deny", aircraft: string) => void} answer
+   */
+  constructor(store, connection, answer) {
+    this.#store = store;
+    this.#connection = connection;
+    const button = (action, text) =>
+      element("button", {
+        type: "button",
+        id: `control-notice-${action}`,
+        text,
+        on: { click: () => answer(action, this.#aircraft) },
+      });
+    this.element = element(
+      "div.control-notice",
+      { id: "control-notice", hidden: true },
+      element("p", { role: "alert" }, this.#text),
+      element("div.row", {}, button("give", "Give it"), button("deny", "Keep it")),
+    );
+  }
+
+  update() {
+    const asked = this.#connection.isOpen ? this.#asked() : null;
+    this.#aircraft = asked?.aircraft ?? null;
+    setText(this.#text, asked === null ? "" : noticeWords(asked, this.#store.names.length));
+    this.element.hidden = asked === null;
+  }
+
+  // The aircraft that is looked at comes first, but another one may be asked for as well.
+  #asked() {
+    const all = [this.#store.status, ...this.#store.statuses.values()];
+    return all.find((each) => each?.control?.holder === "you" && each.control.asked_by) ?? null;
+  }
+}
+
+/**
+ * @param {{aircraft: string, control: object}} status in which this page is asked
+ * @param {number} count of aircraft on this page
+ * @returns {string}
+ */
+export function noticeWords({ aircraft, control }, count) {
+  const name = String(control.asked_by.name || `page ${control.asked_by.page}`);
+  return `${name} asks you for control${count > 1 ? ` of ${aircraft}` : ""}.`;
+}
