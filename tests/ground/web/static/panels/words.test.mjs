@@ -5,6 +5,7 @@ import { controlWords, offeredActions } from "../../../../../ground/up_ground/we
 import { numberBetween, textUpTo } from "../../../../../ground/up_ground/web/static/js/panels/field.js";
 import { FrameSize } from "../../../../../ground/up_ground/web/static/js/panels/frame_size.js";
 import { profileParts } from "../../../../../ground/up_ground/web/static/js/panels/profile_words.js";
+import { notedWords, wishWords } from "../../../../../ground/up_ground/web/static/js/panels/wishes.js";
 import { objection } from "../../../../../ground/up_ground/web/static/js/panels/why.js";
 import { agoWords, answerWords, clockWords, commandWords, costWords } from "../../../../../ground/up_ground/web/static/js/panels/words.js";
 
@@ -87,6 +88,8 @@ test("numbers and texts out of bounds are told at once", () => {
   assert.deepEqual(speech("  hello "), { value: "hello", problem: "" });
   assert.notEqual(speech("x".repeat(201)).problem, "");
   assert.equal(speech("ü".repeat(200)).problem, "");
+  assert.equal(speech("\u{1f6e9}".repeat(200)).problem, "");
+  assert.equal(speech("\u{1f6e9}".repeat(201)).problem, "must be at most 200 characters");
   assert.notEqual(speech("  ").problem, "");
 });
 
@@ -130,6 +133,26 @@ test("why a Command is not offered is one sentence", () => {
     objection(store({ holder: "nobody" }, "observer"), connection, "arduino.pids.tunings", { request: true }),
     "",
   );
+});
+
+test("an aircraft that is not at the proxy is offered nothing, not even a question", () => {
+  const link = { aircraft_online: false };
+  const store = { aircraft: "one", status: { control: { holder: "you" }, role: "pilot", link } };
+  const connection = { isOpen: true, welcome: WELCOME };
+  const away = "The aircraft one is not connected to the proxy.";
+  assert.equal(objection(store, connection, "up.flight_mode.set"), away);
+  assert.equal(objection(store, connection, "arduino.profile.request"), away);
+  link.aircraft_online = null;
+  assert.equal(objection(store, connection, "up.flight_mode.set"), "");
+});
+
+test("a wish says what it does, and that nothing flies by it where nothing does", () => {
+  const store = (mode, freshness = "live") => ({ freshness: () => freshness, text: () => mode });
+  assert.equal(notedWords(store("FBW")), "noted; nothing flies by it in FBW");
+  assert.equal(notedWords(store("SETPOINT")), "");
+  assert.equal(notedWords(store("FBW", "stale")), "");
+  assert.match(wishWords(false, ""), /climbs or sinks to it; in other modes it is only noted\.$/);
+  assert.match(wishWords(true, notedWords(store("RATE"))), /turns to it\. Now it is noted; nothing flies by it in RATE\.$/);
 });
 
 test("a profile reads as a page, and what is not told has no row", () => {
