@@ -6,11 +6,17 @@ import contextlib
 import hashlib
 import os
 import secrets
+from collections import OrderedDict
 from collections.abc import Mapping
 from pathlib import Path
+from threading import Lock
 
 BYTES_LIMIT = 200_000_000
-_KEEP_SHARE = 0.8
+TILES_LIMIT = 50_000
+"""What the index in memory holds at most."""
+_CHECK_BYTES = hashlib.sha256().digest_size
+
+Tile = tuple[int, int, int]
 
 
 def cache_folder(environ: Mapping[str, str]) -> Path:
@@ -21,56 +27,84 @@ def cache_folder(environ: Mapping[str, str]) -> Path:
 
 
 class TileCache:
-    """Tiles of one source, bounded in all; where nothing can be stored nothing is."""
+    """Tiles of one source, bounded in all; where nothing can be stored nothing is.
 
-    def __init__(self, folder: Path, source: str, limit: int = BYTES_LIMIT) -> None:
+    A file is a checksum and the tile: what a power cut left half written is no tile. Every method
+    may wait for the disk, and may be called from any thread.
+    """
+
+    def __init__(
+        self, folder: Path, source: str, limit: int = BYTES_LIMIT, tiles_limit: int = TILES_LIMIT
+    ) -> None:
         self._folder = folder / hashlib.sha256(source.encode()).hexdigest()[:16]
         self._limit = limit
-        self._bytes: int | None = None
+        self._tiles_limit = tiles_limit
+        self._lock = Lock()
+        # The sizes of the files, what was looked at longest ago first; None: not looked for yet.
+        self._sizes: OrderedDict[Tile, int] | None = None
+        self._bytes = 0
 
     def get(self, z: int, x: int, y: int) -> bytes | None:
         """Return a tile; None: it is not here."""
+        path = self._path((z, x, y))
+        try:
+            stored = path.read_bytes()
+        except OSError:
+            return None
+        check, content = stored[:_CHECK_BYTES], stored[_CHECK_BYTES:]
+        if hashlib.sha256(content).digest() != check:
+            return None
         with contextlib.suppress(OSError):
-            path = self._path(z, x, y)
-            content = path.read_bytes()
-            # What is used stays longest.
+            # What is used stays longest, in the next run too.
             os.utime(path)
-            return content
-        return None
+        with self._lock:
+            if self._sizes is not None and (z, x, y) in self._sizes:
+                self._sizes.move_to_end((z, x, y))
+        return content
 
     def put(self, z: int, x: int, y: int, content: bytes) -> None:
         """Keep a tile."""
-        path = self._path(z, x, y)
+        tile = (z, x, y)
+        path = self._path(tile)
         fresh = path.with_suffix(f".{secrets.token_hex(4)}")
-        with contextlib.suppress(OSError):
+        try:
             path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            fresh.write_bytes(content)
+            fresh.write_bytes(hashlib.sha256(content).digest() + content)
             fresh.replace(path)
-        if self._bytes is None:
-            self._bytes = sum(size for _, size, _ in self._all())
-        else:
-            self._bytes += len(content)
-        if self._bytes > self._limit:
-            self._thin()
-
-    def _thin(self) -> None:
-        """Delete what has not been looked at for longest."""
-        left = sum(size for _, size, _ in self._all())
-        for _, size, path in sorted(self._all()):
-            if left <= self._limit * _KEEP_SHARE:
-                break
+        except OSError:
             with contextlib.suppress(OSError):
-                path.unlink()
-            left -= size
-        self._bytes = left
+                fresh.unlink()
+            return
+        with self._lock:
+            if self._sizes is None:
+                self._sizes = self._look()
+                self._bytes = sum(self._sizes.values())
+            self._bytes -= self._sizes.pop(tile, 0)
+            self._sizes[tile] = _CHECK_BYTES + len(content)
+            self._bytes += self._sizes[tile]
+            self._thin(self._sizes)
 
-    def _all(self) -> list[tuple[float, int, Path]]:
+    def _thin(self, sizes: OrderedDict[Tile, int]) -> None:
+        """Delete what has not been looked at for longest."""
+        while sizes and (self._bytes > self._limit or len(sizes) > self._tiles_limit):
+            tile, size = sizes.popitem(last=False)
+            self._bytes -= size
+            with contextlib.suppress(OSError):
+                self._path(tile).unlink()
+
+    def _look(self) -> OrderedDict[Tile, int]:
+        """Return what is here; what is no tile's file was left by a power cut and goes."""
         found = []
         for path in self._folder.glob("*/*/*"):
-            with contextlib.suppress(OSError):
+            with contextlib.suppress(OSError, ValueError):
+                if path.suffix != ".tile":
+                    path.unlink()
+                    continue
+                tile = (int(path.parts[-3]), int(path.parts[-2]), int(path.stem))
                 facts = path.stat()
-                found.append((facts.st_mtime, facts.st_size, path))
-        return found
+                found.append((facts.st_mtime_ns, tile, facts.st_size))
+        return OrderedDict((tile, size) for _, tile, size in sorted(found))
 
-    def _path(self, z: int, x: int, y: int) -> Path:
+    def _path(self, tile: Tile) -> Path:
+        z, x, y = tile
         return self._folder / str(z) / str(x) / f"{y}.tile"

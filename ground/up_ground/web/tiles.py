@@ -9,6 +9,7 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 from twisted.internet.protocol import Protocol, connectionDone
+from twisted.internet.threads import deferToThreadPool
 from twisted.python.failure import Failure
 from twisted.web import http
 from twisted.web.client import Agent, HTTPConnectionPool, ResponseDone
@@ -17,19 +18,17 @@ from twisted.web.server import NOT_DONE_YET
 
 from up.version import VERSION
 from up_ground.web.site import finish, refuse, send
-from up_ground.web.tile_cache import TileCache
+from up_ground.web.tile_cache import Tile, TileCache
 
 CONNECT_S = 5.0
 FETCH_S = 15.0
 LARGEST_TILE = 1 << 20
 AT_ONCE = 4
-WAITING_LIMIT = 256
+ASKED_LIMIT = 256
 DEEPEST_ZOOM = 22
 _PATH = re.compile(rb"/tiles/([0-9]{1,2})/([0-9]{1,8})/([0-9]{1,8})")
 _SOURCE = re.compile(r"https?://[^\s\"'<>\\]{1,500}")
 _KINDS = ((b"\x89PNG\r\n\x1a\n", b"image/png"), (b"\xff\xd8\xff", b"image/jpeg"))
-
-Tile = tuple[int, int, int]
 
 
 def source_fault(source: str) -> str:
@@ -43,7 +42,10 @@ def source_fault(source: str) -> str:
 
 
 class TileSource:
-    """Answers with a tile of the cache or of ``source``; few are fetched at once, each once."""
+    """Answers with a tile of the cache or of ``source``; few are fetched at once, each once.
+
+    The disk is waited for on other threads: telemetry waits for none of that.
+    """
 
     def __init__(self, reactor: Any, source: str, cache: TileCache) -> None:
         self._reactor = reactor
@@ -68,24 +70,29 @@ class TileSource:
         z, x, y = (int(each) for each in match.groups()) if match else (99, 0, 0)
         if z > DEEPEST_ZOOM or max(x, y) >= 1 << z:
             return refuse(request, http.NOT_FOUND, "there is no such tile")
-        content = self._cache.get(z, x, y)
-        if content is not None:
-            return _answer(request, content)
         tile = (z, x, y)
         if tile not in self._asked:
-            if len(self._waiting) >= WAITING_LIMIT:
+            if len(self._asked) >= ASKED_LIMIT:
                 return refuse(request, http.SERVICE_UNAVAILABLE, "too many tiles are asked for")
             self._asked[tile] = []
-            self._waiting.append(tile)
+            # Before the queue: a kept tile does not wait for a source that does not answer.
+            kept = self._on_a_thread(self._cache.get, *tile)
+            kept.addCallbacks(self._on_kept, lambda _: self._on_kept(None, tile), (tile,))
         self._asked[tile].append(request)
         request.notifyFinish().addErrback(lambda _: self._forget(tile, request))
-        self._go_on()
         return NOT_DONE_YET
 
     def _forget(self, tile: Tile, request: Any) -> None:
         requests = self._asked.get(tile, [])
         if request in requests:
             requests.remove(request)
+
+    def _on_kept(self, content: bytes | None, tile: Tile) -> None:
+        if content is not None and _kind(content):
+            self._hand_out(content, tile)
+        else:
+            self._waiting.append(tile)
+            self._go_on()
 
     def _go_on(self) -> None:
         while self._waiting and len(self._busy) < AT_ONCE:
@@ -100,6 +107,9 @@ class TileSource:
             fetched.addCallbacks(self._cache_it, lambda _: None, callbackArgs=(tile,))
             fetched.addCallback(self._hand_out, tile)
 
+    def _on_a_thread(self, call: Any, *arguments: Any) -> Deferred[Any]:
+        return deferToThreadPool(self._reactor, self._reactor.getThreadPool(), call, *arguments)
+
     async def _fetch(self, tile: Tile) -> bytes | None:
         url = self._source
         for name, number in zip(("{z}", "{x}", "{y}"), tile, strict=True):
@@ -111,10 +121,12 @@ class TileSource:
         content = await body.done
         return content if response.code == http.OK and _kind(content) else None
 
-    def _cache_it(self, content: bytes | None, tile: Tile) -> bytes | None:
-        if content is not None:
-            self._cache.put(*tile, content)
-        return content
+    def _cache_it(self, content: bytes | None, tile: Tile) -> Any:
+        """Keep it, then hand it out: who asks again at once finds it."""
+        if content is None:
+            return None
+        kept = self._on_a_thread(self._cache.put, *tile, content)
+        return kept.addBoth(lambda _: content)
 
     def _hand_out(self, content: bytes | None, tile: Tile) -> None:
         self._busy.pop(tile, None)
