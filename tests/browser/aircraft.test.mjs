@@ -64,8 +64,54 @@ test("another aircraft is chosen, and one that says nothing shows nothing of the
   const told = (await ground.values()).filter(({ key, freshness }) => freshness !== "none" && !key.startsWith("link."));
   assert.deepEqual(told, []);
   assert.equal(await ground.page.isEnabled('[data-mode="FBW"]'), false);
+  await ground.until(charted, "charts without the first one's curves", [0, "nothing came in the last minute"]);
   await ground.page.selectOption("#aircraft-select", "glider-1");
   await ground.isLive();
+  ground.assertClean();
+});
+
+/** Whether the chart at a place tells that. */
+function charted([place, words]) {
+  const label = document.querySelectorAll("#charts .chart-canvas")[place]?.getAttribute("aria-label");
+  return label?.includes(words);
+}
+
+test("an aircraft that is not at the proxy says so in sight, and takes no Command", async () => {
+  const ground = await (await GroundPage.open(browser, flight.address)).isLive();
+  assert.equal(await ground.page.$("#aircraft-away"), null);
+  await ground.page.selectOption("#aircraft-select", "glider-2");
+  await ground.until(() => document.querySelector("#aircraft-away") !== null, "the banner");
+  assert.equal(await ground.text("#aircraft-away"), "the aircraft glider-2 is not connected to the proxy");
+  assert.equal(await ground.page.isVisible("#aircraft-away"), true);
+  await ground.takeControl();
+  await ground.until(() => /glider-2 is not connected/.test(document.querySelector("#commands-why").textContent), "why");
+  for (const selector of ['[data-mode="FBW"]', "#wish-heading-send", "#arm-button", "#mark-send"]) {
+    assert.equal(await ground.page.isDisabled(selector), true, selector);
+  }
+  await ground.page.selectOption("#aircraft-select", "glider-1");
+  await ground.until(() => document.querySelector("#aircraft-away") === null, "no banner");
+  ground.assertClean();
+});
+
+test("of two that fly, each has its own charts, track, answers and wishes", async () => {
+  const other = await flight.another("UP1 aircraft=glider-2");
+  const place = { latitude: 51, longitude: 9, altitude: 900 };
+  const orientation = { roll: -77, pitch: 5, yaw: 0 };
+  other.write(`${JSON.stringify({ data: { orientation, location: place, altitude: 900, age_ms: AGES } })}\n`);
+  const ground = await (await GroundPage.open(browser, flight.address)).isLive();
+  await ground.until(charted, "the first one's roll", [0, "now"]);
+  await ground.takeControl();
+  const answer = await ground.answerTo(() => ground.press('[data-mode="FBW"]'));
+  assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+  await ground.page.fill("#speak", "meant for the first");
+  await ground.page.selectOption("#aircraft-select", "glider-2");
+  await ground.until(charted, "the second one's roll alone", [0, "now -77°, between -77° and -77°"]);
+  await ground.until(charted, "its altitude alone", [2, "between 900 m and 900 m"]);
+  assert.equal(await ground.text("#last-answer"), "");
+  assert.equal(await ground.page.inputValue("#speak"), "");
+  assert.equal(await ground.attribute("#panel-map", "data-latitude"), "51");
+  await ground.page.selectOption("#aircraft-select", "glider-1");
+  await ground.until(() => document.querySelector("#panel-map").dataset.latitude !== "51", "the first one's place");
   ground.assertClean();
 });
 

@@ -66,15 +66,34 @@ test("a Command without control is refused by the server, whatever the page thin
   assert.equal((await first.frame()).flight_mode, "FBW");
 });
 
-test("who is asked may keep it", async () => {
+test("who is asked may keep it, wherever the page is scrolled to", async () => {
+  await first.show("#mark");
   await second.page.click("#control-request");
-  await first.until(() => !document.querySelector("#control-deny").hidden, "the question");
+  await first.until(() => !document.querySelector("#control-notice").hidden, "the question");
+  assert.match(await first.text("#control-notice [role=alert]"), /asks you for control\.$/);
   assert.match(await first.text("#control-asked"), /asks you for control/);
-  await first.page.click("#control-deny");
+  const { y, height } = await first.page.locator("#control-notice-deny").boundingBox();
+  assert.ok(y > 0 && y + height < 900, "in sight");
+  await second.until(() => /withdraw/.test(document.querySelector("#control-request").textContent), "waiting");
+  assert.equal(await second.page.isVisible("#control-asked"), false);
+  assert.match(await second.text("#control-note"), /^You have asked/);
+  await first.page.click("#control-notice-deny");
+  await second.until(() => /keeps control/.test(document.querySelector("#control-note").textContent), "the denial");
+  assert.equal(await second.text("#control-request"), "Ask for control");
   await first.until(() => document.querySelector("#control-deny").hidden, "the question gone");
   await second.untilHolder("page");
   assert.equal(await offers(first), true);
   assert.equal(await offers(second), false);
+});
+
+test("who asks may withdraw it", async () => {
+  await second.page.click("#control-request");
+  await first.until(() => !document.querySelector("#control-notice").hidden, "the question");
+  await second.until(() => /withdraw/.test(document.querySelector("#control-request").textContent), "waiting");
+  await second.page.click("#control-request");
+  await first.until(() => document.querySelector("#control-notice").hidden, "the question gone");
+  await second.until(() => document.querySelector("#control-request").dataset.waiting === "false", "not waiting");
+  assert.equal(await offers(first), true);
 });
 
 test("who is asked may give it, and the roles change over", async () => {

@@ -9,6 +9,8 @@ const AIRCRAFT = fileURLToPath(new URL("aircraft.py", import.meta.url));
 
 /** An aircraft in words alone, behind a real proxy, on a page; `address` is the page's. */
 export class FakeFlight {
+  _others = [];
+
   /** Start all of it: `names` are the aircraft that the server watches. */
   static async start({ hello = "UP1 aircraft=default", serve = [] } = {}) {
     const flight = new FakeFlight();
@@ -26,9 +28,17 @@ export class FakeFlight {
     this.aircraft.write(`${JSON.stringify(what)}\n`);
   }
 
+  /** Start one more aircraft behind the same proxy; a program that `tell`s as this one's. */
+  async another(hello) {
+    const aircraft = new Program(PYTHON, [AIRCRAFT, this.airbornePort, hello]);
+    this._others.push(aircraft);
+    await aircraft.line(/speaks/);
+    return aircraft;
+  }
+
   /** End all of it. */
   async stop() {
-    const programs = [this.server, this.aircraft, this.proxy].filter(Boolean);
+    const programs = [this.server, this.aircraft, ...this._others, this.proxy].filter(Boolean);
     for (const each of programs) {
       await each.stop();
     }
@@ -46,9 +56,9 @@ export class FakeFlight {
     writeFileSync(join(config, "proxy.yml"), "metrics: false\n");
     const anywhere = ["--airborne-port", "0", "--ground-port", "0"];
     this.proxy = startProgram("up-proxy", ["--config", config, ...anywhere]);
-    const airborne = (await this.proxy.line(/airborne side listens on port (\d+)/))[1];
+    this.airbornePort = (await this.proxy.line(/airborne side listens on port (\d+)/))[1];
     this.groundPort = (await this.proxy.line(/ground side listens on port (\d+)/))[1];
-    this.aircraft = new Program(PYTHON, [AIRCRAFT, airborne, hello]);
+    this.aircraft = new Program(PYTHON, [AIRCRAFT, this.airbornePort, hello]);
     await this.aircraft.line(/speaks/);
     const words = ["--port", this.groundPort, "serve", "--listen", "127.0.0.1:0", ...serve];
     this.server = startProgram("up-ground", words, {
