@@ -166,7 +166,6 @@ export class Connection {
     // Without a name of its own the server gives it one.
     const name = this.#memory.get("name") ?? keepsakeOf("localStorage").get("name") ?? "";
     this.#hello_s = this.#now_s();
-    this.#way = new Way();
     socket.send(JSON.stringify({ type: "hello", name, key: this.#key, token }));
   }
 
