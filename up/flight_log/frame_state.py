@@ -20,6 +20,7 @@ _FRESH_S = {
     "orientation": 0.5,
     "rx": 0.5,
     "servo": 0.5,
+    "flight": 0.5,
     "location": 1.5,
     "altitude": 1.5,
     "heading": 1.5,
@@ -133,6 +134,10 @@ class FrameState:
             self._update("heading", {"actual": compass_deg(heading)})
 
     def _on_flight_state(self, time_s: float, data: Mapping[str, Any]) -> None:
+        if data.get("flight_mode") is None:
+            self._times_s.pop("flight", None)
+        else:
+            self._accepts("flight", time_s, data)
         self._tree["flight_mode"] = data.get("flight_mode")
         self._tree["armed"] = data.get("armed")
         self._update("arduino", {"failsafe": data.get("failsafe")})

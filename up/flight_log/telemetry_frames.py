@@ -14,8 +14,8 @@ TELEMETRY = "up.telemetry.update"
 LOCATION = "up.location.update"
 MISSING_S = 0.5
 """So long after a logged frame the frames are made from the other topics."""
-_SILENT_S = 10.0
-"""Where nothing at all was logged for longer, time jumps to the next message."""
+_SILENT_S = 1.5
+"""Where nothing came for longer, the aircraft may have said nothing: no frame is made up."""
 _SHORTEST_S = 0.01
 _WARM_UP_S = 10.0
 _BEACON = "_beacon"

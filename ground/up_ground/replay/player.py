@@ -16,7 +16,7 @@ Open = Callable[[float], Iterator[Frame]]
 
 
 class Player:
-    """Goes through the frames that ``open_at(time_s)`` yields from a moment on.
+    """Goes through the frames that ``open_at(time_s)`` yields, from the one of that moment on.
 
     ``show(frame)`` gets the newest frame that is due, ``moved(before_s, now_s)`` hears how far it
     has gone on, ``changed()`` that it plays, pauses or jumped.
@@ -79,8 +79,10 @@ class Player:
         self._frames = self._open_at(self._from_s)
         self._next = next(self._frames, None)
         self._changed()
-        if self._next is not None:
-            self._show(self._next)
+        # In a silence the last frame before it is what a page saw.
+        shown = self._due(self._from_s) or self._next
+        if shown is not None:
+            self._show(shown)
         if self.is_playing:
             self._go_on()
 
@@ -108,9 +110,7 @@ class Player:
 
     def _go_on(self) -> None:
         now_s = self.time_s
-        due = None
-        while self._next is not None and self._next.time_s <= now_s + 1e-6:
-            due, self._next = self._next, next(self._frames, None)
+        due = self._due(now_s)
         before_s, self._told_s = self._told_s, now_s
         self._moved(before_s, now_s)
         if due is not None:
@@ -122,3 +122,10 @@ class Player:
         pause_s = (rest_s - now_s) / self.speed
         pause_s = max(LEAST_PAUSE_S, min(LONGEST_PAUSE_S, pause_s))
         self._timer = self._clock.callLater(pause_s, self._go_on)
+
+    def _due(self, now_s: float) -> Frame | None:
+        """Return the newest frame that has come up to a moment and was not shown yet."""
+        due = None
+        while self._next is not None and self._next.time_s <= now_s + 1e-6:
+            due, self._next = self._next, next(self._frames, None)
+        return due

@@ -12,6 +12,7 @@ from up.flight_log.telemetry_frames import Frame, frames
 from up.system.clock import Clock, Timer
 from up_ground.replay.player import Player
 from up_ground.replay.story import Story, past
+from up_ground.web.gains_history import GainsHistory
 from up_ground.web.messages import FrameMessage, message_bytes
 from up_ground.web.page import Page
 from up_ground.web.page_message import PageFault, Reader
@@ -19,6 +20,8 @@ from up_ground.web.watched import Audience
 
 REPLAY = "this is a replay"
 TELL_S = 0.25
+_BEFORE_S = 0.5
+"""Frames that are made lie elsewhere, by less than this, when they are made from elsewhere on."""
 
 
 class ReplayedAircraft:
@@ -72,6 +75,7 @@ class ReplayedAircraft:
         yield self._story.track_until(now_s)
         yield from past(self._story.events_until(now_s))
         yield self._story.alarms_at(now_s)
+        yield self._gains(now_s)
 
     def status(self, page: Page) -> dict[str, Any]:
         """Return the status as this page sees it."""
@@ -153,16 +157,20 @@ class ReplayedAircraft:
 
     def _open_at(self, time_s: float) -> Any:
         try:
-            yield from frames(self._log, since_s=time_s)
+            newest_s = self._story.frame_time_s(time_s)
+            since_s = time_s if newest_s is None else newest_s - _BEFORE_S
+            yield from frames(self._log, since_s=max(0.0, since_s))
         except FlightLogError:
             # The file became unreadable while it was played: what was there was shown.
             return
 
     def _show(self, frame: Frame) -> None:
         self._frames += 1
-        self._frame = FrameMessage(
-            self.name, frame.beacon, frame.data, lambda now_s: 0.0, self._clock.seconds
-        )
+
+        def age_s(now_s: float) -> float:
+            return max(0.0, self._player.time_s - frame.time_s)
+
+        self._frame = FrameMessage(self.name, frame.beacon, frame.data, age_s, self._clock.seconds)
         self._audience.show(self.name, "frame", self._frame)
 
     def _on_moved(self, before_s: float, now_s: float) -> None:
@@ -171,6 +179,15 @@ class ReplayedAircraft:
         alarms = self._story.alarms_at(now_s)
         if alarms != self._story.alarms_at(before_s):
             self._audience.tell(self.name, alarms)
+        if self._story.gains_at(now_s) is not self._story.gains_at(before_s):
+            self._audience.tell(self.name, self._gains(now_s))
+
+    def _gains(self, time_s: float) -> dict[str, Any]:
+        history = GainsHistory()
+        flying = self._story.gains_at(time_s)
+        if flying is not None:
+            history.told(flying, time_s)
+        return history.message(self.name, time_s)
 
     def _on_changed(self) -> None:
         self._audience.show(self.name, "replay", lambda: message_bytes(self._replay()))

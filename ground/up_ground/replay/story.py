@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+from array import array
 from bisect import bisect_right
 from collections.abc import Iterable
 from typing import Any
 
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.origin_text import KEY
 from up.flight_log.telemetry_frames import Frame, frames
 from up.protocols.general_message import GeneralMessage
 from up_ground.safe_text import safe_text
 from up_ground.telemetry import NAME, SILENT_S, Telemetry
-from up_ground.web.alarms import LinkFacts
+from up_ground.web.alarms import OVER_S, LinkFacts
 from up_ground.web.facts import INFO
 from up_ground.web.home import Home
 from up_ground.web.judge import Judge
 from up_ground.web.track import Track, track_message
 
-MARK = "black_box.mark"
+MARK, GAINS = "black_box.mark", "arduino.pids.values"
 _LOOK_S = 0.25
 _LONGEST_LOOK_S = 5.0
 
@@ -34,6 +36,11 @@ class Story:
         self._alarm_times_s: list[float] = []
         self._track = Track()
         self._home = Home()
+        self._frame_times_s = array("d")
+        self._gains = [
+            (each.time_s, {key: value for key, value in each.data.items() if key != KEY})
+            for each in log.messages(GAINS)
+        ]
         self._now_s = 0.0
         self._judge = Judge(aircraft, self._take)
         self._read(log)
@@ -63,6 +70,16 @@ class Story:
             return {"type": "alarms", "aircraft": self.aircraft, "active": []}
         return self._alarms[place - 1]
 
+    def frame_time_s(self, time_s: float) -> float | None:
+        """Return when the newest frame came that there was at a moment; None: there was none."""
+        place = bisect_right(self._frame_times_s, time_s)
+        return self._frame_times_s[place - 1] if place else None
+
+    def gains_at(self, time_s: float) -> dict[str, Any] | None:
+        """Return the gains that flew as far as the board had told; None: it had not."""
+        place = bisect_right(self._gains, time_s, key=lambda each: each[0])
+        return self._gains[place - 1][1] if place else None
+
     def track_until(self, time_s: float) -> dict[str, Any]:
         """Return the way up to a moment."""
         return track_message(self.aircraft, self._track.points_until(time_s))
@@ -79,9 +96,15 @@ class Story:
             self._note_marks(marks, frame.time_s)
             self._look_at(telemetry, frame)
         self._note_marks(marks, log.length_s)
+        self._wait(telemetry, log.length_s)
+        self._now_s = log.length_s
+        # What is over when the log ends would stay on for ever: nothing comes that could end it.
+        is_silent = bool(self._frame_times_s) and log.length_s - self._frame_times_s[-1] > SILENT_S
+        self._judge.on_moment(telemetry, _link(is_silent), log.length_s + OVER_S)
 
     def _look_at(self, telemetry: Telemetry, frame: Frame) -> None:
         self._now_s = frame.time_s
+        self._frame_times_s.append(frame.time_s)
         telemetry.take(GeneralMessage(NAME, frame.data, None, frame.beacon), frame.time_s)
         self._track.take(telemetry, frame.time_s)
         self._home.take(telemetry)

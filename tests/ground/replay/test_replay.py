@@ -34,7 +34,7 @@ def test_a_flight_is_played_and_stopped_and_sought(replay):
         assert (welcome["is_replay"], welcome["may_control"]) == (True, False)
         assert welcome["why_not"] == "this is a replay"
         shown = await page.next("frame")
-        assert shown["age_ms"] == 0
+        assert 0 <= shown["age_ms"] < 900
         page.say("replay", action="pause")
         await soon(lambda: page.newest("replay")["is_playing"] is False)
         page.say("replay", action="seek", value=26.0)
@@ -113,3 +113,20 @@ def test_without_an_application_it_takes_the_folder_that_is_named(tmp_path):
         )
         assert status == 2
         assert complained.startswith(f"up-ground: {sentence}")
+
+
+def test_within_a_silence_the_last_frame_is_shown_with_its_age(tmp_path):
+    path = write_flight(tmp_path / "flight.mcap", gap=(13.0, 19.0))
+
+    async def look():
+        page = Page(replay.port)
+        await page.hello("laptop", watch="kite")
+        page.say("replay", action="pause")
+        page.say("replay", action="seek", value=17.0)
+        shown = await page.next("frame", lambda each: each["data"]["altitude"] == 113.0)
+        assert 2300 < shown["age_ms"] < 4100
+        await page.next("alarms", lambda each: [a["kind"] for a in each["active"]] == ["silent"])
+        await page.leave()
+
+    with Replay(tmp_path, str(path)) as replay:
+        run_in_reactor(look)

@@ -2,7 +2,8 @@
 
 import pytest
 
-from tests.ground.replay.flight import LENGTH_S, write_flight
+from tests.ground.replay.flight import LENGTH_S, data_at, write_flight
+from tests.up.flight_log.logs import LogMaker
 from up.flight_log.flight_log import FlightLog
 from up_ground.replay.story import Story
 
@@ -64,3 +65,37 @@ def test_a_long_silence_is_told(tmp_path):
     told = texts(story.events_until(40.0))
     assert told.index("no telemetry any more") < told.index("telemetry comes again")
     assert [each["kind"] for each in story.alarms_at(35.0)["active"]] == ["silent"]
+
+
+def test_a_silence_begins_with_the_last_frame_before_it(tmp_path):
+    path = write_flight(tmp_path / "flight.mcap", gap=(13.0, 19.0))
+    story = Story(FlightLog.read([path]), "kite")
+    # For a moment frames are made from what was known: it may be telemetry alone that is missing.
+    assert story.frame_time_s(17.0) == pytest.approx(14.5, abs=0.2)
+    assert [each["kind"] for each in story.alarms_at(17.0)["active"]] == ["silent"]
+    assert story.frame_time_s(19.05) == pytest.approx(19.0)
+    assert story.frame_time_s(-1.0) is None
+
+
+def test_what_is_over_when_the_log_ends_is_no_alarm_for_ever(tmp_path):
+    path = write_flight(tmp_path / "flight.mcap", length_s=13.0)
+    story = Story(FlightLog.read([path]), "kite")
+    assert [each["kind"] for each in story.alarms_at(12.9)["active"]] == ["failsafe"]
+    assert story.alarms_at(13.0)["active"] == []
+    path = write_flight(tmp_path / "flight.mcap", length_s=11.0)
+    story = Story(FlightLog.read([path]), "kite")
+    assert [each["kind"] for each in story.alarms_at(11.0)["active"]] == ["failsafe"]
+
+
+def test_the_gains_that_flew_at_a_moment(tmp_path):
+    def gains(p):
+        return {"ratePIDs": {"ailerons": {"p": p, "i": 0, "d": 0}}}
+
+    maker = LogMaker()
+    maker.add(0.0, "up.telemetry.update", **data_at(0.0))
+    maker.add(1.0, "arduino.pids.values", **gains(2), _origin="arduino (board)")
+    maker.add(2.0, "arduino.pids.values", **gains(3), _origin="arduino (board)")
+    (tmp_path / "flight.mcap").write_bytes(maker.finished())
+    story = Story(FlightLog.read([tmp_path / "flight.mcap"]), "kite")
+    told = [story.gains_at(time_s) for time_s in (0.5, 1.5, 2.5)]
+    assert told == [None, gains(2), gains(3)]
