@@ -49,7 +49,7 @@ export class ExtendedFlight {
     const application = join(folder, "application");
     cpSync(join(FIXTURE, "application"), application, { recursive: true });
     mkdirSync(join(application, "config"));
-    const link = `remote_server:\n  url: 127.0.0.1\n  port: ${airborne}\n`;
+    const link = `remote_server:\n  url: 127.0.0.1\n  port: ${airborne}\nrole: pilot\n`;
     writeFileSync(join(application, "config", "mission_control.yml"), link);
     for (const cog of ["mission_control_cog", "tow_cog"]) {
       const { status, said } = await run("up", ["-f", application, "register", "-n", cog], { environment });
