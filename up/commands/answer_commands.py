@@ -29,3 +29,17 @@ class NackCommand(BaseCommand):
     command_id: str = value(key="id", max_length=64)
     code: str = value(max_length=32)
     reason: str = value("", max_length=500)
+
+
+@dataclass(frozen=True, slots=True)
+class CommandAnsweredCommand(BaseCommand):
+    """What became of a Command of a link; ``untold``: how many before it were not told."""
+
+    NAME: ClassVar[str] = "up.command.answered"
+    link: str = value(max_length=64)
+    name: str = value(max_length=64)
+    command_id: str | None = value(None, key="id", max_length=64)
+    outcome: str = value("ack", choices=("ack", "nack"))
+    code: str = value("", max_length=32)
+    reason: str = value("", max_length=500)
+    untold: int = value(0, minimum=0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from up.commands.altitude_command import AltitudeCommand
-from up.commands.answer_commands import AckCommand, NackCommand
+from up.commands.answer_commands import AckCommand, CommandAnsweredCommand, NackCommand
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.command import BaseCommand
 from up.commands.flight_mode_command import FlightModeCommand
@@ -25,6 +25,7 @@ BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     AckCommand,
     AltitudeCommand,
     ArmCommand,
+    CommandAnsweredCommand,
     DisarmCommand,
     FlightModeCommand,
     FlightStateCommand,

@@ -10,6 +10,7 @@ from twisted.internet.defer import Deferred, TimeoutError
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
+from up.commands.answer_reports import AnswerReports
 from up.commands.beacon import Beacons
 from up.commands.command import BaseCommand, InvalidCommandError
 from up.commands.command_executor import CommandExecutor
@@ -41,6 +42,7 @@ class CommandReceiver:
         self._clock = clock
         self._routes: dict[str, Route] = {}
         self._logged: set[tuple[str, str]] = set()
+        self._reports = AnswerReports(executor, clock)
 
     def execute_command(self, command: BaseCommand, origin: Origin = INTERNAL) -> None:
         """Publish a Command that a module of this program made (the prototype's name)."""
@@ -97,6 +99,9 @@ class CommandReceiver:
         self.counters["malformed"] += 1
         self._log_once(link, "malformed", f"dropped a malformed message: {malformed.reason}")
         link.nack(malformed.id, Code.MALFORMED, malformed.reason)
+        if malformed.id is not None:
+            code = Code.MALFORMED.value
+            self._reports.tell(link.name, "", malformed.id, code, malformed.reason)
 
     def _judge_beacon(
         self, command: BaseCommand, message: GeneralMessage
@@ -121,8 +126,13 @@ class CommandReceiver:
             return
         done.addTimeout(OUTCOME_LIMIT_S, self._clock)
         done.addCallbacks(
-            lambda _: link.ack(message.id), self._refused_later, errbackArgs=(message, link)
+            self._carried_out, self._refused_later, (message, link), errbackArgs=(message, link)
         )
+
+    def _carried_out(self, _: object, message: GeneralMessage, link: CommandLink) -> None:
+        link.ack(message.id)
+        if message.id is not None:
+            self._reports.tell(link.name, message.name, message.id)
 
     def _route(
         self, command: BaseCommand, message: GeneralMessage, link: CommandLink
@@ -161,6 +171,7 @@ class CommandReceiver:
         self.counters[code.value] += 1
         self._log_once(link, f"{code.value} {message.name}", f"refused: {reason}")
         link.nack(message.id, code, reason)
+        self._reports.tell(link.name, message.name, message.id, code.value, reason)
 
     def _log_once(self, link: CommandLink, what: str, text: str) -> None:
         if self._is_first(link, what):

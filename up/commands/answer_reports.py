@@ -1,0 +1,52 @@
+"""The fate of what came from outside, told on the bus: a flight's log has it."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from up.commands.answer_commands import CommandAnsweredCommand
+from up.commands.command_executor import CommandExecutor
+from up.system.clock import Clock
+
+ANSWERS_HZ = 20
+"""So many of a link are told in a second; of the others only how many they are."""
+_LINKS_LIMIT = 64
+_NAME_LIMIT = 64
+_REASON_LIMIT = 500
+
+
+class AnswerReports:
+    """Publishes answers, bounded: a link that is refused all the time costs next to nothing."""
+
+    def __init__(self, executor: CommandExecutor, clock: Clock) -> None:
+        self._executor = executor
+        self._clock = clock
+        self._told: Counter[str] = Counter()
+        self._untold: Counter[str] = Counter()
+        self._second = 0
+
+    def tell(
+        self, link: str, name: str, command_id: str | None, code: str = "", reason: str = ""
+    ) -> None:
+        """Tell what became of a Command; an empty ``code``: it was carried out."""
+        second = int(self._clock.seconds())
+        if second != self._second:
+            self._second = second
+            self._told.clear()
+        if link not in self._told and len(self._told) >= _LINKS_LIMIT:
+            return
+        if self._told[link] >= ANSWERS_HZ:
+            self._untold[link] += 1
+            return
+        self._told[link] += 1
+        self._executor.execute_command(
+            CommandAnsweredCommand(
+                link=link,
+                name=name[:_NAME_LIMIT],
+                command_id=command_id,
+                outcome="nack" if code else "ack",
+                code=code,
+                reason=reason[:_REASON_LIMIT],
+                untold=self._untold.pop(link, 0),
+            )
+        )
