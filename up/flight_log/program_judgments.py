@@ -18,7 +18,6 @@ SILENT_S = 2.0
 LOG_ERROR = 4
 _MOST_LINES = 50
 _HELD = re.compile(r"(\S+) holds the reactor for more than (\d+) ms")
-_REFUSED = re.compile(r"\S+ refused (up\.arm|up\.disarm|up\.flight_mode\.set): (.+)")
 _RECORDER: tuple[tuple[re.Pattern[str], Level, str], ...] = (
     (re.compile(r"the flight is not recorded: (.+?)(?:; tried .*)?"), "alarm", "recording ended: "),
     (re.compile(r"records again, .*; (\d+ messages are lost)"), "warning", "recorded again: "),
@@ -75,14 +74,6 @@ def gains_changed(facts: Facts) -> Iterator[Wrong]:
             by = f" by {who}" if isinstance(who, str) else ""
             yield Wrong(each.time_s, "warning", f"gains were changed in flight{by}: {changes}")
         known = gains
-
-
-def arming_refused(facts: Facts) -> Iterator[Wrong]:
-    """What the ground asked for and did not get."""
-    for line in facts.log_lines:
-        match = _REFUSED.match(line.text)
-        if match is not None:
-            yield Wrong(line.time_s, "info", f"{match[1]} was refused: {match[2]}")
 
 
 def provisional(facts: Facts) -> Iterator[Wrong]:
@@ -159,7 +150,6 @@ PROGRAM_JUDGMENTS: tuple[Judge, ...] = (
     held_up,
     panic,
     gains_changed,
-    arming_refused,
     provisional,
     nothing_logged,
     recording,

@@ -6,13 +6,19 @@ from collections.abc import Iterable, Iterator
 
 from up.fields import printable
 from up.flight_log.board_judgments import BOARD_JUDGMENTS
+from up.flight_log.command_judgments import COMMAND_JUDGMENTS
 from up.flight_log.facts import Facts
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.link_judgments import LINK_JUDGMENTS
 from up.flight_log.program_judgments import PROGRAM_JUDGMENTS
 from up.flight_log.wrong import Judge, Wrong
 
-JUDGMENTS: tuple[Judge, ...] = (*BOARD_JUDGMENTS, *LINK_JUDGMENTS, *PROGRAM_JUDGMENTS)
+JUDGMENTS: tuple[Judge, ...] = (
+    *BOARD_JUDGMENTS,
+    *LINK_JUDGMENTS,
+    *COMMAND_JUDGMENTS,
+    *PROGRAM_JUDGMENTS,
+)
 _MOST_OF_A_KIND = 50
 _LONGEST_TEXT = 500
 
