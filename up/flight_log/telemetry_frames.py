@@ -43,10 +43,12 @@ def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Itera
         return
     state = FrameState(_home_of(log))
     step_s = max(period_s, _SHORTEST_S)
-    due_s = newest_s = -1.0
+    due_s = newest_s = logged_s = -1.0
     for message in log.messages(TELEMETRY, *TOPICS, since_s=max(0.0, since_s - _WARM_UP_S)):
         now_s = message.time_s
-        while 0.0 <= due_s < min(now_s, newest_s + _SILENT_S):
+        # Who sent telemetry up to then stands still when nothing at all is logged.
+        limit_s = MISSING_S if newest_s - logged_s < MISSING_S else _SILENT_S
+        while 0.0 <= due_s < min(now_s, newest_s + limit_s):
             if due_s >= since_s:
                 yield Frame(due_s, state.tree(due_s))
             due_s += step_s
@@ -55,6 +57,7 @@ def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Itera
         if message.topic != TELEMETRY:
             state.take(message.topic, now_s, message.data)
             continue
+        logged_s = now_s
         frame = _logged(message)
         state.take_frame(now_s, frame.data)
         if now_s >= since_s:

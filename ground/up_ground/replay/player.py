@@ -10,7 +10,9 @@ from up.system.clock import Clock, Timer
 SLOWEST, FASTEST = 0.25, 64.0
 LEAST_PAUSE_S = 0.04
 """Frames that come faster are not shown each: no eye sees them."""
-LONGEST_PAUSE_S = 0.5
+LONGEST_PAUSE_S = 0.1
+AGAIN_S = 0.2
+"""So often a frame is shown again, with its age in the flight's time, while no newer one comes."""
 
 Open = Callable[[float], Iterator[Frame]]
 
@@ -42,6 +44,8 @@ class Player:
         self._changed = changed
         self._frames = open_at(0.0)
         self._next: Frame | None = next(self._frames, None)
+        self._shown: Frame | None = None
+        self._shown_at_s = 0.0
         self._from_s = 0.0
         self._since_s = clock.seconds()
         self._told_s = 0.0
@@ -81,8 +85,9 @@ class Player:
         self._changed()
         # In a silence the last frame before it is what a page saw.
         shown = self._due(self._from_s) or self._next
+        self._shown = None
         if shown is not None:
-            self._show(shown)
+            self._show_now(shown)
         if self.is_playing:
             self._go_on()
 
@@ -114,7 +119,9 @@ class Player:
         before_s, self._told_s = self._told_s, now_s
         self._moved(before_s, now_s)
         if due is not None:
-            self._show(due)
+            self._show_now(due)
+        elif self._shown is not None and self._clock.seconds() - self._shown_at_s >= AGAIN_S:
+            self._show_now(self._shown)
         if now_s >= self.length_s:
             self.pause()
             return
@@ -122,6 +129,10 @@ class Player:
         pause_s = (rest_s - now_s) / self.speed
         pause_s = max(LEAST_PAUSE_S, min(LONGEST_PAUSE_S, pause_s))
         self._timer = self._clock.callLater(pause_s, self._go_on)
+
+    def _show_now(self, frame: Frame) -> None:
+        self._shown, self._shown_at_s = frame, self._clock.seconds()
+        self._show(frame)
 
     def _due(self, now_s: float) -> Frame | None:
         """Return the newest frame that has come up to a moment and was not shown yet."""

@@ -76,6 +76,7 @@ class ReplayedAircraft:
         yield from past(self._story.events_until(now_s))
         yield self._story.alarms_at(now_s)
         yield self._gains(now_s)
+        yield self._profile(now_s)
 
     def status(self, page: Page) -> dict[str, Any]:
         """Return the status as this page sees it."""
@@ -116,11 +117,13 @@ class ReplayedAircraft:
             value = message.number("value")
             if not math.isfinite(value) or value < 0:
                 raise PageFault("value is no number of at least 0")
-            (self._player.seek if action == "seek" else self._player.set_speed)(value)
             if action == "seek":
-                for each in self.past():
-                    self._audience.tell(self.name, each)
+                self._seek(value)
+            else:
+                self._player.set_speed(value)
         elif action == "play":
+            if self._player.time_s >= self._player.length_s:
+                self._seek(0.0)
             self._player.play()
         else:
             self._player.pause()
@@ -155,6 +158,11 @@ class ReplayedAircraft:
     def on_gone(self, page: Page) -> None:
         """Hear that it will not come back."""
 
+    def _seek(self, time_s: float) -> None:
+        self._player.seek(time_s)
+        for each in self.past():
+            self._audience.tell(self.name, each)
+
     def _open_at(self, time_s: float) -> Any:
         try:
             newest_s = self._story.frame_time_s(time_s)
@@ -170,7 +178,9 @@ class ReplayedAircraft:
         def age_s(now_s: float) -> float:
             return max(0.0, self._player.time_s - frame.time_s)
 
-        self._frame = FrameMessage(self.name, frame.beacon, frame.data, age_s, self._clock.seconds)
+        self._frame = FrameMessage(
+            self.name, frame.beacon, frame.data, age_s, self._clock.seconds, frame.time_s
+        )
         self._audience.show(self.name, "frame", self._frame)
 
     def _on_moved(self, before_s: float, now_s: float) -> None:
@@ -181,13 +191,20 @@ class ReplayedAircraft:
             self._audience.tell(self.name, alarms)
         if self._story.gains_at(now_s) is not self._story.gains_at(before_s):
             self._audience.tell(self.name, self._gains(now_s))
+        if self._story.profile_at(now_s) is not self._story.profile_at(before_s):
+            self._audience.tell(self.name, self._profile(now_s))
 
     def _gains(self, time_s: float) -> dict[str, Any]:
         history = GainsHistory()
         flying = self._story.gains_at(time_s)
         if flying is not None:
-            history.told(flying, time_s)
+            history.told(flying.values, flying.time_s)
         return history.message(self.name, time_s)
+
+    def _profile(self, time_s: float) -> dict[str, Any]:
+        told = self._story.profile_at(time_s)
+        profile = None if told is None else told.values
+        return {"type": "profile", "aircraft": self.name, "profile": profile}
 
     def _on_changed(self) -> None:
         self._audience.show(self.name, "replay", lambda: message_bytes(self._replay()))

@@ -8,18 +8,18 @@ from collections.abc import Iterable
 from typing import Any
 
 from up.flight_log.flight_log import FlightLog
-from up.flight_log.origin_text import KEY
 from up.flight_log.telemetry_frames import Frame, frames
 from up.protocols.general_message import GeneralMessage
+from up_ground.replay.settings import Told, gains_of, profile_of, told_at
 from up_ground.safe_text import safe_text
 from up_ground.telemetry import NAME, SILENT_S, Telemetry
-from up_ground.web.alarms import OVER_S, LinkFacts
+from up_ground.web.alarms import LinkFacts
 from up_ground.web.facts import INFO
 from up_ground.web.home import Home
 from up_ground.web.judge import Judge
 from up_ground.web.track import Track, track_message
 
-MARK, GAINS = "black_box.mark", "arduino.pids.values"
+MARK = "black_box.mark"
 _LOOK_S = 0.25
 _LONGEST_LOOK_S = 5.0
 
@@ -37,12 +37,11 @@ class Story:
         self._track = Track()
         self._home = Home()
         self._frame_times_s = array("d")
-        self._gains = [
-            (each.time_s, {key: value for key, value in each.data.items() if key != KEY})
-            for each in log.messages(GAINS)
-        ]
+        self._gains = gains_of(log)
+        self._profiles = profile_of(log)
         self._now_s = 0.0
-        self._judge = Judge(aircraft, self._take)
+        # Whoever stands still at a moment wants to see what was wrong then.
+        self._judge = Judge(aircraft, self._take, over_s=0.0)
         self._read(log)
 
     @property
@@ -59,7 +58,11 @@ class Story:
         first = bisect_right(self._event_times_s, after_s)
         last = bisect_right(self._event_times_s, until_s)
         return [
-            {**self.events[place], "age_ms": round((until_s - self._event_times_s[place]) * 1000)}
+            {
+                **self.events[place],
+                "age_ms": round((until_s - self._event_times_s[place]) * 1000),
+                "time_s": round(self._event_times_s[place], 3),
+            }
             for place in range(first, last)
         ]
 
@@ -75,10 +78,13 @@ class Story:
         place = bisect_right(self._frame_times_s, time_s)
         return self._frame_times_s[place - 1] if place else None
 
-    def gains_at(self, time_s: float) -> dict[str, Any] | None:
-        """Return the gains that flew as far as the board had told; None: it had not."""
-        place = bisect_right(self._gains, time_s, key=lambda each: each[0])
-        return self._gains[place - 1][1] if place else None
+    def gains_at(self, time_s: float) -> Told | None:
+        """Return the gains that flew as far as anybody had told; None: nobody had."""
+        return told_at(self._gains, time_s)
+
+    def profile_at(self, time_s: float) -> Told | None:
+        """Return the airframe's profile as the board had told it; None: it had not."""
+        return told_at(self._profiles, time_s)
 
     def track_until(self, time_s: float) -> dict[str, Any]:
         """Return the way up to a moment."""
@@ -92,15 +98,14 @@ class Story:
         ]
         marks.reverse()
         for frame in frames(log):
-            self._wait(telemetry, frame.time_s)
+            self._wait(telemetry, frame.time_s, marks)
             self._note_marks(marks, frame.time_s)
             self._look_at(telemetry, frame)
+        self._wait(telemetry, log.length_s, marks)
         self._note_marks(marks, log.length_s)
-        self._wait(telemetry, log.length_s)
         self._now_s = log.length_s
-        # What is over when the log ends would stay on for ever: nothing comes that could end it.
         is_silent = bool(self._frame_times_s) and log.length_s - self._frame_times_s[-1] > SILENT_S
-        self._judge.on_moment(telemetry, _link(is_silent), log.length_s + OVER_S)
+        self._judge.on_moment(telemetry, _link(is_silent), log.length_s)
 
     def _look_at(self, telemetry: Telemetry, frame: Frame) -> None:
         self._now_s = frame.time_s
@@ -110,19 +115,22 @@ class Story:
         self._home.take(telemetry)
         self._judge.on_frame(telemetry, _link(False), frame.time_s)
 
-    def _wait(self, telemetry: Telemetry, until_s: float) -> None:
+    def _wait(self, telemetry: Telemetry, until_s: float, marks: list[tuple[float, str]]) -> None:
         """Let the time between two frames pass, as far as it changes anything."""
         if not telemetry.frames:
             return
         begin_s = self._now_s
         while self._now_s + _LOOK_S < min(until_s, begin_s + _LONGEST_LOOK_S):
-            self._now_s += _LOOK_S
+            next_s = self._now_s + _LOOK_S
+            self._note_marks(marks, next_s)
+            self._now_s = next_s
             link = _link(self._now_s - begin_s > SILENT_S)
             self._judge.on_moment(telemetry, link, self._now_s)
 
     def _note_marks(self, marks: list[tuple[float, str]], until_s: float) -> None:
         while marks and marks[-1][0] <= until_s:
-            self._now_s, text = marks.pop()
+            time_s, text = marks.pop()
+            self._now_s = max(self._now_s, time_s)
             self._judge.note("mark", INFO, f"mark: {text}", self._now_s)
 
     def _take(self, message: dict[str, Any]) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from up_ground.telemetry import Telemetry
-from up_ground.web.facts import ALARM, WARNING
+from up_ground.web.facts import ALARM, NOT_YET, WARNING, board_state, phone_state
 
 OVER_S = 2.0
 """An alarm ends when its cause has been away for so long."""
@@ -38,20 +38,24 @@ class LinkFacts:
 
 
 class Alarms:
-    """The alarms that are on. One begins at once and ends ``OVER_S`` after its cause."""
+    """The alarms that are on. One begins at once and ends ``over_s`` after its cause."""
 
-    def __init__(self) -> None:
+    def __init__(self, over_s: float = OVER_S) -> None:
+        self._over_s = over_s
+        self._had_board = False
         self.active: tuple[Alarm, ...] = ()
         self._seen_s: dict[str, float] = {}
         self._known: dict[str, Alarm] = {}
 
     def take(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> bool:
         """Look at the moment; True: what is wrong has changed."""
-        for alarm in _wrong(telemetry, link, "battery" in self._known):
-            self._known[alarm.kind] = alarm
-            self._seen_s[alarm.kind] = now_s
+        self._had_board = self._had_board or board_state(telemetry) is True
+        wrong = _wrong(telemetry, link, "battery" in self._known, self._had_board)
+        found = {each.kind: each for each in wrong}
+        self._known.update(found)
+        self._seen_s.update(dict.fromkeys(found, now_s))
         for kind, seen_s in list(self._seen_s.items()):
-            if now_s - seen_s >= OVER_S:
+            if kind not in found and now_s - seen_s >= self._over_s:
                 del self._seen_s[kind], self._known[kind]
         active = tuple(self._known[kind] for kind in sorted(self._known))
         has_changed = active != self.active
@@ -69,7 +73,7 @@ class Alarms:
         }
 
 
-def _wrong(telemetry: Telemetry, link: LinkFacts, was_low: bool) -> list[Alarm]:
+def _wrong(telemetry: Telemetry, link: LinkFacts, was_low: bool, had_board: bool) -> list[Alarm]:
     found: list[Alarm] = []
     if link.was_heard and link.is_silent:
         found.append(Alarm("silent", ALARM, _silence(link)))
@@ -81,9 +85,11 @@ def _wrong(telemetry: Telemetry, link: LinkFacts, was_low: bool) -> list[Alarm]:
         found.append(Alarm("receiver", level, "the receiver is lost"))
     if flag("arduino", "imu_valid") is False:
         found.append(Alarm("imu", ALARM, "the IMU is invalid: nothing stabilises"))
-    if flag("arduino", "connected") is False:
+    if board_state(telemetry) is NOT_YET and not had_board:
+        found.append(Alarm("board", WARNING, "the board is not here yet"))
+    elif flag("arduino", "connected") is False:
         found.append(Alarm("board", ALARM, "the board is gone"))
-    if flag("android", "connected") is False and telemetry.number("age_ms", "battery") is not None:
+    if phone_state(telemetry) is False:
         found.append(Alarm("phone", WARNING, "the phone is gone"))
     if flag("load", "panic"):
         found.append(Alarm("panic", WARNING, "panic: every sender slows down"))

@@ -9,6 +9,8 @@ from typing import Any
 from up_ground.telemetry import Telemetry
 
 INFO, WARNING, ALARM = "info", "warning", "alarm"
+NOT_YET = "not yet"
+"""What is not connected and never told anything is not gone."""
 
 Words = Callable[[Any, Any], tuple[str, str] | None]
 
@@ -38,6 +40,37 @@ def _flag(key: str, kind: str, path: str, bad: bool, said_bad: str, said_good: s
         return None if before is None else (INFO, said_good)
 
     return Fact(key, kind, lambda telemetry: telemetry.flag(*steps), words)
+
+
+def board_state(telemetry: Telemetry) -> bool | str | None:
+    """Return whether the board is connected, or ``NOT_YET``; None: nobody says."""
+    return _state(telemetry, "arduino", ("flight", "rx", "servo"))
+
+
+def phone_state(telemetry: Telemetry) -> bool | str | None:
+    """Return whether the phone is connected, or ``NOT_YET``; None: nobody says."""
+    return _state(telemetry, "android", ("battery",))
+
+
+def _state(telemetry: Telemetry, link: str, readings: tuple[str, ...]) -> bool | str | None:
+    is_there = telemetry.flag(link, "connected")
+    was_there = any(telemetry.number("age_ms", each) is not None for each in readings)
+    return NOT_YET if is_there is False and not was_there else is_there
+
+
+def _part(key: str, read: Callable[[Telemetry], Any], back: str, level: str) -> Fact:
+    """Return a fact of a part that may come later than the program, and go."""
+
+    def words(before: Any, now: Any) -> tuple[str, str] | None:
+        if now is False or (now is NOT_YET and before is True):
+            return level, f"the {key} is gone"
+        if now is NOT_YET:
+            return (INFO, f"the {key} is not here yet") if before is None else None
+        if before is None:
+            return None
+        return INFO, f"the {key} is {'here' if before is NOT_YET else back}"
+
+    return Fact(key, "link", read, words)
 
 
 def _armed(before: Any, now: Any) -> tuple[str, str] | None:
@@ -104,9 +137,8 @@ FACTS: tuple[Fact, ...] = (
     _flag("imu", "source", "arduino.imu_valid", False,
           "the IMU is invalid: nothing stabilises", "the IMU is valid", ALARM),
     Fact("restored", "source", lambda t: t.flag("arduino", "restored"), _restored),
-    _flag("board", "link", "arduino.connected", False, "the board is gone", "the board is back",
-          ALARM),
-    _flag("phone", "link", "android.connected", False, "the phone is gone", "the phone is here"),
+    _part("board", board_state, "back", ALARM),
+    _part("phone", phone_state, "here again", WARNING),
     _flag("panic", "panic", "load.panic", True, "panic: every sender slows down", "panic is over"),
     Fact("vetoes", "veto", _read_vetoes, _vetoes),
     Fact("role", "link", lambda t: t.text("ground", "role", limit=12), _role),

@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 from up_ground.telemetry import Telemetry
-from up_ground.web.alarms import Alarms, LinkFacts
+from up_ground.web.alarms import OVER_S, Alarms, LinkFacts
 from up_ground.web.facts import ALARM, FACTS, INFO, WARNING, Fact
 from up_ground.web.settled import Settled
 
@@ -45,15 +45,17 @@ class Event:
 class Judge:
     """Hears frames and the link, and says each change once; what flaps is said seldom.
 
-    ``tell`` gets the messages for the pages.
+    ``tell`` gets the messages for the pages. An alarm ends ``over_s`` after its cause.
     """
 
-    def __init__(self, aircraft: str, tell: Callable[[dict[str, Any]], object]) -> None:
+    def __init__(
+        self, aircraft: str, tell: Callable[[dict[str, Any]], object], over_s: float = OVER_S
+    ) -> None:
         self._aircraft = aircraft
         self._tell = tell
         self._events: deque[Event] = deque(maxlen=EVENTS_KEPT)
         self._settled = Settled()
-        self._alarms = Alarms()
+        self._alarms = Alarms(over_s)
         self._number = 0
 
     def note(self, kind: str, level: str, text: str, now_s: float, late_s: float = 0.0) -> None:

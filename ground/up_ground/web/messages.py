@@ -19,7 +19,8 @@ def message_bytes(fields: Mapping[str, Any]) -> bytes:
 class FrameMessage:
     """A frame of telemetry: put into JSON once for all pages, with the moment it leaves.
 
-    ``age_s`` returns its age at a moment of the monotonic clock ``now_s``.
+    ``age_s`` returns its age at a moment of the monotonic clock ``now_s``. ``time_s``: when it was
+    so in a flight of the past.
     """
 
     __slots__ = ("_age_s", "_body", "_now_s")
@@ -31,8 +32,11 @@ class FrameMessage:
         data: Mapping[str, Any],
         age_s: Callable[[float], float],
         now_s: Callable[[], float],
+        time_s: float | None = None,
     ) -> None:
         fields = {"type": "frame", "aircraft": aircraft, "beacon": beacon, "data": data}
+        if time_s is not None:
+            fields["time_s"] = round(time_s, 3)
         self._body = _ENCODER.encode(fields)[:-1].encode("ascii") + b',"age_ms":'
         self._age_s = age_s
         self._now_s = now_s

@@ -118,3 +118,15 @@ def test_a_flight_without_a_frame_ends(bench):
     bench.player.play()
     bench.run(1)
     assert not bench.player.is_playing
+
+
+def test_a_frame_is_shown_again_while_it_grows_old():
+    bench = Bench()
+    bench.player._open_at = lambda since_s: iter([Frame(2.0, {}), Frame(8.0, {})])
+    bench.player.seek(2.0)
+    bench.player.play()
+    bench.run(3.0)
+    assert 10 <= bench.shown.count(2.0) <= 16
+    assert 8.0 not in bench.shown
+    bench.run(3.5)
+    assert bench.shown[-1] == 8.0

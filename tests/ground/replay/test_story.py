@@ -5,6 +5,7 @@ import pytest
 from tests.ground.replay.flight import LENGTH_S, data_at, write_flight
 from tests.up.flight_log.logs import LogMaker
 from up.flight_log.flight_log import FlightLog
+from up_ground.replay.settings import Told
 from up_ground.replay.story import Story
 
 
@@ -70,8 +71,9 @@ def test_a_long_silence_is_told(tmp_path):
 def test_a_silence_begins_with_the_last_frame_before_it(tmp_path):
     path = write_flight(tmp_path / "flight.mcap", gap=(13.0, 19.0))
     story = Story(FlightLog.read([path]), "kite")
-    # For a moment frames are made from what was known: it may be telemetry alone that is missing.
-    assert story.frame_time_s(17.0) == pytest.approx(14.5, abs=0.2)
+    # Somebody listened to telemetry, and nothing else was logged either: none is made up.
+    assert story.frame_time_s(17.0) == pytest.approx(13.0)
+    assert [each["kind"] for each in story.alarms_at(14.1)["active"]] == ["silent"]
     assert [each["kind"] for each in story.alarms_at(17.0)["active"]] == ["silent"]
     assert story.frame_time_s(19.05) == pytest.approx(19.0)
     assert story.frame_time_s(-1.0) is None
@@ -80,7 +82,7 @@ def test_a_silence_begins_with_the_last_frame_before_it(tmp_path):
 def test_what_is_over_when_the_log_ends_is_no_alarm_for_ever(tmp_path):
     path = write_flight(tmp_path / "flight.mcap", length_s=13.0)
     story = Story(FlightLog.read([path]), "kite")
-    assert [each["kind"] for each in story.alarms_at(12.9)["active"]] == ["failsafe"]
+    assert [each["kind"] for each in story.alarms_at(11.9)["active"]] == ["failsafe"]
     assert story.alarms_at(13.0)["active"] == []
     path = write_flight(tmp_path / "flight.mcap", length_s=11.0)
     story = Story(FlightLog.read([path]), "kite")
@@ -98,4 +100,60 @@ def test_the_gains_that_flew_at_a_moment(tmp_path):
     (tmp_path / "flight.mcap").write_bytes(maker.finished())
     story = Story(FlightLog.read([tmp_path / "flight.mcap"]), "kite")
     told = [story.gains_at(time_s) for time_s in (0.5, 1.5, 2.5)]
-    assert told == [None, gains(2), gains(3)]
+    assert told == [None, Told(1.0, gains(2)), Told(2.0, gains(3))]
+
+
+def test_gains_that_the_board_never_told_are_those_that_were_asked_for(tmp_path):
+    pids = {"ratePIDs": {"ailerons": {"p": 4, "i": 0, "d": 0}}}
+    maker = LogMaker()
+    maker.add(0.0, "up.telemetry.update", **data_at(0.0))
+    maker.add(1.0, "arduino.pids.tunings", request=True)
+    maker.add(2.0, "arduino.pids.tunings", pids=pids, _origin="mission_control (pilot)")
+    maker.add(3.0, "arduino.profile.values", switch={"low": "ACRO"}, _origin="arduino (board)")
+    (tmp_path / "flight.mcap").write_bytes(maker.finished())
+    story = Story(FlightLog.read([tmp_path / "flight.mcap"]), "kite")
+    assert [story.gains_at(time_s) for time_s in (1.5, 2.5)] == [None, Told(2.0, pids)]
+    assert story.profile_at(2.9) is None
+    assert story.profile_at(3.0).values == {"switch": {"low": "ACRO"}}
+
+
+def test_an_alarm_is_over_when_its_cause_is(story):
+    assert [each["kind"] for each in story.alarms_at(11.95)["active"]] == ["failsafe"]
+    assert story.alarms_at(12.1)["active"] == []
+
+
+def test_events_tell_the_flights_time_and_stand_in_its_order(tmp_path):
+    maker = LogMaker()
+    for number in range(81):
+        time_s = number / 10 if number <= 40 else number / 10 + 6
+        maker.add(time_s, "up.telemetry.update", **data_at(time_s))
+        if number == 40:
+            maker.add(5.5, "black_box.mark", text="in the silence")
+    (tmp_path / "flight.mcap").write_bytes(maker.finished())
+    story = Story(FlightLog.read([tmp_path / "flight.mcap"]), "kite")
+    events = story.events_until(20.0)
+    times_s = [each["time_s"] for each in events]
+    assert times_s == sorted(times_s)
+    assert dict(zip(texts(events), times_s, strict=True))["mark: in the silence"] == 5.5
+    assert texts(events).index("no telemetry any more") < texts(events).index(
+        "mark: in the silence"
+    )
+
+
+def test_what_never_was_there_is_not_gone(tmp_path):
+    maker = LogMaker()
+    for number in range(100):
+        data = data_at(0.0)
+        there = number >= 50
+        data["arduino"]["connected"] = data["android"]["connected"] = there
+        if not there:
+            data["age_ms"] = dict.fromkeys(data["age_ms"])
+        maker.add(number / 10, "up.telemetry.update", **data)
+    (tmp_path / "flight.mcap").write_bytes(maker.finished())
+    story = Story(FlightLog.read([tmp_path / "flight.mcap"]), "kite")
+    told = {each["text"]: each["level"] for each in story.events_until(10.0)}
+    assert told["the board is not here yet"] == told["the phone is not here yet"] == "info"
+    assert {"the board is here", "the phone is here"} <= set(told)
+    assert not any("gone" in text for text in told)
+    (alarm,) = story.alarms_at(2.0)["active"]
+    assert (alarm["level"], alarm["text"]) == ("warning", "the board is not here yet")

@@ -231,7 +231,7 @@ def test_strange_messages_make_no_fault(tmp_path):
         maker.add(9, topic)
     log = maker.log(tmp_path)
     given = list(frames(log))
-    assert len(given) > 10
+    assert len(given) >= 8
     json.dumps([frame.data for frame in given], allow_nan=False)
 
 

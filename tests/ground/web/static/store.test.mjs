@@ -234,31 +234,52 @@ test("alarms that are none are left out", () => {
   assert.deepEqual(store.alarms, []);
 });
 
-test("a replay's speeds are those of the flight, and a jump is no flight", () => {
-  const replay = (time_s) => {
-    server.socket.say({
-      type: "replay",
-      name: "n",
-      time_s,
-      length_s: 600,
-      speed: 4,
-      is_playing: true,
-    });
-  };
-  const fly = (from_s, seconds) => {
-    for (let time_s = from_s; time_s < from_s + seconds * 4; time_s += 1) {
+test("a replay's speeds and times are those of the flight at any speed", () => {
+  for (const speed of [0.25, 1, 4, 30]) {
+    server.socket.say({ type: "track", aircraft: "one", points: [] });
+    const replay = (time_s) =>
+      server.socket.say({ type: "replay", name: "n", time_s, length_s: 600, speed, is_playing: true });
+    const step_s = Math.max(0.1, 0.04 * speed);
+    for (let time_s = 100; time_s < 100 + Math.max(5, step_s * 8); time_s += step_s) {
       replay(time_s);
       const location = { latitude: 50 + (time_s * 10) / 111195, longitude: 8 };
-      frame({ location, age_ms: { location: 0 } }, { age_ms: 0 });
-      clock.advance(0.25);
+      frame({ location, altitude: time_s * 2, age_ms: { location: 0, altitude: 0 } }, { age_ms: 0, time_s });
+      assert.equal(store.frameAt_s, time_s);
+      // What the way to the page takes is no time of the flight.
+      clock.advance(step_s / speed + Math.random() * 0.02);
     }
+    assert.ok(Math.abs(store.motion.groundSpeed_m_s - 10) < 0.1, `${speed} ${store.motion.groundSpeed_m_s}`);
+    assert.ok(Math.abs(store.motion.climb_m_s - 2) < 0.05, `${speed} ${store.motion.climb_m_s}`);
+  }
+});
+
+test("after a jump in a replay events are as old as they are in the flight", () => {
+  const replay = (time_s, is_playing) =>
+    server.socket.say({ type: "replay", name: "n", time_s, length_s: 600, speed: 10, is_playing });
+  const event = { type: "event", aircraft: "one", level: "info", text: "t" };
+  replay(500, true);
+  clock.advance(1);
+  assert.equal(store.flight_s, 510);
+  server.socket.say({ ...event, number: 3, age_ms: 4000, time_s: 505 });
+  replay(520, false);
+  clock.advance(60);
+  assert.equal(store.flight_s, 520);
+  assert.equal(store.flight_s - store.events.at(-1).at_s, 15);
+  replay(599, true);
+  clock.advance(5);
+  assert.equal(store.flight_s, 600);
+});
+
+test("a jump in a replay is no flight", () => {
+  const at = (time_s) => {
+    server.socket.say({ type: "replay", name: "n", time_s, length_s: 600, speed: 1, is_playing: true });
+    const location = { latitude: 50 + (time_s * 10) / 111195, longitude: 8 };
+    frame({ location, age_ms: { location: 0 } }, { age_ms: 0, time_s });
   };
-  fly(0, 4);
+  [0, 1, 2, 3].forEach(at);
   assert.ok(Math.abs(store.motion.groundSpeed_m_s - 10) < 0.1);
-  replay(300);
+  at(300);
   assert.equal(store.motion.groundSpeed_m_s, null);
-  fly(300, 2);
-  assert.ok(Math.abs(store.motion.groundSpeed_m_s - 10) < 0.1);
 });
 
 test("a new track begins the events anew: in a replay they are of another time", () => {

@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { ChartClock } from "../../../../../ground/up_ground/web/static/js/charts/chart_clock.js";
 import { History, WINDOW_S } from "../../../../../ground/up_ground/web/static/js/charts/history.js";
 import { span } from "../../../../../ground/up_ground/web/static/js/charts/line_chart.js";
 
@@ -94,15 +93,4 @@ test("an axis shows all values, and never a sliver", () => {
   assert.deepEqual([least, most], [-5, 15]);
   const [low, high] = span(-50, 50, 20);
   assert.ok(low < -50 && high > 50);
-});
-
-test("the charts' time stands while a replay does, and goes on from there", () => {
-  const clock = new ChartClock();
-  assert.equal(clock.at(10, false), 10);
-  assert.equal(clock.at(12, true), 12);
-  assert.equal(clock.at(15, true), 12);
-  assert.equal(clock.at(20, false), 12);
-  assert.equal(clock.at(21, false), 13);
-  assert.equal(clock.at(30, true), 22);
-  assert.equal(clock.at(40, false), 22);
 });

@@ -1,6 +1,5 @@
 import { element } from "../panels/element.js";
 import { sayMissing, styleSheet } from "../panels/vendor.js";
-import { ChartClock } from "./chart_clock.js";
 import { ChosenChart } from "./chosen_chart.js";
 import { rollDemand_deg } from "./demand.js";
 import { History } from "./history.js";
@@ -38,13 +37,11 @@ export function mount(place, store, connection) {
   place.append(notice, row);
   const names = CHARTS.flatMap((chart) => chart.lines.map((line) => line.name));
   const history = new History(names);
-  const clock = new ChartClock();
-  const now_s = () => clock.at(store.now_s, store.replay?.is_playing === false);
+  const now_s = () => store.flight_s;
   let charts = [];
   let chosen = null;
   let drawn_s = -Infinity;
   let aircraft = null;
-  let lastReplay = null;
 
   async function begin() {
     try {
@@ -83,29 +80,22 @@ export function mount(place, store, connection) {
     follow();
     const age_s = store.age_s(null) ?? 0;
     const live = (reading, path) => (store.freshness(reading) === "live" ? store.number(path) : null);
-    history.add(now_s() - age_s, {
+    history.add(store.frameAt_s, {
       roll: live("orientation", "orientation.roll"),
       demand: rollDemand_deg(store),
       pitch: live("orientation", "orientation.pitch"),
       altitude: live("altitude", "altitude"),
       age: age_s * 1000,
     });
-    chosen?.take(store, now_s() - age_s);
-  }
-
-  function takeReplay(message) {
-    const isJump = lastReplay !== null && Math.abs(message.time_s - lastReplay.time_s) > 3 * Math.max(1, message.speed);
-    if (isJump) {
-      clear();
-    }
-    lastReplay = message;
+    chosen?.take(store, store.frameAt_s);
   }
 
   connection.on("message", (message) => {
     if (message.type === "frame") {
       take(message);
-    } else if (message.type === "replay") {
-      takeReplay(message);
+    } else if (message.type === "track" && store.replay !== null) {
+      // It comes after each jump: what follows is of another time.
+      clear();
     }
   });
   begin();

@@ -62,7 +62,7 @@ export class EventLines {
 
   /** Write the ages anew, once a second. */
   showAges(now_s) {
-    if (now_s - this.#agesAt_s < 1) {
+    if (Math.abs(now_s - this.#agesAt_s) < 1) {
       return;
     }
     this.#agesAt_s = now_s;

@@ -59,7 +59,7 @@ export function mount(place, store, connection) {
     shownLevel = filter.value;
     const least = ORDER.indexOf(shownLevel);
     const shown = store.events.filter((each) => ORDER.indexOf(each.level) >= least);
-    lines.show(shown, store.now_s);
+    lines.show(shown, store.flight_s);
     none.hidden = shown.length > 0;
     setText(none, store.events.length > 0 ? "None of this kind." : "Nothing has happened yet.");
     jump.hidden = lines.isAtNewest;
@@ -70,9 +70,10 @@ export function mount(place, store, connection) {
       if (store.eventsVersion !== shownVersion || filter.value !== shownLevel) {
         show();
       }
-      lines.showAges(store.now_s);
+      lines.showAges(store.flight_s);
       const why = asker.objection(MARK);
       mark.disabled = why !== "";
+      mark.hidden = store.replay !== null;
       setAttribute(mark, "title", why || "Write a mark into the flight log");
     },
   };

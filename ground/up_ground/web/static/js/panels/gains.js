@@ -68,8 +68,10 @@ class GainsPanel {
     send.disabled = why !== "" || this.#editor.wanted === null;
     discard.hidden = !this.#editor.isEdited;
     undo.disabled = why !== "" || this.#before() === null;
+    // Nothing of the past can be changed.
+    ask.hidden = undo.hidden = send.hidden = store.replay !== null;
     ask.disabled = this.#asker.objection(NAME, { request: true }) !== "";
-    this.#history.show(store.gains, store.now_s - this.#came_s);
+    this.#history.show(store.gains, store.flight_s - this.#came_s);
   }
 
   // What flies elsewhere never touches what is being written here.
@@ -82,7 +84,7 @@ class GainsPanel {
     }
     if (gains !== this.#shown) {
       this.#shown = gains;
-      this.#came_s = this.#store.now_s;
+      this.#came_s = this.#store.flight_s;
       this.#editor.takeFlying(gains?.flying ?? null);
     }
   }
@@ -101,7 +103,7 @@ class GainsPanel {
     if (!gains?.flying) {
       return "The gains that fly are not known yet.";
     }
-    const told_s = (Number(gains.age_ms) || 0) / 1000 + this.#store.now_s - this.#came_s;
+    const told_s = (Number(gains.age_ms) || 0) / 1000 + this.#store.flight_s - this.#came_s;
     return `What flies, as the aircraft told it ${ageText(told_s)} ago.`;
   }
 

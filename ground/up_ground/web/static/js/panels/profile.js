@@ -41,6 +41,7 @@ export function mount(place, store, connection) {
 
   return {
     update() {
+      ask.hidden = store.replay !== null;
       ask.disabled = asker.objection(REQUEST) !== "";
       if (store.profile !== shown) {
         show(store.profile);

@@ -14,7 +14,7 @@ export class EventList {
   version = 0;
 
   /**
-   * @param {object} message the server's `event`
+   * @param {object} message the server's `event`; of a flight of the past it has a `time_s`
    * @param {number} now_s
    * @returns {boolean} whether it is new
    */
@@ -32,7 +32,7 @@ export class EventList {
     }
     this.all.splice(before, 0, {
       number: place,
-      at_s: now_s - Math.max(0, number(message.age_ms) ?? 0) / 1000,
+      at_s: number(message.time_s) ?? now_s - Math.max(0, number(message.age_ms) ?? 0) / 1000,
       level: LEVELS.has(message.level) ? message.level : "info",
       kind: String(message.kind ?? ""),
       text: message.text,

@@ -8,7 +8,8 @@ const AGAIN_S = 0.3;
 
 /**
  * Ground speed and vertical speed, worked out from the positions and altitudes that telemetry
- * brings: it carries neither. Null until two different fixes came.
+ * brings: it carries neither. Null until two different fixes came. Times are the flight's: in a
+ * replay not those of the page.
  */
 export class Motion {
   #places = [];
@@ -16,22 +17,17 @@ export class Motion {
   groundSpeed_m_s = null;
   climb_m_s = null;
 
-  /** @param {number} [speed] of a replay: how many seconds of the flight pass in one */
-  constructor(speed = 1) {
-    this.speed = speed;
-  }
-
   /**
    * @param {number|null} latitude
    * @param {number|null} longitude
-   * @param {number|null} at_s when it was measured, by the page's clock
+   * @param {number|null} at_s when it was measured
    */
   place(latitude, longitude, at_s) {
     if (latitude === null || longitude === null || at_s === null) {
       return;
     }
     if (keep(this.#places, { at_s, latitude, longitude }, isSamePlace)) {
-      this.groundSpeed_m_s = rate(this.#places, distance_m, this.speed);
+      this.groundSpeed_m_s = rate(this.#places, distance_m);
     }
   }
 
@@ -44,11 +40,7 @@ export class Motion {
       return;
     }
     if (keep(this.#altitudes, { at_s, altitude_m }, isSameHeight)) {
-      this.climb_m_s = rate(
-        this.#altitudes,
-        (from, to) => to.altitude_m - from.altitude_m,
-        this.speed,
-      );
+      this.climb_m_s = rate(this.#altitudes, (from, to) => to.altitude_m - from.altitude_m);
     }
   }
 }
@@ -68,7 +60,7 @@ function keep(list, fix, isSame) {
   return true;
 }
 
-function rate(list, difference, speed) {
+function rate(list, difference) {
   const last = list.at(-1);
   const from =
     list.find((each) => last.at_s - each.at_s <= WINDOW_S && each !== last) ?? list.at(-2);
@@ -76,7 +68,7 @@ function rate(list, difference, speed) {
   if (time_s < SHORTEST_S) {
     return null;
   }
-  return difference(from, last) / (time_s * speed);
+  return difference(from, last) / time_s;
 }
 
 function isSamePlace(one, other) {

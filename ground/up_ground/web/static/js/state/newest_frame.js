@@ -14,6 +14,8 @@ export class NewestFrame {
   frames = 0;
   /** Its number, null while there is none. */
   beacon = null;
+  /** When it was so in a flight of the past, seconds; null: it is of now. */
+  frameTime_s = null;
 
   /** @param {() => number} clock_s seconds that never jump */
   constructor(clock_s) {
@@ -31,6 +33,7 @@ export class NewestFrame {
     }
     this.data = message.data;
     this.beacon = judge.number(message.beacon);
+    this.frameTime_s = judge.number(message.time_s);
     this.frames += 1;
     this.#frameAt_s = this.now_s;
     this.#heldAt_s = this.#heldAt_s === null ? null : this.now_s;

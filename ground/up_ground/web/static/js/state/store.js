@@ -27,6 +27,7 @@ export class Store extends NewestFrame {
   #timers;
   #isAsked = false;
   #events = new EventList();
+  #replayAt_s = 0;
 
   aircraft = null;
   names = [];
@@ -101,6 +102,26 @@ export class Store extends NewestFrame {
     return this.statuses.get(this.aircraft) ?? null;
   }
 
+  /** @returns {number} seconds: now in the flight that is replayed, else on the page's clock */
+  get flight_s() {
+    const time_s = judge.number(this.replay?.time_s);
+    if (time_s === null) {
+      return this.now_s;
+    }
+    const since_s = this.replay.is_playing === false ? 0 : this.now_s - this.#replayAt_s;
+    const speed = judge.number(this.replay.speed) ?? 1;
+    return Math.min(time_s + since_s * speed, judge.number(this.replay.length_s) ?? Infinity);
+  }
+
+  /** @returns {number|null} when the newest frame was so, by `flight_s` */
+  get frameAt_s() {
+    const age_s = this.age_s(null);
+    if (age_s === null) {
+      return null;
+    }
+    return (this.replay === null ? null : this.frameTime_s) ?? this.flight_s - age_s;
+  }
+
   /** @returns {object[]} events, the newest last: {number, at_s, level, kind, text, is_past} */
   get events() {
     return this.#events.all;
@@ -132,7 +153,7 @@ export class Store extends NewestFrame {
   #takeOfAircraft(message) {
     const known = {
       frame: () => this.takeFrame(message, this.#connection.way_s) && this.#follow(),
-      event: () => this.#events.take(message, this.now_s),
+      event: () => this.#events.take(message, this.flight_s),
       alarms: () => (this.alarms = alarmsOf(message.active)),
       gains: () => (this.gains = message),
       profile: () => (this.profile = message.profile ?? null),
@@ -149,12 +170,13 @@ export class Store extends NewestFrame {
   #takeTrack(message) {
     this.track.replace(message.points, this.now_s);
     this.#events.clear();
-    this.motion = new Motion(this.motion.speed);
+    this.motion = new Motion();
   }
 
   #takeReplay(message) {
     const before = this.replay;
     this.replay = message;
+    this.#replayAt_s = this.now_s;
     if (message.is_playing === false) {
       this.hold();
     } else {
@@ -163,8 +185,8 @@ export class Store extends NewestFrame {
     const speed = judge.number(message.speed) ?? 1;
     const step_s = (judge.number(message.time_s) ?? 0) - (judge.number(before?.time_s) ?? 0);
     const hasJumped = step_s < -0.01 || step_s > JUMP_S * Math.max(1, speed);
-    if (before === null || hasJumped || speed !== before.speed) {
-      this.motion = new Motion(speed > 0 ? speed : 1);
+    if (before === null || hasJumped) {
+      this.motion = new Motion();
     }
   }
 
@@ -180,7 +202,7 @@ export class Store extends NewestFrame {
 
   #measuredAt_s(reading) {
     const age_s = this.age_s(reading);
-    return age_s === null ? null : this.now_s - age_s;
+    return age_s === null ? null : this.frameAt_s - (age_s - this.age_s(null));
   }
 
   #closed() {
