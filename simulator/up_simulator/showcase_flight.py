@@ -18,6 +18,7 @@ from up_simulator.crew.ports import Ports, choose_ports
 from up_simulator.crew.protocols import CrewError
 from up_simulator.showcase_config import FLIGHTS, write_config
 from up_simulator.showcase_hints import hints, log_hints
+from up_simulator.showcase_news import News
 from up_simulator.showcase_page import Page
 
 START_LIMIT_S = 60.0
@@ -26,10 +27,6 @@ READING_S = 8
 LOOK_S = 0.1
 AS_BEFORE = "\x1b[0m\x1b[?25h\x1b[?1049l"
 """Leaves the alternate screen and shows the cursor, for a picture that could not do so itself."""
-NEWS = ("hit the ground", "broke in the air", "lost itself", "given up", "launched again",
-        "battery", "late by")  # fmt: skip
-"""What the aircraft says that its user wants to know at once."""
-
 
 WHO_HOLDS = {
     "arduino": "The Arduino holds the attitude (FBW); a pilot's sticks circle around the launch.",
@@ -57,6 +54,7 @@ class ShowcaseFlight:
         self._told = 0
         self._page: Page | None = None
         self._untold: list[str] = []
+        self._news = News(time.monotonic)
         self._airframe = load_airframe(options.airframe)
         self._ports = Ports()
 
@@ -150,7 +148,8 @@ class ShowcaseFlight:
         self._children.remove(page.child)
         # A picture on this terminal would wipe it away.
         self._untold.append(
-            f"The ground station for a browser is gone: {page.why_not}. It flies on."
+            f"The ground station for a browser is gone: {page.why_not}. It flies on; this brings"
+            f" the page back: {page.command}"
         )
 
     def _has_board(self, lines: list[str]) -> bool:
@@ -234,10 +233,8 @@ class ShowcaseFlight:
 
     def _tell_news(self, aircraft: Child) -> None:
         """Say what the aircraft has said since the last time, if its user wants to know."""
-        lines = aircraft.new_lines()
-        for line in lines:
-            if any(words in line for words in NEWS):
-                self._say(f"aircraft: {line}")
+        for line in self._news.of(aircraft.new_lines()):
+            self._say(f"aircraft: {line}")
 
 
 def _enter_was_pressed() -> bool:

@@ -12,7 +12,7 @@ from up_simulator.crew.ports import Ports
 
 def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
     """Return what there is to try; ``page`` is where a browser finds the ground station."""
-    ground, sim = _program("up-ground"), _program("up-sim")
+    ground, sim = program("up-ground"), program("up-sim")
     port = "" if ports.ground == 3004 else f" --port {ports.ground}"
     socket = "" if folder == Path.cwd() / "run/showcase" else f" --socket {folder / 'radio'}"
     in_browser = [
@@ -40,10 +40,11 @@ def log_hints(flights: Path) -> list[str]:
     folder = os.path.relpath(flights) if flights.is_relative_to(Path.cwd()) else str(flights)
     last = f"last --folder {shlex.quote(folder)}"
     return [
-        f"The flight's log: {_program('up')} log report {last}",
-        f"The same again in a browser: {_program('up-ground')} replay {last}",
+        f"The flight's log: {program('up')} log report {last}",
+        f"The same again in a browser: {program('up-ground')} replay {last}",
     ]
 
 
-def _program(name: str) -> str:
+def program(name: str) -> str:
+    """Return how somebody types a program of the project here."""
     return os.path.relpath(Path(sys.executable).parent / name)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+import shlex
 import sys
 import time
 from pathlib import Path
 
 from up_simulator.crew.child import Child
 from up_simulator.crew.ports import Ports
+from up_simulator.showcase_hints import program
 
 LIMIT_S = 30.0
 LOOK_AGAIN_S = 0.05
@@ -19,13 +21,15 @@ class Page:
     """``up-ground serve`` for the aircraft behind the proxy of a run.
 
     ``listen`` is where it listens, ``ADDRESS:PORT``; its words are in ``page.log``.
+    ``command`` is what a user types to have it once more.
     """
 
     def __init__(self, folder: Path, ports: Ports, listen: str | None = None) -> None:
         (folder / "page.log").unlink(missing_ok=True)
-        words = ["-m", "up_ground.main", "serve", "--port", str(ports.ground)]
+        words = ["serve", "--port", str(ports.ground)]
         words += ["--listen", listen or f"127.0.0.1:{ports.page}"]
-        self.child = Child("page", [sys.executable, *words], folder)
+        self.child = Child("page", [sys.executable, "-m", "up_ground.main", *words], folder)
+        self.command = f"{program('up-ground')} {shlex.join(words)}"
 
     def wait_for_address(self) -> str | None:
         """Return where a browser finds it; None when it has ended or says nothing in time."""

@@ -72,7 +72,7 @@ def terminal(tmp_path):
 
 
 def test_a_ground_station_that_is_killed_ends_no_flight(terminal):
-    terminal.wait_for("or with Enter; q leaves it.")
+    started = terminal.wait_for("or with Enter; q leaves it.")
     os.write(terminal.own, b"\n")
     terminal.wait_for(ENTERS)
     os.kill(terminal.child("\0watch\0"), signal.SIGKILL)
@@ -82,6 +82,14 @@ def test_a_ground_station_that_is_killed_ends_no_flight(terminal):
     assert not re.search(r"its log|Traceback", said)
     assert termios.tcgetattr(terminal.other) == terminal.before
     assert terminal.child("up_simulator")
+    os.kill(terminal.child("\0serve\0"), signal.SIGKILL)
+    terminal.wait_for("It flies on; this brings the page back: ")
+    command = terminal.wait_for("\n").split()
+    assert Path(command[0]).name == "up-ground"
+    # The same address as before: the pages that are open come back by themselves.
+    listen = re.search(r"http://(127\.0\.0\.1:[0-9]+)", started)[1]
+    ground = command[command.index("--port") + 1]
+    assert command[1:] == ["serve", "--port", ground, "--listen", listen]
     os.write(terminal.own, b"\n")
     terminal.wait_for(ENTERS)
     terminal.wait_for("online")
