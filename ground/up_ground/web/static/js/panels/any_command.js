@@ -1,16 +1,11 @@
 import { setText } from "../readout.js";
-import { Asker } from "./asker.js";
+import { ruleAgainst, warningOf } from "./any_command_rules.js";
+import { Asker, tell } from "./asker.js";
 import { KnownFields, UnknownFields } from "./command_form.js";
 import { element } from "./element.js";
 import { nameProblem } from "./field_value.js";
 
 const LONGEST_SHOWN = 600;
-
-/** What takes more than a question is done where it is asked for as it must be. */
-const ELSEWHERE = {
-  "up.arm": "Arming takes the button that is held, under Commands.",
-  "up.disarm": "Disarming takes the button that is held, under Commands.",
-};
 
 /**
  * Every Command that the server knows, and by name those that it does not.
@@ -51,6 +46,7 @@ export function mount(place, store, connection) {
   place.append(details);
   let offered = null;
   let offeredWords = "";
+  let aircraft = store.aircraft;
   let chosen = { name: "", command: null, part: null };
 
   function list() {
@@ -84,13 +80,18 @@ export function mount(place, store, connection) {
     offer();
   }
 
-  function objection() {
-    const { name, command } = chosen;
-    const known = command?.name ?? name;
-    return (
-      asker.objection(known === "" ? "up.flight_mode.set" : known) ||
-      (Object.hasOwn(ELSEWHERE, known) ? ELSEWHERE[known] : "")
-    );
+  function objection(data = null) {
+    const name = chosen.command?.name ?? chosen.name;
+    return ruleAgainst(store, asker, name === "" ? "up.flight_mode.set" : name, data);
+  }
+
+  // What was written was meant for the aircraft that was looked at.
+  function follow() {
+    if (store.aircraft !== aircraft) {
+      aircraft = store.aircraft;
+      input.value = "";
+      choose();
+    }
   }
 
   function offer() {
@@ -109,15 +110,16 @@ export function mount(place, store, connection) {
     }
     const problem = command === null ? nameProblem(name) : "";
     const data = problem ? null : part.read();
-    if (data === null) {
-      note.setAttribute("data-look", "bad");
-      setText(note, problem);
+    const against = problem || (data === null ? "" : objection(data));
+    if (data === null || against) {
+      tell(note, against, "bad");
       return;
     }
     const sent = command?.name ?? name;
+    const warning = warningOf(store, sent, data);
     await asker.ask(sent, data, {
       note,
-      question: questionOf(sent, data, command),
+      question: questionOf(sent, data, command, warning),
       isForced: command === null,
     });
   }
@@ -125,6 +127,7 @@ export function mount(place, store, connection) {
   return {
     update() {
       place.hidden = connection.welcome?.is_replay === true;
+      follow();
       if (!details.open) {
         return;
       }
@@ -157,12 +160,13 @@ function aboutWords(name, command) {
  * @param {string} name
  * @param {object} data
  * @param {object|null} command null: nobody here knows it
+ * @param {string} [warning] what is to be known before
  * @returns {{title: string, text: string, yes: string, no: string, isDanger: boolean}}
  */
-export function questionOf(name, data, command) {
+export function questionOf(name, data, command, warning = "") {
   const written = JSON.stringify(data);
   const shown = written.length > LONGEST_SHOWN ? `${written.slice(0, LONGEST_SHOWN)}...` : written;
-  const lines = written === "{}" ? "Without fields." : shown;
+  const lines = [written === "{}" ? "Without fields." : shown, warning].filter(Boolean).join("\n\n");
   return command !== null
     ? { title: `Send ${name}?`, text: `${command.text}\n\n${lines}`, yes: "Send", no: "Do not send", isDanger: false }
     : {

@@ -37,6 +37,7 @@ export function mount(place, store) {
   const pace = new Pace();
   const rows = new Map();
   let order = "";
+  let aircraft = store.aircraft;
 
   function toggled() {
     if (details.open) {
@@ -108,6 +109,10 @@ export function mount(place, store) {
 
   return {
     update() {
+      if (store.aircraft !== aircraft) {
+        aircraft = store.aircraft;
+        clear();
+      }
       if (details.open && !document.hidden && pace.isTime(store.now_s)) {
         show();
       }

@@ -1,0 +1,44 @@
+import { isOnlyRequest } from "../state/roles.js";
+import { gainsObjection, gainsWarning } from "./gains_why.js";
+
+const GAINS = "arduino.pids.tunings";
+
+/** What takes more than a question is done where it is asked for as it must be. */
+const ELSEWHERE = {
+  "up.arm": "Arming takes the button that is held, under Commands.",
+  "up.disarm": "Disarming takes the button that is held, under Commands.",
+};
+
+/**
+ * Why a Command is not sent by its name: no way around what its own panel asks for.
+ * @param {object} store
+ * @param {import("./asker.js").Asker} asker
+ * @param {string} name of the Command itself, not an alias
+ * @param {object|null} data null: not written yet
+ * @returns {string} one sentence; empty: it is offered
+ */
+export function ruleAgainst(store, asker, name, data = null) {
+  const why = asker.objection(name, data ?? {});
+  if (why) {
+    return why;
+  }
+  if (Object.hasOwn(ELSEWHERE, name)) {
+    return ELSEWHERE[name];
+  }
+  return data !== null && setsGains(name, data) ? gainsObjection(store, asker) : "";
+}
+
+/**
+ * @param {object} store
+ * @param {string} name of the Command
+ * @param {object} data
+ * @returns {string} what is to be known before it is sent; empty: nothing
+ */
+export function warningOf(store, name, data) {
+  return setsGains(name, data) ? gainsWarning(store) : "";
+}
+
+// A request that brings gains as well is none to this page, whatever the aircraft makes of it.
+function setsGains(name, data) {
+  return name === GAINS && (!isOnlyRequest(name, data) || Object.hasOwn(data, "pids"));
+}
