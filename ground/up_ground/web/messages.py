@@ -34,7 +34,12 @@ class FrameMessage:
         now_s: Callable[[], float],
         time_s: float | None = None,
     ) -> None:
-        fields = {"type": "frame", "aircraft": aircraft, "beacon": beacon, "data": data}
+        fields: dict[str, Any] = {
+            "type": "frame",
+            "aircraft": aircraft,
+            "beacon": beacon,
+            "data": data,
+        }
         if time_s is not None:
             fields["time_s"] = round(time_s, 3)
         self._body = _ENCODER.encode(fields)[:-1].encode("ascii") + b',"age_ms":'
