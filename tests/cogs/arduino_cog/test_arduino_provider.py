@@ -101,6 +101,21 @@ def test_telemetry_has_the_arduinos_keys(rig):
     assert content["vetoes"] == ["arduino: the throttle is not low", "arduino: AUX2 is low"]
     assert content["age_ms"]["servo"] == 100
     assert content["source"]["servo"] == "arduino"
+    assert content["source"]["flight"] == "arduino"
+
+
+def test_telemetry_tells_how_old_the_state_of_the_flight_is(rig):
+    assert rig.up.telemetry_controller.collect()["age_ms"]["flight"] is None
+    rig.start()
+    rig.status(armed=False)
+    content = rig.up.telemetry_controller.collect()
+    assert (content["armed"], content["age_ms"]["flight"]) == (False, 0)
+    rig.advance(0.3)
+    content = rig.up.telemetry_controller.collect()
+    assert (content["armed"], content["age_ms"]["flight"]) == (False, 300)
+    rig.advance(5.0)
+    content = rig.up.telemetry_controller.collect()
+    assert content["armed"] is content["flight_mode"] is content["age_ms"]["flight"] is None
 
 
 def test_telemetry_tells_an_old_gyro_bias_and_a_state_that_came_back(rig):

@@ -78,6 +78,7 @@ class ArduinoProvider(BaseStartedModule):
         self.counters: Counter[str] = Counter()
         self._servo_s = 0.0
         self._status_s = float("-inf")
+        self._state_s = 0.0
         self._begun: list[Callable[[], object]] = []
         self._alive: Timer | None = None
         self._refusals_named: set[tuple[str, str]] = set()
@@ -116,7 +117,11 @@ class ArduinoProvider(BaseStartedModule):
         """Return the state of the Arduino, and the servo outputs."""
         status = self.status
         servo = self.servo
-        age_ms = None if servo is None else round((self._seconds() - self._servo_s) * 1000)
+        now_s = self._seconds()
+        ages_ms = {
+            "servo": servo and round((now_s - self._servo_s) * 1000),
+            "flight": status and round((now_s - self._state_s) * 1000),
+        }
         counters = {**self.counters, "unmatched": self.exchange.unmatched}
         return {
             "arduino": {
@@ -136,8 +141,8 @@ class ArduinoProvider(BaseStartedModule):
             "armed": self.is_armed,
             "flight_mode": status and flight_mode_name(status.mode),
             "servo": {axis: servo and getattr(servo, f"{axis}_us") for axis in _AXES},
-            "age_ms": {"servo": age_ms},
-            "source": {"servo": servo and LINK},
+            "age_ms": ages_ms,
+            "source": {"servo": servo and LINK, "flight": status and LINK},
             "counters": {"arduino": counters},
         }
 
@@ -301,6 +306,7 @@ class ArduinoProvider(BaseStartedModule):
             return
         self.up.vetoes.clear(_VETO)
         previous, self.status = self.status, status
+        self._state_s = self._status_s
         self.up.vetoes.report(LINK, status.veto_names)
         if previous is not None and status.uptime_s < previous.uptime_s:
             self._on_reset(status)

@@ -52,6 +52,12 @@ test("each value belongs to the reading that brings it", () => {
   assert.equal(readingOf("altitude"), "altitude");
   assert.equal(readingOf("android.batteryLevel"), "battery");
   assert.equal(readingOf("android.connected"), null);
-  assert.equal(readingOf("armed"), null);
+  assert.equal(readingOf("armed"), "flight");
+  assert.equal(readingOf("flight_mode"), "flight");
+  assert.equal(readingOf("arduino.failsafe"), "flight");
+  // The Raspberry Pi knows these when the board says nothing.
+  assert.equal(readingOf("arduino.connected"), null);
+  assert.equal(readingOf("arduino.framing"), null);
+  assert.equal(readingOf("vetoes"), null);
   assert.equal(readingOf("constructor"), null);
 });

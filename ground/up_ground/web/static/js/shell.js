@@ -52,9 +52,10 @@ export function mountShell(store, connection) {
     }
     const frame = store.freshness(null);
     showBar("bar-link", linkWord(store, connection), state === "none" ? "none" : frame);
-    showBar("bar-mode", store.text("flight_mode"), frame);
+    const flight = store.freshness("flight");
+    showBar("bar-mode", store.text("flight_mode"), flight);
     const armed = store.flag("armed");
-    showBar("bar-armed", armed === null ? null : armed ? "ARMED" : "disarmed", frame);
+    showBar("bar-armed", armed === null ? null : armed ? "ARMED" : "disarmed", flight);
     setAttribute(at("bar-armed"), "data-armed", String(armed));
     const alarm = alarmOf(store, connection);
     setAttribute(at("bar-alarm"), "data-level", alarm.level);

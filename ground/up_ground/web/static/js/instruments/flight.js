@@ -1,5 +1,6 @@
 import { html, Readout, setAttribute, setText } from "../readout.js";
-import { flagText, numberText } from "../state/format.js";
+import { switchText } from "../panels/switch.js";
+import { flagText, numberText, UNKNOWN } from "../state/format.js";
 import { Row } from "./row.js";
 
 const MEANINGS = {
@@ -24,9 +25,9 @@ export function mount(element, store) {
   const armedText = (value) => flagText(value, "ARMED", "disarmed");
   const armedReadout = new Readout(armed, "armed", armedText, null, "flag");
   const rows = [
-    new Row(list, "Attitude held by", "flight_controller", "text", holderText),
+    new Row(list, "Attitude held by", "flight_mode", "text", (mode) => holderText(mode, store)),
     new Row(list, "Raspilot", "mode", "text"),
-    new Row(list, "Switch", "arduino.switch", "value"),
+    new Row(list, "Switch", "arduino.switch", "text", () => switchText(store)),
     new Row(list, "Failsafe", "arduino.failsafe", "flag", yesNo, alarmIfTrue),
     new Row(list, "Panic", "load.panic", "flag", (value) => panicText(value, store), warnIfTrue),
   ];
@@ -54,13 +55,31 @@ function warnIfTrue(value) {
   return value === true ? "warning" : "";
 }
 
-function holderText(value) {
-  return { arduino: "Arduino", raspberry: "Raspberry Pi" }[value] ?? String(value);
+const HOLDERS = {
+  ACRO: "nobody: the sticks",
+  RATE: "nobody: rates only",
+  FBW: "Arduino",
+  SETPOINT: "Arduino",
+  OUTPUT: "Raspberry Pi",
+  RTH: "Arduino",
+};
+
+/**
+ * @param {string} mode that is flown
+ * @param {object} store
+ * @returns {string} who holds bank and pitch
+ */
+export function holderText(mode, store) {
+  // Raspilot's controller passes the sticks through where it knows no rates.
+  if (mode === "OUTPUT" && store.text("flight_control.mode") === "ACRO") {
+    return HOLDERS.ACRO;
+  }
+  return Object.hasOwn(HOLDERS, mode) ? HOLDERS[mode] : UNKNOWN;
 }
 
 function panicText(value, store) {
   const delay_ms = store.number("load.delay_ms");
-  return value === true ? `YES, each ${numberText(delay_ms)} ms` : flagText(value);
+  return value === true ? `YES, ${numberText(delay_ms)} ms` : flagText(value);
 }
 
 function showVetoes(place, store) {

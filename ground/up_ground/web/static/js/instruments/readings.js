@@ -3,7 +3,7 @@ import { Pace } from "../pace.js";
 import { READINGS } from "../state/ages.js";
 import { ageText, UNKNOWN } from "../state/format.js";
 
-const NAMES = { rx: "receiver", servo: "servos" };
+const NAMES = { rx: "receiver", servo: "servos", flight: "flight state" };
 const WORDS = { live: "live", stale: "old", none: "never came" };
 
 /** Each reading on board: who brings it, how old it is, and whether one may trust it. */

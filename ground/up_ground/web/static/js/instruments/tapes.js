@@ -103,11 +103,16 @@ function startsAtHome(store) {
   return distance_m(from, { latitude, longitude }) < NEAR_HOME_M;
 }
 
-function climbText(climb_m_s) {
+/**
+ * @param {number|null} climb_m_s
+ * @returns {string} for a place of four figures: a glider's tenths count
+ */
+export function climbText(climb_m_s) {
   if (climb_m_s !== null && Math.abs(climb_m_s) >= 99.5) {
     return climb_m_s > 0 ? "99+" : "99-";
   }
-  return numberText(climb_m_s, 0, { sign: true });
+  const decimals = Math.abs(climb_m_s) < 9.95 ? 1 : 0;
+  return numberText(climb_m_s, decimals, { sign: true });
 }
 
 function climbOf() {

@@ -1,3 +1,6 @@
+/** What the positions select while no profile says otherwise: the firmware's own (docs/airframe.md). */
+const SELECTS = { low: "ACRO", middle: "FBW", high: "AUTO" };
+
 /**
  * What the pilot's switch selects where it stands: the aircraft tells the position, its profile
  * what the position means.
@@ -6,6 +9,23 @@
  */
 export function switchMode(store) {
   const position = store.text("arduino.switch");
-  const selected = position === null ? null : store.profile?.switch?.[position];
-  return typeof selected === "string" ? selected : null;
+  if (position === null || !Object.hasOwn(SELECTS, position)) {
+    return null;
+  }
+  const told = store.profile?.switch?.[position];
+  return typeof told === "string" ? told : SELECTS[position];
+}
+
+/**
+ * @param {object} store
+ * @returns {string} the position and what it selects; where no profile was told, the default
+ */
+export function switchText(store) {
+  const position = store.text("arduino.switch");
+  const selected = switchMode(store);
+  if (selected === null) {
+    return position ?? "";
+  }
+  const isTold = typeof store.profile?.switch?.[position] === "string";
+  return `${position}: ${selected}${isTold ? "" : " (default)"}`;
 }

@@ -9,6 +9,7 @@ export const READINGS = [
   "orientation",
   "rx",
   "servo",
+  "flight",
   "location",
   "altitude",
   "heading",
@@ -24,7 +25,12 @@ const READING_OF = {
   home: "location",
   altitude: "altitude",
   heading: "heading",
+  flight_mode: "flight",
+  armed: "flight",
+  arduino: "flight",
 };
+/** What the Raspberry Pi knows of the Arduino by itself. */
+const KNOWN_BESIDES = new Set(["arduino.connected", "arduino.framing"]);
 
 /**
  * @param {string} path of a value in the telemetry
@@ -33,6 +39,9 @@ const READING_OF = {
 export function readingOf(path) {
   if (path === "android.batteryLevel") {
     return "battery";
+  }
+  if (KNOWN_BESIDES.has(path)) {
+    return null;
   }
   const first = path.split(".", 1)[0];
   return Object.hasOwn(READING_OF, first) ? READING_OF[first] : null;

@@ -1,0 +1,50 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { holderText } from "../../../../ground/up_ground/web/static/js/instruments/flight.js";
+import { climbText } from "../../../../ground/up_ground/web/static/js/instruments/tapes.js";
+import {
+  switchMode,
+  switchText,
+} from "../../../../ground/up_ground/web/static/js/panels/switch.js";
+import { lostText } from "../../../../ground/up_ground/web/static/js/shell.js";
+import { alarmOf } from "../../../../ground/up_ground/web/static/js/state/alarm_level.js";
+
+function store(texts, profile = null) {
+  return { text: (path) => texts[path] ?? null, profile, alarms: [], aircraftState: "live" };
+}
+
+test("nobody holds the attitude where the sticks or rates decide", () => {
+  const plain = store({});
+  assert.equal(holderText("ACRO", plain), "nobody: the sticks");
+  assert.equal(holderText("RATE", plain), "nobody: rates only");
+  assert.equal(holderText("FBW", plain), "Arduino");
+  assert.equal(holderText("OUTPUT", plain), "Raspberry Pi");
+  assert.equal(holderText("OUTPUT", store({ "flight_control.mode": "ACRO" })), "nobody: the sticks");
+  assert.equal(holderText("constructor", plain), "--");
+});
+
+test("the switch says what its position selects, by the profile or by default", () => {
+  assert.equal(switchText(store({ "arduino.switch": "high" })), "high: AUTO (default)");
+  const profile = { switch: { low: "ACRO", middle: "RATE", high: "AUTO" } };
+  const middle = store({ "arduino.switch": "middle" }, profile);
+  assert.equal(switchText(middle), "middle: RATE");
+  assert.equal(switchMode(middle), "RATE");
+  assert.equal(switchText(store({ "arduino.switch": "toString" })), "toString");
+  assert.equal(switchMode(store({ "arduino.switch": "toString" })), null);
+  assert.equal(switchMode(store({}, profile)), null);
+});
+
+test("the climb of a glider has tenths, and always four figures at most", () => {
+  assert.deepEqual(
+    [0.34, -0.04, -9.94, 9.96, -12.4, 240, null].map(climbText),
+    ["+0.3", "+0.0", "-9.9", "+10", "-12", "99+", "--"],
+  );
+});
+
+test("a server that is full is not one that is gone", () => {
+  assert.equal(lostText("16 pages", true), "The ground server is full (16 pages):");
+  assert.equal(lostText("", false), "No connection to the ground server:");
+  assert.equal(lostText("the server ends", false), "No connection to the ground server (the server ends):");
+  const alarm = alarmOf(store({}), { isOpen: false, isFull: true });
+  assert.deepEqual(alarm, { level: "alarm", text: "server full" });
+});
