@@ -70,6 +70,8 @@ class FlightLog:
             parts.append(part)
         if all(part.fault for part in parts):
             raise FlightLogError(parts[0].fault)
+        for number, count in index.put_strays_aside().items():
+            parts[number].note_strays(count)
         index.finish()
         return cls(paths, index, parts)
 

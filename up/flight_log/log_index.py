@@ -7,6 +7,8 @@ from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
+from up.flight_log.true_times import strays
+
 MOST_TOPICS = 65535
 MOST_PARTS = 65535
 _PART_SHIFT = 48
@@ -52,12 +54,23 @@ class LogIndex:
 
         return add
 
+    def put_strays_aside(self) -> Counter[int]:
+        """Forget the messages whose times cannot be; return how many of which part they were."""
+        found = set(strays(self.times_ns))
+        parts = Counter(self._places[each] >> _PART_SHIFT for each in found)
+        if found:
+            kept = [each for each in range(len(self)) if each not in found]
+            self._rearrange(kept)
+        return parts
+
     def finish(self) -> None:
         """Put the messages in the order of their time; those of one moment stay as they came."""
         times = self.times_ns
         if all(map(int.__le__, times, times[1:])):
             return
-        order = sorted(range(len(times)), key=times.__getitem__)
+        self._rearrange(sorted(range(len(times)), key=times.__getitem__))
+
+    def _rearrange(self, order: Sequence[int]) -> None:
         for each in (self.times_ns, self._topic_of, self._places, self._sizes):
             each[:] = array(each.typecode, map(each.__getitem__, order))
 

@@ -89,11 +89,19 @@ class PartReader:
         self._schemas: dict[int, Schema] = {}
         self._channels: dict[int, Channel] = {}
         self._kept = 0
+        self._strays: list[str] = []
 
     @property
     def problems(self) -> list[str]:
         """Return what is wrong with the file."""
-        return ([self.fault] if self.fault else []) + self._noted.sentences
+        return [*([self.fault] if self.fault else []), *self._noted.sentences, *self._strays]
+
+    def note_strays(self, count: int) -> None:
+        """Note how many messages were put aside for a time that cannot be."""
+        what = "message has a time that cannot be and is"
+        if count > 1:
+            what = "messages have times that cannot be and are"
+        self._strays = [f"{self.path.name}: {count} {what} put aside"]
 
     def read(self, index: LogIndex) -> None:
         """Add the messages of the file to the index, as far as they can be read."""
