@@ -97,6 +97,68 @@ test("texts of telemetry are shown as they are", async () => {
   ground.assertClean();
 });
 
+test("keys and values stay text in the list of all telemetry, and in a chart of one's own", async () => {
+  await ground.page.click("#telemetry > summary");
+  for (const text of HOSTILE) {
+    flight.tell({ data: { ...telemetry(text), [`${text} n`]: { [text]: 7 } } });
+    const isListed = (text) =>
+      [...document.querySelectorAll("#telemetry-list .leaf-path")].some((each) => each.textContent.includes(text));
+    // What would turn a line about or end it is written out, and what is long is cut.
+    const part = text.startsWith("long") ? "long AAAA" : text.startsWith("\u202E") ? "gnp.elif" : text;
+    await ground.until(isListed, `a row of ${text.slice(0, 40)}`, part);
+    assert.deepEqual(await harm(), NO_HARM, text.slice(0, 40));
+  }
+  flight.tell({ data: { [HOSTILE[0]]: 7 } });
+  const chart = (text) => [...document.querySelectorAll("#telemetry-list button")].find((each) => each.getAttribute("aria-label").includes(text));
+  await ground.until((text) => [...document.querySelectorAll("#telemetry-list button")].some((each) => each.getAttribute("aria-label").includes(text)), "its button", HOSTILE[0]);
+  await (await ground.page.evaluateHandle(chart, HOSTILE[0])).click();
+  await ground.until((text) => document.querySelector("#chosen-chart")?.textContent.includes(text.slice(0, 30)), "its chart", HOSTILE[0]);
+  assert.deepEqual(await harm(), NO_HARM);
+  const width = await ground.page.evaluate(() => document.scrollingElement.scrollWidth - innerWidth);
+  assert.ok(width <= 0, `the page is ${width} px too wide`);
+  await ground.page.click("#chosen-chart-close");
+  ground.assertClean();
+});
+
+test("no form sends what takes a held press, nor gains that the aircraft's rule forbids in flight", async () => {
+  await ground.takeControl();
+  flight.tell({ data: { armed: true, ground: { role: "pilot", tune_in_flight: false } } });
+  await ground.until(() => document.querySelector("#bar-armed").textContent === "ARMED", "armed");
+  const rule = () =>
+    window.testMessages.findLast(({ message }) => message.type === "status")?.message.tune_in_flight === false;
+  await ground.until(rule, "the rule for gains in the status");
+  await ground.page.evaluate(() => {
+    window.testSent = [];
+    const real = WebSocket.prototype.send;
+    WebSocket.prototype.send = function send(text) {
+      window.testSent.push(JSON.parse(text));
+      return real.call(this, text);
+    };
+  });
+  const sent = () => ground.page.evaluate(() => window.testSent.filter(({ type }) => type === "command").map(({ name }) => name));
+  await ground.page.click("#any-command > summary");
+  for (const name of ["up.arm", "up.disarm", " up.arm "]) {
+    await ground.page.fill("#any-name", name);
+    await ground.until(() => /button that is held/.test(document.querySelector("#any-why").textContent), "why");
+    assert.equal(await ground.page.isDisabled("#any-send"), true, name);
+    await ground.page.evaluate(() => document.querySelector("#any-name").form.requestSubmit());
+    await ground.page.press("#any-name", "Enter");
+    assert.equal(await ground.page.isVisible("dialog#confirm"), false, name);
+  }
+  await ground.page.fill("#any-name", "arduino.pids.tunings");
+  await ground.until(() => document.querySelector("#any-why").hidden, "nothing against its name");
+  const field = await ground.page.evaluate(
+    () => [...document.querySelectorAll(".any-fields label")].find((each) => each.textContent.startsWith("pids")).htmlFor,
+  );
+  await ground.page.fill(`#${field}`, "{}");
+  await ground.page.click("#any-send");
+  await ground.until(() => document.querySelector("#any-note").textContent !== "", "the rule");
+  assert.match(await ground.text("#any-note"), /refused while the aircraft is armed/);
+  assert.equal(await ground.page.isVisible("dialog#confirm"), false);
+  assert.deepEqual(await sent(), []);
+  ground.assertClean();
+});
+
 test("numbers of telemetry that are none are not known", async () => {
   flight.tell({
     whole: true,
