@@ -52,7 +52,7 @@ def receiver_lost(facts: Facts) -> Iterator[Wrong]:
         text = f"the receiver was lost {span.length_text}"
         if 0 < len(gone) < len(CHANNELS):
             text = f"no valid pulses of {', '.join(gone)} {span.length_text}"
-        yield Wrong(span.begin_s, _level(facts, span), text)
+        yield Wrong(span.begin_s, _level(facts, span), text, span.length_s)
 
 
 def _validity(facts: Facts, bad: list[tuple[float, int]]) -> Iterator[tuple[float, bool]]:
@@ -71,13 +71,15 @@ def failsafe(facts: Facts) -> Iterator[Wrong]:
             span.begin_s,
             _level(facts, span),
             f"the receiver's failsafe acted {span.length_text}",
+            span.length_s,
         )
 
 
 def imu_invalid(facts: Facts) -> Iterator[Wrong]:
     """No attitude: the board could not stabilise."""
     for span in facts.flag_lost(IMU_VALID):
-        yield Wrong(span.begin_s, _level(facts, span), f"the IMU was invalid {span.length_text}")
+        text = f"the IMU was invalid {span.length_text}"
+        yield Wrong(span.begin_s, _level(facts, span), text, span.length_s)
 
 
 def board_reset(facts: Facts) -> Iterator[Wrong]:
@@ -100,15 +102,17 @@ def board_reset(facts: Facts) -> Iterator[Wrong]:
 def board_silent(facts: Facts) -> Iterator[Wrong]:
     """The serial line: no frame came."""
     for span in facts.link_lost(lambda link: link == "arduino"):
-        text = f"the board was silent {span.length_text}"
-        yield Wrong(span.begin_s, _level(facts, span), text)
+        # A program that stood still hears at once of a loss and of its end.
+        if span.length_s >= BLINK_S:
+            text = f"the board was silent {span.length_text}"
+            yield Wrong(span.begin_s, _level(facts, span), text, span.length_s)
 
 
 def raspberry_unheard(facts: Facts) -> Iterator[Wrong]:
     """The other direction: the board heard nothing of Raspilot."""
     for span in facts.flag_lost(PI_HEARD):
         text = f"the board did not hear Raspilot {span.length_text}"
-        yield Wrong(span.begin_s, _level(facts, span), text)
+        yield Wrong(span.begin_s, _level(facts, span), text, span.length_s)
 
 
 def loop_late(facts: Facts) -> Iterator[Wrong]:

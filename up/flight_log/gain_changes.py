@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from math import isclose
 from typing import Any
 
 from up.flight_log.json_message import number_at
@@ -15,6 +16,7 @@ LOOPS = {
 }
 AXES = {"ailerons": "roll", "elevator": "pitch", "rudder": "yaw"}
 TERMS = ("p", "i", "d")
+_SINGLE = 1e-6
 Key = tuple[str, str, str]
 """Loop, axis and term, in words: rate, roll, p."""
 
@@ -34,10 +36,15 @@ def changes_text(before: Any, after: Any, most: int = 27) -> str:
     found = [
         f"{loop} {axis} {term.upper()} {_from(known.get((loop, axis, term)))}{value:g}"
         for (loop, axis, term), value in gains_of(after).items()
-        if known.get((loop, axis, term)) != value
+        if not _is_same(known.get((loop, axis, term)), value)
     ]
     more = f" and {len(found) - most} more" if len(found) > most else ""
     return ", ".join(found[:most]) + more
+
+
+def _is_same(before: float | None, after: float) -> bool:
+    """Return whether two gains are one: the board holds them in single precision."""
+    return before is not None and isclose(before, after, rel_tol=_SINGLE, abs_tol=1e-9)
 
 
 def _from(value: float | None) -> str:

@@ -29,7 +29,7 @@ def ground_lost(facts: Facts) -> Iterator[Wrong]:
         for span in facts.link_lost(lambda name, link=link: name == link):  # type: ignore[misc]
             flies = facts.was_armed(span) or not span.is_open
             text = f"the link to the ground was lost {span.length_text}"
-            yield Wrong(span.begin_s, "warning" if flies else "info", text)
+            yield Wrong(span.begin_s, "warning" if flies else "info", text, span.length_s)
 
 
 def phone_lost(facts: Facts) -> Iterator[Wrong]:
@@ -37,7 +37,7 @@ def phone_lost(facts: Facts) -> Iterator[Wrong]:
     for span in facts.link_lost(lambda link: link == PHONE_LINK):
         flies = facts.was_armed(span) or not span.is_open
         text = f"the phone was gone {span.length_text}"
-        yield Wrong(span.begin_s, "warning" if flies else "info", text)
+        yield Wrong(span.begin_s, "warning" if flies else "info", text, span.length_s)
 
 
 def reading_missing(facts: Facts) -> Iterator[Wrong]:
@@ -52,7 +52,7 @@ def reading_missing(facts: Facts) -> Iterator[Wrong]:
                 level = "info" if is_open else "warning"
             until = " until the end" if is_open else ""
             text = f"no {name} came for {duration_text(length_s)}{until}"
-            yield Wrong(begin_s, level, text)  # type: ignore[arg-type]
+            yield Wrong(begin_s, level, text, length_s)  # type: ignore[arg-type]
 
 
 def battery_low(facts: Facts) -> Iterator[Wrong]:

@@ -57,7 +57,8 @@ def panic(facts: Facts) -> Iterator[Wrong]:
     for span in facts.spans((at_s, data.get("panic") is True) for at_s, data in commands.items()):
         load = number_at(commands[span.begin_s], ("utilization",))
         why = "" if load is None else f", at {load:g} percent of load"
-        yield Wrong(span.begin_s, "warning", f"Panic Mode {span.length_text}{why}")
+        text = f"Panic Mode {span.length_text}{why}"
+        yield Wrong(span.begin_s, "warning", text, span.length_s)
 
 
 def gains_changed(facts: Facts) -> Iterator[Wrong]:
@@ -69,10 +70,13 @@ def gains_changed(facts: Facts) -> Iterator[Wrong]:
         if not isinstance(gains, dict) or each.data.get("request") is True:
             continue
         if is_set and _flies(facts, each.time_s):
-            changes = changes_text(known, gains) or "to what they were"
             who = each.data.get(KEY)
             by = f" by {who}" if isinstance(who, str) else ""
-            yield Wrong(each.time_s, "warning", f"gains were changed in flight{by}: {changes}")
+            text = f"gains were set in flight{by}; which flew before is not told"
+            if known:
+                changes = changes_text(known, gains) or "to what they were"
+                text = f"gains were changed in flight{by}: {changes}"
+            yield Wrong(each.time_s, "warning", text)
         known = gains
 
 
@@ -84,7 +88,8 @@ def provisional(facts: Facts) -> Iterator[Wrong]:
     )
     for span in facts.spans(states):
         text = f"provisionally in Black Box Mode {span.length_text}: no frame came from the board"
-        yield Wrong(span.begin_s, "alarm" if facts.was_armed(span) else "warning", text)
+        level: Level = "alarm" if facts.was_armed(span) else "warning"
+        yield Wrong(span.begin_s, level, text, span.length_s)
 
 
 def nothing_logged(facts: Facts) -> Iterator[Wrong]:
@@ -92,7 +97,7 @@ def nothing_logged(facts: Facts) -> Iterator[Wrong]:
     for begin_s, length_s in facts.log.gaps(SILENT_S):
         armed = facts.was_armed(Span(begin_s, begin_s + length_s))
         text = f"nothing at all was logged for {duration_text(length_s)}"
-        yield Wrong(begin_s, "alarm" if armed else "warning", text)
+        yield Wrong(begin_s, "alarm" if armed else "warning", text, length_s)
 
 
 def recording(facts: Facts) -> Iterator[Wrong]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from up.flight_log.facts import Facts
@@ -13,11 +13,15 @@ Level = Literal["info", "warning", "alarm"]
 
 @dataclass(frozen=True, slots=True)
 class Wrong:
-    """What went wrong, in plain words; ``time_s`` counts from the log's first message."""
+    """What went wrong, in plain words; ``time_s`` counts from the log's first message.
+
+    ``length_s``: for how long, where it lasted.
+    """
 
     time_s: float
     level: Level
     text: str
+    length_s: float = field(default=0.0, compare=False)
 
 
 Judge = Callable[[Facts], Iterator[Wrong]]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from up.fields import printable
 from up.flight_log.board_judgments import BOARD_JUDGMENTS
@@ -39,12 +40,12 @@ def _bounded(found: Iterable[Wrong]) -> Iterator[Wrong]:
     count = 0
     for count, each in enumerate(found, 1):
         if count <= _MOST_OF_A_KIND:
-            yield Wrong(each.time_s, each.level, _line(each.text))
+            yield replace(each, text=_line(each.text))
         elif more is None:
             more = each
     if more is not None:
         text = f"{_line(more.text)} (and {count - _MOST_OF_A_KIND - 1} more of this kind)"
-        yield Wrong(more.time_s, more.level, text)
+        yield replace(more, text=text)
 
 
 def _line(text: str) -> str:

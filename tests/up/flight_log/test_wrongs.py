@@ -149,6 +149,26 @@ def test_a_board_that_is_silent_in_flight(maker, tmp_path):
     assert texts(maker, tmp_path) == [(4.2, "alarm", "the board was silent for 1.2 s")]
 
 
+def test_a_loss_of_no_time_is_none(maker, tmp_path):
+    maker.put(0, LinkStateCommand("arduino", True))
+    maker.every(0, 4, 0.2, FlightStateCommand("FBW", True, False, False))
+    maker.put(2.0, LinkStateCommand("arduino", False))
+    maker.put(2.001, LinkStateCommand("arduino", True))
+    assert texts(maker, tmp_path) == []
+
+
+def test_gains_of_single_precision_are_the_same_and_the_first_told_are_no_change(maker, tmp_path):
+    maker.every(0, 5, 0.5, FlightStateCommand("FBW", True, False, False))
+    maker.put(1, PIDTuningsCommand(None, gains(0.1)), GROUND)
+    maker.put(2, PIDTuningsValuesCommand(gains(0.10000000149011612)), BOARD)
+    maker.put(3, PIDTuningsCommand(None, gains(0.1)), GROUND)
+    by = "by mission_control (pilot)"
+    assert texts(maker, tmp_path) == [
+        (1.0, "warning", f"gains were set in flight {by}; which flew before is not told"),
+        (3.0, "warning", f"gains were changed in flight {by}: to what they were"),
+    ]
+
+
 def test_a_board_that_hears_nothing_and_a_late_loop_and_bad_frames(maker, tmp_path):
     maker.every(0, 10, 0.2, FlightStateCommand("FBW", True, False, False))
     maker.every(0, 2, 0.2, status(frame_errors=5))

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from black_box_cog.cli.open_flight import flight_of, read
 from black_box_cog.cli.terminal import table, tell
 from black_box_cog.report.wording import clock_text, size_text, start_text
+from black_box_cog.report.wrong_groups import groups_of
 from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.facts import Facts
@@ -62,7 +63,8 @@ def _title(flight: Flight, log: FlightLog, summary: FlightSummary) -> str:
 def _wrongs(found: Sequence[Wrong]) -> list[str]:
     if not found:
         return ["nothing that the log can tell"]
-    return [f"{clock_text(each.time_s):>8}  {each.level:<8} {each.text}" for each in found]
+    kinds = groups_of(found)
+    return [f"{clock_text(each.time_s):>8}  {each.level:<8} {each.text}" for each in kinds]
 
 
 def _figures(summary: FlightSummary) -> Iterator[tuple[str, str]]:

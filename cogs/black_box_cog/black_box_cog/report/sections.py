@@ -13,6 +13,7 @@ from black_box_cog.report.html_text import Markup, join, table, tag
 from black_box_cog.report.series import error_of
 from black_box_cog.report.verdict import LEVELS
 from black_box_cog.report.wording import clock_text
+from black_box_cog.report.wrong_groups import WrongGroup, groups_of
 from up.flight_log.gain_changes import Key
 from up.flight_log.origin_text import link_and_role
 from up.flight_log.spans import duration_text
@@ -27,21 +28,29 @@ def figures(findings: Findings) -> Markup:
 
 
 def wrong_list(findings: Findings) -> Markup:
-    """Return what went wrong, in the order of time."""
+    """Return what went wrong, each kind in the order of its first time."""
     items = [
         tag(
             "li",
             tag("time", clock_text(each.time_s)),
             tag("span", _WORDS[each.level], class_="level"),
-            tag("span", each.text),
+            tag("div", tag("span", each.text), _each_time(each)),
             class_=LEVELS[each.level],
         )
-        for each in findings.wrongs
+        for each in groups_of(findings.wrongs)
     ]
     content = (
         tag("ol", *items, class_="wrongs") if items else tag("p", "Nothing that the log can tell.")
     )
     return tag("section", tag("h2", "What went wrong"), content)
+
+
+def _each_time(group: WrongGroup) -> Markup | None:
+    """Return when each of several was, to be unfolded."""
+    if len(group.members) == 1:
+        return None
+    lines = [tag("p", f"{clock_text(each.time_s)} {each.text}") for each in group.members]
+    return tag("details", tag("summary", "each of them"), *lines)
 
 
 def modes(findings: Findings) -> Markup:

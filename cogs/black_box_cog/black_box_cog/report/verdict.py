@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from black_box_cog.report.wording import clock_text
+from black_box_cog.report.wrong_groups import groups_of, worst_of
 from up.flight_log.spans import duration_text
 from up.flight_log.summary import FlightSummary, Wrong
 
@@ -13,10 +15,13 @@ LEVELS = {"alarm": "bad", "warning": "warning", "info": "info"}
 
 def verdict_of(summary: FlightSummary, wrongs: Sequence[Wrong]) -> tuple[str, str]:
     """Return ``good``, ``warning`` or ``bad``, and the sentences."""
-    alarms = [each for each in wrongs if each.level == "alarm"]
-    warnings = [each for each in wrongs if each.level == "warning"]
+    kinds = [each.worst for each in groups_of(wrongs)]
+    alarms = [each for each in kinds if each.level == "alarm"]
+    warnings = [each for each in kinds if each.level == "warning"]
     if alarms:
-        return "bad", f"{_flight(summary)} {_counted(alarms, warnings)} First: {alarms[0].text}."
+        worst = worst_of(alarms)
+        told = f"The worst, at {clock_text(worst.time_s)}: {worst.text}."
+        return "bad", f"{_flight(summary)} {_counted(alarms, warnings)} {told}"
     if warnings:
         looks = f"{_things(len(warnings))} {_deserve(len(warnings))} a look"
         return "warning", f"{_flight(summary)} Nothing dangerous went wrong; {looks}."
