@@ -1,7 +1,7 @@
 import { rollDemand_deg } from "../charts/demand.js";
 import { setAttribute, setText } from "../readout.js";
 import { ageText } from "../state/format.js";
-import { ballTransform, onCircle, rollMarks, rungs, UNITS_PER_DEG } from "./ladder.js";
+import { ballTransform, isWhole, onCircle, rollMarks, rungs, UNITS_PER_DEG } from "./ladder.js";
 import { drawing, hatch, short, svg } from "./svg.js";
 
 /** The box of the horizon and of the tapes upon it. */
@@ -12,7 +12,8 @@ const ROLL_RADIUS = 112;
 /** The artificial horizon: attitude as one sees it from the seat. */
 export function mount(element, store) {
   const ball = ballOf();
-  const ladder = ladderOf();
+  const labels = [];
+  const ladder = ladderOf(labels);
   const pointer = svg("path", { d: "M0 -110 L-7 -97 L7 -97 Z", class: "roll-pointer" });
   const rollGroup = svg("g", {}, pointer);
   const bug = svg("path", { d: "M0 -113 L-6 -123 H6 Z", class: "roll-bug", visibility: "hidden" });
@@ -51,6 +52,10 @@ export function mount(element, store) {
       setAttribute(ball, "transform", transform);
       setAttribute(ladder, "transform", transform);
       setAttribute(rollGroup, "transform", `rotate(${short(-roll_deg)})`);
+      for (const { x, y, text } of labels) {
+        const isShown = isWhole(x, y, roll_deg, pitch_deg);
+        setAttribute(text, "visibility", isShown ? "inherit" : "hidden");
+      }
       setAttribute(ball, "data-roll", short(roll_deg));
       setAttribute(ball, "data-pitch", short(pitch_deg));
     },
@@ -85,7 +90,7 @@ function ballOf() {
   );
 }
 
-function ladderOf() {
+function ladderOf(labels) {
   const ladder = svg("g", { class: "ladder", "aria-hidden": "true" });
   for (const { pitch_deg, halfWidth, label } of rungs()) {
     const y = -pitch_deg * UNITS_PER_DEG;
@@ -93,7 +98,10 @@ function ladderOf() {
     const d = `M${-halfWidth} ${y}H${halfWidth}`;
     ladder.append(svg("path", { d, "stroke-dasharray": dash }));
     for (const side of label === "" ? [] : [-1, 1]) {
-      ladder.append(svg("text", { x: side * (halfWidth + 13), y: y + 4 }, label));
+      const x = side * (halfWidth + 13);
+      const text = svg("text", { x, y: y + 4 }, label);
+      labels.push({ x, y, text });
+      ladder.append(text);
     }
   }
   for (const side of [-1, 1]) {

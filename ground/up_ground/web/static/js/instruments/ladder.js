@@ -34,6 +34,23 @@ export function ballTransform(roll_deg, pitch_deg) {
 }
 
 /**
+ * Whether the label of a rung is whole within the bank arc and the edges of the picture.
+ * @param {number} x of its middle, on the ladder
+ * @param {number} y of its middle, on the ladder
+ * @param {number} roll_deg
+ * @param {number} pitch_deg
+ * @returns {boolean}
+ */
+export function isWhole(x, y, roll_deg, pitch_deg) {
+  const turn = (-roll_deg * Math.PI) / 180;
+  const down = y + Math.max(-90, Math.min(90, pitch_deg)) * UNITS_PER_DEG;
+  const across = x * Math.cos(turn) - down * Math.sin(turn);
+  const along = x * Math.sin(turn) + down * Math.cos(turn);
+  const isBelowArc = along > -40 || Math.hypot(across, along) < 95;
+  return isBelowArc && Math.abs(across) < (along < -10 ? 88 : 107) && along < 133;
+}
+
+/**
  * The marks of the roll scale.
  * @returns {{roll_deg: number, length: number}[]}
  */
