@@ -37,7 +37,7 @@ test("the switch says what its position selects, by the profile or by default", 
 test("the climb of a glider has tenths, and always four figures at most", () => {
   assert.deepEqual(
     [0.34, -0.04, -9.94, 9.96, -12.4, 240, null].map(climbText),
-    ["+0.3", "+0.0", "-9.9", "+10", "-12", "99+", "--"],
+    ["0.3", "0.0", "-9.9", "10", "-12", "99+", "--"],
   );
 });
 

@@ -105,14 +105,14 @@ function startsAtHome(store) {
 
 /**
  * @param {number|null} climb_m_s
- * @returns {string} for a place of four figures: a glider's tenths count
+ * @returns {string} in four figures at most: a glider's tenths count
  */
 export function climbText(climb_m_s) {
   if (climb_m_s !== null && Math.abs(climb_m_s) >= 99.5) {
     return climb_m_s > 0 ? "99+" : "99-";
   }
   const decimals = Math.abs(climb_m_s) < 9.95 ? 1 : 0;
-  return numberText(climb_m_s, decimals, { sign: true });
+  return numberText(climb_m_s, decimals);
 }
 
 function climbOf() {
@@ -122,7 +122,7 @@ function climbOf() {
     scale.append(svg("path", { d: `M185 ${short(y)}h${value === 0 ? 15 : 5}` }));
   }
   const needle = svg("rect", { x: 186, y: 0, width: 12, height: 1, class: "climb-bar" });
-  const text = svg("text", { x: 192, y: -113, class: "climb-text", "data-key": "motion.climb" });
+  const text = svg("text", { x: 199, y: -113, class: "climb-text", "data-key": "motion.climb" });
   const element = svg(
     "g",
     { class: "climb" },
