@@ -102,8 +102,9 @@ test("in flight an aircraft that forbids it refuses, and the page says why", asy
   const answer = await ground.answerTo(() =>
     ground.page.evaluate((pids) => {
       const { aircraft } = window.testMessages.find(({ message }) => message.type === "status").message;
+      const { beacon } = window.testMessages.findLast(({ message }) => message.type === "frame").message;
       const data = { pids };
-      const message = { type: "command", ask: 900, aircraft, name: "arduino.pids.tunings", data, beacon: null };
+      const message = { type: "command", ask: 900, aircraft, name: "arduino.pids.tunings", data, beacon };
       window.testSockets[window.testSockets.length - 1].send(JSON.stringify(message));
     }, flying),
   );
