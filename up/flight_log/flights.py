@@ -116,7 +116,8 @@ def _numbered(number: int, folder: Path) -> Flight:
     if not found:
         numbers = [flight.number for flight in flights]
         raise FlightNotFoundError(
-            f"there is no flight {number} in {folder}: it has {numbers[0]} to {numbers[-1]}"
+            f"there is no flight {number} in {folder}: the newest is {numbers[-1]}, the"
+            f" oldest {numbers[0]}"
             if len(numbers) > 1
             else f"there is no flight {number} in {folder}: it has {numbers[0]} only"
         )

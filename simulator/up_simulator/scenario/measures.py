@@ -95,14 +95,14 @@ def _first_time(
             is_soon = took_s <= _float(expectation.within_s) + 1e-6
             return _verdict(expectation, is_soon, f"{took_s:.2f} s", window)
     shown = _shown(expectation, window.values[-1])
-    return _verdict(expectation, False, f"never (last {shown})", window)
+    return _verdict(expectation, False, f"never ({shown} at the end)", window)
 
 
 def _settles(expectation: Expectation, window: Window) -> Verdict:
     low, high = expectation.settles_between
     outside = [at for at, value in enumerate(window.numbers) if not low <= value <= high]
     if outside and outside[-1] == len(window.values) - 1:
-        figure = f"never (last {_n(window.numbers[-1])})"
+        figure = f"never ({_n(window.numbers[-1])} at the end)"
         return _verdict(expectation, False, figure, window)
     took_s = window.times_s[outside[-1] + 1] - window.begin_s if outside else 0.0
     is_soon = took_s <= _float(expectation.within_s) + 1e-6

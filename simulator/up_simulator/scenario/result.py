@@ -130,8 +130,8 @@ def _failing(verdict: Verdict, words: str) -> Verdict:
         why = "it holds all the same: this flight shows nothing"
     elif not verdict.has_figure:
         why = f"it cannot be measured there: {verdict.why}"
-    name = f"Control run ({words}): not '{verdict.name}'"
-    return Verdict(name, fails, verdict.figure, f"not {verdict.limit}", why)
+    name = f"Without it ({words}) this must fail: '{verdict.name}'"
+    return Verdict(name, fails, verdict.figure, f"asked for: {verdict.limit}", why)
 
 
 def _cut_short(record: FlightRecord) -> str:

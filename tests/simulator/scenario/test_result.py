@@ -70,6 +70,8 @@ def test_a_control_run_must_fail_with_a_figure():
     holds = control_verdicts(scenario, record_of(ROLL, lambda t: 0.0))
     unknown = control_verdicts(scenario, record_of(ROLL, lambda t: float("nan")))
     assert [each[0].is_held for each in (fails, holds, unknown)] == [True, False, False]
+    assert fails[0].name.startswith("Without it (") and " this must fail: 'Level'" in fails[0].name
+    assert "not" not in fails[0].name and fails[0].limit.startswith("asked for: ")
     assert "shows nothing" in holds[0].why
     assert "cannot be measured" in unknown[0].why
 

@@ -59,7 +59,7 @@ def test_two_aircraft_with_one_number(tmp_path):
 @pytest.mark.parametrize(
     ("named", "sentence"),
     [
-        ("9", "there is no flight 9 in {folder}: it has 3 to 4"),
+        ("9", "there is no flight 9 in {folder}: the newest is 4, the oldest 3"),
         ("lst", "lst: no such flight, did you mean 'last'?"),
         ("Last", "Last: no such flight, did you mean 'last'?"),
         ("x.mcap", "x.mcap: no such flight ('last', a number that 'up log list' tells, "),

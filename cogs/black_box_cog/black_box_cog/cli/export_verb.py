@@ -16,7 +16,7 @@ from black_box_cog.export.csv_table import columns_of, topic_rows, wide_rows
 from black_box_cog.export.gpx import gpx_lines
 from black_box_cog.export.kml import kml_lines
 from black_box_cog.export.log_track import track_of
-from black_box_cog.export.output import new_file
+from black_box_cog.export.output import make_folder, new_file
 from black_box_cog.report.wording import is_clock_right, start_text
 from up.cli.cli_error import CliError
 from up.fields import printable
@@ -73,6 +73,7 @@ def _export_csv(log: FlightLog, flight: Flight, values: argparse.Namespace) -> N
         folder = values.output or Path(flight.name)
         if folder == STDOUT:
             raise CliError("several topics are several files: name a folder by -o", status=2)
+        make_folder(folder)
         for topic in topics:
             _write(_csv(_one(log, topic)), folder / _file_name(topic), values.force)
 
@@ -107,8 +108,8 @@ def _write(texts: Iterable[str], path: Path, may_overwrite: bool) -> None:
     if path == STDOUT:
         sys.stdout.writelines(texts)
         return
-    if path.parent != Path():
-        path.parent.mkdir(parents=True, exist_ok=True)
+    if not path.parent.is_dir():
+        raise CliError(f"there is no folder {path.parent}: nothing is written")
     count = 0
     with new_file(path, may_overwrite=may_overwrite) as file:
         for text in texts:

@@ -120,7 +120,8 @@ def _add_report(verbs: Any) -> None:
         "write a page that explains a flight, with its pictures",
     )
     take_flight(report)
-    _take_output(report, "FOLDER", "where to; made if need be (default: named after the flight)")
+    where = "where to; made if need be (default: named after the flight, beside it)"
+    _take_output(report, "FOLDER", where)
 
 
 def _take_output(parser: argparse.ArgumentParser, what: str, text: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 
 from black_box_cog.cli.open_flight import flight_of, read
@@ -12,6 +13,7 @@ from black_box_cog.report.folder import write_report
 from black_box_cog.report.verdict import verdict_of
 from up.cli.cli_error import CliError
 from up.fields import printable
+from up.flight_log.flights import Flight
 from up.flight_log.mcap_format import FlightLogError
 
 
@@ -19,7 +21,7 @@ def run(values: argparse.Namespace) -> int:
     """Write the page that explains a flight."""
     flight = flight_of(values)
     log = read(flight)
-    folder = values.output or Path(f"{flight.name}-report")
+    folder = values.output or default_folder(flight)
     try:
         findings = findings_of(log, flight.name, flight.number)
         files = write_report(findings, folder, may_overwrite=values.force, on_missing=warn)
@@ -31,3 +33,10 @@ def run(values: argparse.Namespace) -> int:
     if len(files) > 1:
         tell(f"{len(files) - 1} pictures beside it")
     return 0
+
+
+def default_folder(flight: Flight) -> Path:
+    """Return where a report goes that was not told: beside the flight, else where the user is."""
+    name = f"{flight.name}-report"
+    beside = flight.paths[0].parent
+    return beside / name if os.access(beside, os.W_OK) else Path(name)

@@ -34,6 +34,19 @@ def new_file(path: Path, *, may_overwrite: bool = False) -> Iterator[BinaryIO]:
         raise CliError(f"{path} cannot be written: {error.strerror or error}") from error
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder where there is none, in one that is there: a mistyped way makes no folders.
+
+    Raises CliError.
+    """
+    if not folder.parent.is_dir():
+        raise CliError(f"there is no folder {folder.parent}: nothing is written")
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise CliError(f"{folder} cannot be made: {error.strerror or error}") from error
+
+
 def write_file(path: Path, data: bytes, *, may_overwrite: bool = False) -> None:
     """Write a file at once, as ``new_file`` does."""
     with new_file(path, may_overwrite=may_overwrite) as file:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from black_box_cog.export.output import write_file
+from black_box_cog.export.output import make_folder, write_file
 from black_box_cog.pictures.canvas import PictureError
 from black_box_cog.report.findings import Findings
 from black_box_cog.report.images import ImageSet, image_sets
@@ -29,10 +29,7 @@ def write_report(
     """
     if not may_overwrite and (folder / PAGE).exists():
         raise CliError(f"{folder / PAGE} is there already: say --force to overwrite it")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CliError(f"{folder} cannot be made: {error.strerror or error}") from error
+    make_folder(folder)
     images: dict[str, ImageSet] = {}
     missing = ""
     try:

@@ -31,8 +31,8 @@ def test_the_track_as_gpx(log, flights, tmp_path):
 
 def test_the_track_as_kml(log, flights, tmp_path):
     write_flight(flights, 1)
-    log("export", 1, "--format", "kml", "-o", "deep/er/x.kml")
-    root = ElementTree.parse(tmp_path / "deep" / "er" / "x.kml").getroot()
+    log("export", 1, "--format", "kml", "-o", "x.kml")
+    root = ElementTree.parse(tmp_path / "x.kml").getroot()
     assert len(list(root.iter("{http://www.google.com/kml/ext/2.2}coord"))) == 20
 
 
@@ -126,7 +126,7 @@ def test_to_stdout(log, flights):
     [
         ("--format gpx --topic x", 2, "--topic and --rate say what a csv is, not a gpx"),
         ("--format csv --topic up.rx.updat", 1, "did you mean up.rx.update?"),
-        ("--format csv --topic zzz", 1, "the log has no topic zzz; it has arduino.pids.values, "),
+        ("--format csv --topic zzz", 1, "no topic is called 'zzz'; there are "),
         ("--format csv --rate 0", 2, "'0' is no rate between 0.01 and 1000 Hz"),
         ("--format csv --rate nan", 2, "'nan' is no rate"),
         ("--format xls", 2, "invalid choice: 'xls'"),
@@ -163,3 +163,27 @@ def test_a_clock_that_was_wrong(log, flights):
     write_flight(flights, 1, start_unix_s=60)
     outcome = log("export", 1, "--format", "gpx")
     assert outcome.status == 0 and "the clock was wrong" in outcome.err
+
+
+def test_a_mistyped_folder_is_not_made(log, flights, tmp_path):
+    write_flight(flights, 1)
+    for words in (
+        ("export", 1, "--format", "csv", "-o", tmp_path / "nodir" / "x.csv"),
+        ("export", 1, "--format", "gpx", "-o", tmp_path / "nodir" / "x.gpx"),
+        ("export", 1, "--format", "csv", "--topic", "up.orientation.update", "--topic",
+         "up.location.update", "-o", tmp_path / "nodir" / "tables"),
+        ("report", 1, "-o", tmp_path / "nodir" / "mine"),
+    ):  # fmt: skip
+        outcome = log(*words)
+        assert outcome.status == 1
+        assert outcome.err == f"there is no folder {tmp_path / 'nodir'}: nothing is written\n"
+    assert not (tmp_path / "nodir").exists()
+
+
+def test_a_report_that_is_told_no_place_lies_beside_its_flight(log, flights, tmp_path):
+    write_flight(flights, 1)
+    outcome = log("report", 1)
+    assert outcome.status == 0
+    (page,) = flights.glob("*-report/report.html")
+    assert str(page) in outcome.out
+    assert not list(tmp_path.glob("*report*"))
