@@ -17,11 +17,15 @@ class SeatAtProxy:
         self._link = link
         self._is_direct = is_direct
         self._unheard = 0
+        self._is_left = False
 
     @property
     def standing(self) -> Standing:
-        """Return who has it."""
-        return standing(self._link.status, self._is_direct)
+        """Return who has it; one that was left is not ours, whatever the proxy still has to say."""
+        now = standing(self._link.status, self._is_direct)
+        if now is not Standing.OURS:
+            self._is_left = False
+        return Standing.LATER if self._is_left else now
 
     @property
     def holder(self) -> int | None:
@@ -47,12 +51,13 @@ class SeatAtProxy:
         self._link.request_seat()
 
     def give(self, to: int) -> None:
-        """Hand it to another ground."""
+        """Hand it to another ground; it stays ours where that one has gone."""
         self._link.give_seat(to)
 
     def release(self) -> None:
         """Leave it free."""
         self._unheard = 0
+        self._is_left = not self._is_direct
         status = self._link.status
         if status.seat is Seat.COMMAND and not status.is_holder_known and not self._is_direct:
             self._link.reconnect(Seat.LISTEN)
