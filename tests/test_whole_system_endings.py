@@ -33,7 +33,7 @@ def test_a_part_that_dies_is_told_with_its_log_and_without_the_page_it_flies_on(
     os.kill(child_with(showcase.process.pid, "serve"), signal.SIGKILL)
     wait(lambda: "The ground station for a browser is gone: " in showcase.said(), "its end is said")
     assert "it ended by itself with signal 9" in showcase.said()
-    assert "It flies on." in showcase.said()
+    assert "It flies on; this brings the page back: " in showcase.said()
     assert showcase.telemetry(1)[0]["armed"]
     os.kill(showcase.daemon_pid(), signal.SIGKILL)
     assert showcase.process.wait(20) == 1

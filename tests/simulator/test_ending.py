@@ -256,7 +256,8 @@ def test_a_showcase_takes_everything_along(in_a_folder, number):
             line = process.stdout.readline()
             assert line, told
             told += line
-        assert len(ours(in_a_folder)) == 4
+        # Itself, aircraft, proxy, daemon and the page.
+        assert len(ours(in_a_folder)) == 5
         process.send_signal(number)
         assert process.wait(LIMIT_S) == (-number if number == signal.SIGKILL else 0)
         wait(lambda: not ours(in_a_folder), "the end of everybody")

@@ -10,6 +10,8 @@ from mission_control_cog.hello import HELLO_MAX_BYTES, PREFIX
 from up.protocols.general_message_link import GeneralMessageProtocol
 from up.system.clock import Clock
 
+SILENT_S = 1.0
+"""A station that has said nothing for so long says no hello."""
 _WORD = re.compile(rb" (seat|token)=([a-z0-9]{1,64})(?= |$)")
 
 
@@ -31,6 +33,15 @@ class GroundConnection(GeneralMessageProtocol):
         self.token = ""
         self._on_hello = on_hello
         self._first: bytes | None = b""
+        self._made_s = clock.seconds()
+
+    @property
+    def is_known(self) -> bool:
+        """Return whether it has said hello, or will not: before, nothing may reach it.
+
+        The answer to a hello is the first that a station expects, as from a proxy.
+        """
+        return self._first is None or self._clock.seconds() - self._made_s >= SILENT_S
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
         """Take a hello where the first line is one, then messages."""

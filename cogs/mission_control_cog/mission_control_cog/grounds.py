@@ -64,11 +64,11 @@ class Grounds:
 
     def send(self, message: bytes) -> bool:
         """Send to every station in order; False: none took it."""
-        return any([station.send(message) for station in self._stations])
+        return any([each.send(message) for each in self._stations if each.is_known])
 
     def send_newest(self, message: bytes) -> bool:
         """Send to every station in place of what has not left."""
-        return any([station.send_newest(message) for station in self._stations])
+        return any([each.send_newest(message) for each in self._stations if each.is_known])
 
     async def close(self) -> None:
         """Close every connection."""

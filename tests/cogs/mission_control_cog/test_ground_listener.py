@@ -208,14 +208,19 @@ def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
 class Station:
     """A connection without a network: what the aircraft took of it."""
 
-    def __init__(self, grounds_, clock):
+    def __init__(self, grounds_, clock, handle=None):
         self.link = grounds_.build()
         self.wire = StringTransport()
         # What TCP has and this transport has not.
         self.wire.setTcpNoDelay = self.wire.setTcpKeepAlive = lambda on: None
-        self.wire.getHandle = lambda: socket.socket()
+        self.wire.getHandle = lambda: handle or socket.socket()
         self.clock = clock
         self.link.makeConnection(self.wire)
+
+    @property
+    def received(self):
+        self.link.output.resumeProducing()
+        return self.wire.value()
 
 
 class _Link:
@@ -284,6 +289,24 @@ def test_the_first_line_may_come_in_any_pieces(monkeypatch, sizes, hello):
         link.dataReceived(data)
     assert heard == ["1", "2"]
     assert greeted == ([(False, "ab" * 16)] if hello else [])
+
+
+def test_nothing_reaches_a_station_before_the_answer_to_its_hello():
+    clock = Clock()
+    all_ = virtual(clock, [])
+    with socket.socket() as handle:
+        station, silent = Station(all_, clock, handle), Station(all_, clock, handle)
+        assert not all_.send_newest(b"too early\n") and not all_.send(b"too early\n")
+        station.link.dataReceived(b"UP1 aircraft=a seat=com")
+        assert not all_.send_newest(b"too early\n")
+        station.link.dataReceived(b"mand\n")
+        assert all_.send(b"word\n")
+        assert station.received.startswith(b"UP1 ok ") and b"too early" not in station.received
+        assert silent.received == b""
+        # Who has said nothing for a second says no hello.
+        clock.advance(1.0)
+        assert all_.send(b"for all\n")
+        assert silent.received == b"for all\n"
 
 
 @pytest.mark.parametrize("text", ["", "listener: {port: }\n"])
