@@ -8,19 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from up.protocols.board_words import RESET_CAUSES, SWITCH_POSITIONS, VETOES
+
 TOPIC = "arduino.status"
-_SWITCH = {0: "low", 1: "middle", 2: "high"}
-_VETOES = (
-    "the throttle is not low",
-    "the receiver is invalid",
-    "the IMU is invalid",
-    "AUX2 is low",
-    "the Raspberry Pi vetoes",
-    "calibrating",
-    "the profile is invalid",
-    "a veto that this program does not know",
-)
-_RESET_CAUSES = ("power-on", "external", "brown-out", "watchdog")
 _RESTORED = 7
 ARMED, AT_AUTO, RECEIVER_VALID, IMU_VALID, FAILSAFE, BIAS_STORED, GAINS_STORED, PI_HEARD = range(8)
 """Bits of the flags."""
@@ -36,12 +26,12 @@ def has_bit(status: Mapping[str, Any], key: str, bit: int) -> bool | None:
 
 def vetoes_of(status: Mapping[str, Any]) -> list[str]:
     """Return what forbids arming, in words."""
-    return [name for bit, name in enumerate(_VETOES) if has_bit(status, "vetoes", bit)]
+    return [name for bit, name in enumerate(VETOES) if has_bit(status, "vetoes", bit)]
 
 
 def reset_causes_of(status: Mapping[str, Any]) -> str:
     """Return why the board started last, in words."""
-    named = [name for bit, name in enumerate(_RESET_CAUSES) if has_bit(status, "reset_cause", bit)]
+    named = [name for bit, name in enumerate(RESET_CAUSES) if has_bit(status, "reset_cause", bit)]
     if has_bit(status, "reset_cause", _RESTORED):
         named.append("state restored")
     return ", ".join(named) or "unknown"
@@ -51,7 +41,7 @@ def telemetry_of(status: Mapping[str, Any]) -> dict[str, Any]:
     """Return the ``arduino`` part of telemetry (docs/protocols.md 6), as far as a status goes."""
     switch = status.get("switch")
     return {
-        "switch": _SWITCH.get(switch) if isinstance(switch, int) else None,
+        "switch": SWITCH_POSITIONS.get(switch) if isinstance(switch, int) else None,
         "failsafe": has_bit(status, "flags", FAILSAFE),
         "loop_us": status.get("loop_us"),
         "late_us": status.get("late_us"),

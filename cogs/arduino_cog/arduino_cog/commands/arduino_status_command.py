@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
+from up.protocols.board_words import RESET_CAUSES, SWITCH_POSITIONS, VETOES
 
 STATUS = Struct(">6B7H")
 VERSION = 1
@@ -16,19 +17,7 @@ VERSION = 1
 _ARMED, _AT_AUTO, _RECEIVER, _IMU, _FAILSAFE, _BIAS_STORED, _GAINS_STORED, _HEARD = (
     1 << bit for bit in range(8)
 )
-SWITCH_POSITIONS = {0: "low", 1: "middle", 2: "high"}
-VETOES = (
-    "the throttle is not low",
-    "the receiver is invalid",
-    "the IMU is invalid",
-    "AUX2 is low",
-    "the Raspberry Pi vetoes",
-    "calibrating",
-    "the profile is invalid",
-    "a veto that this program does not know",
-)
 _PROFILE_INVALID = 1 << 6
-_RESET_CAUSES = ("power-on", "external", "brown-out", "watchdog")
 _RESTORED = 1 << 7
 _BYTE = 255
 _U16 = 65535
@@ -112,7 +101,7 @@ class ArduinoStatusCommand(BaseCommand):
     @property
     def reset_causes(self) -> str:
         """Return why the Arduino started last, in words."""
-        named = [name for bit, name in enumerate(_RESET_CAUSES) if self.reset_cause >> bit & 1]
+        named = [name for bit, name in enumerate(RESET_CAUSES) if self.reset_cause >> bit & 1]
         if self.reset_cause & _RESTORED:
             named.append("state restored")
         return ", ".join(named) or "unknown"
