@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.showcase import Showcase
+
 # A shell that starts something in the background lets it ignore Ctrl-C, and every program that it
 # starts as well: then none of the tests' own programs would end by it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -33,3 +35,10 @@ def short_path():
     folder = Path(tempfile.mkdtemp(prefix="upr-"))
     yield folder
     shutil.rmtree(folder, ignore_errors=True)
+
+
+@pytest.fixture(autouse=True)
+def no_showcase_is_left():
+    """End every `make run` that a test which failed has left in the air."""
+    yield
+    Showcase.end_all()

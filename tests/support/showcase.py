@@ -24,7 +24,9 @@ def wait(condition, what, limit_s=LIMIT_S):
 
 
 class Showcase:
-    """`make run` on any free ports, without the picture."""
+    """`make run` on any free ports, without the picture; ``end_all`` ends what a test left."""
+
+    started = []
 
     def __init__(self, folder, *options, path=None, **environment):
         self.folder = folder
@@ -38,6 +40,17 @@ class Showcase:
                 env={**os.environ, **self.state, "PATH": path or os.environ["PATH"],
                      **environment},
             )  # fmt: skip
+        self.started.append(self)
+
+    @classmethod
+    def end_all(cls):
+        while cls.started:
+            showcase = cls.started.pop()
+            try:
+                showcase.stop(signal.SIGTERM)
+            except subprocess.TimeoutExpired:
+                showcase.process.kill()
+                showcase.process.wait()
 
     def ready(self):
         wait(lambda: "Ctrl-C stops" in self.said() or self.process.poll() is not None, "start")
