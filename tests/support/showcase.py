@@ -24,7 +24,10 @@ def wait(condition, what, limit_s=LIMIT_S):
 
 
 class Showcase:
-    """`make run` on any free ports, without the picture; ``end_all`` ends what a test left."""
+    """`make run` on any free ports, without the picture; ``end_all`` ends what a test left.
+
+    ``started`` names every one of this process, for `end_all`.
+    """
 
     started = []
 
@@ -43,8 +46,9 @@ class Showcase:
         self.started.append(self)
 
     @classmethod
-    def end_all(cls):
-        while cls.started:
+    def end_all(cls, since):
+        """End those that were started after the first `since`: older ones belong to a module."""
+        while len(cls.started) > since:
             showcase = cls.started.pop()
             try:
                 showcase.stop(signal.SIGTERM)

@@ -9,7 +9,10 @@ from autobahn.twisted.websocket import WebSocketClientFactory, WebSocketClientPr
 from twisted.internet.endpoints import TCP4ClientEndpoint
 
 from tests.ground.aircraft import Ground
-from tests.support.reactor import reactor, until
+from tests.support.reactor import reactor, run_in_reactor, until
+
+MODE = "up.flight_mode.set"
+FBW = {"mode": "FBW"}
 
 
 class _Client(WebSocketClientProtocol):
@@ -142,3 +145,23 @@ def get(port, path, method="GET", **headers):
     except urllib.error.HTTPError as error:
         with error:
             return error.code, error.headers, error.read()
+
+
+def with_pages(server, look, *names):
+    """Run `look(*pages)`; the pages have said hello and watch the aircraft."""
+
+    async def run():
+        pages = [Page(server.port) for _ in names]
+        for page, name in zip(pages, names, strict=True):
+            await page.hello(name)
+        try:
+            return await look(*pages)
+        finally:
+            for page in pages:
+                await page.leave()
+
+    return run_in_reactor(run)
+
+
+def sent(aircraft, name=MODE):
+    return [each for each in aircraft.received if each["name"] == name]

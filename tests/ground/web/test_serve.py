@@ -1,54 +1,15 @@
 """`up-ground serve` as a whole: a real proxy, an aircraft, pages, other grounds."""
 
-import signal
-
-import pytest
-
-from tests.ground.aircraft import Aircraft, Ground, frame, ground, until
-from tests.ground.web.page import Page, Serve, get
+from tests.ground.aircraft import Aircraft, frame, until
+from tests.ground.web.page import FBW, MODE, Page, Serve, get, sent, with_pages
 from tests.proxy.program import Program
 from tests.support.reactor import run_in_reactor
 from tests.support.reactor import until as soon
-from up_ground.web.places import WATCHERS_LIMIT
 
-MODE = "up.flight_mode.set"
-FBW = {"mode": "FBW"}
 GAINS = {
     name: {axis: {"p": 1.0, "i": 0.5, "d": 0.0} for axis in ("ailerons", "elevator", "rudder")}
     for name in ("ratePIDs", "stabPIDs", "navPIDs")
 }
-
-
-def with_pages(server, look, *names):
-    """Run `look(*pages)`; the pages have said hello and watch the aircraft."""
-
-    async def run():
-        pages = [Page(server.port) for _ in names]
-        for page, name in zip(pages, names, strict=True):
-            await page.hello(name)
-        try:
-            return await look(*pages)
-        finally:
-            for page in pages:
-                await page.leave()
-
-    return run_in_reactor(run)
-
-
-def sent(aircraft, name=MODE):
-    return [each for each in aircraft.received if each["name"] == name]
-
-
-@pytest.fixture
-def aircraft(proxy):
-    with Aircraft(proxy.airborne_port) as aircraft:
-        yield aircraft
-
-
-@pytest.fixture
-def server(proxy, tmp_path):
-    with Serve(tmp_path, proxy.ground_port) as server:
-        yield server
 
 
 def test_a_page_sees_the_aircraft(aircraft, server):
@@ -222,91 +183,6 @@ def test_gains_are_asked_for_set_and_remembered(proxy, server):
         with_pages(server, fly, "pilot", "other")
 
 
-def test_a_page_asks_another_for_control(aircraft, server):
-    async def fly(first, second):
-        await first.control()
-        second.say("control", aircraft="default", action="request")
-        status = await first.status(lambda each: each["control"]["asks_you"])
-        assert status["control"]["asked_by"]["name"] == "second"
-        assert [each["name"] for each in status["control"]["pages"]] == ["first", "second"]
-        first.say("control", aircraft="default", action="give")
-        await second.status(lambda each: each["control"]["holder"] == "you")
-        status = await first.status(lambda each: each["control"]["holder"] == "page")
-        assert status["control"]["holder_name"] == "second"
-        assert (await second.command(MODE, FBW))["outcome"] == "ack"
-
-    with_pages(server, fly, "first", "second")
-
-
-def test_a_page_that_vanishes_keeps_control_for_a_moment(aircraft, server):
-    async def fly(page, other):
-        await page.control()
-        token = page.newest("welcome")["token"]
-        await page.leave()
-        other.say("control", aircraft="default", action="request")
-        again = Page(server.port)
-        welcome = await again.hello("pilot", token=token)
-        assert welcome["page"] == page.newest("welcome")["page"]
-        await again.status(lambda each: each["control"]["holder"] == "you")
-        assert (await again.command(MODE, FBW))["outcome"] == "ack"
-        await again.leave()
-        # Then it is free, and the page that asks gets it.
-        await other.status(lambda each: each["control"]["holder"] == "you")
-
-    with_pages(server, fly, "pilot", "other")
-
-
-def test_a_doubled_tab_is_another_page(aircraft, server):
-    async def fly(page):
-        await page.control()
-        twin = Page(server.port)
-        welcome = await twin.hello("twin", token=page.newest("welcome")["token"])
-        assert welcome["page"] != page.newest("welcome")["page"]
-        assert welcome["token"] != page.newest("welcome")["token"]
-        status = await twin.status(lambda each: each["control"]["holder"] == "page")
-        assert status["control"]["holder_name"] == "pilot"
-        await twin.leave()
-
-    with_pages(server, fly, "pilot")
-
-
-def test_the_seat_is_free_when_no_page_wants_it(aircraft, server, proxy, tmp_path):
-    async def fly(page):
-        await page.control()
-        page.say("control", aircraft="default", action="release")
-        await page.status(lambda each: each["control"]["holder"] == "nobody")
-
-    assert ground(tmp_path / "a", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
-    with_pages(server, fly, "pilot")
-    status, said, _ = ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")
-    assert (status, said[:3]) == (0, "ack")
-
-
-def test_two_grounds_ask_each_other(aircraft, server, proxy, tmp_path):
-    async def fly(page):
-        page.say("control", aircraft="default", action="request")
-        status = await page.status(lambda each: each["control"]["asked_by"])
-        assert status["control"]["asked_by"]["name"] == "pilot"
-        assert status["control"]["holder"] == "ground"
-        answer = await page.command(MODE, FBW)
-        assert answer["code"] == "no_control"
-        other.process.terminate()
-        await page.status(lambda each: each["control"]["holder"] == "you")
-
-    async def give(page):
-        await page.control()
-        with Ground(tmp_path / "c", proxy.ground_port, "seat", "request") as asking:
-            status = await page.status(lambda each: each["control"]["asks_you"])
-            assert status["control"]["asked_by"]["page"] is None
-            page.say("control", aircraft="default", action="give")
-            await soon(lambda: "commands now" in asking.said)
-
-    with Ground(tmp_path / "b", proxy.ground_port, "watch", "--seat", "command") as other:
-        other.expect("seat command")
-        with_pages(server, fly, "pilot")
-    with_pages(server, give, "pilot")
-
-
 def test_without_a_proxy_it_serves_says_so_and_comes_back(tmp_path):
     with Program(tmp_path / "a", "metrics: false\n") as first:
         ports = first.airborne_port, first.ground_port, None
@@ -386,113 +262,3 @@ def test_several_aircraft_are_kept_apart(proxy, tmp_path):
         ) as server,
     ):
         run_in_reactor(look, server.port)
-
-
-@pytest.mark.parametrize("arguments", [("--listen", "0.0.0.0:0"), ("--key", "a-good-key")])
-def test_who_has_no_key_only_watches(aircraft, proxy, tmp_path, arguments):
-    with Serve(tmp_path, proxy.ground_port, *arguments) as server:
-        key = server.said.split("#key=")[1].split()[0]
-
-        async def look(page):
-            assert page.newest("welcome")["may_control"] is False
-            assert "key" in page.newest("welcome")["why_not"]
-            await page.next("frame")
-            page.say("control", aircraft="default", action="request")
-            assert "only watch" in (await page.next("fault"))["text"]
-            answer = await page.command(MODE, FBW)
-            assert answer["code"] == "no_control"
-            for wrong in (key[:-1], key + "x", key.swapcase(), ""):
-                other = Page(server.port)
-                assert (await other.hello("x", key=wrong))["may_control"] is False
-                await other.leave()
-            pilot = Page(server.port)
-            assert (await pilot.hello("pilot", key=key))["may_control"] is True
-            await pilot.control()
-            await pilot.leave()
-
-        with_pages(server, look, "guest")
-
-
-def test_who_has_the_key_gets_in_where_watchers_have_filled_the_house(proxy, tmp_path):
-    with Serve(tmp_path, proxy.ground_port, "--key", "a-good-key") as server:
-
-        async def look(*watchers):
-            late = await Page(server.port).open()
-            late.say("hello", name="late")
-            await soon(lambda: late.is_closed, what="the end of a page too many")
-            assert (late.code, late.why) == (4013, "too many pages are open")
-            pilot = Page(server.port)
-            assert (await pilot.hello("pilot", key="a-good-key"))["may_control"] is True
-            assert not any(watcher.is_closed for watcher in watchers)
-            await pilot.leave()
-
-        with_pages(server, look, *(f"watcher {number}" for number in range(WATCHERS_LIMIT)))
-
-
-def test_watch_only_is_for_everybody(aircraft, proxy, tmp_path):
-    with Serve(tmp_path, proxy.ground_port, "--watch-only") as server:
-
-        async def look(page):
-            assert page.newest("welcome")["may_control"] is False
-            page.say("control", aircraft="default", action="request")
-            assert "--watch-only" in (await page.next("fault"))["text"]
-
-        with_pages(server, look, "guest")
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupt_ends_it_without_a_word(aircraft, proxy, tmp_path, number):
-    with Serve(tmp_path, proxy.ground_port) as server:
-
-        async def look(page):
-            await page.control()
-            server.process.send_signal(number)
-            await soon(lambda: page.is_closed)
-            assert page.code == 4001
-
-        with_pages(server, look, "pilot")
-        assert server.wait() == 0
-        assert server.complained == ""
-    # The seat was left: nobody waits for it.
-    assert ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (("--listen", "8080"), "is no ADDRESS:PORT"),
-        (("--listen", "example.com:80"), "no literal address"),
-        (("--listen", "127.0.0.1:70000"), "is no ADDRESS:PORT"),
-        (("--listen", "203.0.113.1:8080"), "cannot be opened"),
-        (("--aircraft", "a/b"), "NAME[@HOST:PORT[/direct]]"),
-        (("--aircraft", "a", "--aircraft", "a"), "given twice"),
-        (("--aircraft", "a@h:0"), "NAME[@HOST:PORT[/direct]]"),
-        (("--key", "short"), "8 to 64"),
-        (("--name", "a b"), "a name is"),
-        (("--tiles", "http://tiles.example/{z}/{x}.png"), "{y}"),
-        (("--tiles", "ftp://tiles.example/{z}/{x}/{y}.png"), "http"),
-    ],
-)
-def test_mistakes_in_the_command_line_are_one_sentence(tmp_path, arguments, sentence):
-    status, said, complained = ground(tmp_path, 1, "serve", *arguments)
-    assert status in (2, 3)
-    assert said == ""
-    assert sentence in complained
-
-
-def test_a_port_that_is_taken_is_a_sentence(server, tmp_path):
-    listen = f"127.0.0.1:{server.port}"
-    status, _, complained = ground(tmp_path, 1, "serve", "--listen", listen)
-    assert status == 3
-    assert complained == (
-        f"up-ground: {listen} cannot be opened: Address already in use"
-        " (--listen ADDRESS:PORT names another)\n"
-    )
-
-
-def test_help_teaches(tmp_path):
-    for verb in ("serve", "replay"):
-        status, said, _ = ground(tmp_path, 1, verb, "--help")
-        assert status == 0
-        assert "examples" in said
-        assert "--listen" in said

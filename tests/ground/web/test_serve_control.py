@@ -1,0 +1,90 @@
+"""Who has control, by a real server: pages, other grounds, the seat of a real proxy."""
+
+from tests.ground.aircraft import Ground, ground
+from tests.ground.web.page import FBW, MODE, Page, with_pages
+from tests.support.reactor import until as soon
+
+
+def test_a_page_asks_another_for_control(aircraft, server):
+    async def fly(first, second):
+        await first.control()
+        second.say("control", aircraft="default", action="request")
+        status = await first.status(lambda each: each["control"]["asks_you"])
+        assert status["control"]["asked_by"]["name"] == "second"
+        assert [each["name"] for each in status["control"]["pages"]] == ["first", "second"]
+        first.say("control", aircraft="default", action="give")
+        await second.status(lambda each: each["control"]["holder"] == "you")
+        status = await first.status(lambda each: each["control"]["holder"] == "page")
+        assert status["control"]["holder_name"] == "second"
+        assert (await second.command(MODE, FBW))["outcome"] == "ack"
+
+    with_pages(server, fly, "first", "second")
+
+
+def test_a_page_that_vanishes_keeps_control_for_a_moment(aircraft, server):
+    async def fly(page, other):
+        await page.control()
+        token = page.newest("welcome")["token"]
+        await page.leave()
+        other.say("control", aircraft="default", action="request")
+        again = Page(server.port)
+        welcome = await again.hello("pilot", token=token)
+        assert welcome["page"] == page.newest("welcome")["page"]
+        await again.status(lambda each: each["control"]["holder"] == "you")
+        assert (await again.command(MODE, FBW))["outcome"] == "ack"
+        await again.leave()
+        # Then it is free, and the page that asks gets it.
+        await other.status(lambda each: each["control"]["holder"] == "you")
+
+    with_pages(server, fly, "pilot", "other")
+
+
+def test_a_doubled_tab_is_another_page(aircraft, server):
+    async def fly(page):
+        await page.control()
+        twin = Page(server.port)
+        welcome = await twin.hello("twin", token=page.newest("welcome")["token"])
+        assert welcome["page"] != page.newest("welcome")["page"]
+        assert welcome["token"] != page.newest("welcome")["token"]
+        status = await twin.status(lambda each: each["control"]["holder"] == "page")
+        assert status["control"]["holder_name"] == "pilot"
+        await twin.leave()
+
+    with_pages(server, fly, "pilot")
+
+
+def test_the_seat_is_free_when_no_page_wants_it(aircraft, server, proxy, tmp_path):
+    async def fly(page):
+        await page.control()
+        page.say("control", aircraft="default", action="release")
+        await page.status(lambda each: each["control"]["holder"] == "nobody")
+
+    assert ground(tmp_path / "a", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
+    with_pages(server, fly, "pilot")
+    status, said, _ = ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")
+    assert (status, said[:3]) == (0, "ack")
+
+
+def test_two_grounds_ask_each_other(aircraft, server, proxy, tmp_path):
+    async def fly(page):
+        page.say("control", aircraft="default", action="request")
+        status = await page.status(lambda each: each["control"]["asked_by"])
+        assert status["control"]["asked_by"]["name"] == "pilot"
+        assert status["control"]["holder"] == "ground"
+        answer = await page.command(MODE, FBW)
+        assert answer["code"] == "no_control"
+        other.process.terminate()
+        await page.status(lambda each: each["control"]["holder"] == "you")
+
+    async def give(page):
+        await page.control()
+        with Ground(tmp_path / "c", proxy.ground_port, "seat", "request") as asking:
+            status = await page.status(lambda each: each["control"]["asks_you"])
+            assert status["control"]["asked_by"]["page"] is None
+            page.say("control", aircraft="default", action="give")
+            await soon(lambda: "commands now" in asking.said)
+
+    with Ground(tmp_path / "b", proxy.ground_port, "watch", "--seat", "command") as other:
+        other.expect("seat command")
+        with_pages(server, fly, "pilot")
+    with_pages(server, give, "pilot")

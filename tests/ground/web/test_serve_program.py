@@ -1,0 +1,120 @@
+"""`up-ground serve` as a program: keys, places, its end, its mistakes."""
+
+import signal
+
+import pytest
+
+from tests.ground.aircraft import ground
+from tests.ground.web.page import FBW, MODE, Page, Serve, with_pages
+from tests.support.reactor import until as soon
+from up_ground.web.places import WATCHERS_LIMIT
+
+
+@pytest.mark.parametrize("arguments", [("--listen", "0.0.0.0:0"), ("--key", "a-good-key")])
+def test_who_has_no_key_only_watches(aircraft, proxy, tmp_path, arguments):
+    with Serve(tmp_path, proxy.ground_port, *arguments) as server:
+        key = server.said.split("#key=")[1].split()[0]
+
+        async def look(page):
+            assert page.newest("welcome")["may_control"] is False
+            assert "key" in page.newest("welcome")["why_not"]
+            await page.next("frame")
+            page.say("control", aircraft="default", action="request")
+            assert "only watch" in (await page.next("fault"))["text"]
+            answer = await page.command(MODE, FBW)
+            assert answer["code"] == "no_control"
+            for wrong in (key[:-1], key + "x", key.swapcase(), ""):
+                other = Page(server.port)
+                assert (await other.hello("x", key=wrong))["may_control"] is False
+                await other.leave()
+            pilot = Page(server.port)
+            assert (await pilot.hello("pilot", key=key))["may_control"] is True
+            await pilot.control()
+            await pilot.leave()
+
+        with_pages(server, look, "guest")
+
+
+def test_who_has_the_key_gets_in_where_watchers_have_filled_the_house(proxy, tmp_path):
+    with Serve(tmp_path, proxy.ground_port, "--key", "a-good-key") as server:
+
+        async def look(*watchers):
+            late = await Page(server.port).open()
+            late.say("hello", name="late")
+            await soon(lambda: late.is_closed, what="the end of a page too many")
+            assert (late.code, late.why) == (4013, "too many pages are open")
+            pilot = Page(server.port)
+            assert (await pilot.hello("pilot", key="a-good-key"))["may_control"] is True
+            assert not any(watcher.is_closed for watcher in watchers)
+            await pilot.leave()
+
+        with_pages(server, look, *(f"watcher {number}" for number in range(WATCHERS_LIMIT)))
+
+
+def test_watch_only_is_for_everybody(aircraft, proxy, tmp_path):
+    with Serve(tmp_path, proxy.ground_port, "--watch-only") as server:
+
+        async def look(page):
+            assert page.newest("welcome")["may_control"] is False
+            page.say("control", aircraft="default", action="request")
+            assert "--watch-only" in (await page.next("fault"))["text"]
+
+        with_pages(server, look, "guest")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_ends_it_without_a_word(aircraft, proxy, tmp_path, number):
+    with Serve(tmp_path, proxy.ground_port) as server:
+
+        async def look(page):
+            await page.control()
+            server.process.send_signal(number)
+            await soon(lambda: page.is_closed)
+            assert page.code == 4001
+
+        with_pages(server, look, "pilot")
+        assert server.wait() == 0
+        assert server.complained == ""
+    # The seat was left: nobody waits for it.
+    assert ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--listen", "8080"), "is no ADDRESS:PORT"),
+        (("--listen", "example.com:80"), "no literal address"),
+        (("--listen", "127.0.0.1:70000"), "is no ADDRESS:PORT"),
+        (("--listen", "203.0.113.1:8080"), "cannot be opened"),
+        (("--aircraft", "a/b"), "NAME[@HOST:PORT[/direct]]"),
+        (("--aircraft", "a", "--aircraft", "a"), "given twice"),
+        (("--aircraft", "a@h:0"), "NAME[@HOST:PORT[/direct]]"),
+        (("--key", "short"), "8 to 64"),
+        (("--name", "a b"), "a name is"),
+        (("--tiles", "http://tiles.example/{z}/{x}.png"), "{y}"),
+        (("--tiles", "ftp://tiles.example/{z}/{x}/{y}.png"), "http"),
+    ],
+)
+def test_mistakes_in_the_command_line_are_one_sentence(tmp_path, arguments, sentence):
+    status, said, complained = ground(tmp_path, 1, "serve", *arguments)
+    assert status in (2, 3)
+    assert said == ""
+    assert sentence in complained
+
+
+def test_a_port_that_is_taken_is_a_sentence(server, tmp_path):
+    listen = f"127.0.0.1:{server.port}"
+    status, _, complained = ground(tmp_path, 1, "serve", "--listen", listen)
+    assert status == 3
+    assert complained == (
+        f"up-ground: {listen} cannot be opened: Address already in use"
+        " (--listen ADDRESS:PORT names another)\n"
+    )
+
+
+def test_help_teaches(tmp_path):
+    for verb in ("serve", "replay"):
+        status, said, _ = ground(tmp_path, 1, verb, "--help")
+        assert status == 0
+        assert "examples" in said
+        assert "--listen" in said
