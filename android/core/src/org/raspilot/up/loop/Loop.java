@@ -1,0 +1,26 @@
+package org.raspilot.up.loop;
+
+/**
+ * The one thread on which all of the core's state lives: what runs there needs no lock.
+ *
+ * <p>A call that throws is told to the loop's {@link FaultListener}, counted, and harms no other.
+ */
+public interface Loop {
+    /** Returns monotonic milliseconds from an arbitrary beginning; may be asked on any thread. */
+    long nowMs();
+
+    /** Runs {@code call} soon on the loop, calls in their order; may be called on any thread. */
+    void post(Runnable call);
+
+    /**
+     * Runs {@code call} on the loop after {@code delayMs} milliseconds, a negative delay being 0.
+     * Only on the loop.
+     */
+    Cancellable schedule(long delayMs, Runnable call);
+
+    /** Returns whether the calling thread is the loop. */
+    boolean isInLoop();
+
+    /** Returns the network whose listeners are called on this loop. */
+    Network network();
+}

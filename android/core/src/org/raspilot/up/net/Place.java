@@ -1,0 +1,66 @@
+package org.raspilot.up.net;
+
+/** Where a peer listens: a host, its General Message port and its orientation port. */
+public final class Place {
+    private final String host;
+    private final int generalPort;
+    private final int orientationPort;
+
+    /**
+     * Makes a place.
+     *
+     * @param host a name or an address
+     * @param generalPort TCP, 1 to 65535
+     * @param orientationPort TCP and UDP, 1 to 65535; 0: there is none
+     * @throws IllegalArgumentException with a sentence when the host is empty or a port is none
+     */
+    public Place(String host, int generalPort, int orientationPort) {
+        if (host == null || host.isEmpty()) {
+            throw new IllegalArgumentException("the host is empty");
+        }
+        if (generalPort < 1 || generalPort > 65535) {
+            throw new IllegalArgumentException("no port: " + generalPort);
+        }
+        if (orientationPort < 0 || orientationPort > 65535) {
+            throw new IllegalArgumentException("no port: " + orientationPort);
+        }
+        this.host = host;
+        this.generalPort = generalPort;
+        this.orientationPort = orientationPort;
+    }
+
+    /** Returns the name or address. */
+    public String host() {
+        return host;
+    }
+
+    /** Returns the General Message port. */
+    public int generalPort() {
+        return generalPort;
+    }
+
+    /** Returns the orientation port; 0: there is none. */
+    public int orientationPort() {
+        return orientationPort;
+    }
+
+    @Override
+    public boolean equals(Object other) {
+        if (!(other instanceof Place)) {
+            return false;
+        }
+        final Place place = (Place) other;
+        return host.equals(place.host) && generalPort == place.generalPort
+                && orientationPort == place.orientationPort;
+    }
+
+    @Override
+    public int hashCode() {
+        return (host.hashCode() * 31 + generalPort) * 31 + orientationPort;
+    }
+
+    @Override
+    public String toString() {
+        return host + ":" + generalPort + ":" + orientationPort;
+    }
+}

@@ -1,0 +1,21 @@
+package org.raspilot.up.net;
+
+import org.raspilot.up.loop.Cancellable;
+
+/** Searches that are over before they are returned. */
+final class Search {
+    /** A search that is over. */
+    static final Cancellable DONE = new Cancellable() {
+        @Override
+        public void cancel() {
+        }
+
+        @Override
+        public boolean isPending() {
+            return false;
+        }
+    };
+
+    private Search() {
+    }
+}

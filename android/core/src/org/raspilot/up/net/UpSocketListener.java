@@ -1,0 +1,24 @@
+package org.raspilot.up.net;
+
+/** Hears what comes over an {@link UpSocket}. Called on the loop. */
+public interface UpSocketListener {
+    /** Hears that a connection is there: what is sent now is sent first on it. */
+    void onConnected(UpSocket socket);
+
+    /**
+     * Takes what arrived: in line mode the first {@code length} bytes of {@code bytes} are one line
+     * that is not empty, without its end; in raw mode whatever came. The array is reused afterwards.
+     */
+    void onReceived(UpSocket socket, byte[] bytes, int length);
+
+    /**
+     * Hears that a connection which was there is lost; another is tried unless the socket was
+     * stopped.
+     *
+     * @param reason a sentence without a full stop
+     */
+    void onLost(UpSocket socket, String reason);
+
+    /** Hears that {@link UpSocket#status} changed, for a screen. */
+    void onStatus(UpSocket socket);
+}
