@@ -1,0 +1,299 @@
+package org.raspilot.up.airborne;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import org.raspilot.up.providers.Mounting;
+
+/**
+ * How the airborne side works; made by its {@link Builder}, whose {@code build()} judges it.
+ *
+ * <p>Ports and addresses are by default those of the Raspberry Pi's {@code android.yml},
+ * {@code discovery.yml} and {@code runner.yml}.
+ */
+public final class AirborneSettings {
+    private final AirborneMode mode;
+    private final String host;
+    private final int generalPort;
+    private final int orientationPort;
+    private final int discoveryPort;
+    private final List<String> discoveryHosts;
+    private final String runnerHost;
+    private final int runnerPort;
+    private final String aircraft;
+    private final String profile;
+    private final OrientationTransport orientation;
+    private final boolean redundantOrientation;
+    private final int orientationHz;
+    private final int locationPeriodMs;
+    private final int altitudePeriodMs;
+    private final int headingPeriodMs;
+    private final double referencePressureHPa;
+    private final double declinationDeg;
+    private final Mounting mounting;
+
+    private AirborneSettings(Builder builder) {
+        mode = builder.mode;
+        host = builder.host;
+        generalPort = builder.generalPort;
+        orientationPort = builder.orientationPort;
+        discoveryPort = builder.discoveryPort;
+        discoveryHosts = Collections.unmodifiableList(new ArrayList<String>(builder.discoveryHosts));
+        runnerHost = builder.runnerHost;
+        runnerPort = builder.runnerPort;
+        aircraft = builder.aircraft;
+        profile = builder.profile;
+        orientation = builder.orientation;
+        redundantOrientation = builder.redundantOrientation;
+        orientationHz = builder.orientationHz;
+        locationPeriodMs = builder.locationPeriodMs;
+        altitudePeriodMs = builder.altitudePeriodMs;
+        headingPeriodMs = builder.headingPeriodMs;
+        referencePressureHPa = builder.referencePressureHPa;
+        declinationDeg = builder.declinationDeg;
+        mounting = builder.mounting;
+    }
+
+    /** Returns who it speaks to. */
+    public AirborneMode mode() {
+        return mode;
+    }
+
+    /** Returns the Raspberry Pi's host; empty: Discovery. Flight Controller Mode only. */
+    public String host() {
+        return host;
+    }
+
+    /** Returns the Raspberry Pi's port for General Messages. */
+    public int generalPort() {
+        return generalPort;
+    }
+
+    /** Returns the Raspberry Pi's port for orientation. */
+    public int orientationPort() {
+        return orientationPort;
+    }
+
+    /** Returns the port of Discovery. */
+    public int discoveryPort() {
+        return discoveryPort;
+    }
+
+    /** Returns where Discovery asks; empty: 255.255.255.255 and every interface's own. */
+    public List<String> discoveryHosts() {
+        return discoveryHosts;
+    }
+
+    /** Returns the runner's host, Black Box Mode only. */
+    public String runnerHost() {
+        return runnerHost;
+    }
+
+    /** Returns the runner's port. */
+    public int runnerPort() {
+        return runnerPort;
+    }
+
+    /** Returns the aircraft's name for the runner; empty: none. */
+    public String aircraft() {
+        return aircraft;
+    }
+
+    /** Returns the runner's ready-made configuration; empty: none. */
+    public String profile() {
+        return profile;
+    }
+
+    /** Returns how orientation leaves. */
+    public OrientationTransport orientation() {
+        return orientation;
+    }
+
+    /** Returns whether orientation leaves in Flight Controller Mode too. */
+    public boolean redundantOrientation() {
+        return redundantOrientation;
+    }
+
+    /** Returns how often orientation leaves, Hz, 50 to 200. */
+    public int orientationHz() {
+        return orientationHz;
+    }
+
+    /** Returns how often the location leaves at most, ms. */
+    public int locationPeriodMs() {
+        return locationPeriodMs;
+    }
+
+    /** Returns how often altitude and heading leave at most, ms. */
+    public int altitudePeriodMs() {
+        return altitudePeriodMs;
+    }
+
+    /** Returns how often the heading leaves at most, ms. */
+    public int headingPeriodMs() {
+        return headingPeriodMs;
+    }
+
+    /** Returns the pressure at altitude zero, hPa. */
+    public double referencePressureHPa() {
+        return referencePressureHPa;
+    }
+
+    /** Returns degrees from magnetic to true north, east positive. */
+    public double declinationDeg() {
+        return declinationDeg;
+    }
+
+    /** Returns how the phone lies in the aeroplane. */
+    public Mounting mounting() {
+        return mounting;
+    }
+
+    /** Returns how orientation leaves in this mode: in Flight Controller Mode only by redundancy. */
+    public OrientationTransport orientationTransport() {
+        boolean isWanted = mode == AirborneMode.BLACK_BOX || redundantOrientation;
+        return isWanted ? orientation : OrientationTransport.OFF;
+    }
+
+    /** Collects settings; what is not set keeps its default. */
+    public static final class Builder {
+        private AirborneMode mode = AirborneMode.FLIGHT_CONTROLLER;
+        private String host = "";
+        private int generalPort = 50001;
+        private int orientationPort = 50000;
+        private int discoveryPort = 3001;
+        private List<String> discoveryHosts = new ArrayList<String>();
+        private String runnerHost = "";
+        private int runnerPort = 3002;
+        private String aircraft = "";
+        private String profile = "";
+        private OrientationTransport orientation = OrientationTransport.TCP;
+        private boolean redundantOrientation;
+        private int orientationHz = 50;
+        private int locationPeriodMs = 500;
+        private int altitudePeriodMs = 200;
+        private int headingPeriodMs = 200;
+        private double referencePressureHPa = 1013.25;
+        private double declinationDeg;
+        private Mounting mounting = Mounting.FLAT;
+
+        /** Sets who it speaks to. */
+        public Builder mode(AirborneMode value) {
+            mode = value;
+            return this;
+        }
+
+        /** Sets the Raspberry Pi's host; empty: Discovery. Flight Controller Mode only. */
+        public Builder host(String value) {
+            host = value;
+            return this;
+        }
+
+        /** Sets the Raspberry Pi's port for General Messages. */
+        public Builder generalPort(int value) {
+            generalPort = value;
+            return this;
+        }
+
+        /** Sets the Raspberry Pi's port for orientation. */
+        public Builder orientationPort(int value) {
+            orientationPort = value;
+            return this;
+        }
+
+        /** Sets the port of Discovery. */
+        public Builder discoveryPort(int value) {
+            discoveryPort = value;
+            return this;
+        }
+
+        /** Sets where Discovery asks; empty: 255.255.255.255 and every interface's own. */
+        public Builder discoveryHosts(List<String> value) {
+            discoveryHosts = value;
+            return this;
+        }
+
+        /** Sets the runner's host, Black Box Mode only. */
+        public Builder runnerHost(String value) {
+            runnerHost = value;
+            return this;
+        }
+
+        /** Sets the runner's port. */
+        public Builder runnerPort(int value) {
+            runnerPort = value;
+            return this;
+        }
+
+        /** Sets the aircraft's name for the runner; empty: none. */
+        public Builder aircraft(String value) {
+            aircraft = value;
+            return this;
+        }
+
+        /** Sets the runner's ready-made configuration; empty: none. */
+        public Builder profile(String value) {
+            profile = value;
+            return this;
+        }
+
+        /** Sets how orientation leaves. */
+        public Builder orientation(OrientationTransport value) {
+            orientation = value;
+            return this;
+        }
+
+        /** Sets whether orientation leaves in Flight Controller Mode too. */
+        public Builder redundantOrientation(boolean value) {
+            redundantOrientation = value;
+            return this;
+        }
+
+        /** Sets how often orientation leaves, Hz, 50 to 200. */
+        public Builder orientationHz(int value) {
+            orientationHz = value;
+            return this;
+        }
+
+        /** Sets how often the location leaves at most, ms. */
+        public Builder locationPeriodMs(int value) {
+            locationPeriodMs = value;
+            return this;
+        }
+
+        /** Sets how often altitude and heading leave at most, ms. */
+        public Builder altitudePeriodMs(int value) {
+            altitudePeriodMs = value;
+            return this;
+        }
+
+        /** Sets how often the heading leaves at most, ms. */
+        public Builder headingPeriodMs(int value) {
+            headingPeriodMs = value;
+            return this;
+        }
+
+        /** Sets the pressure at altitude zero, hPa. */
+        public Builder referencePressureHPa(double value) {
+            referencePressureHPa = value;
+            return this;
+        }
+
+        /** Sets degrees from magnetic to true north, east positive. */
+        public Builder declinationDeg(double value) {
+            declinationDeg = value;
+            return this;
+        }
+
+        /** Sets how the phone lies in the aeroplane. */
+        public Builder mounting(Mounting value) {
+            mounting = value;
+            return this;
+        }
+
+        /** Returns the settings; raises IllegalArgumentException with a sentence for the user. */
+        public AirborneSettings build() {
+            return new AirborneSettings(this);
+        }
+    }
+}

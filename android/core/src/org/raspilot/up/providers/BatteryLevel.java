@@ -1,0 +1,16 @@
+package org.raspilot.up.providers;
+
+/** How full the device's battery is. */
+public final class BatteryLevel {
+    private final double percent;
+
+    /** Keeps the value as it is; {@link BatteryProvider} judges it. */
+    public BatteryLevel(double percent) {
+        this.percent = percent;
+    }
+
+    /** Returns percent, 0 to 100. */
+    public double percent() {
+        return percent;
+    }
+}

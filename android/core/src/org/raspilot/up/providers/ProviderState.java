@@ -1,0 +1,15 @@
+package org.raspilot.up.providers;
+
+/** What a provider does now. */
+public enum ProviderState {
+    /** This device has no such sensor. */
+    ABSENT,
+    /** It was not started, or it was stopped. */
+    STOPPED,
+    /** It has no reading yet, or there is no link to send it on. */
+    WAITING,
+    /** Its readings leave. */
+    SENDING,
+    /** The sensor is there and has said nothing for longer than it may. */
+    SILENT
+}

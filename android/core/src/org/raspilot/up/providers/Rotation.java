@@ -1,0 +1,47 @@
+package org.raspilot.up.providers;
+
+/**
+ * How the device lies in the world: Android's rotation vector as a quaternion.
+ *
+ * <p>It turns a vector of the device (x to the right edge, y to the top edge, z out of the screen)
+ * into east, north, up. Source: Android's documentation of {@code TYPE_ROTATION_VECTOR}.
+ */
+public final class Rotation {
+    private final Quaternion deviceToWorld;
+    private final long timeMs;
+
+    /** Keeps w, x, y, z scaled to length one; raises IllegalArgumentException for no rotation. */
+    public Rotation(double w, double x, double y, double z, long timeMs) {
+        this(new Quaternion(w, x, y, z), timeMs);
+    }
+
+    /** Keeps the quaternion scaled to length one; raises IllegalArgumentException for no rotation. */
+    public Rotation(Quaternion deviceToWorld, long timeMs) {
+        this.deviceToWorld = deviceToWorld.unit();
+        this.timeMs = timeMs;
+    }
+
+    /**
+     * Returns the rotation of Android's three or four values of a rotation vector event.
+     *
+     * @param values x, y, z (each axis times the sine of half the angle) and, where there is a
+     *     fourth, w; older systems leave it out
+     */
+    public static Rotation ofVector(float[] values, long timeMs) {
+        double x = values[0];
+        double y = values[1];
+        double z = values[2];
+        double w = values.length > 3 ? values[3] : Math.sqrt(Math.max(0, 1 - x * x - y * y - z * z));
+        return new Rotation(w, x, y, z, timeMs);
+    }
+
+    /** Returns the unit quaternion, device to east-north-up. */
+    public Quaternion deviceToWorld() {
+        return deviceToWorld;
+    }
+
+    /** Returns when it was measured, ms of the sensor's or the loop's monotonic clock. */
+    public long timeMs() {
+        return timeMs;
+    }
+}
