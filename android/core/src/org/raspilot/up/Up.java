@@ -1,0 +1,82 @@
+package org.raspilot.up;
+
+import org.raspilot.up.commands.CommandExecutor;
+import org.raspilot.up.commands.CommandReceiver;
+import org.raspilot.up.commands.CommandRegistry;
+import org.raspilot.up.commands.HandlerFaultListener;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.ProvidersController;
+
+/**
+ * The Up Library as an application sees it: Commands, their handlers and the providers (thesis
+ * 4.5.2).
+ *
+ * <p>An Up is an ordinary object; {@link #getInstance} is the one that the process set up.
+ */
+public final class Up {
+    private static Up instance;
+
+    private final Loop loop;
+    private final CommandRegistry registry;
+    private final CommandExecutor executor;
+    private final CommandReceiver receiver;
+    private final ProvidersController providers;
+
+    /** Makes an Up on a loop; the listener is told of handlers that fail. */
+    public Up(Loop loop, ProvidersController providers, HandlerFaultListener faults) {
+        this.loop = loop;
+        this.providers = providers;
+        registry = CommandRegistry.builtin();
+        executor = new CommandExecutor(registry, faults);
+        receiver = new CommandReceiver(registry, executor, loop);
+    }
+
+    /**
+     * Returns the Up of this process.
+     *
+     * @throws IllegalStateException before {@link #setInstance}
+     */
+    public static synchronized Up getInstance() {
+        if (instance == null) {
+            throw new IllegalStateException("no Up was set up in this process");
+        }
+        return instance;
+    }
+
+    /**
+     * Makes an Up the one of this process; null takes it away.
+     *
+     * @throws IllegalStateException when another one is there
+     */
+    public static synchronized void setInstance(Up up) {
+        if (up != null && instance != null && instance != up) {
+            throw new IllegalStateException("this process has an Up already");
+        }
+        instance = up;
+    }
+
+    /** Returns the loop on which all of it lives. */
+    public Loop loop() {
+        return loop;
+    }
+
+    /** Returns where an application registers its own Commands. */
+    public CommandRegistry commandRegistry() {
+        return registry;
+    }
+
+    /** Returns where an application registers its handlers. */
+    public CommandExecutor commandExecutor() {
+        return executor;
+    }
+
+    /** Returns where links bring in what they receive. */
+    public CommandReceiver commandReceiver() {
+        return receiver;
+    }
+
+    /** Returns where an application registers its providers. */
+    public ProvidersController providersController() {
+        return providers;
+    }
+}

@@ -1,0 +1,51 @@
+package org.raspilot.up.commands;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/** The Command of an id was carried out. Source: docs/protocols.md 4. */
+public final class AckCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "up.ack";
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new AckCommand(message);
+        }
+    };
+
+    private final String commandId;
+
+    /**
+     * Makes the Command.
+     *
+     * @throws InvalidCommandException when a value is out of its range
+     */
+    public AckCommand(String commandId) {
+        this(new GeneralMessage(NAME, data(commandId)));
+    }
+
+    /**
+     * Reads the Command from a message.
+     *
+     * @throws InvalidCommandException with one sentence that names the field
+     */
+    public AckCommand(GeneralMessage message) {
+        super(NAME, message);
+        CommandFields fields = new CommandFields(message.data());
+        commandId = fields.text("id", GeneralMessage.LONGEST_ID);
+    }
+
+    /** Returns the id of the Command that is answered. */
+    public String commandId() {
+        return commandId;
+    }
+
+    private static Map<String, Object> data(String commandId) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("id", commandId);
+        return data;
+    }
+}

@@ -1,0 +1,65 @@
+package org.raspilot.up.commands;
+
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/**
+ * A named message between the parts of the system; subclasses give it types (thesis 4.1.4).
+ *
+ * <p>An application's own Command is a subclass with a constructor from a GeneralMessage and one
+ * registration of its {@link CommandReader}; it may as well be a plain BaseCommand.
+ */
+public class BaseCommand {
+    private final GeneralMessage message;
+
+    /** Makes a Command that wants no answer and carries no beacon. */
+    public BaseCommand(String name, Map<String, ?> data) {
+        this(new GeneralMessage(name, data));
+    }
+
+    /** Makes the Command that a message is; its fields are not looked at. */
+    public BaseCommand(GeneralMessage message) {
+        this.message = message;
+    }
+
+    /** Makes the Command that a message is, under the name that it has today. */
+    protected BaseCommand(String name, GeneralMessage message) {
+        this(name.equals(message.name()) ? message
+                : new GeneralMessage(name, message.data(), message.id(), message.beacon()));
+    }
+
+    /** Returns the name on the wire. */
+    public final String name() {
+        return message.name();
+    }
+
+    /** Returns the fields under their names on the wire, as JSON values; unmodifiable. */
+    public final Map<String, Object> data() {
+        return message.data();
+    }
+
+    /** Returns the id under which an answer is asked for, or null. */
+    public final String id() {
+        return message.id();
+    }
+
+    /** Returns the beacon that it carries, or null. */
+    public final Long beacon() {
+        return message.beacon();
+    }
+
+    /** Returns the message to send. */
+    public final GeneralMessage toMessage() {
+        return message;
+    }
+
+    /** Returns the message to send under another id and beacon; either may be null. */
+    public final GeneralMessage toMessage(String id, Long beacon) {
+        return new GeneralMessage(name(), data(), id, beacon);
+    }
+
+    @Override
+    public String toString() {
+        return name() + " " + data();
+    }
+}

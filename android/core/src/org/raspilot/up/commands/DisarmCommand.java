@@ -1,0 +1,29 @@
+package org.raspilot.up.commands;
+
+import java.util.Collections;
+import org.raspilot.up.wire.GeneralMessage;
+
+/**
+ * Disarms the motor; refused unless the throttle has been low for 2 s. Source: docs/protocols.md 5.
+ */
+public final class DisarmCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "up.disarm";
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new DisarmCommand(message);
+        }
+    };
+
+    /** Makes the Command. */
+    public DisarmCommand() {
+        this(new GeneralMessage(NAME, Collections.<String, Object>emptyMap()));
+    }
+
+    /** Reads the Command from a message; it has no fields. */
+    public DisarmCommand(GeneralMessage message) {
+        super(NAME, message);
+    }
+}

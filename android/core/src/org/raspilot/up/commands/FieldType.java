@@ -1,0 +1,34 @@
+package org.raspilot.up.commands;
+
+import java.util.Locale;
+
+/** What kind of value a field of a Command holds, as the catalogue calls it. */
+public enum FieldType {
+    /** True or false. */
+    BOOLEAN,
+    /** A whole number. */
+    INTEGER,
+    /** A number. */
+    NUMBER,
+    /** A text. */
+    TEXT,
+    /** An object of further fields; its contents are not described. */
+    OBJECT,
+    /** A list; its contents are not described. */
+    LIST;
+
+    /** Returns the word of the catalogue. */
+    public String word() {
+        return name().toLowerCase(Locale.ROOT);
+    }
+
+    /** Returns the type of a word, or null when it is none. */
+    public static FieldType ofWord(String word) {
+        for (FieldType type : values()) {
+            if (type.word().equals(word)) {
+                return type;
+            }
+        }
+        return null;
+    }
+}

@@ -1,0 +1,65 @@
+package org.raspilot.up.commands;
+
+import java.util.Arrays;
+import java.util.Collections;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/** A heading clockwise from north, measured or asked for. Source: docs/protocols.md 5. */
+public final class HeadingCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "up.heading.change";
+    /** What may be asked for. */
+    public static final List<String> MODES =
+            Collections.unmodifiableList(Arrays.asList("actual", "required"));
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new HeadingCommand(message);
+        }
+    };
+
+    private final double headingDeg;
+    private final String mode;
+
+    /**
+     * Makes the Command.
+     *
+     * @throws InvalidCommandException when a value is out of its range
+     */
+    public HeadingCommand(double headingDeg, String mode) {
+        this(new GeneralMessage(NAME, data(headingDeg, mode)));
+    }
+
+    /**
+     * Reads the Command from a message.
+     *
+     * @throws InvalidCommandException with one sentence that names the field
+     */
+    public HeadingCommand(GeneralMessage message) {
+        super(NAME, message);
+        CommandFields fields = new CommandFields(message.data());
+        headingDeg = fields.number("heading", -360, 360);
+        mode = fields.choice("mode", MODES);
+    }
+
+    /** Returns the heading in deg. */
+    public double headingDeg() {
+        return headingDeg;
+    }
+
+    /** Returns {@code actual} when it was measured, {@code required} when it is asked for. */
+    public String mode() {
+        return mode;
+    }
+
+    private static Map<String, Object> data(double headingDeg, String mode) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("heading", headingDeg);
+        data.put("mode", mode);
+        return data;
+    }
+}

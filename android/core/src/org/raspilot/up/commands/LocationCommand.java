@@ -1,0 +1,106 @@
+package org.raspilot.up.commands;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/**
+ * Where the aircraft is: a position from a satellite receiver, WGS 84. Source: docs/protocols.md 5.
+ */
+public final class LocationCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "up.location.update";
+    /** An older name of the same thing. */
+    public static final String ALIAS = "up.location.change";
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new LocationCommand(message);
+        }
+    };
+
+    private final double latitudeDeg;
+    private final double longitudeDeg;
+    private final Double altitudeM;
+    private final Double accuracyM;
+    private final Double speedMS;
+    private final Double bearingDeg;
+
+    /**
+     * Makes the Command; what is null is left out.
+     *
+     * @throws InvalidCommandException when a value is out of its range
+     */
+    public LocationCommand(double latitudeDeg, double longitudeDeg, Double altitudeM, Double
+            accuracyM, Double speedMS, Double bearingDeg) {
+        this(new GeneralMessage(NAME,
+                data(latitudeDeg, longitudeDeg, altitudeM, accuracyM, speedMS, bearingDeg)));
+    }
+
+    /**
+     * Reads the Command from a message.
+     *
+     * @throws InvalidCommandException with one sentence that names the field
+     */
+    public LocationCommand(GeneralMessage message) {
+        super(NAME, message);
+        CommandFields fields = new CommandFields(message.data());
+        latitudeDeg = fields.number("latitude", -90, 90);
+        longitudeDeg = fields.number("longitude", -180, 180);
+        altitudeM = fields.optionalNumber("altitude", -1000, 100000);
+        accuracyM = fields.optionalNumber("accuracy", 0, Double.MAX_VALUE);
+        speedMS = fields.optionalNumber("speed", 0, Double.MAX_VALUE);
+        bearingDeg = fields.optionalNumber("bearing", -360, 360);
+    }
+
+    /** Returns the latitude in deg. */
+    public double latitudeDeg() {
+        return latitudeDeg;
+    }
+
+    /** Returns the longitude in deg. */
+    public double longitudeDeg() {
+        return longitudeDeg;
+    }
+
+    /** Returns the altitude in m, or null. */
+    public Double altitudeM() {
+        return altitudeM;
+    }
+
+    /** Returns the accuracy in m, or null. */
+    public Double accuracyM() {
+        return accuracyM;
+    }
+
+    /** Returns the speed over ground in m/s, or null. */
+    public Double speedMS() {
+        return speedMS;
+    }
+
+    /** Returns the course over ground in deg, or null. */
+    public Double bearingDeg() {
+        return bearingDeg;
+    }
+
+    private static Map<String, Object> data(double latitudeDeg, double longitudeDeg, Double
+            altitudeM, Double accuracyM, Double speedMS, Double bearingDeg) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("latitude", latitudeDeg);
+        data.put("longitude", longitudeDeg);
+        if (altitudeM != null) {
+            data.put("altitude", altitudeM);
+        }
+        if (accuracyM != null) {
+            data.put("accuracy", accuracyM);
+        }
+        if (speedMS != null) {
+            data.put("speed", speedMS);
+        }
+        if (bearingDeg != null) {
+            data.put("bearing", bearingDeg);
+        }
+        return data;
+    }
+}

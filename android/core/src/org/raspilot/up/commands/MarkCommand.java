@@ -1,0 +1,51 @@
+package org.raspilot.up.commands;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/** A mark in the flight log, in the words of whoever sets it. Source: docs/protocols.md 5. */
+public final class MarkCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "black_box.mark";
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new MarkCommand(message);
+        }
+    };
+
+    private final String text;
+
+    /**
+     * Makes the Command.
+     *
+     * @throws InvalidCommandException when a value is out of its range
+     */
+    public MarkCommand(String text) {
+        this(new GeneralMessage(NAME, data(text)));
+    }
+
+    /**
+     * Reads the Command from a message.
+     *
+     * @throws InvalidCommandException with one sentence that names the field
+     */
+    public MarkCommand(GeneralMessage message) {
+        super(NAME, message);
+        CommandFields fields = new CommandFields(message.data());
+        text = fields.inkedText("text", 200);
+    }
+
+    /** Returns the text, 1 to 200 characters. */
+    public String text() {
+        return text;
+    }
+
+    private static Map<String, Object> data(String text) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("text", text);
+        return data;
+    }
+}

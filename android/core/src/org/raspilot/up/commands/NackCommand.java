@@ -1,0 +1,67 @@
+package org.raspilot.up.commands;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/** The Command of an id was not carried out, and why. Source: docs/protocols.md 4. */
+public final class NackCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "up.nack";
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new NackCommand(message);
+        }
+    };
+
+    private final String commandId;
+    private final String code;
+    private final String reason;
+
+    /**
+     * Makes the Command.
+     *
+     * @throws InvalidCommandException when a value is out of its range
+     */
+    public NackCommand(String commandId, String code, String reason) {
+        this(new GeneralMessage(NAME, data(commandId, code, reason)));
+    }
+
+    /**
+     * Reads the Command from a message.
+     *
+     * @throws InvalidCommandException with one sentence that names the field
+     */
+    public NackCommand(GeneralMessage message) {
+        super(NAME, message);
+        CommandFields fields = new CommandFields(message.data());
+        commandId = fields.text("id", GeneralMessage.LONGEST_ID);
+        code = fields.text("code", 32);
+        reason = fields.text("reason", 500, "");
+    }
+
+    /** Returns the id of the Command that is answered. */
+    public String commandId() {
+        return commandId;
+    }
+
+    /** Returns the code's word; see {@link NackCode#ofWord}, which knows those of today. */
+    public String code() {
+        return code;
+    }
+
+    /** Returns why, a sentence. */
+    public String reason() {
+        return reason;
+    }
+
+    private static Map<String, Object> data(String commandId, String code, String reason) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("id", commandId);
+        data.put("code", code);
+        data.put("reason", reason);
+        return data;
+    }
+}

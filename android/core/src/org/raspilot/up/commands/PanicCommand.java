@@ -1,0 +1,75 @@
+package org.raspilot.up.commands;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/**
+ * Enters or leaves Panic Mode: every sender keeps a period of at least {@link #delayMs}. Source:
+ * docs/protocols.md 5.
+ */
+public final class PanicCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "up.panic";
+    /** An older name of the same thing. */
+    public static final String ALIAS = "load_guard.panic";
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new PanicCommand(message);
+        }
+    };
+
+    private final boolean panic;
+    private final long delayMs;
+    private final Double utilizationPercent;
+
+    /**
+     * Makes the Command; what is null is left out.
+     *
+     * @throws InvalidCommandException when a value is out of its range
+     */
+    public PanicCommand(boolean panic, long delayMs, Double utilizationPercent) {
+        this(new GeneralMessage(NAME, data(panic, delayMs, utilizationPercent)));
+    }
+
+    /**
+     * Reads the Command from a message.
+     *
+     * @throws InvalidCommandException with one sentence that names the field
+     */
+    public PanicCommand(GeneralMessage message) {
+        super(NAME, message);
+        CommandFields fields = new CommandFields(message.data());
+        panic = fields.flag("panic");
+        delayMs = fields.whole("delay_ms", 10, 1000);
+        utilizationPercent = fields.optionalNumber("utilization", 0, 100);
+    }
+
+    /** Says whether Panic Mode holds. */
+    public boolean panic() {
+        return panic;
+    }
+
+    /** Returns the shortest period in ms. */
+    public long delayMs() {
+        return delayMs;
+    }
+
+    /** Returns the load in percent, or null. */
+    public Double utilizationPercent() {
+        return utilizationPercent;
+    }
+
+    private static Map<String, Object> data(boolean panic, long delayMs, Double utilizationPercent)
+            {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("panic", panic);
+        data.put("delay_ms", delayMs);
+        if (utilizationPercent != null) {
+            data.put("utilization", utilizationPercent);
+        }
+        return data;
+    }
+}

@@ -1,0 +1,63 @@
+package org.raspilot.up.commands;
+
+import java.util.Collections;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/** Asks for the gains, or sets all of them (thesis 4.2.4, docs/protocols.md 5). */
+public final class PidTuningsCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "arduino.pids.tunings";
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new PidTuningsCommand(message);
+        }
+    };
+
+    private final boolean isRequest;
+    private final GainSet gains;
+
+    /** Makes the Command that asks for the gains. */
+    public static PidTuningsCommand request() {
+        return new PidTuningsCommand(
+                new GeneralMessage(NAME, Collections.singletonMap("request", true)));
+    }
+
+    /**
+     * Makes the Command that sets the gains.
+     *
+     * @throws InvalidCommandException when a gain is out of its range
+     */
+    public PidTuningsCommand(GainSet gains) {
+        this(new GeneralMessage(NAME, Collections.singletonMap("pids", gains.toData())));
+    }
+
+    /**
+     * Reads the Command from a message; a set is taken whole or not at all.
+     *
+     * @throws InvalidCommandException with one sentence that names the place
+     */
+    public PidTuningsCommand(GeneralMessage message) {
+        super(NAME, message);
+        CommandFields fields = new CommandFields(message.data());
+        isRequest = Boolean.TRUE.equals(fields.optionalFlag("request"));
+        Map<String, Object> pids = fields.optionalObject("pids");
+        if (!isRequest && pids == null) {
+            throw new InvalidCommandException("either request or pids is needed");
+        }
+        gains = isRequest ? null : GainSet.ofData(new LinkedHashMap<String, Object>(pids));
+    }
+
+    /** Says whether it asks for the gains. */
+    public boolean isRequest() {
+        return isRequest;
+    }
+
+    /** Returns the set to fly with, or null when it asks for it. */
+    public GainSet gains() {
+        return gains;
+    }
+}

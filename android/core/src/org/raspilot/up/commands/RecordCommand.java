@@ -1,0 +1,61 @@
+package org.raspilot.up.commands;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/**
+ * An object that goes into the flight log under a topic of its own. Source: docs/protocols.md 5.
+ */
+public final class RecordCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "black_box.record";
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new RecordCommand(message);
+        }
+    };
+
+    private final String topic;
+    private final Map<String, Object> content;
+
+    /**
+     * Makes the Command.
+     *
+     * @throws InvalidCommandException when a value is out of its range
+     */
+    public RecordCommand(String topic, Map<String, Object> content) {
+        this(new GeneralMessage(NAME, data(topic, content)));
+    }
+
+    /**
+     * Reads the Command from a message.
+     *
+     * @throws InvalidCommandException with one sentence that names the field
+     */
+    public RecordCommand(GeneralMessage message) {
+        super(NAME, message);
+        CommandFields fields = new CommandFields(message.data());
+        topic = fields.topic("topic");
+        content = fields.object("content");
+    }
+
+    /** Returns the topic, words joined by dots. */
+    public String topic() {
+        return topic;
+    }
+
+    /** Returns what is recorded; at most 4 KiB as JSON. Unmodifiable. */
+    public Map<String, Object> content() {
+        return content;
+    }
+
+    private static Map<String, Object> data(String topic, Map<String, Object> content) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("topic", topic);
+        data.put("content", content);
+        return data;
+    }
+}

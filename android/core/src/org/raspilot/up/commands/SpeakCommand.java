@@ -1,0 +1,51 @@
+package org.raspilot.up.commands;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+
+/** Words that the airborne phone shall say aloud. Source: docs/protocols.md 5. */
+public final class SpeakCommand extends BaseCommand {
+    /** The name on the wire. */
+    public static final String NAME = "android.speak";
+    /** Reads the Command from a message. */
+    public static final CommandReader READER = new CommandReader() {
+        @Override
+        public BaseCommand read(GeneralMessage message) {
+            return new SpeakCommand(message);
+        }
+    };
+
+    private final String text;
+
+    /**
+     * Makes the Command.
+     *
+     * @throws InvalidCommandException when a value is out of its range
+     */
+    public SpeakCommand(String text) {
+        this(new GeneralMessage(NAME, data(text)));
+    }
+
+    /**
+     * Reads the Command from a message.
+     *
+     * @throws InvalidCommandException with one sentence that names the field
+     */
+    public SpeakCommand(GeneralMessage message) {
+        super(NAME, message);
+        CommandFields fields = new CommandFields(message.data());
+        text = fields.filledText("text", 200);
+    }
+
+    /** Returns the text, 1 to 200 characters. */
+    public String text() {
+        return text;
+    }
+
+    private static Map<String, Object> data(String text) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("text", text);
+        return data;
+    }
+}

@@ -1,0 +1,72 @@
+package org.raspilot.up.wire;
+
+/**
+ * A proxy's answer to a hello: taken in with a seat and a token, or refused.
+ *
+ * <p>Source: docs/protocols.md 9.
+ */
+public final class HelloAnswer {
+    private final String aircraft;
+    private final Seat seat;
+    private final String token;
+    private final String code;
+    private final String reason;
+
+    private HelloAnswer(String aircraft, Seat seat, String token, String code, String reason) {
+        this.aircraft = aircraft;
+        this.seat = seat;
+        this.token = token;
+        this.code = code;
+        this.reason = reason;
+    }
+
+    /** Makes the answer that takes somebody in. */
+    public static HelloAnswer accepted(String aircraft, Seat seat, String token) {
+        return new HelloAnswer(aircraft, seat, token, null, null);
+    }
+
+    /** Makes the answer that refuses, with one of the codes of the protocol and a sentence. */
+    public static HelloAnswer refused(String code, String reason) {
+        return new HelloAnswer(null, null, null, code, reason);
+    }
+
+    /** Says whether the hello was accepted. */
+    public boolean isAccepted() {
+        return code == null;
+    }
+
+    /** Returns the aircraft's name, or null when refused. */
+    public String aircraft() {
+        return aircraft;
+    }
+
+    /** Returns the seat that was given, or null when refused. */
+    public Seat seat() {
+        return seat;
+    }
+
+    /** Returns the token that resumes the seat, or null when refused. */
+    public String token() {
+        return token;
+    }
+
+    /** Returns {@code malformed taken full address token}, or null when accepted. */
+    public String code() {
+        return code;
+    }
+
+    /** Returns why it was refused, or null when accepted. */
+    public String reason() {
+        return reason;
+    }
+
+    /** Returns what a line without line end answers; null: it is no answer to a hello. */
+    public static HelloAnswer read(byte[] line, int length) {
+        return null;
+    }
+
+    /** Returns the line with its LF. */
+    public byte[] toLine() {
+        return new byte[0];
+    }
+}

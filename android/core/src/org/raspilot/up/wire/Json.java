@@ -1,0 +1,36 @@
+package org.raspilot.up.wire;
+
+/**
+ * JSON as the wire has it: read strictly, written as Python's {@code json} writes it.
+ *
+ * <p>An object is a {@code LinkedHashMap<String, Object>}, a list an {@code ArrayList<Object>},
+ * a text a String, a whole number a Long (a BigInteger beyond 64 bits, at most 20 characters), any
+ * other number a Double, and further Boolean and null. Source: docs/protocols.md 4.
+ */
+public final class Json {
+    /** How deep objects and lists may be nested; the outermost counts as one. */
+    public static final int DEEPEST_NESTING = 32;
+
+    private Json() {
+    }
+
+    /**
+     * Returns the one value that the text is.
+     *
+     * @throws MalformedException when it is not JSON, has NaN, infinity or a number beyond a
+     *     double, a key twice in one object, a lone surrogate, or is nested deeper than 32
+     */
+    public static Object parse(String text) throws MalformedException {
+        return new JsonReader(text).read();
+    }
+
+    /**
+     * Returns a value as ASCII text with the separators {@code ", "} and {@code ": "}.
+     *
+     * @throws IllegalArgumentException for NaN, infinity, a lone surrogate, what JSON cannot hold
+     *     and what is nested deeper than 32, naming its place
+     */
+    public static String write(Object value) {
+        return new JsonWriter().write(value);
+    }
+}

@@ -1,0 +1,103 @@
+package org.raspilot.up.wire;
+
+import java.nio.ByteBuffer;
+
+/**
+ * One frame of the Orientation Forward Protocol: attitude in deg and rates in deg/s.
+ *
+ * <p>Positive roll is right wing down, pitch nose up, yaw clockwise from above. Source:
+ * docs/protocols.md 3.
+ */
+public final class OrientationFrame {
+    /** Bytes of a frame. */
+    public static final int SIZE = 24;
+    /** Greatest magnitude of an angle. */
+    public static final float LARGEST_ANGLE_DEG = 360f;
+    /** Greatest magnitude of a rate. */
+    public static final float LARGEST_RATE_DEG_S = 4000f;
+
+    private final float rollDeg;
+    private final float pitchDeg;
+    private final float yawDeg;
+    private final float rollRateDegS;
+    private final float pitchRateDegS;
+    private final float yawRateDegS;
+
+    /** Makes a frame of any values; see {@link #isInRange}. */
+    public OrientationFrame(float rollDeg, float pitchDeg, float yawDeg, float rollRateDegS,
+            float pitchRateDegS, float yawRateDegS) {
+        this.rollDeg = rollDeg;
+        this.pitchDeg = pitchDeg;
+        this.yawDeg = yawDeg;
+        this.rollRateDegS = rollRateDegS;
+        this.pitchRateDegS = pitchRateDegS;
+        this.yawRateDegS = yawRateDegS;
+    }
+
+    /** Returns the roll in deg. */
+    public float rollDeg() {
+        return rollDeg;
+    }
+
+    /** Returns the pitch in deg. */
+    public float pitchDeg() {
+        return pitchDeg;
+    }
+
+    /** Returns the yaw in deg. */
+    public float yawDeg() {
+        return yawDeg;
+    }
+
+    /** Returns the roll rate in deg/s. */
+    public float rollRateDegS() {
+        return rollRateDegS;
+    }
+
+    /** Returns the pitch rate in deg/s. */
+    public float pitchRateDegS() {
+        return pitchRateDegS;
+    }
+
+    /** Returns the yaw rate in deg/s. */
+    public float yawRateDegS() {
+        return yawRateDegS;
+    }
+
+    /** Says whether a receiver takes it: all six finite and within their limits. */
+    public boolean isInRange() {
+        return isWithin(rollDeg, LARGEST_ANGLE_DEG)
+                && isWithin(pitchDeg, LARGEST_ANGLE_DEG)
+                && isWithin(yawDeg, LARGEST_ANGLE_DEG)
+                && isWithin(rollRateDegS, LARGEST_RATE_DEG_S)
+                && isWithin(pitchRateDegS, LARGEST_RATE_DEG_S)
+                && isWithin(yawRateDegS, LARGEST_RATE_DEG_S);
+    }
+
+    /** Returns the 24 bytes. */
+    public byte[] toBytes() {
+        return ByteBuffer.allocate(SIZE)
+                .putFloat(rollDeg).putFloat(pitchDeg).putFloat(yawDeg)
+                .putFloat(rollRateDegS).putFloat(pitchRateDegS).putFloat(yawRateDegS)
+                .array();
+    }
+
+    /**
+     * Returns the frame of a datagram or of 24 bytes of a stream; null: another length than 24,
+     * or a value that is not finite or out of range.
+     */
+    public static OrientationFrame read(byte[] bytes, int offset, int length) {
+        if (length != SIZE) {
+            return null;
+        }
+        ByteBuffer in = ByteBuffer.wrap(bytes, offset, length);
+        OrientationFrame frame = new OrientationFrame(in.getFloat(), in.getFloat(), in.getFloat(),
+                in.getFloat(), in.getFloat(), in.getFloat());
+        return frame.isInRange() ? frame : null;
+    }
+
+    private static boolean isWithin(float value, float limit) {
+        // NaN compares as false.
+        return -limit <= value && value <= limit;
+    }
+}

@@ -1,0 +1,32 @@
+package org.raspilot.up.wire;
+
+/** What a connection to the proxy is for (docs/protocols.md 9). */
+public enum Seat {
+    /** The ground that commands. */
+    COMMAND("command"),
+    /** A ground that only listens. */
+    LISTEN("listen"),
+    /** The aircraft itself; said by the proxy alone, never asked for. */
+    AIR("air");
+
+    private final String word;
+
+    Seat(String word) {
+        this.word = word;
+    }
+
+    /** Returns the word that stands on the wire. */
+    public String word() {
+        return word;
+    }
+
+    /** Returns the seat of a word, or null when it is none. */
+    public static Seat ofWord(String word) {
+        for (Seat seat : values()) {
+            if (seat.word.equals(word)) {
+                return seat;
+            }
+        }
+        return null;
+    }
+}
