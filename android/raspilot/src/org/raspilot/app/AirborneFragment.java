@@ -1,0 +1,7 @@
+package org.raspilot.app;
+
+import android.app.Fragment;
+
+/** The airborne screen. */
+public final class AirborneFragment extends Fragment {
+}

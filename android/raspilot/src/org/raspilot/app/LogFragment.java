@@ -1,0 +1,7 @@
+package org.raspilot.app;
+
+import android.app.Fragment;
+
+/** The log screen. */
+public final class LogFragment extends Fragment {
+}

@@ -1,0 +1,90 @@
+package org.raspilot.app;
+
+import android.app.Fragment;
+import org.raspilot.app.commands.CommandsFragment;
+import org.raspilot.app.ground.GroundFragment;
+
+/** What a tab shows: its title and the fragments in the two panes. */
+enum Screen {
+    AIRBORNE(R.string.screen_airborne, Part.AIRBORNE),
+    GROUND(R.string.screen_ground, Part.GROUND),
+    COMMANDS(R.string.screen_commands, Part.COMMANDS),
+    SETTINGS(R.string.screen_settings, Part.SETTINGS),
+    LOG(R.string.screen_log, Part.LOG);
+
+    /** A fragment and the pane that it lives in for as long as it lives. */
+    enum Part {
+        AIRBORNE(R.id.pane_first) {
+            @Override
+            Fragment make() {
+                return new AirborneFragment();
+            }
+        },
+        GROUND(R.id.pane_first) {
+            @Override
+            Fragment make() {
+                return new GroundFragment();
+            }
+        },
+        COMMANDS(R.id.pane_second) {
+            @Override
+            Fragment make() {
+                return new CommandsFragment();
+            }
+        },
+        SETTINGS(R.id.pane_first) {
+            @Override
+            Fragment make() {
+                return new SettingsFragment();
+            }
+        },
+        LOG(R.id.pane_first) {
+            @Override
+            Fragment make() {
+                return new LogFragment();
+            }
+        };
+
+        final int pane;
+
+        Part(int pane) {
+            this.pane = pane;
+        }
+
+        abstract Fragment make();
+    }
+
+    final int title;
+    private final Part part;
+
+    Screen(int title, Part part) {
+        this.title = title;
+        this.part = part;
+    }
+
+    /** Says whether a window with or without room for two panes has a tab for this. */
+    boolean hasTab(boolean isTwoPanes) {
+        return this != COMMANDS || !isTwoPanes;
+    }
+
+    /** Says whether a part is to be seen while this is chosen. */
+    boolean shows(Part other, boolean isTwoPanes) {
+        boolean isBeside = isTwoPanes && this == GROUND && other == Part.COMMANDS;
+        return other == part || isBeside;
+    }
+
+    /** Returns the screen that stands for this one in such a window. */
+    Screen in(boolean isTwoPanes) {
+        return hasTab(isTwoPanes) ? this : GROUND;
+    }
+
+    /** Returns the screen of a name, or the airborne one where no screen is called so. */
+    static Screen named(String name) {
+        for (Screen screen : values()) {
+            if (screen.name().equals(name)) {
+                return screen;
+            }
+        }
+        return AIRBORNE;
+    }
+}
