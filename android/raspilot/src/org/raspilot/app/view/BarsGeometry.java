@@ -1,0 +1,37 @@
+package org.raspilot.app.view;
+
+/** Where pulses of servos and sticks stand, from microseconds (docs/protocols.md, 6). */
+public final class BarsGeometry {
+    private static final float MIDDLE_US = 1500;
+    private static final float HALF_US = 500;
+    private static final float MOST = 1.1f;
+
+    private BarsGeometry() {
+    }
+
+    /**
+     * Returns where a pulse stands.
+     *
+     * @param pulseUs microseconds
+     * @return -1 at 1000 us, 0 at 1500 us, 1 at 2000 us, and never beyond 1.1
+     */
+    public static float share(double pulseUs) {
+        return Math.max(-MOST, Math.min(MOST, (float) (pulseUs - MIDDLE_US) / HALF_US));
+    }
+
+    /** Says whether a pulse lies outside of the scale of 1000 to 2000 us. */
+    public static boolean isBeyond(double pulseUs) {
+        return Math.abs(pulseUs - MIDDLE_US) > HALF_US;
+    }
+
+    /**
+     * Returns how far down from the middle of its gimbal a stick is drawn.
+     *
+     * @param pulseUs microseconds
+     * @param isElevator a pulled elevator (above 1500 us, nose up) is a stick drawn down
+     * @return -1.1 to 1.1 of half the gimbal
+     */
+    public static float stickDown(double pulseUs, boolean isElevator) {
+        return isElevator ? share(pulseUs) : -share(pulseUs);
+    }
+}

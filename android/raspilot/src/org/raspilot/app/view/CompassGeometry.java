@@ -1,0 +1,47 @@
+package org.raspilot.app.view;
+
+/** Directions on a compass, in degrees clockwise from north. */
+public final class CompassGeometry {
+    private static final String[] POINTS = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+
+    private CompassGeometry() {
+    }
+
+    /** Returns the same direction in 0 (included) to 360 (not included). */
+    public static float wrapped(float directionDeg) {
+        float rest = directionDeg % 360;
+        float positive = rest < 0 ? rest + 360 : rest;
+        return positive >= 360 ? 0 : positive;
+    }
+
+    /** Returns how far it is from one direction to another the short way, -180 to 180. */
+    public static float turn(float fromDeg, float toDeg) {
+        float turn = wrapped(toDeg - fromDeg);
+        return turn > 180 ? turn - 360 : turn;
+    }
+
+    /** Returns the direction in three figures, 000 to 359. */
+    public static String figures(float directionDeg) {
+        int whole = Math.round(wrapped(directionDeg)) % 360;
+        return (whole < 10 ? "00" : whole < 100 ? "0" : "") + whole;
+    }
+
+    /**
+     * Returns what stands at a mark of the scale.
+     *
+     * @param directionDeg a multiple of 15; any turn
+     * @return N, NE and so on each 45 degrees, tens of degrees each other 30, else empty
+     */
+    public static String label(int directionDeg) {
+        int whole = ((directionDeg % 360) + 360) % 360;
+        if (whole % 45 == 0) {
+            return POINTS[whole / 45];
+        }
+        return whole % 30 == 0 ? Integer.toString(whole) : "";
+    }
+
+    /** Returns the nearest of the eight points, as {@code NE}. */
+    public static String point(float directionDeg) {
+        return POINTS[Math.round(wrapped(directionDeg) / 45) % 8];
+    }
+}

@@ -1,0 +1,145 @@
+package org.raspilot.app.view;
+
+import android.content.Context;
+import android.graphics.Canvas;
+import android.graphics.Path;
+import android.util.AttributeSet;
+
+import org.raspilot.app.R;
+
+/** The heading on a lying tape, with the heading asked for and the way home. */
+public final class CompassView extends Instrument {
+    private static final int STEP_DEG = 5;
+    private static final int LABEL_EACH = 3;
+    private static final float MARK_DP = 13;
+
+    private final TapeGeometry geometry = new TapeGeometry(STEP_DEG);
+    private final String[] names = new String[360 / STEP_DEG / LABEL_EACH];
+    private final Path pointer = new Path();
+    private final Path bug = new Path();
+    private float headingDeg;
+    private float requiredDeg = Float.NaN;
+    private float homeDeg = Float.NaN;
+    private String figures = UNKNOWN;
+    private String requiredFigures = "";
+    private final String homeLetter;
+
+    /** Makes the view as a layout asks for it. */
+    public CompassView(Context context, AttributeSet attributes) {
+        super(context, attributes);
+        for (int each = 0; each < names.length; each++) {
+            names[each] = CompassGeometry.label(each * STEP_DEG * LABEL_EACH);
+        }
+        homeLetter = context.getString(R.string.view_home_letter);
+    }
+
+    /**
+     * Takes directions, degrees clockwise from north.
+     *
+     * @param heading where the nose points
+     * @param required the heading asked for; null: none
+     * @param home where home lies; null: not known
+     */
+    public void setHeading(double heading, Double required, Double home) {
+        float requiredNow = required == null ? Float.NaN : required.floatValue();
+        float homeNow = home == null ? Float.NaN : home.floatValue();
+        if (figures != UNKNOWN && (float) heading == headingDeg
+                && Float.compare(requiredNow, requiredDeg) == 0
+                && Float.compare(homeNow, homeDeg) == 0) {
+            return;
+        }
+        headingDeg = CompassGeometry.wrapped((float) heading);
+        requiredDeg = requiredNow;
+        homeDeg = homeNow;
+        figures = CompassGeometry.figures(headingDeg);
+        requiredFigures = required == null ? "" : CompassGeometry.figures(requiredNow);
+        invalidate();
+    }
+
+    @Override
+    protected void onSizeChanged(int width, int height, int oldWidth, int oldHeight) {
+        super.onSizeChanged(width, height, oldWidth, oldHeight);
+        geometry.resize(width, dp(MARK_DP));
+        pointer.reset();
+        pointer.moveTo(0, height - dp(2));
+        pointer.lineTo(-dp(7), height);
+        pointer.lineTo(0, height - dp(11));
+        pointer.lineTo(dp(7), height);
+        pointer.close();
+        bug.reset();
+        bug.moveTo(0, dp(10));
+        bug.lineTo(-dp(7), 0);
+        bug.lineTo(dp(7), 0);
+        bug.close();
+    }
+
+    @Override
+    protected void drawReadings(Canvas canvas) {
+        geometry.show(headingDeg);
+        canvas.save();
+        canvas.translate(getWidth() / 2f, 0);
+        for (int place = 0; place < geometry.count(); place++) {
+            drawMark(canvas, place);
+        }
+        drawHome(canvas);
+        drawBug(canvas);
+        canvas.drawPath(pointer, area(inks().ink));
+        drawWindow(canvas);
+        canvas.restore();
+    }
+
+    @Override
+    protected String describe() {
+        String point = CompassGeometry.point(headingDeg);
+        if (Float.isNaN(requiredDeg)) {
+            return getContext().getString(R.string.view_heading, figures, point);
+        }
+        return getContext().getString(R.string.view_heading_required, figures, point,
+                requiredFigures);
+    }
+
+    @Override
+    protected String name() {
+        return getContext().getString(R.string.view_heading_name);
+    }
+
+    private void drawMark(Canvas canvas, int place) {
+        float x = geometry.x(place);
+        boolean isLabelled = geometry.isEach(place, LABEL_EACH);
+        canvas.drawLine(x, 0, x, dp(isLabelled ? 10 : 6), line(inks().dim, 1.5f));
+        if (isLabelled) {
+            int of = (int) ((geometry.firstMark() + place) / LABEL_EACH);
+            int name = (of % names.length + names.length) % names.length;
+            centred(canvas, names[name], x, dp(10) + sp(9), 12, inks().dim);
+        }
+    }
+
+    private void drawWindow(Canvas canvas) {
+        float half = sp(21);
+        float top = getHeight() - dp(11) - sp(20);
+        canvas.drawRect(-half, top, half, top + sp(19), area(inks().ground));
+        centred(canvas, figures, 0, top + sp(9.5f), 17, inks().ink);
+    }
+
+    private void drawBug(Canvas canvas) {
+        if (!Float.isNaN(requiredDeg)) {
+            canvas.save();
+            canvas.translate(xOf(requiredDeg), 0);
+            canvas.drawPath(bug, area(inks().accent));
+            canvas.restore();
+        }
+    }
+
+    private void drawHome(Canvas canvas) {
+        if (!Float.isNaN(homeDeg)) {
+            centred(canvas, homeLetter, xOf(homeDeg), getHeight() - sp(9), 13, inks().good);
+        }
+    }
+
+    /** Where a direction is; one that lies beyond the picture stays at its edge. */
+    private float xOf(float directionDeg) {
+        float most = getWidth() / 2f - dp(8);
+        float turn = CompassGeometry.turn(headingDeg, directionDeg);
+        return Math.max(-most, Math.min(most, geometry.distance(turn, 0)));
+    }
+}

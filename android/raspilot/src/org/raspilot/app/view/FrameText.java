@@ -1,0 +1,60 @@
+package org.raspilot.app.view;
+
+import android.content.Context;
+import android.graphics.Canvas;
+import android.util.AttributeSet;
+import android.widget.TextView;
+
+/**
+ * Tells a frame of telemetry in a line, and tells when that line has really been drawn.
+ *
+ * <p>A Command echoes the beacon of the newest frame that its sender has seen; a screen that is
+ * hidden or hangs draws nothing, and so sees nothing.
+ */
+public final class FrameText extends TextView {
+    /** Hears that a frame was drawn; main thread, while drawing: it must not change views. */
+    public interface DrawnListener {
+        /** Takes the beacon of the frame that was drawn. */
+        void onDrawn(Long beacon);
+    }
+
+    private DrawnListener listener;
+    private Long waiting;
+
+    /** Makes the view as a layout asks for it. */
+    public FrameText(Context context, AttributeSet attributes) {
+        super(context, attributes);
+    }
+
+    /** Tells from now on this one only; null: nobody. */
+    public void setDrawnListener(DrawnListener newListener) {
+        listener = newListener;
+    }
+
+    /**
+     * Takes a frame.
+     *
+     * @param text what is shown
+     * @param beacon of the frame that the text tells; null: it tells none
+     */
+    public void setFrame(CharSequence text, Long beacon) {
+        if (!text.toString().contentEquals(getText())) {
+            setText(text);
+        }
+        waiting = beacon;
+        if (beacon != null) {
+            // The same words of another frame are another drawing.
+            invalidate();
+        }
+    }
+
+    @Override
+    protected void onDraw(Canvas canvas) {
+        super.onDraw(canvas);
+        Long drawn = waiting;
+        waiting = null;
+        if (drawn != null && listener != null) {
+            listener.onDrawn(drawn);
+        }
+    }
+}

@@ -1,0 +1,89 @@
+package org.raspilot.app.view;
+
+/**
+ * A press that does something only when it is held: idle, pressed, then done or void.
+ *
+ * <p>Nothing leads back to idle but letting go, so one press fires once, and a press that became
+ * void stays void however long it is still held. Times are milliseconds of one monotonic clock.
+ */
+public final class HeldPress {
+    /** How long a press must last. */
+    public static final long HOLD_MS = 1000;
+    /** Between two looks at the clock: a screen that hung must not fire when it wakes. */
+    public static final long LONGEST_LOOK_MS = 400;
+
+    /** What a press is. */
+    public enum State {
+        /** Nothing presses. */
+        IDLE,
+        /** It is held and the time runs. */
+        PRESSED,
+        /** It has lasted and has fired; it is still held. */
+        DONE,
+        /** It counts no more; it may still be held. */
+        VOID
+    }
+
+    private State state = State.IDLE;
+    private long beganMs;
+    private long lookedMs;
+
+    /** Returns what the press is now. */
+    public State state() {
+        return state;
+    }
+
+    /** Begins a press; one that is under way or void is not begun again. */
+    public void press(long nowMs) {
+        if (state == State.IDLE) {
+            state = State.PRESSED;
+            beganMs = nowMs;
+            lookedMs = nowMs;
+        }
+    }
+
+    /** Ends a press: what had not lasted long enough has done nothing. */
+    public void release() {
+        state = State.IDLE;
+    }
+
+    /** Makes a press under way count no more until it is let go. */
+    public void cancel() {
+        if (state == State.PRESSED) {
+            state = State.VOID;
+        }
+    }
+
+    /**
+     * Looks at the clock.
+     *
+     * @return true once, when the press has lasted
+     */
+    public boolean look(long nowMs) {
+        if (state != State.PRESSED) {
+            return false;
+        }
+        long sinceMs = nowMs - lookedMs;
+        lookedMs = nowMs;
+        if (sinceMs < 0 || sinceMs > LONGEST_LOOK_MS) {
+            state = State.VOID;
+            return false;
+        }
+        if (nowMs - beganMs < HOLD_MS) {
+            return false;
+        }
+        state = State.DONE;
+        return true;
+    }
+
+    /** Returns how much of the press is done, 0 to 1. */
+    public float progress(long nowMs) {
+        if (state == State.DONE) {
+            return 1;
+        }
+        if (state != State.PRESSED) {
+            return 0;
+        }
+        return Math.max(0, Math.min(1, (nowMs - beganMs) / (float) HOLD_MS));
+    }
+}

@@ -1,0 +1,80 @@
+package org.raspilot.app.view;
+
+import android.content.Context;
+import android.content.res.TypedArray;
+
+import org.raspilot.app.R;
+
+/** The colours of the instruments, from the theme's {@code instrumentStyle}; each an ARGB int. */
+public final class Inks {
+    /** Behind everything. */
+    public final int ground;
+    /** Numbers and needles. */
+    public final int ink;
+    /** What explains. */
+    public final int dim;
+    /** Grids and scales. */
+    public final int line;
+    /** Above the horizon. */
+    public final int sky;
+    /** Below the horizon. */
+    public final int earth;
+    /** The ladder upon sky and earth. */
+    public final int horizonInk;
+    /** What is asked for. */
+    public final int accent;
+    /** What is as it should be. */
+    public final int good;
+    /** What is old or needs a look. */
+    public final int warning;
+    /** What needs a hand now. */
+    public final int alarm;
+    /** Laid over what is old. */
+    public final int hatch;
+
+    private Inks(TypedArray has) {
+        ground = has.getColor(R.styleable.Instrument_instrumentGround, 0xff000000);
+        ink = has.getColor(R.styleable.Instrument_instrumentInk, 0xffffffff);
+        dim = has.getColor(R.styleable.Instrument_instrumentDim, 0xffa0a0a0);
+        line = has.getColor(R.styleable.Instrument_instrumentLine, 0xff606060);
+        sky = has.getColor(R.styleable.Instrument_instrumentSky, 0xff2060a0);
+        earth = has.getColor(R.styleable.Instrument_instrumentEarth, 0xff604020);
+        horizonInk = has.getColor(R.styleable.Instrument_instrumentHorizonInk, 0xffffffff);
+        accent = has.getColor(R.styleable.Instrument_instrumentAccent, 0xff60c0ff);
+        good = has.getColor(R.styleable.Instrument_instrumentGood, 0xff60c060);
+        warning = has.getColor(R.styleable.Instrument_instrumentWarning, 0xffffb030);
+        alarm = has.getColor(R.styleable.Instrument_instrumentAlarm, 0xffff6060);
+        hatch = has.getColor(R.styleable.Instrument_instrumentHatch, 0x66ffb030);
+    }
+
+    private Inks(Inks live) {
+        ground = live.ground;
+        ink = live.dim;
+        dim = live.dim;
+        line = live.line;
+        sky = Shades.between(Shades.grey(live.sky), live.ground, 0.4f);
+        earth = Shades.between(Shades.grey(live.earth), live.ground, 0.4f);
+        horizonInk = live.dim;
+        accent = live.dim;
+        good = live.dim;
+        warning = live.warning;
+        alarm = live.alarm;
+        hatch = live.hatch;
+    }
+
+    /** Returns the colours of the theme that a context has. */
+    public static Inks of(Context context) {
+        TypedArray has = context.obtainStyledAttributes(null, R.styleable.Instrument,
+                R.attr.instrumentStyle, R.style.Instrument_Dark);
+        try {
+            return new Inks(has);
+        } finally {
+            has.recycle();
+        }
+    }
+
+    /** Returns the colours in which the same thing is drawn when it is old: greys. */
+    public Inks stale() {
+        return new Inks(this);
+    }
+}

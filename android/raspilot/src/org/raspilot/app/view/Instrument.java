@@ -1,0 +1,214 @@
+package org.raspilot.app.view;
+
+import android.content.Context;
+import android.graphics.Canvas;
+import android.graphics.Paint;
+import android.graphics.Typeface;
+import android.util.AttributeSet;
+import android.view.View;
+import android.view.accessibility.AccessibilityEvent;
+import android.view.accessibility.AccessibilityNodeInfo;
+
+import org.raspilot.app.R;
+import org.raspilot.up.ground.Freshness;
+
+/**
+ * Something that shows readings of the aircraft, and never shows an old one as if it were of now.
+ *
+ * <p>What is stale is grey and hatched with its age upon it; what is not known is dashes. Drawing
+ * allocates nothing: texts are made when what they say changes. Main thread only.
+ */
+public abstract class Instrument extends View {
+    /** What stands where nothing is known. */
+    public static final String UNKNOWN = "--";
+    private static final float HATCH_STEP_DP = 9;
+
+    /** For lines and areas; a drawing sets what it needs. */
+    protected final Paint pen = new Paint(Paint.ANTI_ALIAS_FLAG);
+    /** For letters; a drawing sets what it needs. */
+    protected final Paint letters = new Paint(Paint.ANTI_ALIAS_FLAG);
+
+    private final float density;
+    private final float scaledDensity;
+    private final Inks liveInks;
+    private final Inks staleInks;
+    private Freshness freshness = Freshness.NONE;
+    private String age = "";
+    private float[] hatching = new float[0];
+
+    /** Makes the view as a layout asks for it. */
+    protected Instrument(Context context, AttributeSet attributes) {
+        super(context, attributes);
+        density = getResources().getDisplayMetrics().density;
+        scaledDensity = getResources().getDisplayMetrics().scaledDensity;
+        liveInks = Inks.of(context);
+        staleInks = liveInks.stale();
+        letters.setTypeface(Typeface.DEFAULT_BOLD);
+        if (getImportantForAccessibility() == IMPORTANT_FOR_ACCESSIBILITY_AUTO) {
+            setImportantForAccessibility(IMPORTANT_FOR_ACCESSIBILITY_YES);
+        }
+    }
+
+    /**
+     * Takes how old the readings are.
+     *
+     * @param now LIVE, STALE or NONE
+     * @param ageText how old, in words; said where the reading is stale
+     */
+    public final void setFreshness(Freshness now, String ageText) {
+        String shown = now == Freshness.STALE ? ageText : "";
+        if (now != freshness || !shown.equals(age)) {
+            freshness = now;
+            age = shown;
+            invalidate();
+        }
+    }
+
+    /** Returns how fresh what stands here is. */
+    public final Freshness freshness() {
+        return freshness;
+    }
+
+    /** Draws the readings; called only while something is known. */
+    protected abstract void drawReadings(Canvas canvas);
+
+    /** Draws what stands there without readings: the frame of the instrument. */
+    protected void drawEmpty(Canvas canvas) {
+        centred(canvas, UNKNOWN, getWidth() / 2f, getHeight() / 2f, 24, inks().dim);
+    }
+
+    /** Returns the readings in words for who cannot see them, without their age. */
+    protected abstract String describe();
+
+    /** Returns the colours of now: greys where the reading is stale. */
+    protected final Inks inks() {
+        return freshness == Freshness.LIVE ? liveInks : staleInks;
+    }
+
+    /** Returns so many density-independent pixels as pixels. */
+    protected final float dp(float count) {
+        return count * density;
+    }
+
+    /** Returns so many pixels of letters as pixels. */
+    protected final float sp(float count) {
+        return count * scaledDensity;
+    }
+
+    @Override
+    protected final void onDraw(Canvas canvas) {
+        canvas.drawColor(liveInks.ground);
+        if (freshness == Freshness.NONE) {
+            drawEmpty(canvas);
+            return;
+        }
+        drawReadings(canvas);
+        if (freshness == Freshness.STALE) {
+            drawAge(canvas);
+        }
+    }
+
+    @Override
+    protected void onSizeChanged(int width, int height, int oldWidth, int oldHeight) {
+        super.onSizeChanged(width, height, oldWidth, oldHeight);
+        float step = dp(HATCH_STEP_DP);
+        int count = (int) Math.ceil((width + height) / step);
+        float[] lines = new float[4 * count];
+        for (int each = 0; each < count; each++) {
+            float at = each * step;
+            lines[4 * each] = at;
+            lines[4 * each + 1] = 0;
+            lines[4 * each + 2] = at - height;
+            lines[4 * each + 3] = height;
+        }
+        hatching = lines;
+    }
+
+    @Override
+    public final CharSequence getContentDescription() {
+        switch (freshness) {
+            case LIVE:
+                return describe();
+            case STALE:
+                return getContext().getString(R.string.view_old, describe(), age);
+            default:
+                return getContext().getString(R.string.view_unknown, name());
+        }
+    }
+
+    /** Returns what this instrument is called. */
+    protected abstract String name();
+
+    @Override
+    public void onInitializeAccessibilityNodeInfo(AccessibilityNodeInfo info) {
+        super.onInitializeAccessibilityNodeInfo(info);
+        // Some versions read the field behind getContentDescription().
+        info.setContentDescription(getContentDescription());
+    }
+
+    @Override
+    public void onPopulateAccessibilityEvent(AccessibilityEvent event) {
+        super.onPopulateAccessibilityEvent(event);
+        event.getText().add(getContentDescription());
+    }
+
+    /** Draws letters around a point; the size in sp. */
+    protected final void centred(Canvas canvas, String text, float x, float y, float sizeSp,
+            int colour) {
+        letters.setTextAlign(Paint.Align.CENTER);
+        written(canvas, text, x, y, sizeSp, colour);
+    }
+
+    /** Draws letters that begin at a point, their middle at its height; the size in sp. */
+    protected final void after(Canvas canvas, String text, float x, float y, float sizeSp,
+            int colour) {
+        letters.setTextAlign(Paint.Align.LEFT);
+        written(canvas, text, x, y, sizeSp, colour);
+    }
+
+    /** Draws letters that end at a point, their middle at its height; the size in sp. */
+    protected final void before(Canvas canvas, String text, float x, float y, float sizeSp,
+            int colour) {
+        letters.setTextAlign(Paint.Align.RIGHT);
+        written(canvas, text, x, y, sizeSp, colour);
+    }
+
+    /** Makes the pen draw lines; the width in dp. */
+    protected final Paint line(int colour, float widthDp) {
+        pen.setStyle(Paint.Style.STROKE);
+        pen.setStrokeWidth(dp(widthDp));
+        pen.setColor(colour);
+        return pen;
+    }
+
+    /** Makes the pen fill areas. */
+    protected final Paint area(int colour) {
+        pen.setStyle(Paint.Style.FILL);
+        pen.setColor(colour);
+        return pen;
+    }
+
+    private void written(Canvas canvas, String text, float x, float y, float sizeSp, int colour) {
+        letters.setTextSize(sp(sizeSp));
+        letters.setColor(colour);
+        float middle = (letters.ascent() + letters.descent()) / 2;
+        canvas.drawText(text, x, y - middle, letters);
+    }
+
+    private void drawAge(Canvas canvas) {
+        canvas.drawLines(hatching, line(liveInks.hatch, 1.5f));
+        float size = sp(13);
+        float wide = Math.min(getWidth(), letterWidth(age, 13) + dp(8));
+        float x = getWidth() / 2f;
+        float y = getHeight() - size;
+        canvas.drawRect(x - wide / 2, y - size * 0.8f, x + wide / 2, y + size * 0.8f,
+                area(liveInks.ground));
+        centred(canvas, age, x, y, 13, liveInks.warning);
+    }
+
+    /** Returns how wide letters are, pixels; the size in sp. */
+    protected final float letterWidth(String text, float sizeSp) {
+        letters.setTextSize(sp(sizeSp));
+        return letters.measureText(text);
+    }
+}

@@ -1,0 +1,205 @@
+package org.raspilot.app.view;
+
+import android.content.Context;
+import android.content.res.TypedArray;
+import android.graphics.Canvas;
+import android.graphics.Path;
+import android.util.AttributeSet;
+
+import org.raspilot.app.R;
+import org.raspilot.up.ground.Freshness;
+
+/** A tape of numbers behind a window that shows the value itself: speed, altitude. */
+public final class TapeView extends Instrument {
+    private static final float MARK_DP = 14;
+    private static final float WINDOW_DP = 15;
+
+    private final TapeGeometry geometry;
+    private final String title;
+    private final String unit;
+    private final int labelEach;
+    private final boolean isLeft;
+    private final boolean hasLeast;
+    private final Path window = new Path();
+    private final Path bug = new Path();
+    private String[] labels = new String[0];
+    private long labelledFrom = Long.MIN_VALUE;
+    private float value;
+    private float required = Float.NaN;
+    private String valueText = UNKNOWN;
+    private String requiredText = "";
+
+    /** Makes the view as a layout asks for it, with the attributes of TapeView. */
+    public TapeView(Context context, AttributeSet attributes) {
+        super(context, attributes);
+        TypedArray has = context.obtainStyledAttributes(attributes, R.styleable.TapeView);
+        try {
+            title = textOf(has, R.styleable.TapeView_tapeTitle);
+            unit = textOf(has, R.styleable.TapeView_tapeUnit);
+            geometry = new TapeGeometry(has.getFloat(R.styleable.TapeView_tapeStep, 1));
+            labelEach = Math.max(1, has.getInt(R.styleable.TapeView_tapeLabelEach, 5));
+            isLeft = has.getBoolean(R.styleable.TapeView_tapeIsLeft, true);
+            hasLeast = has.getBoolean(R.styleable.TapeView_tapeHasLeast, false);
+        } finally {
+            has.recycle();
+        }
+    }
+
+    /**
+     * Takes a value.
+     *
+     * @param now in the tape's unit
+     * @param asked the value asked for; null: none
+     */
+    public void setValue(double now, Double asked) {
+        float askedNow = asked == null ? Float.NaN : asked.floatValue();
+        if ((float) now == value && Float.compare(askedNow, required) == 0
+                && valueText != UNKNOWN) {
+            return;
+        }
+        value = (float) now;
+        valueText = Long.toString(Math.round(now));
+        if (Float.compare(askedNow, required) != 0) {
+            required = askedNow;
+            requiredText = asked == null ? "" : Long.toString(Math.round(asked));
+        }
+        label();
+        invalidate();
+    }
+
+    @Override
+    protected void onSizeChanged(int width, int height, int oldWidth, int oldHeight) {
+        super.onSizeChanged(width, height, oldWidth, oldHeight);
+        geometry.resize(height, dp(MARK_DP));
+        labels = new String[geometry.count()];
+        labelledFrom = Long.MIN_VALUE;
+        label();
+        float half = dp(WINDOW_DP);
+        float edge = isLeft ? width : 0;
+        float back = isLeft ? width - dp(7) : dp(7);
+        float far = isLeft ? 0 : width;
+        window.reset();
+        window.moveTo(far, -half);
+        window.lineTo(back, -half);
+        window.lineTo(edge, 0);
+        window.lineTo(back, half);
+        window.lineTo(far, half);
+        window.close();
+        bug.reset();
+        bug.moveTo(edge, -dp(7));
+        bug.lineTo(isLeft ? edge - dp(8) : dp(8), 0);
+        bug.lineTo(edge, dp(7));
+        bug.close();
+    }
+
+    @Override
+    protected void drawReadings(Canvas canvas) {
+        canvas.save();
+        canvas.translate(0, getHeight() / 2f);
+        geometry.show(value);
+        for (int place = 0; place < labels.length; place++) {
+            drawMark(canvas, place);
+        }
+        drawBug(canvas);
+        canvas.drawPath(window, area(inks().ground));
+        canvas.drawPath(window, line(inks().ink, 1.5f));
+        centred(canvas, valueText, getWidth() / 2f, 0, 18, inks().ink);
+        canvas.restore();
+        drawCaps(canvas);
+    }
+
+    @Override
+    protected void drawEmpty(Canvas canvas) {
+        super.drawEmpty(canvas);
+        drawCaps(canvas);
+    }
+
+    @Override
+    protected String describe() {
+        if (Float.isNaN(required)) {
+            return getContext().getString(R.string.view_tape, title, valueText, unit);
+        }
+        return getContext().getString(R.string.view_tape_required, title, valueText, unit,
+                requiredText);
+    }
+
+    @Override
+    protected String name() {
+        return title;
+    }
+
+    private void drawMark(Canvas canvas, int place) {
+        if (labels[place] == null) {
+            return;
+        }
+        float y = geometry.y(place);
+        boolean isLabelled = labels[place].length() > 0;
+        float length = dp(isLabelled ? 8 : 4);
+        float edge = isLeft ? getWidth() : 0;
+        float inner = isLeft ? edge - length : length;
+        canvas.drawLine(edge, y, inner, y, line(inks().dim, 1.5f));
+        if (!isLabelled) {
+            return;
+        }
+        if (isLeft) {
+            before(canvas, labels[place], inner - dp(3), y, 12, inks().dim);
+        } else {
+            after(canvas, labels[place], inner + dp(3), y, 12, inks().dim);
+        }
+    }
+
+    private void drawBug(Canvas canvas) {
+        if (Float.isNaN(required)) {
+            return;
+        }
+        // What is asked for beyond the tape stays visible at its end.
+        float most = getHeight() / 2f - dp(8);
+        float y = Math.max(-most, Math.min(most, -geometry.distance(required, value)));
+        canvas.save();
+        canvas.translate(0, y);
+        canvas.drawPath(bug, area(inks().accent));
+        canvas.restore();
+    }
+
+    private void drawCaps(Canvas canvas) {
+        float high = sp(11) * 1.5f;
+        float middle = getWidth() / 2f;
+        canvas.drawRect(0, 0, getWidth(), high, area(inks().ground));
+        centred(canvas, title, middle, high / 2, 11, inks().dim);
+        if (freshness() == Freshness.STALE) {
+            return;
+        }
+        float foot = getHeight() - high;
+        canvas.drawRect(0, foot, getWidth(), getHeight(), area(inks().ground));
+        if (requiredText.length() > 0) {
+            centred(canvas, requiredText, middle, foot + high / 2, 11, inks().accent);
+        } else {
+            centred(canvas, unit, middle, foot + high / 2, 11, inks().dim);
+        }
+    }
+
+    /** Makes the labels anew when the tape has moved by a whole mark. */
+    private void label() {
+        geometry.show(value);
+        if (geometry.firstMark() == labelledFrom) {
+            return;
+        }
+        labelledFrom = geometry.firstMark();
+        for (int place = 0; place < labels.length; place++) {
+            labels[place] = labelOf(place);
+        }
+    }
+
+    private String labelOf(int place) {
+        if (hasLeast && geometry.value(place) < 0) {
+            return null;
+        }
+        return geometry.isEach(place, labelEach)
+                ? Integer.toString(Math.round(geometry.value(place))) : "";
+    }
+
+    private static String textOf(TypedArray has, int which) {
+        String text = has.getString(which);
+        return text == null ? "" : text;
+    }
+}

@@ -1,0 +1,166 @@
+package org.raspilot.app.view;
+
+/**
+ * How metres north and east of home become pixels of a picture with north up.
+ *
+ * <p>While nobody has moved it by hand it shows everything: home, the track and the aircraft. Not a
+ * map: a plane around home, which is right to a metre in a field and to a percent in 100 km.
+ */
+public final class TrackGeometry {
+    private static final double LEAST_PIXELS_PER_M = 1e-4;
+    private static final double MOST_PIXELS_PER_M = 40;
+    /** Nothing nearer than this is worth filling the picture with. */
+    private static final double LEAST_SPAN_M = 40;
+    private static final double MARGIN = 0.12;
+
+    private float width = 1;
+    private float height = 1;
+    private double northM;
+    private double eastM;
+    private double pixelsPerM = 1;
+    private boolean isAutomatic = true;
+
+    /** Takes the size of the picture, pixels. */
+    public void resize(float newWidth, float newHeight) {
+        width = Math.max(1, newWidth);
+        height = Math.max(1, newHeight);
+    }
+
+    /** Says whether the picture chooses its own part of the world. */
+    public boolean isAutomatic() {
+        return isAutomatic;
+    }
+
+    /** Leaves the choice to the picture again. */
+    public void follow() {
+        isAutomatic = true;
+    }
+
+    /**
+     * Shows all of a rectangle, unless somebody has moved the picture by hand.
+     *
+     * @param southM of home, as metres north: the least
+     * @param mostNorthM metres north of home: the greatest
+     * @param westM metres east of home: the least
+     * @param mostEastM metres east of home: the greatest
+     */
+    public void fit(double southM, double mostNorthM, double westM, double mostEastM) {
+        if (!isAutomatic) {
+            return;
+        }
+        northM = (southM + mostNorthM) / 2;
+        eastM = (westM + mostEastM) / 2;
+        double spanNorthM = Math.max(LEAST_SPAN_M, mostNorthM - southM);
+        double spanEastM = Math.max(LEAST_SPAN_M, mostEastM - westM);
+        double room = 1 - 2 * MARGIN;
+        scaleTo(Math.min(height * room / spanNorthM, width * room / spanEastM));
+    }
+
+    /** Moves the picture by a finger's way, pixels. */
+    public void drag(float rightPx, float downPx) {
+        isAutomatic = false;
+        eastM -= rightPx / pixelsPerM;
+        northM += downPx / pixelsPerM;
+    }
+
+    /**
+     * Makes the picture larger around a point that stays where it is.
+     *
+     * @param factor above 1 enlarges; not above 0 or no number: nothing happens
+     * @param x of the point, pixels
+     * @param y of the point, pixels
+     */
+    public void zoom(double factor, float x, float y) {
+        if (!(factor > 0) || Double.isInfinite(factor)) {
+            return;
+        }
+        isAutomatic = false;
+        double atEastM = eastAt(x);
+        double atNorthM = northAt(y);
+        scaleTo(pixelsPerM * factor);
+        eastM = atEastM - (x - width / 2) / pixelsPerM;
+        northM = atNorthM + (y - height / 2) / pixelsPerM;
+    }
+
+    /** Puts the picture where it was kept: see the getters. */
+    public void restore(double middleNorthM, double middleEastM, double scalePixelsPerM) {
+        isAutomatic = false;
+        northM = middleNorthM;
+        eastM = middleEastM;
+        scaleTo(scalePixelsPerM);
+    }
+
+    /** Returns metres north of home in the middle of the picture. */
+    public double middleNorthM() {
+        return northM;
+    }
+
+    /** Returns metres east of home in the middle of the picture. */
+    public double middleEastM() {
+        return eastM;
+    }
+
+    /** Returns the scale, pixels a metre. */
+    public double pixelsPerM() {
+        return pixelsPerM;
+    }
+
+    /** Returns where a place is drawn, pixels from the left. */
+    public float x(double placeEastM) {
+        return (float) (width / 2 + (placeEastM - eastM) * pixelsPerM);
+    }
+
+    /** Returns where a place is drawn, pixels from above. */
+    public float y(double placeNorthM) {
+        return (float) (height / 2 - (placeNorthM - northM) * pixelsPerM);
+    }
+
+    /** Returns metres east of home at so many pixels from the left. */
+    public double eastAt(float x) {
+        return eastM + (x - width / 2) / pixelsPerM;
+    }
+
+    /** Returns metres north of home at so many pixels from above. */
+    public double northAt(float y) {
+        return northM - (y - height / 2) / pixelsPerM;
+    }
+
+    /**
+     * Returns the distance between two lines of the grid, metres: 1, 2 or 5 times a power of ten.
+     *
+     * @param leastPx how many pixels must at least lie between two lines
+     */
+    public double gridStepM(float leastPx) {
+        double leastM = Math.max(1e-3, leastPx / pixelsPerM);
+        double power = Math.pow(10, Math.floor(Math.log10(leastM)));
+        double share = leastM / power;
+        double round = share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10;
+        return round * power;
+    }
+
+    /** Returns the first line of a grid that is not less than a place, metres. */
+    public static double firstLineM(double leastM, double stepM) {
+        return Math.ceil(leastM / stepM) * stepM;
+    }
+
+    /** Returns a distance in words: {@code 250 m}, {@code 2.5 km}. */
+    public static String distanceText(double metres) {
+        double away = Math.abs(metres);
+        if (away < 999.5) {
+            boolean isFine = away < 1 && away > 0;
+            return isFine ? tenths(away) + " m" : Math.round(away) + " m";
+        }
+        double km = away / 1000;
+        boolean isWhole = km >= 99.95 || Math.abs(km - Math.rint(km)) < 0.005;
+        return (isWhole ? Long.toString(Math.round(km)) : tenths(km)) + " km";
+    }
+
+    private static String tenths(double value) {
+        long tenths = Math.round(value * 10);
+        return tenths / 10 + "." + tenths % 10;
+    }
+
+    private void scaleTo(double wanted) {
+        pixelsPerM = Math.max(LEAST_PIXELS_PER_M, Math.min(MOST_PIXELS_PER_M, wanted));
+    }
+}
