@@ -1,0 +1,132 @@
+package org.raspilot.up.ground;
+
+import java.util.Collections;
+import java.util.HashMap;
+import java.util.Locale;
+import java.util.Map;
+
+/**
+ * How old a frame of telemetry and each of its readings is: on the aircraft, on the way, and since
+ * the frame came. Immutable; ask it with {@code nowMs} of the loop that received the frame, on any
+ * thread.
+ */
+public final class Age {
+    /** A frame that is older, ms, looks old on the screen before the second is over. */
+    public static final long SILENT_MS = 900;
+
+    private static final Map<String, Long> STALE_MS = new HashMap<String, Long>();
+
+    static {
+        // Sources that come once a second or more seldom are stale later than SILENT_MS.
+        STALE_MS.put("location", 1900L);
+        STALE_MS.put("altitude", 1900L);
+        STALE_MS.put("heading", 1900L);
+        STALE_MS.put("battery", 120000L);
+    }
+
+    private final boolean isKnown;
+    private final boolean isLinkLost;
+    private final long receivedMs;
+    private final long wayMs;
+    private final Map<String, Double> onBoardMs;
+
+    private Age(boolean isKnown, boolean isLinkLost, long receivedMs, long wayMs,
+            Map<String, Double> onBoardMs) {
+        this.isKnown = isKnown;
+        this.isLinkLost = isLinkLost;
+        this.receivedMs = receivedMs;
+        this.wayMs = wayMs;
+        this.onBoardMs = onBoardMs;
+    }
+
+    /** Returns the age of what was never heard: all is stale. */
+    static Age unknown() {
+        return new Age(false, true, 0, 0, Collections.<String, Double>emptyMap());
+    }
+
+    /**
+     * Returns the age of a frame that came at {@code receivedMs} after {@code wayMs}.
+     *
+     * @param onBoardMs the age of each reading when the frame was made, where it is known
+     */
+    static Age ofFrame(long receivedMs, long wayMs, Map<String, Double> onBoardMs) {
+        final Map<String, Double> copy = new HashMap<String, Double>(onBoardMs);
+        return new Age(true, false, receivedMs, Math.max(0, wayMs), copy);
+    }
+
+    /** Returns the same age after the link was lost: everything is stale from now on. */
+    Age ofLostLink() {
+        return new Age(isKnown, true, receivedMs, wayMs, onBoardMs);
+    }
+
+    /** Says whether the link that brought the frame is gone. */
+    public boolean isLinkLost() {
+        return isLinkLost;
+    }
+
+    /** Returns how long the frame was on its way, ms, as far as that is known. */
+    public long wayMs() {
+        return wayMs;
+    }
+
+    /** Returns the age of the frame with its way, ms; null: there was none. */
+    public Long frameMs(long nowMs) {
+        return isKnown ? Long.valueOf(Math.max(0, nowMs - receivedMs) + wayMs) : null;
+    }
+
+    /**
+     * Returns the age of a reading, ms: on the aircraft, on the way and since; null: not known.
+     *
+     * @param reading {@code orientation rx servo flight location altitude heading battery}
+     */
+    public Long readingMs(String reading, long nowMs) {
+        final Long frame = frameMs(nowMs);
+        final Double there = onBoardMs.get(reading);
+        if (frame == null || there == null) {
+            return null;
+        }
+        return frame + Math.round(Math.max(0.0, there));
+    }
+
+    /** Says whether nothing of the frame can be trusted to be of now. */
+    public boolean isSilent(long nowMs) {
+        final Long frame = frameMs(nowMs);
+        return isLinkLost || frame == null || frame > SILENT_MS;
+    }
+
+    /** Says whether frames come, but so late that they are as good as silence. */
+    public boolean isLate(long nowMs) {
+        return isKnown && !isLinkLost && wayMs > SILENT_MS && nowMs - receivedMs <= SILENT_MS;
+    }
+
+    /** Says whether a reading is too old to be flown by; one without an age is as its frame. */
+    public boolean isStale(String reading, long nowMs) {
+        if (isSilent(nowMs)) {
+            return true;
+        }
+        final Long age = readingMs(reading, nowMs);
+        final Long limit = STALE_MS.get(reading);
+        return age != null && age > (limit == null ? SILENT_MS : limit);
+    }
+
+    /**
+     * Returns an age in at most six characters: {@code 0.03 s}, {@code 12.4 s}, {@code 3 min},
+     * {@code 2 h}, {@code days}; null is {@code --}.
+     */
+    public static String text(Long ageMs) {
+        if (ageMs == null) {
+            return "--";
+        }
+        final double seconds = Math.max(0, ageMs) / 1000.0;
+        if (seconds < 9.995) {
+            return String.format(Locale.ROOT, "%.2f s", seconds);
+        }
+        if (seconds < 99.95) {
+            return String.format(Locale.ROOT, "%.1f s", seconds);
+        }
+        if (seconds < 3600) {
+            return Math.round(seconds / 60) + " min";
+        }
+        return seconds < 360000 ? Math.round(seconds / 3600) + " h" : "days";
+    }
+}

@@ -1,0 +1,73 @@
+package org.raspilot.up.ground;
+
+/** Something that is wrong now. Immutable. */
+public final class Alarm {
+    /** What is wrong; one alarm of each kind at most. */
+    public enum Kind {
+        /** No telemetry of now: the link, the aircraft or its sender is silent. */
+        SILENT,
+        /** The board flies without a receiver. */
+        FAILSAFE,
+        /** The receiver is lost. */
+        RECEIVER,
+        /** The board has no valid IMU. */
+        IMU,
+        /** The board is gone. */
+        BOARD,
+        /** The airborne phone is gone. */
+        PHONE,
+        /** Every sender slows down. */
+        PANIC,
+        /** The airborne phone's battery is low. */
+        BATTERY
+    }
+
+    private final Kind kind;
+    private final EventLevel level;
+    private final String text;
+
+    Alarm(Kind kind, EventLevel level, String text) {
+        this.kind = kind;
+        this.level = level;
+        this.text = text;
+    }
+
+    /** Returns what is wrong. */
+    public Kind kind() {
+        return kind;
+    }
+
+    /** Returns WARNING or ALARM. */
+    public EventLevel level() {
+        return level;
+    }
+
+    /** Returns what is wrong in words, safe to show. */
+    public String text() {
+        return text;
+    }
+
+    /** Says whether a phone should sound and vibrate for it. */
+    public boolean isLoud() {
+        return level == EventLevel.ALARM || kind == Kind.PANIC || kind == Kind.BATTERY;
+    }
+
+    @Override
+    public boolean equals(Object other) {
+        if (!(other instanceof Alarm)) {
+            return false;
+        }
+        final Alarm alarm = (Alarm) other;
+        return kind == alarm.kind && level == alarm.level && text.equals(alarm.text);
+    }
+
+    @Override
+    public int hashCode() {
+        return (kind.hashCode() * 31 + level.hashCode()) * 31 + text.hashCode();
+    }
+
+    @Override
+    public String toString() {
+        return level + " " + text;
+    }
+}

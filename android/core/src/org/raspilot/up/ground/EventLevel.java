@@ -1,0 +1,11 @@
+package org.raspilot.up.ground;
+
+/** How much an event or an alarm matters. */
+public enum EventLevel {
+    /** Good to know. */
+    INFO,
+    /** To be looked at. */
+    WARNING,
+    /** To be acted on at once. */
+    ALARM
+}

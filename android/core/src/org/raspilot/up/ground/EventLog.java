@@ -1,0 +1,62 @@
+package org.raspilot.up.ground;
+
+import java.util.ArrayDeque;
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+
+/** The newest events, the oldest of them going when there are too many. Only on the loop. */
+public final class EventLog {
+    /** So many events are kept. */
+    public static final int KEPT = 200;
+
+    private static final int LONGEST_TEXT = 400;
+
+    /** The events of a moment. Immutable. */
+    public static final class Snapshot {
+        private final long version;
+        private final List<Event> events;
+
+        Snapshot(long version, List<Event> events) {
+            this.version = version;
+            this.events = events;
+        }
+
+        /** Returns a number that rises with each change. */
+        public long version() {
+            return version;
+        }
+
+        /** Returns the events from the oldest to the newest, unmodifiable. */
+        public List<Event> events() {
+            return events;
+        }
+    }
+
+    private final ArrayDeque<Event> events = new ArrayDeque<Event>();
+    private long number;
+    private Snapshot snapshot = new Snapshot(0, Collections.<Event>emptyList());
+
+    /** Says that something happened; {@code kind} as in {@link Event#kind}. */
+    public void note(long atMs, EventLevel level, String kind, String text) {
+        number++;
+        events.add(new Event(number, atMs, level, kind, SafeText.of(text, LONGEST_TEXT)));
+        if (events.size() > KEPT) {
+            events.remove();
+        }
+    }
+
+    /** Returns the number of the newest event, 0 before the first. */
+    public long version() {
+        return number;
+    }
+
+    /** Returns the events of now. */
+    public Snapshot snapshot() {
+        if (snapshot.version() != number) {
+            snapshot = new Snapshot(number,
+                    Collections.unmodifiableList(new ArrayList<Event>(events)));
+        }
+        return snapshot;
+    }
+}

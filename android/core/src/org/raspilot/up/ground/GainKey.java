@@ -1,0 +1,96 @@
+package org.raspilot.up.ground;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import java.util.Locale;
+import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.commands.Gains;
+import org.raspilot.up.commands.LoopGains;
+
+/** Names one gain: loop, axis and term. Immutable. */
+public final class GainKey {
+    /** The loops under their names on the wire: rate, stabilize, navigation. */
+    public static final List<String> LOOPS = list("ratePIDs", "stabPIDs", "navPIDs");
+    /** The axes under their names on the wire. */
+    public static final List<String> AXES = list("ailerons", "elevator", "rudder");
+    /** The terms. */
+    public static final List<String> TERMS = list("p", "i", "d");
+    /** All 27 gains: loops, in them axes, in them terms. */
+    public static final List<GainKey> ALL = all();
+
+    private static final String[] LOOP_WORDS = {"rate", "stabilize", "navigation"};
+    private static final String[] AXIS_WORDS = {"roll", "pitch", "yaw"};
+
+    private final int loop;
+    private final int axis;
+    private final int term;
+
+    private GainKey(int loop, int axis, int term) {
+        this.loop = loop;
+        this.axis = axis;
+        this.term = term;
+    }
+
+    /** Returns the loop's name on the wire. */
+    public String loop() {
+        return LOOPS.get(loop);
+    }
+
+    /** Returns the axis' name on the wire. */
+    public String axis() {
+        return AXES.get(axis);
+    }
+
+    /** Returns {@code p}, {@code i} or {@code d}. */
+    public String term() {
+        return TERMS.get(term);
+    }
+
+    /** Returns {@code ratePIDs.ailerons.p}. */
+    public String path() {
+        return loop() + "." + axis() + "." + term();
+    }
+
+    /** Returns {@code rate roll P}. */
+    public String words() {
+        return LOOP_WORDS[loop] + " " + AXIS_WORDS[axis] + " " + term().toUpperCase(Locale.ROOT);
+    }
+
+    /** Returns this gain of a set; null: the set has none or is null. */
+    public Double of(GainSet set) {
+        if (set == null) {
+            return null;
+        }
+        final LoopGains inLoop =
+                loop == 0 ? set.rate() : loop == 1 ? set.stabilize() : set.navigation();
+        if (inLoop == null) {
+            return null;
+        }
+        final Gains gains =
+                axis == 0 ? inLoop.ailerons() : axis == 1 ? inLoop.elevator() : inLoop.rudder();
+        if (gains == null) {
+            return null;
+        }
+        return term == 0 ? gains.p() : term == 1 ? gains.i() : gains.d();
+    }
+
+    @Override
+    public String toString() {
+        return path();
+    }
+
+    private static List<GainKey> all() {
+        final List<GainKey> keys = new ArrayList<GainKey>();
+        for (int each = 0; each < 27; each++) {
+            keys.add(new GainKey(each / 9, each / 3 % 3, each % 3));
+        }
+        return Collections.unmodifiableList(keys);
+    }
+
+    private static List<String> list(String... words) {
+        final List<String> copy = new ArrayList<String>();
+        Collections.addAll(copy, words);
+        return Collections.unmodifiableList(copy);
+    }
+}

@@ -1,0 +1,100 @@
+package org.raspilot.up.ground;
+
+import org.raspilot.up.wire.Hello;
+import org.raspilot.up.wire.Seat;
+
+/** Whom a ground device talks to and as what; immutable and valid. */
+public final class GroundSettings {
+    /** The ground port of a Ground Station Proxy. */
+    public static final int PROXY_PORT = 3004;
+    /** The port of an aircraft's own listener. */
+    public static final int DIRECT_PORT = 50002;
+    /** The aircraft of a proxy when nobody names one. */
+    public static final String DEFAULT_AIRCRAFT = "default";
+
+    private static final int LONGEST_HOST = 253;
+
+    private final String host;
+    private final int port;
+    private final String aircraft;
+    private final Seat seat;
+    private final boolean isDirect;
+
+    /**
+     * Makes settings.
+     *
+     * @param host a name or address of the proxy or, {@code isDirect}, of the aircraft
+     * @param port TCP, 1 to 65535
+     * @param aircraft which of the proxy's aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}
+     * @param seat COMMAND or LISTEN: what is asked for when the link comes
+     * @param isDirect say no hello: an aircraft's listener in the same network
+     * @throws IllegalArgumentException with the sentence of {@link #fault}
+     */
+    public GroundSettings(String host, int port, String aircraft, Seat seat, boolean isDirect) {
+        final String fault = fault(host, port, aircraft);
+        if (fault != null) {
+            throw new IllegalArgumentException(fault);
+        }
+        if (seat != Seat.COMMAND && seat != Seat.LISTEN) {
+            throw new IllegalArgumentException("a ground commands or listens");
+        }
+        this.host = host.trim();
+        this.port = port;
+        this.aircraft = aircraft;
+        this.seat = seat;
+        this.isDirect = isDirect;
+    }
+
+    /** Returns a sentence that says what is wrong with these settings; null: nothing. */
+    public static String fault(String host, int port, String aircraft) {
+        final String name = host == null ? "" : host.trim();
+        if (name.isEmpty()) {
+            return "the host is empty";
+        }
+        if (name.length() > LONGEST_HOST || !name.matches("[A-Za-z0-9_.:%-]+")) {
+            return "the host is neither a name nor an address: " + SafeText.of(name, 60);
+        }
+        if (port < 1 || port > 65535) {
+            return "the port must be 1 to 65535, not " + port;
+        }
+        if (!Hello.isAircraftName(aircraft)) {
+            return "the aircraft's name must be 1 to 32 letters, digits, '_', '.' or '-'";
+        }
+        return null;
+    }
+
+    /** Returns the name or address of the other side. */
+    public String host() {
+        return host;
+    }
+
+    /** Returns its TCP port. */
+    public int port() {
+        return port;
+    }
+
+    /** Returns which of the proxy's aircraft. */
+    public String aircraft() {
+        return aircraft;
+    }
+
+    /** Returns the seat that is asked for at first, COMMAND or LISTEN. */
+    public Seat seat() {
+        return seat;
+    }
+
+    /** Says whether no hello is said. */
+    public boolean isDirect() {
+        return isDirect;
+    }
+
+    /** Returns host and port as people write them. */
+    public String address() {
+        return host.indexOf(':') >= 0 ? "[" + host + "]:" + port : host + ":" + port;
+    }
+
+    /** Returns under which name a {@link TokenStore} keeps the token of this aircraft there. */
+    public String tokenKey() {
+        return host + "_" + port + "_" + aircraft;
+    }
+}

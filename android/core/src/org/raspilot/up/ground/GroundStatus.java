@@ -1,0 +1,228 @@
+package org.raspilot.up.ground;
+
+import org.raspilot.up.wire.Seat;
+
+/** How it stands with link, seat and aircraft at a moment. Immutable. */
+public final class GroundStatus {
+    /** What a {@link GroundSide} fills in before it makes a status of it. */
+    static final class Draft {
+        LinkState link = LinkState.STOPPED;
+        long sinceMs;
+        String reason = "not started";
+        String rejection = "";
+        boolean isDirect;
+        Seat seat;
+        Integer holder;
+        boolean isHolderKnown;
+        Integer askedBy;
+        Boolean isAircraftOnline;
+        Double roundTripMs;
+        int failures;
+        Double rateHz;
+        boolean isSilent = true;
+        boolean isLate;
+        String role;
+        Boolean tuneInFlight;
+        Home home;
+        GroundCounters counters = new GroundCounters(0, 0, 0, 0, 0, 0, 0);
+    }
+
+    private final LinkState link;
+    private final long sinceMs;
+    private final String reason;
+    private final String rejection;
+    private final boolean isDirect;
+    private final Seat seat;
+    private final Integer holder;
+    private final boolean isHolderKnown;
+    private final Integer askedBy;
+    private final Boolean isAircraftOnline;
+    private final Double roundTripMs;
+    private final int failures;
+    private final Double rateHz;
+    private final boolean isSilent;
+    private final boolean isLate;
+    private final String role;
+    private final Boolean tuneInFlight;
+    private final Home home;
+    private final GroundCounters counters;
+
+    GroundStatus(Draft draft) {
+        link = draft.link;
+        sinceMs = draft.sinceMs;
+        reason = draft.reason;
+        rejection = draft.rejection;
+        isDirect = draft.isDirect;
+        seat = draft.seat;
+        holder = draft.holder;
+        isHolderKnown = draft.isHolderKnown;
+        askedBy = draft.askedBy;
+        isAircraftOnline = draft.isAircraftOnline;
+        roundTripMs = draft.roundTripMs;
+        failures = draft.failures;
+        rateHz = draft.rateHz;
+        isSilent = draft.isSilent;
+        isLate = draft.isLate;
+        role = draft.role;
+        tuneInFlight = draft.tuneInFlight;
+        home = draft.home;
+        counters = draft.counters;
+    }
+
+    /** Returns how far the link is. */
+    public LinkState link() {
+        return link;
+    }
+
+    /** Says whether messages can go now. */
+    public boolean isOpen() {
+        return link == LinkState.OPEN;
+    }
+
+    /** Returns since when the link is so, by the loop's clock, ms. */
+    public long sinceMs() {
+        return sinceMs;
+    }
+
+    /** Returns why there is no link, without a full stop; empty when it is open. */
+    public String reason() {
+        return reason;
+    }
+
+    /** Returns the code with which the proxy refused the hello (docs/protocols.md 9), or empty. */
+    public String rejection() {
+        return rejection;
+    }
+
+    /** Says whether the link goes straight to an aircraft: there are no seats then. */
+    public boolean isDirect() {
+        return isDirect;
+    }
+
+    /** Returns COMMAND or LISTEN; null: nobody told. */
+    public Seat seat() {
+        return seat;
+    }
+
+    /** Returns who has the seat. */
+    public SeatStanding standing() {
+        if (!isOpen()) {
+            return SeatStanding.UNKNOWN;
+        }
+        if (isDirect || seat == Seat.COMMAND) {
+            return SeatStanding.OURS;
+        }
+        if (!isHolderKnown) {
+            return SeatStanding.LATER;
+        }
+        return holder == null ? SeatStanding.FREE : SeatStanding.HELD;
+    }
+
+    /** Returns the number of the ground that commands; null: nobody, or not known. */
+    public Integer holder() {
+        return holder;
+    }
+
+    /** Returns the listener that asks for the seat that is held here; null: none. */
+    public Integer askedBy() {
+        return askedBy;
+    }
+
+    /** Says whether the proxy has the aircraft; null: nobody told. */
+    public Boolean isAircraftOnline() {
+        return isAircraftOnline;
+    }
+
+    /** Returns the time to the other side and back, ms, by hello or answer; null: not known. */
+    public Double roundTripMs() {
+        return roundTripMs;
+    }
+
+    /** Returns how many attempts failed since the last good connection. */
+    public int failures() {
+        return failures;
+    }
+
+    /** Returns how many frames come a second; null: too few, or none any more. */
+    public Double rateHz() {
+        return rateHz;
+    }
+
+    /** Says whether nothing that is shown can be trusted to be of now. */
+    public boolean isSilent() {
+        return isSilent;
+    }
+
+    /** Says whether telemetry comes, but as late as if there were none. */
+    public boolean isLate() {
+        return isLate;
+    }
+
+    /** Returns what a ground may do at this aircraft, as its telemetry says; null: not known. */
+    public String role() {
+        return role;
+    }
+
+    /** Says whether gains may be set in flight; null: not known. */
+    public Boolean tuneInFlight() {
+        return tuneInFlight;
+    }
+
+    /** Returns the aircraft's home; null: not known. */
+    public Home home() {
+        return home;
+    }
+
+    /** Returns what was counted. */
+    public GroundCounters counters() {
+        return counters;
+    }
+
+    /** Returns the state of link and aircraft for a pilot, without a full stop. */
+    public String linkSentence() {
+        switch (link) {
+            case STOPPED:
+                return "stopped";
+            case CONNECTING:
+                return reason.isEmpty() ? "connecting" : "connecting again: " + reason;
+            case WAITING:
+                return "no link: " + reason;
+            default:
+                return openSentence();
+        }
+    }
+
+    /** Returns who commands for a pilot, without a full stop. */
+    public String seatSentence() {
+        switch (standing()) {
+            case OURS:
+                if (isDirect) {
+                    return "a direct link: what is sent arrives";
+                }
+                return askedBy == null ? "you command"
+                        : "you command, ground " + askedBy + " asks for it";
+            case FREE:
+                return "nobody commands";
+            case HELD:
+                return "ground " + holder + " commands";
+            case LATER:
+                return "you listen";
+            default:
+                return "not known who commands";
+        }
+    }
+
+    private String openSentence() {
+        if (isAircraftOnline != null && !isAircraftOnline) {
+            return "the aircraft is not connected to the proxy";
+        }
+        if (isLate) {
+            return "telemetry comes too late";
+        }
+        if (isSilent) {
+            return counters.frames() == 0
+                    ? "connected, no telemetry yet" : "the aircraft is silent";
+        }
+        return "connected";
+    }
+}

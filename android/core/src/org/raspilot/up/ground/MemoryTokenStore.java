@@ -1,0 +1,24 @@
+package org.raspilot.up.ground;
+
+import java.util.HashMap;
+import java.util.Map;
+
+/** Keeps resume tokens as long as the program runs. Only on the loop. */
+public final class MemoryTokenStore implements TokenStore {
+    private final Map<String, String> tokens = new HashMap<String, String>();
+
+    @Override
+    public String load(String key) {
+        return tokens.get(key);
+    }
+
+    @Override
+    public void save(String key, String token) {
+        tokens.put(key, token);
+    }
+
+    @Override
+    public void forget(String key) {
+        tokens.remove(key);
+    }
+}

@@ -1,0 +1,226 @@
+package org.raspilot.up.ground;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+
+/**
+ * One frame of telemetry, read with suspicion: a field of a wrong type is a field not known.
+ *
+ * <p>Immutable, so that any thread may ask it. Paths are keys joined by dots, as
+ * {@code orientation.roll}; units are those of docs/protocols.md 6. Source: thesis 4.1.5.
+ */
+public final class Telemetry {
+    /** The Command that brings it. */
+    public static final String NAME = "up.telemetry.update";
+    /** What is known before the first frame came: nothing, and all of it stale. */
+    public static final Telemetry NOTHING = new Telemetry(
+            Collections.<String, Object>emptyMap(), null, 0, Age.unknown());
+
+    private static final double GREATEST = 1e12;
+    private static final int SHORT_TEXT = 40;
+    private static final int MOST_TEXTS = 32;
+    private static final int LONGEST_OF_TEXTS = 80;
+
+    private final Map<String, Object> tree;
+    private final Long beacon;
+    private final long receivedMs;
+    private final Age age;
+
+    private Telemetry(Map<String, Object> tree, Long beacon, long receivedMs, Age age) {
+        this.tree = tree;
+        this.beacon = beacon;
+        this.receivedMs = receivedMs;
+        this.age = age;
+    }
+
+    /**
+     * Makes a frame.
+     *
+     * @param data the Command's fields as JSON values; copied
+     * @param beacon the aircraft's number of the frame, or null
+     * @param receivedMs the loop's clock when it came
+     * @param wayMs how long it was on its way, as far as that is known
+     */
+    public static Telemetry of(Map<String, ?> data, Long beacon, long receivedMs, long wayMs) {
+        final Map<String, Object> tree = frozen(data);
+        final Telemetry bare = new Telemetry(tree, beacon, receivedMs, Age.unknown());
+        final Map<String, Double> ages = new LinkedHashMap<String, Double>();
+        final Map<String, Object> told = bare.object("age_ms");
+        if (told != null) {
+            for (String reading : told.keySet()) {
+                final Double ageMs = number(told.get(reading));
+                if (ageMs != null) {
+                    ages.put(reading, ageMs);
+                }
+            }
+        }
+        return new Telemetry(tree, beacon, receivedMs, Age.ofFrame(receivedMs, wayMs, ages));
+    }
+
+    /** Returns the same frame after its link was lost: everything in it is stale. */
+    Telemetry ofLostLink() {
+        return new Telemetry(tree, beacon, receivedMs, age.ofLostLink());
+    }
+
+    /** Returns all fields as JSON values, unmodifiable at each depth. */
+    public Map<String, Object> tree() {
+        return tree;
+    }
+
+    /** Returns the aircraft's number of the frame; null: it has none. */
+    public Long beacon() {
+        return beacon;
+    }
+
+    /** Returns the loop's clock when it came, ms. */
+    public long receivedMs() {
+        return receivedMs;
+    }
+
+    /** Returns how old it is. */
+    public Age age() {
+        return age;
+    }
+
+    /** Returns the age of the frame with its way, ms; null: there was none. */
+    public Long ageMs(long nowMs) {
+        return age.frameMs(nowMs);
+    }
+
+    /** Returns the age of a reading ({@link Age#readingMs}), ms; null: not known. */
+    public Long readingAgeMs(String reading, long nowMs) {
+        return age.readingMs(reading, nowMs);
+    }
+
+    /** Says whether nothing on the screen can be trusted to be of now. */
+    public boolean isSilent(long nowMs) {
+        return age.isSilent(nowMs);
+    }
+
+    /** Returns whether the value at a path may be flown by now. */
+    public Freshness freshness(String path, long nowMs) {
+        if (at(path) == null) {
+            return Freshness.NONE;
+        }
+        return age.isStale(readingOf(path), nowMs) ? Freshness.STALE : Freshness.LIVE;
+    }
+
+    /** Returns which reading's age the value at a path has; its frame's where there is none. */
+    public static String readingOf(String path) {
+        final int dot = path.indexOf('.');
+        final String first = dot < 0 ? path : path.substring(0, dot);
+        if (first.equals("rates")) {
+            return "orientation";
+        }
+        if (first.equals("home")) {
+            return "location";
+        }
+        if (first.equals("armed") || first.equals("flight_mode") || first.equals("arduino")) {
+            return path.equals("arduino.connected") ? path : "flight";
+        }
+        if (path.equals("android.batteryLevel")) {
+            return "battery";
+        }
+        return first;
+    }
+
+    /** Returns the finite number at a path; null: absent, null or something else. */
+    public Double number(String path) {
+        return number(at(path));
+    }
+
+    /** Returns true or false at a path; null: not known. */
+    public Boolean flag(String path) {
+        final Object found = at(path);
+        return found instanceof Boolean ? (Boolean) found : null;
+    }
+
+    /** Returns the text at a path, of at most 40 characters, safe to show; null: not known. */
+    public String text(String path) {
+        return text(path, SHORT_TEXT);
+    }
+
+    /** Returns the text at a path, of at most {@code limit} characters; null: not known. */
+    public String text(String path, int limit) {
+        final Object found = at(path);
+        return found instanceof String ? SafeText.of((String) found, limit) : null;
+    }
+
+    /** Returns the texts of a list, safe to show, at most 32; null: there is no list. */
+    public List<String> texts(String path) {
+        final List<Object> found = list(path);
+        if (found == null) {
+            return null;
+        }
+        final List<String> texts = new ArrayList<String>();
+        for (Object each : found) {
+            if (each instanceof String && texts.size() < MOST_TEXTS) {
+                texts.add(SafeText.of((String) each, LONGEST_OF_TEXTS));
+            }
+        }
+        return Collections.unmodifiableList(texts);
+    }
+
+    /** Returns the list at a path as it came, unmodifiable; null: there is none. */
+    @SuppressWarnings("unchecked")
+    public List<Object> list(String path) {
+        final Object found = at(path);
+        return found instanceof List ? (List<Object>) found : null;
+    }
+
+    /** Returns the object at a path as it came, unmodifiable; null: there is none. */
+    @SuppressWarnings("unchecked")
+    public Map<String, Object> object(String path) {
+        final Object found = at(path);
+        return found instanceof Map ? (Map<String, Object>) found : null;
+    }
+
+    private Object at(String path) {
+        Object found = tree;
+        int begin = 0;
+        while (begin <= path.length()) {
+            final int dot = path.indexOf('.', begin);
+            final int end = dot < 0 ? path.length() : dot;
+            if (!(found instanceof Map)) {
+                return null;
+            }
+            found = ((Map<?, ?>) found).get(path.substring(begin, end));
+            begin = end + 1;
+        }
+        return found;
+    }
+
+    private static Double number(Object found) {
+        if (!(found instanceof Number)) {
+            return null;
+        }
+        final double value = ((Number) found).doubleValue();
+        // Written so that NaN is refused, too.
+        return Math.abs(value) < GREATEST ? Double.valueOf(value) : null;
+    }
+
+    private static Map<String, Object> frozen(Map<?, ?> given) {
+        final Map<String, Object> copy = new LinkedHashMap<String, Object>();
+        for (Map.Entry<?, ?> each : given.entrySet()) {
+            copy.put(String.valueOf(each.getKey()), frozenValue(each.getValue()));
+        }
+        return Collections.unmodifiableMap(copy);
+    }
+
+    private static Object frozenValue(Object value) {
+        if (value instanceof Map) {
+            return frozen((Map<?, ?>) value);
+        }
+        if (value instanceof List) {
+            final List<Object> copy = new ArrayList<Object>();
+            for (Object each : (List<?>) value) {
+                copy.add(frozenValue(each));
+            }
+            return Collections.unmodifiableList(copy);
+        }
+        return value;
+    }
+}

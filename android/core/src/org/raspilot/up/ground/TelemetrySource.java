@@ -1,0 +1,7 @@
+package org.raspilot.up.ground;
+
+/** Has the newest telemetry. */
+public interface TelemetrySource {
+    /** Returns the newest frame; {@link Telemetry#NOTHING} before the first. */
+    Telemetry telemetry();
+}
