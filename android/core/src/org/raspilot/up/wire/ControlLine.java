@@ -39,18 +39,40 @@ public final class ControlLine {
         this.token = token;
     }
 
-    /** Makes a line that needs neither a number nor a token; SEAT_HOLDER: nobody commands. */
+    /**
+     * Makes a line that needs neither a number nor a token; SEAT_HOLDER: nobody commands.
+     *
+     * @throws IllegalArgumentException for a kind that needs one
+     */
     public static ControlLine of(Kind kind) {
+        if (kind == Kind.SEAT_ASKED || kind == Kind.SEAT_GIVE || kind == Kind.SEAT_COMMAND) {
+            throw new IllegalArgumentException(kind + " needs a number or a token");
+        }
         return new ControlLine(kind, null, null);
     }
 
-    /** Makes SEAT_ASKED, SEAT_GIVE or SEAT_HOLDER with the number of a ground. */
+    /**
+     * Makes SEAT_ASKED, SEAT_GIVE or SEAT_HOLDER with the number of a ground.
+     *
+     * @throws IllegalArgumentException for another kind and a negative number
+     */
     public static ControlLine of(Kind kind, int number) {
+        if (kind != Kind.SEAT_ASKED && kind != Kind.SEAT_GIVE && kind != Kind.SEAT_HOLDER
+                || number < 0) {
+            throw new IllegalArgumentException(kind + " has no number " + number);
+        }
         return new ControlLine(kind, number, null);
     }
 
-    /** Makes SEAT_COMMAND with the token that resumes the seat. */
+    /**
+     * Makes SEAT_COMMAND with the token that resumes the seat.
+     *
+     * @throws IllegalArgumentException when it has not the form of a token
+     */
     public static ControlLine seatCommand(String token) {
+        if (!Hello.isToken(token)) {
+            throw new IllegalArgumentException("a token is 32 to 64 hexadecimal digits");
+        }
         return new ControlLine(Kind.SEAT_COMMAND, null, token);
     }
 
@@ -74,13 +96,81 @@ public final class ControlLine {
         return length >= 4 && line[0] == 'U' && line[1] == 'P' && line[2] == '1' && line[3] == ' ';
     }
 
-    /** Returns what a line without line end says; null: nothing that is known. */
+    /**
+     * Returns what a line without line end says; null: nothing that is known. Unknown words are
+     * ignored.
+     */
     public static ControlLine read(byte[] line, int length) {
-        return null;
+        String text = Utf8.printableAscii(line, length);
+        if (text == null) {
+            return null;
+        }
+        ProxyWords words = new ProxyWords(text);
+        if (words.word(1).equals("aircraft")) {
+            if (words.word(2).equals("online")) {
+                return of(Kind.AIRCRAFT_ONLINE);
+            }
+            return words.word(2).equals("offline") ? of(Kind.AIRCRAFT_OFFLINE) : null;
+        }
+        return words.word(1).equals("seat") ? seatLine(words) : null;
+    }
+
+    private static ControlLine seatLine(ProxyWords words) {
+        String verb = words.word(2);
+        if (verb.equals("request")) {
+            return of(Kind.SEAT_REQUEST);
+        }
+        if (verb.equals("release")) {
+            return of(Kind.SEAT_RELEASE);
+        }
+        if (verb.equals("listen")) {
+            return of(Kind.SEAT_LISTEN);
+        }
+        if (verb.equals("command")) {
+            String token = words.value("token");
+            return Hello.isToken(token) ? seatCommand(token) : null;
+        }
+        if (verb.equals("asked")) {
+            return numbered(Kind.SEAT_ASKED, words.number("by"));
+        }
+        if (verb.equals("give")) {
+            return numbered(Kind.SEAT_GIVE, words.number("to"));
+        }
+        if ("none".equals(words.value("holder"))) {
+            return of(Kind.SEAT_HOLDER);
+        }
+        return numbered(Kind.SEAT_HOLDER, words.number("holder"));
+    }
+
+    private static ControlLine numbered(Kind kind, Integer number) {
+        return number == null ? null : of(kind, number);
     }
 
     /** Returns the line with its LF. */
     public byte[] toLine() {
-        return new byte[0];
+        return Utf8.encode("UP1 " + said() + "\n");
+    }
+
+    private String said() {
+        switch (kind) {
+            case SEAT_REQUEST:
+                return "seat request";
+            case SEAT_ASKED:
+                return "seat asked by=" + number;
+            case SEAT_GIVE:
+                return "seat give to=" + number;
+            case SEAT_RELEASE:
+                return "seat release";
+            case SEAT_COMMAND:
+                return "seat command token=" + token;
+            case SEAT_LISTEN:
+                return "seat listen";
+            case SEAT_HOLDER:
+                return "seat holder=" + (number == null ? "none" : number.toString());
+            case AIRCRAFT_ONLINE:
+                return "aircraft online";
+            default:
+                return "aircraft offline";
+        }
     }
 }

@@ -61,10 +61,24 @@ public final class GeneralMessage {
     /**
      * Reads one line, with or without its line end.
      *
-     * @throws MalformedException when it is no General Message
+     * @throws MalformedException when it is no General Message; a beacon beyond 64 bits makes it
+     *     none here
      */
     public static GeneralMessage read(byte[] line, int length) throws MalformedException {
-        throw new MalformedException("not JSON");
+        if (length > LineSplitter.LONGEST_LINE) {
+            throw new MalformedException("longer than " + LineSplitter.LONGEST_LINE + " bytes");
+        }
+        String text = Utf8.decode(line, length);
+        Object read;
+        try {
+            read = Json.parse(text);
+        } catch (MalformedException fault) {
+            throw new MalformedException(fault.reason(), MessageId.despiteFault(text));
+        }
+        if (!(read instanceof Map)) {
+            throw new MalformedException("not a JSON object");
+        }
+        return ofFields((Map<?, ?>) read);
     }
 
     /**
@@ -73,6 +87,48 @@ public final class GeneralMessage {
      * @throws IllegalArgumentException for what JSON cannot hold and for more than 16 KiB
      */
     public byte[] toLine() {
-        return new byte[0];
+        Map<String, Object> fields = new LinkedHashMap<String, Object>();
+        fields.put("name", name);
+        fields.put("data", data);
+        fields.put("id", id);
+        if (beacon != null) {
+            fields.put("beacon", beacon);
+        }
+        String text;
+        try {
+            text = Json.write(fields);
+        } catch (IllegalArgumentException fault) {
+            throw new IllegalArgumentException(name + ": " + fault.getMessage(), fault);
+        }
+        if (text.length() >= LineSplitter.LONGEST_LINE) {
+            throw new IllegalArgumentException(name + ": a line of " + (text.length() + 1)
+                    + " bytes, at most " + LineSplitter.LONGEST_LINE);
+        }
+        return Utf8.encode(text + "\n");
+    }
+
+    @SuppressWarnings("unchecked")
+    private static GeneralMessage ofFields(Map<?, ?> fields) throws MalformedException {
+        String id = MessageId.read(fields.get("id"));
+        Object name = fields.get("name");
+        if (!(name instanceof String) || !hasLength((String) name, LONGEST_NAME)) {
+            throw new MalformedException(
+                    "name is no text of 1 to " + LONGEST_NAME + " characters", id);
+        }
+        Object data = fields.get("data");
+        if (data != null && !(data instanceof Map)) {
+            throw new MalformedException("data is no object", id);
+        }
+        Object beacon = fields.get("beacon");
+        if (beacon != null && !(beacon instanceof Long)) {
+            throw new MalformedException("beacon is no whole number of 64 bits", id);
+        }
+        return new GeneralMessage((String) name, (Map<String, Object>) data, id, (Long) beacon);
+    }
+
+    /** Says whether a text has 1 to {@code longest} characters. */
+    static boolean hasLength(String text, int longest) {
+        int length = text.codePointCount(0, text.length());
+        return length >= 1 && length <= longest;
     }
 }

@@ -1,11 +1,20 @@
 package org.raspilot.up.wire;
 
+import java.util.LinkedHashMap;
+import java.util.Locale;
+import java.util.Map;
+import java.util.regex.Pattern;
+
 /**
  * The first line to a proxy: which aircraft, which seat, and the token that resumes it.
  *
  * <p>Source: docs/protocols.md 9.
  */
 public final class Hello {
+    private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_.-]{1,32}");
+    private static final Pattern TOKEN = Pattern.compile("[0-9a-f]{32,64}");
+    private static final Pattern KEY = Pattern.compile("[A-Za-z0-9_.-]+");
+
     /** Bytes of the longest hello with its LF. */
     public static final int LONGEST_LINE = 512;
 
@@ -14,6 +23,14 @@ public final class Hello {
     private final String token;
 
     private Hello(String aircraft, Seat seat, String token) {
+        if (!isAircraftName(aircraft)) {
+            throw new IllegalArgumentException(
+                    "the aircraft's name must be 1 to 32 letters, digits, _ . or -");
+        }
+        if (token != null && !isToken(token)) {
+            throw new IllegalArgumentException(
+                    "the token must be 32 to 64 hexadecimal digits in lower case");
+        }
         this.aircraft = aircraft;
         this.seat = seat;
         this.token = token;
@@ -34,6 +51,9 @@ public final class Hello {
      * @throws IllegalArgumentException when one of them has not the form of one
      */
     public static Hello ofGround(String aircraft, Seat seat, String token) {
+        if (seat != Seat.COMMAND && seat != Seat.LISTEN) {
+            throw new IllegalArgumentException("a ground asks to command or to listen");
+        }
         return new Hello(aircraft, seat, token);
     }
 
@@ -42,7 +62,7 @@ public final class Hello {
         return aircraft;
     }
 
-    /** Returns the seat that is asked for; null: none is named. */
+    /** Returns the seat that a ground asks for; null: an aircraft's hello. */
     public Seat seat() {
         return seat;
     }
@@ -54,25 +74,93 @@ public final class Hello {
 
     /** Says whether a text can be the name of an aircraft. */
     public static boolean isAircraftName(String text) {
-        return text != null && text.matches("[A-Za-z0-9_.-]{1,32}");
+        return text != null && NAME.matcher(text).matches();
     }
 
     /** Says whether a text has the form of a resume token. */
     public static boolean isToken(String text) {
-        return text != null && text.matches("[0-9a-f]{32,64}");
+        return text != null && TOKEN.matcher(text).matches();
     }
 
     /**
-     * Reads the hello of an aircraft ({@code isGround} false) or of a ground, without line end.
+     * Reads the hello of an aircraft ({@code isGround} false) or of a ground, its line end may be
+     * absent; a ground that names no seat asks to command, unknown words are ignored.
      *
      * @throws MalformedException when it is none
      */
-    public static Hello read(String line, boolean isGround) throws MalformedException {
-        throw new MalformedException("no hello");
+    public static Hello read(byte[] line, int length, boolean isGround) throws MalformedException {
+        if (length > LONGEST_LINE) {
+            throw new MalformedException("a hello is at most " + LONGEST_LINE + " bytes");
+        }
+        Map<String, String> words = words(withoutEnd(line, length));
+        String aircraft = words.get("aircraft");
+        if (!isAircraftName(aircraft)) {
+            throw new MalformedException("aircraft= must be 1 to 32 letters, digits, _ . or -");
+        }
+        String token = words.get("token");
+        if (token != null) {
+            token = token.toLowerCase(Locale.ROOT);
+            if (!isToken(token)) {
+                throw new MalformedException("token= must be 32 to 64 hexadecimal digits");
+            }
+        }
+        return new Hello(aircraft, seat(words.get("seat"), isGround), token);
     }
 
     /** Returns the line with its LF. */
     public byte[] toLine() {
-        return new byte[0];
+        return Utf8.encode("UP1 aircraft=" + aircraft
+                + (seat == null ? "" : " seat=" + seat.word())
+                + (token == null ? "" : " token=" + token) + "\n");
+    }
+
+    private static String withoutEnd(byte[] line, int length) throws MalformedException {
+        int end = length;
+        if (end > 0 && line[end - 1] == '\n') {
+            end--;
+        }
+        if (end > 0 && line[end - 1] == '\r') {
+            end--;
+        }
+        String text = Utf8.printableAscii(line, end);
+        if (text == null) {
+            throw new MalformedException("a hello is printable ASCII");
+        }
+        return text;
+    }
+
+    private static Map<String, String> words(String text) throws MalformedException {
+        String[] words = text.split(" ", -1);
+        if (!words[0].equals("UP1")) {
+            throw new MalformedException("the first line must begin with UP1");
+        }
+        Map<String, String> values = new LinkedHashMap<String, String>();
+        for (int i = 1; i < words.length; i++) {
+            int equals = words[i].indexOf('=');
+            if (equals < 0 || !KEY.matcher(words[i].substring(0, equals)).matches()) {
+                throw new MalformedException(
+                        "a hello is words key=value with one space between them");
+            }
+            String key = words[i].substring(0, equals);
+            if (values.containsKey(key)) {
+                throw new MalformedException(key + " is said twice");
+            }
+            values.put(key, words[i].substring(equals + 1));
+        }
+        return values;
+    }
+
+    private static Seat seat(String word, boolean isGround) throws MalformedException {
+        if (!isGround) {
+            if (word != null) {
+                throw new MalformedException("the airborne side names no seat");
+            }
+            return null;
+        }
+        Seat seat = word == null ? Seat.COMMAND : Seat.ofWord(word);
+        if (seat != Seat.COMMAND && seat != Seat.LISTEN) {
+            throw new MalformedException("seat= must be command or listen");
+        }
+        return seat;
     }
 }

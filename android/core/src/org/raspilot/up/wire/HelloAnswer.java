@@ -1,11 +1,17 @@
 package org.raspilot.up.wire;
 
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
 /**
  * A proxy's answer to a hello: taken in with a seat and a token, or refused.
  *
  * <p>Source: docs/protocols.md 9.
  */
 public final class HelloAnswer {
+    private static final Pattern REFUSED =
+            Pattern.compile("UP1 error code=([a-z]{1,32}) reason=\"([^\"]{0,400})\".*");
+
     private final String aircraft;
     private final Seat seat;
     private final String token;
@@ -35,7 +41,7 @@ public final class HelloAnswer {
         return code == null;
     }
 
-    /** Returns the aircraft's name, or null when refused. */
+    /** Returns the aircraft's name, or null when refused or not said. */
     public String aircraft() {
         return aircraft;
     }
@@ -60,13 +66,33 @@ public final class HelloAnswer {
         return reason;
     }
 
-    /** Returns what a line without line end answers; null: it is no answer to a hello. */
+    /**
+     * Returns what a line without line end answers; null: it is no answer to a hello. Unknown
+     * words are ignored.
+     */
     public static HelloAnswer read(byte[] line, int length) {
-        return null;
+        String text = Utf8.printableAscii(line, length);
+        if (text == null) {
+            return null;
+        }
+        Matcher refused = REFUSED.matcher(text);
+        if (refused.matches()) {
+            return refused(refused.group(1), refused.group(2));
+        }
+        ProxyWords words = new ProxyWords(text);
+        Seat seat = Seat.ofWord(words.value("seat"));
+        if (!words.word(1).equals("ok") || seat == null || !Hello.isToken(words.value("token"))) {
+            return null;
+        }
+        return accepted(words.value("aircraft"), seat, words.value("token"));
     }
 
     /** Returns the line with its LF. */
     public byte[] toLine() {
-        return new byte[0];
+        if (isAccepted()) {
+            return Utf8.encode("UP1 ok aircraft=" + aircraft + " seat=" + seat.word() + " token="
+                    + token + "\n");
+        }
+        return Utf8.encode("UP1 error code=" + code + " reason=\"" + reason + "\"\n");
     }
 }

@@ -21,7 +21,7 @@ public final class Json {
      *     double, a key twice in one object, a lone surrogate, or is nested deeper than 32
      */
     public static Object parse(String text) throws MalformedException {
-        return new JsonReader(text).read();
+        return new JsonReader(text, true).read();
     }
 
     /**
@@ -32,5 +32,19 @@ public final class Json {
      */
     public static String write(Object value) {
         return new JsonWriter().write(value);
+    }
+
+    /** Returns the index of the first surrogate that has no partner, or -1. */
+    static int loneSurrogate(String text) {
+        for (int i = 0; i < text.length(); i++) {
+            char c = text.charAt(i);
+            if (Character.isHighSurrogate(c) && i + 1 < text.length()
+                    && Character.isLowSurrogate(text.charAt(i + 1))) {
+                i++;
+            } else if (Character.isSurrogate(c)) {
+                return i;
+            }
+        }
+        return -1;
     }
 }

@@ -1,6 +1,7 @@
 package org.raspilot.up.wire;
 
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 
 /**
@@ -13,6 +14,12 @@ public final class LineSplitter {
     /** Bytes of a General Message line with its LF. */
     public static final int LONGEST_LINE = 16384;
 
+    private final int longestContent;
+    private byte[] held = new byte[256];
+    private int heldLength;
+    private boolean isSkipping;
+    private long droppedTooLong;
+
     /** Makes a splitter for lines of General Messages. */
     public LineSplitter() {
         this(LONGEST_LINE);
@@ -20,19 +27,61 @@ public final class LineSplitter {
 
     /** Makes a splitter for lines of at most {@code longestBytes}, LF included. */
     public LineSplitter(int longestBytes) {
+        longestContent = longestBytes - 1;
     }
 
     /** Returns the lines that these bytes complete, without their line ends, in order. */
     public List<byte[]> feed(byte[] bytes, int length) {
-        return new ArrayList<byte[]>();
+        List<byte[]> lines = new ArrayList<byte[]>();
+        int start = 0;
+        for (int i = 0; i < length; i++) {
+            if (bytes[i] == '\n') {
+                hold(bytes, start, i);
+                endLine(lines);
+                start = i + 1;
+            }
+        }
+        hold(bytes, start, length);
+        return lines;
     }
 
     /** Forgets an unfinished line: the next byte is another connection's. */
     public void reset() {
+        heldLength = 0;
+        isSkipping = false;
     }
 
     /** Returns how many lines were dropped because they were too long. */
     public long droppedTooLong() {
-        return 0;
+        return droppedTooLong;
+    }
+
+    private void hold(byte[] bytes, int from, int to) {
+        if (isSkipping) {
+            return;
+        }
+        int length = heldLength + to - from;
+        if (length > longestContent) {
+            droppedTooLong++;
+            heldLength = 0;
+            isSkipping = true;
+            return;
+        }
+        if (length > held.length) {
+            held = Arrays.copyOf(held, Math.min(longestContent, Math.max(length, 2 * held.length)));
+        }
+        System.arraycopy(bytes, from, held, heldLength, to - from);
+        heldLength = length;
+    }
+
+    private void endLine(List<byte[]> lines) {
+        int length = heldLength;
+        if (length > 0 && held[length - 1] == '\r') {
+            length--;
+        }
+        if (length > 0 && !isSkipping) {
+            lines.add(Arrays.copyOf(held, length));
+        }
+        reset();
     }
 }
