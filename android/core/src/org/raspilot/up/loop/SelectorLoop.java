@@ -1,9 +1,42 @@
 package org.raspilot.up.loop;
 
+import java.io.Closeable;
 import java.io.IOException;
+import java.nio.channels.SelectableChannel;
+import java.nio.channels.SelectionKey;
+import java.nio.channels.Selector;
+import java.util.ArrayList;
+import java.util.Iterator;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.locks.LockSupport;
 
-/** A loop on a thread of its own, with real sockets and real time. */
+/**
+ * A loop on a thread of its own, with real sockets and real, monotonic time.
+ *
+ * <p>It sleeps in the system until a socket is ready, a timer falls due or a call is posted. A
+ * selector that returns again and again without a reason, as some do after a connection broke, is
+ * replaced by a new one.
+ */
 public final class SelectorLoop implements Loop, Network {
+    private static final int STOP_MS = 1000;
+    private static final int BYTES = 65536;
+    private static final int MOST_EMPTY_ROUNDS = 256;
+
+    private final Guard guard;
+    private final SelectorSource selectors;
+    private final NameLookup names;
+    private final String name;
+    private final byte[] bytes = new byte[BYTES];
+    private final TimerQueue timers = new TimerQueue();
+    private final Object lock = new Object();
+    private List<Runnable> posted = new ArrayList<Runnable>();
+    private volatile Selector selector;
+    private volatile Thread thread;
+    private volatile boolean isStopped;
+    private volatile long rounds;
+    private int emptyRounds;
+
     /**
      * Makes a loop that is not started yet.
      *
@@ -11,51 +44,105 @@ public final class SelectorLoop implements Loop, Network {
      * @param faults hears of exceptions of what runs on the loop
      */
     public SelectorLoop(String name, FaultListener faults) {
+        this(name, faults, new SystemSelectors(), new SystemResolver());
+    }
+
+    SelectorLoop(String name, FaultListener faults, SelectorSource selectors,
+            NameLookup.Resolver resolver) {
+        this.name = name;
+        this.selectors = selectors;
+        guard = new Guard(faults);
+        names = new NameLookup(this, resolver, name + " names");
     }
 
     /**
-     * Starts the thread; calls that were posted before run then. A loop is started once.
+     * Starts the thread; calls that were posted before run then.
      *
      * @throws IOException when the system gives no selector
+     * @throws IllegalStateException when it was started or stopped before
      */
     public void start() throws IOException {
+        synchronized (lock) {
+            if (thread != null || isStopped) {
+                throw new IllegalStateException("a loop is started once");
+            }
+            selector = selectors.open();
+            thread = new Thread(new Runnable() {
+                @Override
+                public void run() {
+                    work();
+                }
+            }, name);
+            thread.setDaemon(true);
+            thread.start();
+        }
     }
 
     /**
      * Closes every socket and ends the thread within 1 s; nothing is told to any listener any more.
      * May be called on any thread, on the loop too, and twice; elsewhere than on the loop it waits
-     * for the end of the thread.
+     * for the end of the thread, but not longer than that second for a call that does not return.
      */
     public void stop() {
+        final Thread running;
+        synchronized (lock) {
+            isStopped = true;
+            running = thread;
+            posted.clear();
+        }
+        names.stop();
+        if (running != null && !isInLoop()) {
+            selector.wakeup();
+            try {
+                running.join(STOP_MS);
+            } catch (InterruptedException interruption) {
+                Thread.currentThread().interrupt();
+            }
+        }
     }
 
     /** Returns how many calls threw; may be asked on any thread. */
     public long faults() {
-        return 0;
+        return guard.faults();
     }
 
     /** Returns how often the loop woke; may be asked on any thread. */
     public long rounds() {
-        return 0;
+        return rounds;
     }
 
     @Override
     public long nowMs() {
-        return System.nanoTime() / 1000000L;
+        return TimeUnit.NANOSECONDS.toMillis(System.nanoTime());
     }
 
     @Override
     public void post(Runnable call) {
+        final boolean isFirst;
+        synchronized (lock) {
+            if (isStopped) {
+                return;
+            }
+            isFirst = posted.isEmpty();
+            posted.add(call);
+        }
+        final Selector sleeping = selector;
+        if (isFirst && sleeping != null && !isInLoop()) {
+            sleeping.wakeup();
+        }
     }
 
     @Override
     public Cancellable schedule(long delayMs, Runnable call) {
-        throw new UnsupportedOperationException();
+        mustBeInLoop();
+        final long delayNs = TimeUnit.MILLISECONDS.toNanos(Math.max(0, delayMs));
+        // A delay of centuries must not run over into the past.
+        return timers.add(System.nanoTime() + Math.min(delayNs, Long.MAX_VALUE / 2), call);
     }
 
     @Override
     public boolean isInLoop() {
-        return false;
+        return Thread.currentThread() == thread;
     }
 
     @Override
@@ -65,11 +152,184 @@ public final class SelectorLoop implements Loop, Network {
 
     @Override
     public TcpConnection connectTcp(String host, int port, int timeoutMs, TcpListener listener) {
-        throw new UnsupportedOperationException();
+        mustBeInLoop();
+        final TcpChannel channel = new TcpChannel(this, host, port, timeoutMs, listener);
+        channel.open(names, host);
+        return channel;
     }
 
     @Override
     public UdpPort openUdp(UdpListener listener) throws IOException {
-        throw new UnsupportedOperationException();
+        mustBeInLoop();
+        final UdpChannel channel = new UdpChannel(this, names, listener);
+        channel.open();
+        return channel;
+    }
+
+    /** Returns the array that every channel reads into, one after the other. */
+    byte[] bytes() {
+        return bytes;
+    }
+
+    SelectionKey register(SelectableChannel channel, int operations, Ready ready)
+            throws IOException {
+        return channel.register(selector, operations, ready);
+    }
+
+    /** Counts and tells a fault that belongs to no call. */
+    void tell(Throwable fault) {
+        guard.tell(fault);
+    }
+
+    /** Closes; a socket that cannot even be closed is told as a fault. */
+    void closeQuietly(Closeable channel) {
+        try {
+            channel.close();
+        } catch (IOException error) {
+            tell(error);
+        }
+    }
+
+    private void work() {
+        try {
+            while (!isStopped) {
+                rounds++;
+                runPosted();
+                runTimers();
+                select();
+            }
+        } finally {
+            closeAll();
+        }
+    }
+
+    private void run(Runnable call) {
+        if (!isStopped) {
+            guard.run(call);
+            // Left standing, the mark would close the next socket that is written to.
+            Thread.interrupted();
+        }
+    }
+
+    private void runPosted() {
+        final List<Runnable> calls;
+        synchronized (lock) {
+            if (posted.isEmpty()) {
+                return;
+            }
+            calls = posted;
+            posted = new ArrayList<Runnable>();
+        }
+        emptyRounds = 0;
+        for (Runnable call : calls) {
+            run(call);
+        }
+    }
+
+    private void runTimers() {
+        final long nowNs = System.nanoTime();
+        final long mark = timers.mark();
+        TimerQueue.Timer timer = timers.take(nowNs, mark);
+        while (timer != null) {
+            emptyRounds = 0;
+            run(timer.call());
+            timer = timers.take(nowNs, mark);
+        }
+    }
+
+    private void select() {
+        try {
+            final long beginNs = System.nanoTime();
+            final long waitMs = waitMs(beginNs);
+            if (waitMs == 0) {
+                selector.selectNow();
+            } else {
+                selector.select(waitMs < 0 ? 0 : waitMs);
+            }
+            handleKeys();
+            if (emptyRounds > MOST_EMPTY_ROUNDS) {
+                replaceSelector();
+            }
+        } catch (IOException error) {
+            tell(error);
+            // Whatever ails the system, asking it again at once would only heat the phone.
+            LockSupport.parkNanos(TimeUnit.MILLISECONDS.toNanos(10));
+            emptyRounds++;
+        }
+    }
+
+    /** Returns how long nothing is to be done, rounded up; 0: not at all, -1: for ever. */
+    private long waitMs(long nowNs) {
+        synchronized (lock) {
+            if (isStopped || !posted.isEmpty()) {
+                return 0;
+            }
+        }
+        final TimerQueue.Timer first = timers.first();
+        if (first == null) {
+            return -1;
+        }
+        final long waitNs = Math.max(0, first.time() - nowNs);
+        return (waitNs + 999999L) / 1000000L;
+    }
+
+    private void handleKeys() {
+        emptyRounds++;
+        final Iterator<SelectionKey> keys = selector.selectedKeys().iterator();
+        while (keys.hasNext()) {
+            final SelectionKey key = keys.next();
+            keys.remove();
+            if (key.isValid()) {
+                emptyRounds = 0;
+                run(new Runnable() {
+                    @Override
+                    public void run() {
+                        ((Ready) key.attachment()).onReady(key);
+                    }
+                });
+            }
+        }
+    }
+
+    private void replaceSelector() throws IOException {
+        final Selector old = selector;
+        final Selector fresh = selectors.open();
+        for (SelectionKey key : old.keys()) {
+            if (key.isValid()) {
+                final Ready ready = (Ready) key.attachment();
+                final int operations = key.interestOps();
+                key.cancel();
+                ready.onMoved(key.channel().register(fresh, operations, ready));
+            }
+        }
+        selector = fresh;
+        emptyRounds = 0;
+        closeQuietly(old);
+    }
+
+    private void closeAll() {
+        for (SelectionKey key : selector.keys()) {
+            ((Ready) key.attachment()).close();
+        }
+        closeQuietly(selector);
+    }
+
+    private void mustBeInLoop() {
+        if (!isInLoop()) {
+            throw new IllegalStateException("only on the loop: post the call");
+        }
+    }
+
+    /** Opens selectors. */
+    interface SelectorSource {
+        /** Opens another. */
+        Selector open() throws IOException;
+    }
+
+    private static final class SystemSelectors implements SelectorSource {
+        @Override
+        public Selector open() throws IOException {
+            return Selector.open();
+        }
     }
 }

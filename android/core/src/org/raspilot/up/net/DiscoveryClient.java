@@ -1,12 +1,30 @@
 package org.raspilot.up.net;
 
+import java.io.IOException;
+import java.nio.charset.Charset;
+import java.util.List;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.loop.UdpListener;
+import org.raspilot.up.loop.UdpPort;
 
 /** Finds the Raspberry Pi on the local network by Discovery (protocols 7). Only on the loop. */
 public final class DiscoveryClient implements PlaceFinder {
     /** The UDP port of Discovery. */
     public static final int PORT = 3001;
+    /** How long an answer is waited for, ms. */
+    public static final int ANSWER_MS = 1500;
+    /** After how long the question is repeated, ms: datagrams are lost. */
+    public static final int REPEAT_MS = 400;
+    private static final byte[] QUESTION =
+            "Where is Raspilot?".getBytes(Charset.forName("US-ASCII"));
+
+    private final Loop loop;
+    private final BroadcastAddresses addresses;
+    private final int port;
+    private final int generalPort;
+    private final int orientationPort;
+    private long wrongAnswers;
 
     /**
      * Makes a client.
@@ -18,15 +36,100 @@ public final class DiscoveryClient implements PlaceFinder {
      */
     public DiscoveryClient(Loop loop, BroadcastAddresses addresses, int port, int generalPort,
             int orientationPort) {
+        this.loop = loop;
+        this.addresses = addresses;
+        this.port = port;
+        this.generalPort = generalPort;
+        this.orientationPort = orientationPort;
     }
 
     @Override
     public Cancellable find(FindListener listener) {
-        throw new UnsupportedOperationException();
+        final Question question = new Question(listener);
+        question.begin();
+        return question;
     }
 
-    /** Returns how many answers were not understood. */
+    /** Returns how many answers were not understood, or came from another port. */
     public long wrongAnswers() {
-        return 0;
+        return wrongAnswers;
+    }
+
+    /** One search. */
+    private final class Question implements Cancellable, UdpListener {
+        private final FindListener listener;
+        private boolean isPending = true;
+        private boolean wasSent;
+        private UdpPort udp;
+        private Cancellable repeat;
+        private Cancellable limit;
+
+        Question(FindListener listener) {
+            this.listener = listener;
+        }
+
+        void begin() {
+            try {
+                udp = loop.network().openUdp(this);
+            } catch (IOException error) {
+                isPending = false;
+                listener.onNotFound("no socket to ask Discovery with: " + error.getMessage());
+                return;
+            }
+            limit = loop.schedule(ANSWER_MS, new Runnable() {
+                @Override
+                public void run() {
+                    giveUp();
+                }
+            });
+            ask();
+        }
+
+        @Override
+        public void cancel() {
+            if (isPending) {
+                isPending = false;
+                repeat.cancel();
+                limit.cancel();
+                udp.close();
+            }
+        }
+
+        @Override
+        public boolean isPending() {
+            return isPending;
+        }
+
+        @Override
+        public void onDatagram(byte[] bytes, int length, String host, int sourcePort) {
+            final String found = sourcePort == port
+                    ? DiscoveryAnswer.read(bytes, length, host) : null;
+            if (found == null) {
+                wrongAnswers++;
+                return;
+            }
+            cancel();
+            listener.onFound(new Place(found, generalPort, orientationPort));
+        }
+
+        private void ask() {
+            repeat = loop.schedule(REPEAT_MS, new Runnable() {
+                @Override
+                public void run() {
+                    ask();
+                }
+            });
+            for (String address : addresses.current()) {
+                wasSent |= udp.send(QUESTION, address, port);
+            }
+        }
+
+        private void giveUp() {
+            cancel();
+            final List<String> asked = addresses.current();
+            final String where = asked + " port " + port;
+            listener.onNotFound(wasSent ? "no answer from Discovery at " + where
+                    : "no network to ask for Discovery in: " + where);
+        }
     }
 }

@@ -1,13 +1,20 @@
 package org.raspilot.up.net;
 
+import java.io.IOException;
 import java.util.Random;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.loop.UdpListener;
+import org.raspilot.up.loop.UdpPort;
 
 /**
  * Sends orientation frames (protocols 3) over TCP or UDP; a frame that waits is replaced by the
- * next. Only on the loop.
+ * next. It goes where the General Message link was found, at once when that changes. Only on the
+ * loop.
  */
 public final class OrientationSender {
+    /** Bytes of a frame. */
+    public static final int FRAME_BYTES = 24;
+
     /** How frames travel. */
     public enum Transport {
         /** A connection that is kept. */
@@ -16,6 +23,16 @@ public final class OrientationSender {
         UDP
     }
 
+    private final Loop loop;
+    private final KnownPlace known;
+    private final UpSocket socket;
+    private UdpPort udp;
+    private Place followed;
+    private boolean isStarted;
+    private String problem = "";
+    private long udpSent;
+    private long dropped;
+
     /**
      * Makes a sender that is not started.
      *
@@ -23,18 +40,46 @@ public final class OrientationSender {
      * @param random seeded: the waits between attempts vary by it
      */
     public OrientationSender(Loop loop, KnownPlace known, Transport transport, Random random) {
+        this.loop = loop;
+        this.known = known;
+        socket = transport == Transport.UDP ? null : new UpSocket(loop, known.follower(),
+                new Silent(), UpSocketSettings.raw(), random);
     }
 
-    /** Begins to connect, or opens the socket. */
+    /** Begins to connect, or opens the socket; started already, without effect. */
     public void start() {
+        if (!isStarted) {
+            isStarted = true;
+            followed = known.place();
+            if (socket != null) {
+                socket.start();
+            } else {
+                openUdp();
+            }
+        }
     }
 
-    /** Closes. */
+    /** Closes; may be started again. */
     public void stop() {
+        isStarted = false;
+        if (socket != null) {
+            socket.stop();
+        } else {
+            closeUdp();
+        }
     }
 
     /** Tries to connect at once instead of after the wait; on UDP opens the socket anew. */
     public void reconnectNow() {
+        if (!isStarted) {
+            return;
+        }
+        if (socket != null) {
+            socket.reconnectNow();
+        } else {
+            closeUdp();
+            openUdp();
+        }
     }
 
     /**
@@ -44,26 +89,126 @@ public final class OrientationSender {
      * @throws IllegalArgumentException when it has another size
      */
     public boolean send(byte[] frame) {
-        return false;
+        if (frame.length != FRAME_BYTES) {
+            throw new IllegalArgumentException("a frame of " + frame.length + " bytes");
+        }
+        if (!isStarted) {
+            dropped++;
+            return false;
+        }
+        follow();
+        return socket != null ? socket.sendNewest(this, frame) : sendDatagram(frame);
     }
 
     /** Returns whether frames can leave now. */
     public boolean isReady() {
-        return false;
+        return socket != null ? socket.isConnected() : udp != null && hasPort();
     }
 
     /** Returns a sentence without a full stop: whereto frames go, or why they do not. */
     public String sentence() {
-        return "not started";
+        if (socket != null) {
+            return socket.status().sentence();
+        }
+        if (!isStarted) {
+            return "stopped";
+        }
+        if (!problem.isEmpty()) {
+            return problem;
+        }
+        final Place place = known.place();
+        if (place == null) {
+            return "the Raspberry Pi is not found yet";
+        }
+        return hasPort() ? "datagrams to " + place.host() + ":" + place.orientationPort()
+                : place.host() + " has no orientation port";
     }
 
     /** Returns how many frames the system took whole. */
     public long sent() {
-        return 0;
+        return socket != null ? socket.counters().sent() : udpSent;
     }
 
     /** Returns how many frames were dropped or replaced by a newer one. */
     public long dropped() {
-        return 0;
+        if (socket == null) {
+            return dropped;
+        }
+        final UpSocketCounters counters = socket.counters();
+        return dropped + counters.dropped() + counters.replaced();
+    }
+
+    private boolean sendDatagram(byte[] frame) {
+        if (udp == null) {
+            openUdp();
+        }
+        final Place place = known.place();
+        final boolean isSent = udp != null && hasPort()
+                && udp.send(frame, place.host(), place.orientationPort());
+        if (isSent) {
+            udpSent++;
+        } else {
+            dropped++;
+        }
+        return isSent;
+    }
+
+    private boolean hasPort() {
+        return known.place() != null && known.place().orientationPort() != 0;
+    }
+
+    private void openUdp() {
+        try {
+            udp = loop.network().openUdp(new Deaf());
+            problem = "";
+        } catch (IOException error) {
+            problem = "no socket for datagrams: " + error.getMessage();
+        }
+    }
+
+    private void closeUdp() {
+        if (udp != null) {
+            udp.close();
+            udp = null;
+        }
+    }
+
+    /** A connection to where the Raspberry Pi was is of no use, nor is the wait for the next. */
+    private void follow() {
+        final Place place = known.place();
+        if (socket != null && place != null && !place.equals(followed)) {
+            followed = place;
+            if (socket.isConnected() && !place.equals(socket.status().place())) {
+                socket.drop("the Raspberry Pi is now at " + place.host());
+            }
+            socket.reconnectNow();
+        }
+    }
+
+    /** Nobody answers on this link. */
+    private static final class Deaf implements UdpListener {
+        @Override
+        public void onDatagram(byte[] bytes, int length, String host, int port) {
+            // Whatever comes is not for us.
+        }
+    }
+
+    /** Its status is asked for, never told. */
+    private static final class Silent implements UpSocketListener {
+        @Override
+        public void onConnected(UpSocket socket) {
+        }
+
+        @Override
+        public void onReceived(UpSocket socket, byte[] bytes, int length) {
+        }
+
+        @Override
+        public void onLost(UpSocket socket, String reason) {
+        }
+
+        @Override
+        public void onStatus(UpSocket socket) {
+        }
     }
 }

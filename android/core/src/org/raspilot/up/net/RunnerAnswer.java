@@ -1,42 +1,136 @@
 package org.raspilot.up.net;
 
+import java.util.Map;
+import org.raspilot.up.wire.Json;
+import org.raspilot.up.wire.MalformedException;
+
 /** A runner's answer that says where an instance runs (protocols 8). */
 public final class RunnerAnswer {
-    RunnerAnswer() {
+    private static final int LONGEST_WORDS = 200;
+
+    private final String message;
+    private final String error;
+    private final boolean isSpawned;
+    private final String instance;
+    private final Place place;
+    private final String proxyHost;
+    private final int proxyGroundPort;
+
+    private RunnerAnswer(Map<?, ?> answer, Place place, Map<?, ?> proxy) {
+        this.place = place;
+        message = text(answer, "message");
+        error = text(answer, "error");
+        isSpawned = Boolean.TRUE.equals(answer.get("spawned"));
+        instance = text(answer, "instance");
+        proxyGroundPort = proxy == null ? 0 : port(proxy, "ground");
+        proxyHost = proxyGroundPort == 0 ? null : text(proxy, "host");
+    }
+
+    /**
+     * Reads an answer's line.
+     *
+     * @param host the runner's host, where the instance listens
+     * @throws RefusedException with a sentence when nothing runs or the line is no answer
+     */
+    static RunnerAnswer read(String line, String host) throws RefusedException {
+        final Object value;
+        try {
+            value = Json.parse(line);
+        } catch (MalformedException malformed) {
+            throw new RefusedException("the runner's answer is not understood: "
+                    + malformed.reason());
+        }
+        if (!(value instanceof Map)) {
+            throw new RefusedException("the runner's answer is not understood: no object");
+        }
+        final Map<?, ?> answer = (Map<?, ?>) value;
+        final Object isRunning = answer.get("running");
+        if (!(isRunning instanceof Boolean)) {
+            throw new RefusedException("the runner's answer is not understood: running is neither"
+                    + " true nor false");
+        }
+        if (!(Boolean) isRunning) {
+            final String error = text(answer, "error");
+            final String message = text(answer, "message");
+            throw new RefusedException("the runner says: "
+                    + (error != null ? error : message != null ? message : "nothing runs"));
+        }
+        final Map<?, ?> ports = object(answer, "ports");
+        final int general = ports == null ? 0 : port(ports, "general");
+        final int orientation = ports == null ? 0 : port(ports, "orientation");
+        if (general == 0 || orientation == 0) {
+            throw new RefusedException("the runner's answer names no ports of 1 to 65535");
+        }
+        return new RunnerAnswer(answer, new Place(host, general, orientation),
+                object(answer, "proxy"));
     }
 
     /** Returns the runner's words; null: none. */
     public String message() {
-        return null;
+        return message;
     }
 
     /** Returns what is wrong although an instance runs; null: nothing. */
     public String error() {
-        return null;
+        return error;
     }
 
     /** Returns whether this request started it. */
     public boolean isSpawned() {
-        return false;
+        return isSpawned;
     }
 
     /** Returns the instance's name; null: not told. */
     public String instance() {
-        return null;
+        return instance;
     }
 
     /** Returns where the instance listens. */
     public Place place() {
-        return null;
+        return place;
     }
 
     /** Returns the proxy's host for grounds of this aircraft; null: not told. */
     public String proxyHost() {
-        return null;
+        return proxyHost;
     }
 
     /** Returns the proxy's port for grounds; 0: not told. */
     public int proxyGroundPort() {
-        return 0;
+        return proxyGroundPort;
+    }
+
+    private static Map<?, ?> object(Map<?, ?> from, String key) {
+        final Object value = from.get(key);
+        return value instanceof Map ? (Map<?, ?>) value : null;
+    }
+
+    /** Returns a text, cut for the screen; null: there is none. */
+    private static String text(Map<?, ?> from, String key) {
+        final Object value = from.get(key);
+        if (!(value instanceof String) || ((String) value).isEmpty()) {
+            return null;
+        }
+        final String text = (String) value;
+        return text.length() <= LONGEST_WORDS ? text : text.substring(0, LONGEST_WORDS) + "...";
+    }
+
+    /** Returns 1 to 65535; 0: there is none. */
+    private static int port(Map<?, ?> from, String key) {
+        final Object value = from.get(key);
+        if (!(value instanceof Long)) {
+            return 0;
+        }
+        final long port = (Long) value;
+        return port >= 1 && port <= 65535 ? (int) port : 0;
+    }
+
+    /** No place is to be had; the message is a sentence without a full stop. */
+    static final class RefusedException extends Exception {
+        private static final long serialVersionUID = 1L;
+
+        RefusedException(String sentence) {
+            super(sentence);
+        }
     }
 }

@@ -1,22 +1,48 @@
 package org.raspilot.up.net;
 
+import java.nio.charset.Charset;
+import java.util.LinkedHashMap;
 import java.util.Map;
+import org.raspilot.up.wire.Json;
 
 /** What a runner is asked for (protocols 8): an aircraft, by a profile, with a configuration. */
 public final class RunnerRequest {
+    /** Bytes of the longest request with its LF. */
+    public static final int LONGEST_LINE = 65536;
+
+    private final byte[] line;
+
     /**
      * Makes a request.
      *
      * @param aircraft 1 to 32 of {@code A-Z a-z 0-9 _ . -}, not beginning with a dot
      * @param profile name of a ready-made configuration on the runner's host; null: none
      * @param configuration files and their keys; null: none
-     * @throws IllegalArgumentException with a sentence when the aircraft's name is none
+     * @throws IllegalArgumentException with a sentence when the aircraft's name is none, the
+     *     configuration cannot be written as JSON, or the request is longer than 64 KiB
      */
     public RunnerRequest(String aircraft, String profile, Map<String, ?> configuration) {
+        if (aircraft == null || !aircraft.matches("[A-Za-z0-9_-][A-Za-z0-9_.-]{0,31}")) {
+            throw new IllegalArgumentException("the aircraft's name must be 1 to 32 of A-Z a-z 0-9"
+                    + " _ . - and not begin with a dot: " + aircraft);
+        }
+        final Map<String, Object> request = new LinkedHashMap<String, Object>();
+        request.put("aircraft", aircraft);
+        if (profile != null) {
+            request.put("profile", profile);
+        }
+        if (configuration != null) {
+            request.put("configuration", configuration);
+        }
+        line = (Json.write(request) + "\n").getBytes(Charset.forName("UTF-8"));
+        if (line.length > LONGEST_LINE) {
+            throw new IllegalArgumentException("the request has " + line.length
+                    + " bytes, more than " + LONGEST_LINE);
+        }
     }
 
     /** Returns the line with its LF. */
     public byte[] toLine() {
-        throw new UnsupportedOperationException();
+        return line.clone();
     }
 }

@@ -1,10 +1,43 @@
 package org.raspilot.up.net;
 
+import java.util.Iterator;
 import java.util.Random;
+import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.loop.TcpConnection;
+import org.raspilot.up.loop.TcpListener;
+import org.raspilot.up.wire.LineSplitter;
 
-/** Keeps one connection to a peer for ever. Only on the loop. */
+/**
+ * Keeps one connection to a peer for ever: finds it, connects, and after a loss does so again.
+ *
+ * <p>Nothing is kept from one connection for the next: neither what waits to be sent nor half a
+ * line that came. Only on the loop; the listener may call every method. Source: docs/protocols.md
+ * 3, 4 and 9.
+ */
 public final class UpSocket {
+    private static final byte LF = '\n';
+
+    private final Loop loop;
+    private final PlaceFinder finder;
+    private final UpSocketListener listener;
+    private final UpSocketSettings settings;
+    private final BackOff backOff;
+    private final LinkWatch watch;
+    private final LineSplitter splitter = new LineSplitter();
+    private final SendQueue queue;
+    private UpSocketStatus status =
+            new UpSocketStatus(UpSocketStatus.State.STOPPED, null, "not started");
+    private Place place;
+    private Attempt current;
+    private Cancellable retry;
+    private long connects;
+    private long failedAttempts;
+    private long lost;
+    private long dropped;
+    private long received;
+    private long bytesIn;
+
     /**
      * Makes a socket that is not started.
      *
@@ -12,63 +45,287 @@ public final class UpSocket {
      */
     public UpSocket(Loop loop, PlaceFinder finder, UpSocketListener listener,
             UpSocketSettings settings, Random random) {
+        this.loop = loop;
+        this.finder = finder;
+        this.listener = listener;
+        this.settings = settings;
+        queue = new SendQueue(settings.isRaw());
+        backOff = new BackOff(settings.firstRetryMs(), settings.lastRetryMs(), random);
+        watch = new LinkWatch(loop, settings, new LinkWatch.Owner() {
+            @Override
+            public void onBeat() {
+                beat();
+            }
+
+            @Override
+            public void onGivenUp(String what) {
+                drop(current.peer + " " + what);
+            }
+        });
     }
 
     /** Begins to connect; started already, without effect. */
     public void start() {
+        if (status.state() == UpSocketStatus.State.STOPPED) {
+            backOff.reset();
+            attempt();
+        }
     }
 
     /** Closes for good, or until {@link #start}: {@code onLost} is told when it was connected. */
     public void stop() {
+        if (status.state() != UpSocketStatus.State.STOPPED) {
+            final boolean wasConnected = end();
+            become(UpSocketStatus.State.STOPPED, "stopped");
+            if (wasConnected) {
+                listener.onLost(this, "stopped");
+            }
+        }
     }
 
     /**
-     * Tries at once instead of after the wait, as when the phone's network came back; connected, or
-     * in the middle of an attempt, without effect.
+     * Tries at once instead of after the wait, as when the phone's network came back; an attempt
+     * that has lasted longer than the shortest wait begins anew. Connected, without effect.
      */
     public void reconnectNow() {
+        final UpSocketStatus.State state = status.state();
+        final boolean isTrying = current != null && !isConnected()
+                && loop.nowMs() - current.beganMs >= settings.firstRetryMs();
+        if (isTrying || state == UpSocketStatus.State.WAITING) {
+            end();
+            backOff.reset();
+            attempt();
+        }
     }
 
     /** Ends this connection, or attempt, for {@code reason} and tries again after the wait. */
     public void drop(String reason) {
+        if (current == null) {
+            return;
+        }
+        final long nowMs = loop.nowMs();
+        long tookMs = nowMs - current.beganMs;
+        if (isConnected()) {
+            lost++;
+            tookMs = 0;
+            if (nowMs - current.connectedMs >= settings.lastRetryMs()) {
+                // A peer that hangs up at once, each time, is asked more and more seldom.
+                backOff.reset();
+            }
+        } else {
+            failedAttempts++;
+        }
+        final boolean wasConnected = end();
+        retry = loop.schedule(backOff.nextWaitMs(tookMs), new Runnable() {
+            @Override
+            public void run() {
+                attempt();
+            }
+        });
+        become(UpSocketStatus.State.WAITING, reason + "; trying again");
+        if (wasConnected) {
+            listener.onLost(this, reason);
+        }
     }
 
     /**
      * Sends a line (its LF is added when it has none) or a frame, in order, and before what waits
      * for {@link #sendNewest}.
      *
-     * @return false when not connected or when 64 KiB wait already: nothing is kept for later
+     * @return false when not connected, when 64 KiB wait already, and for a line of more than
+     *     16 KiB: nothing is kept for later
      */
     public boolean send(byte[] bytes) {
-        return false;
+        return count(isConnected() && queue.add(bytes));
     }
 
     /**
      * Sends a line or a frame in place of the one that still waits under {@code key}.
      *
-     * @return false when not connected: nothing is kept for later
+     * @return false when not connected, when 64 KiB wait under other keys, and for a line of more
+     *     than 16 KiB: nothing is kept for later
      */
     public boolean sendNewest(Object key, byte[] bytes) {
-        return false;
+        return count(isConnected() && queue.replace(key, bytes));
     }
 
     /** Returns whether a connection is there. */
     public boolean isConnected() {
-        return false;
+        return status.isConnected();
     }
 
     /** Returns how many bytes wait for the system to take them. */
     public int waitingBytes() {
-        return 0;
+        return queue.waitingBytes();
     }
 
     /** Returns where the socket stands. */
     public UpSocketStatus status() {
-        return new UpSocketStatus(UpSocketStatus.State.STOPPED, null, "not started");
+        return status;
     }
 
     /** Returns what was counted. */
     public UpSocketCounters counters() {
-        return new UpSocketCounters(0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
+        return new UpSocketCounters(connects, failedAttempts, lost, queue.sent(), dropped,
+                queue.replaced(), received, splitter.droppedTooLong(), bytesIn, queue.bytesOut());
+    }
+
+    private void attempt() {
+        final Attempt attempt = new Attempt();
+        current = attempt;
+        become(UpSocketStatus.State.FINDING, "looking for the peer");
+        boolean isBegun = false;
+        try {
+            attempt.search = finder.find(attempt);
+            isBegun = true;
+        } finally {
+            if (!isBegun && current == attempt) {
+                // Even a finder that throws is asked again.
+                drop("the search failed");
+            }
+        }
+    }
+
+    /** Ends whatever is under way; returns whether it was a connection. */
+    private boolean end() {
+        final boolean wasConnected = isConnected();
+        if (retry != null) {
+            retry.cancel();
+        }
+        watch.stop();
+        dropped += queue.clear();
+        if (current != null) {
+            final Attempt ended = current;
+            current = null;
+            ended.close();
+        }
+        return wasConnected;
+    }
+
+    private void become(UpSocketStatus.State state, String sentence) {
+        status = new UpSocketStatus(state, place, sentence);
+        // Posted, as whoever listens may throw, and may stop this in the middle of a change.
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                listener.onStatus(UpSocket.this);
+            }
+        });
+    }
+
+    private boolean count(boolean isTaken) {
+        if (isTaken) {
+            flush();
+        } else {
+            dropped++;
+        }
+        return isTaken;
+    }
+
+    private void flush() {
+        final long beforeBytes = queue.bytesOut();
+        queue.flush(current.connection);
+        watch.wrote(queue.bytesOut() - beforeBytes, !queue.isEmpty());
+    }
+
+    /** What waits is a sign of life itself, and a line must not be broken. */
+    private void beat() {
+        if (queue.isEmpty()) {
+            final int taken = current.connection.write(new byte[] {LF}, 0, 1);
+            queue.wrote(taken);
+            watch.wrote(taken, false);
+        }
+    }
+
+    /** One attempt and, when it succeeds, its connection; deaf as soon as it is not the current. */
+    private final class Attempt implements FindListener, TcpListener {
+        private final long beganMs = loop.nowMs();
+        private long connectedMs;
+        private String peer = "the peer";
+        private Cancellable search;
+        private TcpConnection connection;
+
+        void close() {
+            if (search != null) {
+                search.cancel();
+            }
+            if (connection != null) {
+                connection.close();
+            }
+        }
+
+        @Override
+        public void onFound(Place found) {
+            if (current != this) {
+                return;
+            }
+            place = found;
+            final int port = settings.isRaw() ? found.orientationPort() : found.generalPort();
+            peer = found.host() + ":" + port;
+            become(UpSocketStatus.State.CONNECTING, "connecting to " + peer);
+            connection = loop.network().connectTcp(found.host(), port,
+                    settings.connectTimeoutMs(), this);
+        }
+
+        @Override
+        public void onNotFound(String reason) {
+            if (current == this) {
+                drop(reason);
+            }
+        }
+
+        @Override
+        public void onConnected() {
+            connectedMs = loop.nowMs();
+            connects++;
+            splitter.reset();
+            become(UpSocketStatus.State.CONNECTED, "connected to " + peer);
+            watch.start();
+            listener.onConnected(UpSocket.this);
+        }
+
+        @Override
+        public void onBytes(byte[] bytes, int length) {
+            bytesIn += length;
+            watch.heard();
+            if (settings.isRaw()) {
+                received++;
+                listener.onReceived(UpSocket.this, bytes, length);
+            } else {
+                deliver(splitter.feed(bytes, length).iterator());
+            }
+        }
+
+        @Override
+        public void onWritable() {
+            flush();
+        }
+
+        @Override
+        public void onClosed(String reason) {
+            drop(reason);
+        }
+
+        /** What the listener throws at one line keeps the others from nobody. */
+        private void deliver(final Iterator<byte[]> lines) {
+            boolean isDone = false;
+            try {
+                while (current == this && lines.hasNext()) {
+                    final byte[] line = lines.next();
+                    received++;
+                    listener.onReceived(UpSocket.this, line, line.length);
+                }
+                isDone = true;
+            } finally {
+                if (!isDone) {
+                    loop.post(new Runnable() {
+                        @Override
+                        public void run() {
+                            deliver(lines);
+                        }
+                    });
+                }
+            }
+        }
     }
 }

@@ -7,7 +7,8 @@ public interface UpSocketListener {
 
     /**
      * Takes what arrived: in line mode the first {@code length} bytes of {@code bytes} are one line
-     * that is not empty, without its end; in raw mode whatever came. The array is reused afterwards.
+     * that is not empty, without its end; in raw mode whatever came. The array may be reused
+     * afterwards.
      */
     void onReceived(UpSocket socket, byte[] bytes, int length);
 
@@ -19,6 +20,6 @@ public interface UpSocketListener {
      */
     void onLost(UpSocket socket, String reason);
 
-    /** Hears that {@link UpSocket#status} changed, for a screen. */
+    /** Hears, a little later, that {@link UpSocket#status} changed: for a screen. */
     void onStatus(UpSocket socket);
 }

@@ -1,62 +1,73 @@
 package org.raspilot.up.net;
 
-/** How an {@link UpSocket} behaves; immutable, each {@code with} returns another. */
+/** How an {@link UpSocket} behaves; immutable, each {@code with} returns another. Times in ms. */
 public final class UpSocketSettings {
-    /** Most bytes that wait in order (64 KiB). */
+    /** Most bytes that wait in order. */
     public static final int LONGEST_QUEUE_BYTES = 65536;
 
     private final boolean isRaw;
     private final int connectTimeoutMs;
     private final int heartbeatMs;
     private final int silenceLimitMs;
+    private final int stallLimitMs;
     private final int firstRetryMs;
     private final int lastRetryMs;
 
     private UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs,
-            int silenceLimitMs, int firstRetryMs, int lastRetryMs) {
+            int silenceLimitMs, int stallLimitMs, int firstRetryMs, int lastRetryMs) {
         this.isRaw = isRaw;
-        this.connectTimeoutMs = connectTimeoutMs;
-        this.heartbeatMs = heartbeatMs;
-        this.silenceLimitMs = silenceLimitMs;
-        this.firstRetryMs = firstRetryMs;
-        this.lastRetryMs = lastRetryMs;
+        this.connectTimeoutMs = atLeast(1, connectTimeoutMs);
+        this.heartbeatMs = atLeast(0, heartbeatMs);
+        this.silenceLimitMs = atLeast(0, silenceLimitMs);
+        this.stallLimitMs = atLeast(0, stallLimitMs);
+        this.firstRetryMs = atLeast(1, firstRetryMs);
+        this.lastRetryMs = atLeast(firstRetryMs, lastRetryMs);
+        if (isRaw && heartbeatMs > 0) {
+            throw new IllegalArgumentException("raw frames have no heartbeat");
+        }
     }
 
     /**
      * Returns lines to the General Message port: 2 s to connect, retries after 0.5 to 2 s, no
-     * heartbeat, no limit of silence.
+     * heartbeat, no limit of silence, 3 s in which the peer may take nothing of what waits.
      */
     public static UpSocketSettings lines() {
-        return new UpSocketSettings(false, 2000, 0, 0, 500, 2000);
+        return new UpSocketSettings(false, 2000, 0, 0, 3000, 500, 2000);
     }
 
     /** Returns raw frames to the orientation port; else as {@link #lines}. */
     public static UpSocketSettings raw() {
-        return new UpSocketSettings(true, 2000, 0, 0, 500, 2000);
+        return new UpSocketSettings(true, 2000, 0, 0, 3000, 500, 2000);
     }
 
     /** Returns these with a time-out of each attempt, including the name's look-up. */
     public UpSocketSettings withConnectTimeoutMs(int timeoutMs) {
-        return new UpSocketSettings(isRaw, timeoutMs, heartbeatMs, silenceLimitMs, firstRetryMs,
-                lastRetryMs);
+        return new UpSocketSettings(isRaw, timeoutMs, heartbeatMs, silenceLimitMs, stallLimitMs,
+                firstRetryMs, lastRetryMs);
     }
 
     /** Returns these with an empty line after each {@code periodMs} of own silence; 0: none. */
     public UpSocketSettings withHeartbeatMs(int periodMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, periodMs, silenceLimitMs,
-                firstRetryMs, lastRetryMs);
+                stallLimitMs, firstRetryMs, lastRetryMs);
     }
 
     /** Returns these with the end of a connection on which no byte came for so long; 0: never. */
     public UpSocketSettings withSilenceLimitMs(int limitMs) {
-        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, limitMs, firstRetryMs,
-                lastRetryMs);
+        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, limitMs, stallLimitMs,
+                firstRetryMs, lastRetryMs);
+    }
+
+    /** Returns these with the end of a connection that took nothing of what waits; 0: never. */
+    public UpSocketSettings withStallLimitMs(int limitMs) {
+        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, silenceLimitMs, limitMs,
+                firstRetryMs, lastRetryMs);
     }
 
     /** Returns these with waits between attempts that double from the first to the last. */
     public UpSocketSettings withRetryMs(int firstMs, int lastMs) {
-        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, silenceLimitMs, firstMs,
-                lastMs);
+        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, silenceLimitMs,
+                stallLimitMs, firstMs, lastMs);
     }
 
     /** Returns whether raw frames go to the orientation port, instead of lines to the other. */
@@ -64,28 +75,40 @@ public final class UpSocketSettings {
         return isRaw;
     }
 
-    /** Returns the time-out of an attempt, ms. */
+    /** Returns the time-out of an attempt. */
     public int connectTimeoutMs() {
         return connectTimeoutMs;
     }
 
-    /** Returns the period of the heartbeat, ms; 0: none. */
+    /** Returns the period of the heartbeat; 0: none. */
     public int heartbeatMs() {
         return heartbeatMs;
     }
 
-    /** Returns the limit of the peer's silence, ms; 0: none. */
+    /** Returns the limit of the peer's silence; 0: none. */
     public int silenceLimitMs() {
         return silenceLimitMs;
     }
 
-    /** Returns the wait after the first failure, ms. */
+    /** Returns how long the peer may take nothing of what waits; 0: for ever. */
+    public int stallLimitMs() {
+        return stallLimitMs;
+    }
+
+    /** Returns the wait after the first failure. */
     public int firstRetryMs() {
         return firstRetryMs;
     }
 
-    /** Returns the longest wait, ms. */
+    /** Returns the longest wait. */
     public int lastRetryMs() {
         return lastRetryMs;
+    }
+
+    private static int atLeast(int least, int value) {
+        if (value < least) {
+            throw new IllegalArgumentException("a time of " + value + " ms is below " + least);
+        }
+        return value;
     }
 }

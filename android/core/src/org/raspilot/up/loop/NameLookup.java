@@ -1,0 +1,147 @@
+package org.raspilot.up.loop;
+
+import java.net.InetAddress;
+import java.net.UnknownHostException;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.LinkedBlockingQueue;
+import java.util.concurrent.RejectedExecutionException;
+import java.util.concurrent.ThreadFactory;
+import java.util.concurrent.ThreadPoolExecutor;
+import java.util.concurrent.TimeUnit;
+
+/**
+ * Looks names up on threads of its own, so that a slow name server holds nothing but its asker.
+ *
+ * <p>Whoever asks for a name that is being looked up waits for the same answer. Numeric addresses
+ * need no thread. Threads that have nothing to do end after 5 s.
+ */
+final class NameLookup {
+    private static final int MOST_THREADS = 4;
+
+    private final Loop loop;
+    private final Resolver resolver;
+    private final ThreadPoolExecutor threads;
+    private final Map<String, List<Asker>> askers = new HashMap<String, List<Asker>>();
+
+    /** Makes a look-up that answers on {@code loop}. */
+    NameLookup(Loop loop, Resolver resolver, final String threadName) {
+        this.loop = loop;
+        this.resolver = resolver;
+        threads = new ThreadPoolExecutor(MOST_THREADS, MOST_THREADS, 5, TimeUnit.SECONDS,
+                new LinkedBlockingQueue<Runnable>(), new ThreadFactory() {
+                    @Override
+                    public Thread newThread(Runnable call) {
+                        final Thread thread = new Thread(call, threadName);
+                        thread.setDaemon(true);
+                        return thread;
+                    }
+                });
+        threads.allowCoreThreadTimeOut(true);
+    }
+
+    /** Looks a name or an address up; the asker hears later, never before this call returned. */
+    void look(final String host, final Asker asker) {
+        if (host == null || host.isEmpty()) {
+            tell(asker, null, "the host is empty");
+        } else if (isNumeric(host)) {
+            // No name server is asked for a numeric address.
+            final Answer answer = ask(host);
+            tell(asker, answer.addresses, answer.reason);
+        } else if (askers.containsKey(host)) {
+            askers.get(host).add(asker);
+        } else {
+            final List<Asker> waiting = new ArrayList<Asker>();
+            waiting.add(asker);
+            askers.put(host, waiting);
+            lookAside(host);
+        }
+    }
+
+    /** Ends the threads; one that waits for a name server ends with the process at the latest. */
+    void stop() {
+        threads.shutdownNow();
+    }
+
+    private void lookAside(final String host) {
+        try {
+            threads.execute(new Runnable() {
+                @Override
+                public void run() {
+                    final Answer answer = ask(host);
+                    loop.post(new Runnable() {
+                        @Override
+                        public void run() {
+                            tellAll(host, answer);
+                        }
+                    });
+                }
+            });
+        } catch (RejectedExecutionException stopped) {
+            tellAll(host, new Answer(null, "the loop was stopped"));
+        }
+    }
+
+    /** Told one by one, so that what one asker throws keeps the answer from no other. */
+    private void tellAll(String host, Answer answer) {
+        for (Asker asker : askers.remove(host)) {
+            tell(asker, answer.addresses, answer.reason);
+        }
+    }
+
+    private void tell(final Asker asker, final InetAddress[] addresses, final String reason) {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                if (addresses == null) {
+                    asker.onUnknown(reason);
+                } else {
+                    asker.onAddresses(addresses);
+                }
+            }
+        });
+    }
+
+    private Answer ask(String host) {
+        try {
+            return new Answer(resolver.resolve(host), null);
+        } catch (UnknownHostException error) {
+            return new Answer(null, "the name " + host + " is not known");
+        } catch (RuntimeException error) {
+            // Android throws SecurityException where the app may not use the network.
+            return new Answer(null, "the name " + host + " cannot be looked up: " + error);
+        }
+    }
+
+    /** A name never has a colon; four decimal numbers are no name either. */
+    static boolean isNumeric(String host) {
+        return host.indexOf(':') >= 0 || host.matches("[0-9]{1,3}(\\.[0-9]{1,3}){3}");
+    }
+
+    /** Looks up, on the calling thread. */
+    interface Resolver {
+        /** Returns at least one address. */
+        InetAddress[] resolve(String host) throws UnknownHostException;
+    }
+
+    /** Hears of the outcome, on the loop, once. */
+    interface Asker {
+        /** Takes at least one address. */
+        void onAddresses(InetAddress[] addresses);
+
+        /** Hears why there is none. */
+        void onUnknown(String reason);
+    }
+
+    private static final class Answer {
+        private final InetAddress[] addresses;
+        private final String reason;
+
+        Answer(InetAddress[] addresses, String reason) {
+            this.addresses = addresses;
+            this.reason = reason;
+        }
+    }
+}

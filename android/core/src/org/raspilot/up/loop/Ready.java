@@ -1,0 +1,15 @@
+package org.raspilot.up.loop;
+
+import java.nio.channels.SelectionKey;
+
+/** What a selector's key belongs to. Called on the loop. */
+interface Ready {
+    /** Does what the key is ready for. */
+    void onReady(SelectionKey key);
+
+    /** Takes the key that replaces its own: the selector was replaced. */
+    void onMoved(SelectionKey key);
+
+    /** Closes without telling anybody. */
+    void close();
+}

@@ -1,0 +1,263 @@
+package org.raspilot.up.loop;
+
+import java.io.IOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.Socket;
+import java.nio.ByteBuffer;
+import java.nio.channels.SelectionKey;
+import java.nio.channels.SocketChannel;
+
+/** One TCP connection of a {@link SelectorLoop}: looks up, connects, reads, writes. */
+final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
+    /**
+     * Small, so that a link that stalls holds little that is old by the time it goes on. Linux
+     * doubles it and counts its own overhead against it.
+     */
+    static final int SEND_BUFFER_BYTES = 8192;
+    private static final int LAST_READS = 8;
+
+    private enum State { CONNECTING, OPEN, BROKEN, CLOSED }
+
+    private final SelectorLoop loop;
+    private final String peer;
+    private final int port;
+    private final int timeoutMs;
+    private final long endMs;
+    private final TcpListener listener;
+    private State state = State.CONNECTING;
+    private Cancellable limit;
+    private InetAddress[] addresses = new InetAddress[0];
+    private int tried;
+    private SocketChannel channel;
+    private SelectionKey key;
+
+    TcpChannel(SelectorLoop loop, String host, int port, int timeoutMs, TcpListener listener) {
+        this.loop = loop;
+        this.port = port;
+        this.timeoutMs = timeoutMs;
+        this.listener = listener;
+        peer = host + ":" + port;
+        endMs = loop.nowMs() + timeoutMs;
+    }
+
+    /** Begins. */
+    void open(NameLookup names, String host) {
+        if (port < 1 || port > 65535) {
+            onUnknown("no port: " + port);
+            return;
+        }
+        limit(timeoutMs, "the name " + host + " was not found within " + timeoutMs + " ms");
+        names.look(host, this);
+    }
+
+    @Override
+    public void onAddresses(InetAddress[] found) {
+        if (state == State.CONNECTING) {
+            addresses = found;
+            connectNext("no address");
+        }
+    }
+
+    @Override
+    public void onUnknown(String reason) {
+        if (state == State.CONNECTING) {
+            failLater(reason);
+        }
+    }
+
+    @Override
+    public int write(byte[] bytes, int offset, int length) {
+        if (state != State.OPEN) {
+            return 0;
+        }
+        try {
+            final int taken = channel.write(ByteBuffer.wrap(bytes, offset, length));
+            if (taken < length) {
+                key.interestOps(SelectionKey.OP_READ | SelectionKey.OP_WRITE);
+            }
+            return taken;
+        } catch (IOException error) {
+            state = State.BROKEN;
+            final String reason = broke(error);
+            loop.post(new Runnable() {
+                @Override
+                public void run() {
+                    readTheRest(reason);
+                }
+            });
+            return 0;
+        }
+    }
+
+    @Override
+    public void close() {
+        state = State.CLOSED;
+        cancelLimit();
+        closeChannel();
+    }
+
+    @Override
+    public void onMoved(SelectionKey moved) {
+        key = moved;
+    }
+
+    @Override
+    public void onReady(SelectionKey ready) {
+        if (state == State.CONNECTING) {
+            finish();
+            return;
+        }
+        if (ready.isReadable()) {
+            read();
+        }
+        if (state == State.OPEN && ready.isWritable()) {
+            key.interestOps(SelectionKey.OP_READ);
+            listener.onWritable();
+        }
+    }
+
+    /** Tries the next address; with none left, ends for {@code reason}. */
+    private void connectNext(String reason) {
+        closeChannel();
+        if (tried == addresses.length) {
+            failLater(reason);
+            return;
+        }
+        final int left = addresses.length - tried;
+        // One address that swallows everything must leave time for the others.
+        limit((endMs - loop.nowMs()) / left, "no answer from " + peer + " within " + timeoutMs
+                + " ms");
+        final InetSocketAddress address = new InetSocketAddress(addresses[tried++], port);
+        final boolean isConnected;
+        try {
+            channel = SocketChannel.open();
+            channel.configureBlocking(false);
+            final Socket socket = channel.socket();
+            socket.setTcpNoDelay(true);
+            socket.setKeepAlive(true);
+            socket.setSendBufferSize(SEND_BUFFER_BYTES);
+            isConnected = channel.connect(address);
+            key = loop.register(channel,
+                    isConnected ? SelectionKey.OP_READ : SelectionKey.OP_CONNECT, this);
+        } catch (IOException error) {
+            connectNext(refused(error));
+            return;
+        } catch (RuntimeException error) {
+            // Android throws SecurityException where the app may not use the network.
+            connectNext(refused(error));
+            return;
+        }
+        if (isConnected) {
+            connected();
+        }
+    }
+
+    private void finish() {
+        try {
+            if (!channel.finishConnect()) {
+                return;
+            }
+            final Socket socket = channel.socket();
+            if (socket.getLocalSocketAddress().equals(socket.getRemoteSocketAddress())) {
+                // On loopback a port that nobody listens on may by chance be met by itself.
+                connectNext("no connection to " + peer + ": nobody listens");
+                return;
+            }
+        } catch (IOException error) {
+            connectNext(refused(error));
+            return;
+        }
+        key.interestOps(SelectionKey.OP_READ);
+        connected();
+    }
+
+    private void connected() {
+        cancelLimit();
+        state = State.OPEN;
+        listener.onConnected();
+    }
+
+    /** Returns whether something was read. */
+    private boolean read() {
+        final byte[] bytes = loop.bytes();
+        final int length;
+        try {
+            length = channel.read(ByteBuffer.wrap(bytes));
+        } catch (IOException error) {
+            fail(broke(error));
+            return false;
+        }
+        if (length < 0) {
+            fail(peer + " closed the connection");
+        } else if (length > 0) {
+            listener.onBytes(bytes, length);
+        }
+        return length > 0;
+    }
+
+    /** What the peer said before it hung up was received before the write failed: hand it on. */
+    private void readTheRest(String reason) {
+        int reads = 0;
+        while (state == State.BROKEN && reads < LAST_READS && read()) {
+            reads++;
+        }
+        if (state == State.BROKEN) {
+            fail(reason);
+        }
+    }
+
+    private void failLater(final String reason) {
+        cancelLimit();
+        state = State.BROKEN;
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                fail(reason);
+            }
+        });
+    }
+
+    private void fail(String reason) {
+        if (state != State.CLOSED) {
+            close();
+            listener.onClosed(reason);
+        }
+    }
+
+    private void limit(long delayMs, final String reason) {
+        cancelLimit();
+        limit = loop.schedule(delayMs, new Runnable() {
+            @Override
+            public void run() {
+                connectNext(reason);
+            }
+        });
+    }
+
+    private void cancelLimit() {
+        if (limit != null) {
+            limit.cancel();
+        }
+    }
+
+    private void closeChannel() {
+        if (channel != null) {
+            loop.closeQuietly(channel);
+            channel = null;
+        }
+    }
+
+    private String refused(Exception error) {
+        return "no connection to " + peer + ": " + words(error);
+    }
+
+    private String broke(IOException error) {
+        return "the connection to " + peer + " broke: " + words(error);
+    }
+
+    private static String words(Exception error) {
+        final String words = error.getMessage();
+        return words == null ? error.getClass().getSimpleName() : words;
+    }
+}

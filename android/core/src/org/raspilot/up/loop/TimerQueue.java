@@ -1,0 +1,91 @@
+package org.raspilot.up.loop;
+
+import java.util.Comparator;
+import java.util.PriorityQueue;
+
+/** Timers in the order in which they fall due; those of equal time in the order of asking. */
+final class TimerQueue {
+    private final PriorityQueue<Timer> timers = new PriorityQueue<Timer>(16, new Sooner());
+    private long asked;
+
+    /** Adds a timer that falls due at {@code time}, in whatever unit the caller keeps time. */
+    Cancellable add(long time, Runnable call) {
+        final Timer timer = new Timer(time, asked++, call);
+        timers.add(timer);
+        return timer;
+    }
+
+    /** Returns a mark: timers that are added later are not taken by it. */
+    long mark() {
+        return asked;
+    }
+
+    /**
+     * Removes and returns the first timer that is due at {@code now} and was added before
+     * {@code mark}; null: none. So a timer that adds another of no delay starves nobody.
+     */
+    Timer take(long now, long mark) {
+        final Timer first = timers.peek();
+        if (first == null || first.time - now > 0 || first.order >= mark) {
+            return null;
+        }
+        first.isPending = false;
+        return timers.poll();
+    }
+
+    /** Returns the first timer; null: none waits. */
+    Timer first() {
+        return timers.peek();
+    }
+
+    /** Returns how many wait. */
+    int size() {
+        return timers.size();
+    }
+
+    /** One timer. */
+    final class Timer implements Cancellable {
+        private final long time;
+        private final long order;
+        private final Runnable call;
+        private boolean isPending = true;
+
+        private Timer(long time, long order, Runnable call) {
+            this.time = time;
+            this.order = order;
+            this.call = call;
+        }
+
+        /** Returns when it falls due. */
+        long time() {
+            return time;
+        }
+
+        /** Returns what is called then. */
+        Runnable call() {
+            return call;
+        }
+
+        @Override
+        public void cancel() {
+            if (isPending) {
+                isPending = false;
+                timers.remove(this);
+            }
+        }
+
+        @Override
+        public boolean isPending() {
+            return isPending;
+        }
+    }
+
+    /** By differences, as the clock's beginning is arbitrary and it may run over. */
+    private static final class Sooner implements Comparator<Timer> {
+        @Override
+        public int compare(Timer one, Timer other) {
+            final long apart = one.time - other.time;
+            return Long.signum(apart != 0 ? apart : one.order - other.order);
+        }
+    }
+}

@@ -1,0 +1,150 @@
+package org.raspilot.up.loop;
+
+import java.io.IOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.nio.ByteBuffer;
+import java.nio.channels.DatagramChannel;
+import java.nio.channels.SelectionKey;
+import java.util.HashMap;
+import java.util.Map;
+
+/** One UDP socket of a {@link SelectorLoop}. */
+final class UdpChannel implements UdpPort, Ready {
+    private static final long NAME_LIFE_MS = 60000;
+    private static final int MOST_NAMES = 64;
+    private static final int READS_A_ROUND = 16;
+
+    private final SelectorLoop loop;
+    private final NameLookup names;
+    private final UdpListener listener;
+    private final Map<String, Name> known = new HashMap<String, Name>();
+    private DatagramChannel channel;
+    private boolean isClosed;
+
+    UdpChannel(SelectorLoop loop, NameLookup names, UdpListener listener) {
+        this.loop = loop;
+        this.names = names;
+        this.listener = listener;
+    }
+
+    /** Opens the socket on any port. */
+    void open() throws IOException {
+        channel = DatagramChannel.open();
+        try {
+            channel.configureBlocking(false);
+            channel.socket().setBroadcast(true);
+            channel.socket().bind(new InetSocketAddress(0));
+            loop.register(channel, SelectionKey.OP_READ, this);
+        } catch (IOException error) {
+            closeChannel();
+            throw error;
+        }
+    }
+
+    @Override
+    public boolean send(byte[] datagram, String host, int port) {
+        if (isClosed || port < 1 || port > 65535) {
+            return false;
+        }
+        final InetAddress address = address(host);
+        if (address == null) {
+            return false;
+        }
+        try {
+            if (channel == null) {
+                open();
+            }
+            final ByteBuffer buffer = ByteBuffer.wrap(datagram);
+            // 0: the system has no room now. The next datagram is newer anyhow.
+            return channel.send(buffer, new InetSocketAddress(address, port)) > 0
+                    || datagram.length == 0;
+        } catch (IOException error) {
+            return false; // No network now, as on a phone that changes it: the caller is told.
+        } catch (SecurityException error) {
+            return false;
+        }
+    }
+
+    @Override
+    public void close() {
+        isClosed = true;
+        closeChannel();
+    }
+
+    @Override
+    public void onMoved(SelectionKey moved) {
+        // Its key is not used: it is ready for nothing but reading.
+    }
+
+    @Override
+    public void onReady(SelectionKey ready) {
+        int reads = 0;
+        while (channel != null && reads < READS_A_ROUND && receive()) {
+            reads++;
+        }
+    }
+
+    private boolean receive() {
+        final byte[] bytes = loop.bytes();
+        final ByteBuffer buffer = ByteBuffer.wrap(bytes);
+        final InetSocketAddress source;
+        try {
+            source = (InetSocketAddress) channel.receive(buffer);
+        } catch (IOException error) {
+            // A socket that cannot be read would be reported ready for ever; sending opens another.
+            closeChannel();
+            loop.tell(error);
+            return false;
+        }
+        if (source == null) {
+            return false;
+        }
+        listener.onDatagram(bytes, buffer.position(), source.getAddress().getHostAddress(),
+                source.getPort());
+        return true;
+    }
+
+    /** Returns a host's address; null: not known yet, or not known to anybody. */
+    private InetAddress address(final String host) {
+        Name name = known.get(host);
+        if (name == null) {
+            if (known.size() >= MOST_NAMES) {
+                known.clear();
+            }
+            name = new Name();
+            known.put(host, name);
+        }
+        if (!name.isAsked && (name.address == null || loop.nowMs() - name.foundMs > NAME_LIFE_MS)) {
+            name.isAsked = true;
+            names.look(host, name);
+        }
+        return name.address;
+    }
+
+    private void closeChannel() {
+        if (channel != null) {
+            loop.closeQuietly(channel);
+            channel = null;
+        }
+    }
+
+    /** What is known of one name. */
+    private final class Name implements NameLookup.Asker {
+        private InetAddress address;
+        private long foundMs;
+        private boolean isAsked;
+
+        @Override
+        public void onAddresses(InetAddress[] addresses) {
+            isAsked = false;
+            address = addresses[0];
+            foundMs = loop.nowMs();
+        }
+
+        @Override
+        public void onUnknown(String reason) {
+            isAsked = false;
+        }
+    }
+}

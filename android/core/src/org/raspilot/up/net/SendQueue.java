@@ -1,0 +1,170 @@
+package org.raspilot.up.net;
+
+import java.util.ArrayDeque;
+import java.util.Iterator;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.loop.TcpConnection;
+import org.raspilot.up.wire.LineSplitter;
+
+/**
+ * What waits until the system takes it: first the rest of what was begun, then what goes in order,
+ * then the newest of each key.
+ */
+final class SendQueue {
+    private static final int MOST_BYTES = UpSocketSettings.LONGEST_QUEUE_BYTES;
+    private static final byte LF = '\n';
+
+    private final boolean isRaw;
+    private final ArrayDeque<byte[]> ordered = new ArrayDeque<byte[]>();
+    private final Map<Object, byte[]> newest = new LinkedHashMap<Object, byte[]>();
+    private byte[] begun;
+    private int done;
+    private int orderedBytes;
+    private int newestBytes;
+    private long sent;
+    private long replaced;
+    private long bytesOut;
+
+    /** Makes a queue of frames as they are, or of lines, of at most 64 KiB in order or newest. */
+    SendQueue(boolean isRaw) {
+        this.isRaw = isRaw;
+    }
+
+    /** Lets a copy wait in order; false: there is no room, or it is too long. */
+    boolean add(byte[] given) {
+        final byte[] bytes = whole(given);
+        if (!isSendable(bytes) || orderedBytes + bytes.length > MOST_BYTES) {
+            return false;
+        }
+        orderedBytes += bytes.length;
+        ordered.add(bytes);
+        return true;
+    }
+
+    /** Lets a copy wait in place of what has the same key; false: as for {@link #add}. */
+    boolean replace(Object key, byte[] given) {
+        final byte[] bytes = whole(given);
+        final byte[] older = newest.get(key);
+        final int grownBytes = newestBytes + bytes.length - (older == null ? 0 : older.length);
+        if (!isSendable(bytes) || grownBytes > MOST_BYTES) {
+            return false;
+        }
+        newestBytes = grownBytes;
+        // An older one's place in the row stays, so that no key waits for ever.
+        newest.put(key, bytes);
+        if (older != null) {
+            replaced++;
+        }
+        return true;
+    }
+
+    /**
+     * Writes what the connection takes now. What was not begun stays replaceable by a newer one.
+     */
+    void flush(TcpConnection connection) {
+        if (begun != null && !writeRest(connection)) {
+            return;
+        }
+        while (!ordered.isEmpty()) {
+            final byte[] first = ordered.peek();
+            final int taken = write(connection, first, 0);
+            if (taken == 0) {
+                return;
+            }
+            ordered.remove();
+            orderedBytes -= first.length;
+            if (!isWhole(first, taken)) {
+                return;
+            }
+        }
+        final Iterator<byte[]> each = newest.values().iterator();
+        while (each.hasNext()) {
+            final byte[] next = each.next();
+            final int taken = write(connection, next, 0);
+            if (taken == 0) {
+                return;
+            }
+            each.remove();
+            newestBytes -= next.length;
+            if (!isWhole(next, taken)) {
+                return;
+            }
+        }
+    }
+
+    /** Forgets everything: the connection is gone. Returns how many lines or frames died. */
+    int clear() {
+        final int count = ordered.size() + newest.size() + (begun != null ? 1 : 0);
+        ordered.clear();
+        newest.clear();
+        orderedBytes = 0;
+        newestBytes = 0;
+        begun = null;
+        done = 0;
+        return count;
+    }
+
+    boolean isEmpty() {
+        return begun == null && ordered.isEmpty() && newest.isEmpty();
+    }
+
+    int waitingBytes() {
+        return orderedBytes + newestBytes + (begun == null ? 0 : begun.length - done);
+    }
+
+    long sent() {
+        return sent;
+    }
+
+    long replaced() {
+        return replaced;
+    }
+
+    long bytesOut() {
+        return bytesOut;
+    }
+
+    /** Counts bytes that went past the queue. */
+    void wrote(int bytes) {
+        bytesOut += bytes;
+    }
+
+    private byte[] whole(byte[] bytes) {
+        if (isRaw || bytes.length > 0 && bytes[bytes.length - 1] == LF) {
+            return bytes.clone();
+        }
+        final byte[] whole = new byte[bytes.length + 1];
+        System.arraycopy(bytes, 0, whole, 0, bytes.length);
+        whole[bytes.length] = LF;
+        return whole;
+    }
+
+    private boolean isSendable(byte[] bytes) {
+        return bytes.length > 0 && (isRaw || bytes.length <= LineSplitter.LONGEST_LINE);
+    }
+
+    private boolean writeRest(TcpConnection connection) {
+        final byte[] bytes = begun;
+        final int taken = write(connection, bytes, done);
+        begun = null;
+        return isWhole(bytes, done + taken);
+    }
+
+    private int write(TcpConnection connection, byte[] bytes, int offset) {
+        final int taken = connection.write(bytes, offset, bytes.length - offset);
+        bytesOut += taken;
+        return taken;
+    }
+
+    /** Counts bytes that are gone, or keeps the rest to be finished before all others. */
+    private boolean isWhole(byte[] bytes, int gone) {
+        if (gone == bytes.length) {
+            sent++;
+            return true;
+        }
+        begun = bytes;
+        done = gone;
+        return false;
+    }
+}
