@@ -4,9 +4,7 @@ import java.io.Closeable;
 import java.io.IOException;
 import java.nio.channels.SelectableChannel;
 import java.nio.channels.SelectionKey;
-import java.nio.channels.Selector;
 import java.util.ArrayList;
-import java.util.Iterator;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.locks.LockSupport;
@@ -21,21 +19,18 @@ import java.util.concurrent.locks.LockSupport;
 public final class SelectorLoop implements Loop, Network {
     private static final int STOP_MS = 1000;
     private static final int BYTES = 65536;
-    private static final int MOST_EMPTY_ROUNDS = 256;
 
     private final Guard guard;
-    private final SelectorSource selectors;
+    private final SocketSelector sockets;
     private final NameLookup names;
     private final String name;
     private final byte[] bytes = new byte[BYTES];
     private final TimerQueue timers = new TimerQueue();
     private final Object lock = new Object();
     private List<Runnable> posted = new ArrayList<Runnable>();
-    private volatile Selector selector;
     private volatile Thread thread;
     private volatile boolean isStopped;
     private volatile long rounds;
-    private int emptyRounds;
 
     /**
      * Makes a loop that is not started yet.
@@ -44,13 +39,13 @@ public final class SelectorLoop implements Loop, Network {
      * @param faults hears of exceptions of what runs on the loop
      */
     public SelectorLoop(String name, FaultListener faults) {
-        this(name, faults, new SystemSelectors(), new SystemResolver());
+        this(name, faults, new SocketSelector(), new SystemResolver());
     }
 
-    SelectorLoop(String name, FaultListener faults, SelectorSource selectors,
+    SelectorLoop(String name, FaultListener faults, SocketSelector sockets,
             NameLookup.Resolver resolver) {
         this.name = name;
-        this.selectors = selectors;
+        this.sockets = sockets;
         guard = new Guard(faults);
         names = new NameLookup(this, resolver, name + " names");
     }
@@ -66,7 +61,7 @@ public final class SelectorLoop implements Loop, Network {
             if (thread != null || isStopped) {
                 throw new IllegalStateException("a loop is started once");
             }
-            selector = selectors.open();
+            sockets.open();
             thread = new Thread(new Runnable() {
                 @Override
                 public void run() {
@@ -92,7 +87,7 @@ public final class SelectorLoop implements Loop, Network {
         }
         names.stop();
         if (running != null && !isInLoop()) {
-            selector.wakeup();
+            sockets.wakeup();
             try {
                 running.join(STOP_MS);
             } catch (InterruptedException interruption) {
@@ -126,9 +121,8 @@ public final class SelectorLoop implements Loop, Network {
             isFirst = posted.isEmpty();
             posted.add(call);
         }
-        final Selector sleeping = selector;
-        if (isFirst && sleeping != null && !isInLoop()) {
-            sleeping.wakeup();
+        if (isFirst && !isInLoop()) {
+            sockets.wakeup();
         }
     }
 
@@ -173,7 +167,7 @@ public final class SelectorLoop implements Loop, Network {
 
     SelectionKey register(SelectableChannel channel, int operations, Ready ready)
             throws IOException {
-        return channel.register(selector, operations, ready);
+        return sockets.register(channel, operations, ready);
     }
 
     /** Counts and tells a fault that belongs to no call. */
@@ -220,7 +214,7 @@ public final class SelectorLoop implements Loop, Network {
             calls = posted;
             posted = new ArrayList<Runnable>();
         }
-        emptyRounds = 0;
+        sockets.hadReason();
         for (Runnable call : calls) {
             run(call);
         }
@@ -231,7 +225,7 @@ public final class SelectorLoop implements Loop, Network {
         final long mark = timers.mark();
         TimerQueue.Timer timer = timers.take(nowNs, mark);
         while (timer != null) {
-            emptyRounds = 0;
+            sockets.hadReason();
             run(timer.call());
             timer = timers.take(nowNs, mark);
         }
@@ -239,23 +233,26 @@ public final class SelectorLoop implements Loop, Network {
 
     private void select() {
         try {
-            final long beginNs = System.nanoTime();
-            final long waitMs = waitMs(beginNs);
-            if (waitMs == 0) {
-                selector.selectNow();
-            } else {
-                selector.select(waitMs < 0 ? 0 : waitMs);
-            }
-            handleKeys();
-            if (emptyRounds > MOST_EMPTY_ROUNDS) {
-                replaceSelector();
+            for (SelectionKey key : sockets.await(waitMs(System.nanoTime()))) {
+                handle(key);
             }
         } catch (IOException error) {
             tell(error);
             // Whatever ails the system, asking it again at once would only heat the phone.
             LockSupport.parkNanos(TimeUnit.MILLISECONDS.toNanos(10));
-            emptyRounds++;
         }
+    }
+
+    private void handle(final SelectionKey key) {
+        run(new Runnable() {
+            @Override
+            public void run() {
+                // An earlier one's call may have closed it.
+                if (key.isValid()) {
+                    ((Ready) key.attachment()).onReady(key);
+                }
+            }
+        });
     }
 
     /** Returns how long nothing is to be done, rounded up; 0: not at all, -1: for ever. */
@@ -273,63 +270,20 @@ public final class SelectorLoop implements Loop, Network {
         return (waitNs + 999999L) / 1000000L;
     }
 
-    private void handleKeys() {
-        emptyRounds++;
-        final Iterator<SelectionKey> keys = selector.selectedKeys().iterator();
-        while (keys.hasNext()) {
-            final SelectionKey key = keys.next();
-            keys.remove();
-            if (key.isValid()) {
-                emptyRounds = 0;
-                run(new Runnable() {
-                    @Override
-                    public void run() {
-                        ((Ready) key.attachment()).onReady(key);
-                    }
-                });
-            }
-        }
-    }
-
-    private void replaceSelector() throws IOException {
-        final Selector old = selector;
-        final Selector fresh = selectors.open();
-        for (SelectionKey key : old.keys()) {
-            if (key.isValid()) {
-                final Ready ready = (Ready) key.attachment();
-                final int operations = key.interestOps();
-                key.cancel();
-                ready.onMoved(key.channel().register(fresh, operations, ready));
-            }
-        }
-        selector = fresh;
-        emptyRounds = 0;
-        closeQuietly(old);
-    }
-
     private void closeAll() {
-        for (SelectionKey key : selector.keys()) {
-            ((Ready) key.attachment()).close();
+        for (Ready ready : sockets.registered()) {
+            ready.close();
         }
-        closeQuietly(selector);
+        try {
+            sockets.close();
+        } catch (IOException error) {
+            tell(error);
+        }
     }
 
     private void mustBeInLoop() {
         if (!isInLoop()) {
             throw new IllegalStateException("only on the loop: post the call");
-        }
-    }
-
-    /** Opens selectors. */
-    interface SelectorSource {
-        /** Opens another. */
-        Selector open() throws IOException;
-    }
-
-    private static final class SystemSelectors implements SelectorSource {
-        @Override
-        public Selector open() throws IOException {
-            return Selector.open();
         }
     }
 }

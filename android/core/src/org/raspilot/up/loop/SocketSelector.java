@@ -1,0 +1,102 @@
+package org.raspilot.up.loop;
+
+import java.io.IOException;
+import java.nio.channels.SelectableChannel;
+import java.nio.channels.SelectionKey;
+import java.nio.channels.Selector;
+import java.util.ArrayList;
+import java.util.List;
+
+/**
+ * Sleeps until a socket is ready. A selector that returns again and again without a reason, as
+ * some do after a connection broke, is replaced by a new one. Only {@link #wakeup} is for others
+ * than the loop's thread.
+ */
+class SocketSelector {
+    private static final int MOST_EMPTY_ROUNDS = 256;
+
+    private volatile Selector selector;
+    private int emptyRounds;
+
+    /** Opens it. */
+    void open() throws IOException {
+        selector = openSelector();
+    }
+
+    /** Lets the sleeper, or the next one, return at once. */
+    void wakeup() {
+        final Selector sleeping = selector;
+        if (sleeping != null) {
+            sleeping.wakeup();
+        }
+    }
+
+    SelectionKey register(SelectableChannel channel, int operations, Ready ready)
+            throws IOException {
+        return channel.register(selector, operations, ready);
+    }
+
+    /** Hears that there was a reason to wake: a call or a timer. */
+    void hadReason() {
+        emptyRounds = 0;
+    }
+
+    /**
+     * Waits until a socket is ready and returns the keys that are.
+     *
+     * @param waitMs the longest wait; 0: none, -1: for ever
+     */
+    List<SelectionKey> await(long waitMs) throws IOException {
+        if (emptyRounds > MOST_EMPTY_ROUNDS) {
+            replace();
+        }
+        // Before the wait, so that a selector which only throws is replaced as well.
+        emptyRounds++;
+        if (waitMs == 0) {
+            selector.selectNow();
+        } else {
+            selector.select(waitMs < 0 ? 0 : waitMs);
+        }
+        final List<SelectionKey> ready = new ArrayList<SelectionKey>(selector.selectedKeys());
+        selector.selectedKeys().clear();
+        if (!ready.isEmpty()) {
+            emptyRounds = 0;
+        }
+        return ready;
+    }
+
+    /** Returns whom the keys belong to. */
+    List<Ready> registered() {
+        final List<Ready> all = new ArrayList<Ready>();
+        for (SelectionKey key : selector.keys()) {
+            all.add((Ready) key.attachment());
+        }
+        return all;
+    }
+
+    /** Closes it; a wakeup has no effect any more. */
+    void close() throws IOException {
+        selector.close();
+    }
+
+    /** Opens another; a test gives one that is broken. */
+    Selector openSelector() throws IOException {
+        return Selector.open();
+    }
+
+    private void replace() throws IOException {
+        final Selector old = selector;
+        final Selector fresh = openSelector();
+        for (SelectionKey key : old.keys()) {
+            if (key.isValid()) {
+                final Ready ready = (Ready) key.attachment();
+                final int operations = key.interestOps();
+                key.cancel();
+                ready.onMoved(key.channel().register(fresh, operations, ready));
+            }
+        }
+        selector = fresh;
+        emptyRounds = 0;
+        old.close();
+    }
+}
