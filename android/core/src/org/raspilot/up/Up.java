@@ -23,6 +23,11 @@ public final class Up {
     private final ProvidersController providers;
 
     /** Makes an Up on a loop; the listener is told of handlers that fail. */
+    public Up(Loop loop, HandlerFaultListener faults) {
+        this(loop, new ProvidersController(loop), faults);
+    }
+
+    /** Makes an Up with providers that are there already. */
     public Up(Loop loop, ProvidersController providers, HandlerFaultListener faults) {
         this.loop = loop;
         this.providers = providers;

@@ -25,7 +25,7 @@ public class BaseCommand {
     /** Makes the Command that a message is, under the name that it has today. */
     protected BaseCommand(String name, GeneralMessage message) {
         this(name.equals(message.name()) ? message
-                : new GeneralMessage(name, message.data(), message.id(), message.beacon()));
+                : message.with(name, message.id(), message.beacon()));
     }
 
     /** Returns the name on the wire. */
@@ -55,7 +55,7 @@ public class BaseCommand {
 
     /** Returns the message to send under another id and beacon; either may be null. */
     public final GeneralMessage toMessage(String id, Long beacon) {
-        return new GeneralMessage(name(), data(), id, beacon);
+        return message.with(name(), id, beacon);
     }
 
     @Override

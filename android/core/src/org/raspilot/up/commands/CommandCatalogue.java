@@ -1,15 +1,22 @@
 package org.raspilot.up.commands;
 
 import java.util.ArrayList;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
+import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
 
-/** Every Command that some ground may send, with its form: what {@code commands.json} says. */
+/**
+ * Every Command that some ground may send, with its form: what {@code commands.json} says.
+ *
+ * <p>The text is what the ground station's page gets: generated from the Commands themselves.
+ */
 public final class CommandCatalogue {
-    private final List<CommandForm> forms;
+    private final List<CommandForm> forms = new ArrayList<CommandForm>();
+    private final Map<String, CommandForm> byName = new LinkedHashMap<String, CommandForm>();
 
-    private CommandCatalogue(List<CommandForm> forms) {
-        this.forms = forms;
+    private CommandCatalogue() {
     }
 
     /**
@@ -18,16 +25,28 @@ public final class CommandCatalogue {
      * @throws MalformedException when it is none
      */
     public static CommandCatalogue read(String json) throws MalformedException {
-        return new CommandCatalogue(new ArrayList<CommandForm>());
+        CommandCatalogue catalogue = new CommandCatalogue();
+        for (Object described : CatalogueEntry.of(Json.parse(json)).list("commands")) {
+            catalogue.add(CommandForm.read(described));
+        }
+        return catalogue;
     }
 
-    /** Returns the forms by name; a copy. */
+    /** Returns the forms in the order of the catalogue, by name; a copy. */
     public List<CommandForm> forms() {
         return new ArrayList<CommandForm>(forms);
     }
 
     /** Returns the form of a name or alias, or null. */
     public CommandForm form(String name) {
-        return null;
+        return byName.get(name);
+    }
+
+    private void add(CommandForm form) {
+        forms.add(form);
+        byName.put(form.name(), form);
+        for (String alias : form.aliases()) {
+            byName.put(alias, form);
+        }
     }
 }

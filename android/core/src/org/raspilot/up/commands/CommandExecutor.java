@@ -1,5 +1,10 @@
 package org.raspilot.up.commands;
 
+import java.util.ArrayDeque;
+import java.util.Collections;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.Map;
 import java.util.UUID;
 
 /**
@@ -9,8 +14,26 @@ import java.util.UUID;
  * current Command's handlers are done.
  */
 public final class CommandExecutor {
+    private static final CommandOutcome NOBODY_ASKS = new CommandOutcome() {
+        @Override
+        public void onDone(int handlers, Throwable fault) {
+            // A fault was told and counted where it happened.
+        }
+    };
+
+    private final CommandRegistry registry;
+    private final HandlerFaultListener faults;
+    /** Handlers by name; a map is replaced and never changed, so that a delivery can go on. */
+    private final Map<String, Map<UUID, BaseCommandHandler>> handlers =
+            new HashMap<String, Map<UUID, BaseCommandHandler>>();
+    private final ArrayDeque<Runnable> waiting = new ArrayDeque<Runnable>();
+    private boolean isDelivering;
+    private long failedHandlers;
+
     /** Makes a bus; the listener is told of handlers that fail. */
     public CommandExecutor(CommandRegistry registry, HandlerFaultListener faults) {
+        this.registry = registry;
+        this.faults = faults;
     }
 
     /**
@@ -18,17 +41,29 @@ public final class CommandExecutor {
      * one handler may be registered several times.
      */
     public UUID registerCommand(String name, BaseCommandHandler handler) {
-        return UUID.randomUUID();
+        if (handler == null) {
+            throw new IllegalArgumentException("no handler for " + name);
+        }
+        UUID handle = UUID.randomUUID();
+        Map<UUID, BaseCommandHandler> now = copyOfHandlers(name);
+        now.put(handle, handler);
+        handlers.put(registry.primaryName(name), now);
+        return handle;
     }
 
     /** Ends a subscription; false: the handle is none of that Command. */
     public boolean unregisterCommand(String name, UUID handle) {
-        return false;
+        Map<UUID, BaseCommandHandler> now = copyOfHandlers(name);
+        if (now.remove(handle) == null) {
+            return false;
+        }
+        handlers.put(registry.primaryName(name), now);
+        return true;
     }
 
     /** Says whether anybody subscribed to a Command. */
     public boolean hasHandlers(String name) {
-        return false;
+        return !handlersOf(name).isEmpty();
     }
 
     /**
@@ -36,11 +71,66 @@ public final class CommandExecutor {
      * they are; no handler's fault or refusal reaches the caller or the other handlers.
      */
     public int executeCommand(BaseCommand command) {
-        return 0;
+        execute(command, NOBODY_ASKS);
+        return handlersOf(command.name()).size();
     }
 
     /** Returns how often a handler failed, refusals not counted. */
     public long failedHandlers() {
-        return 0;
+        return failedHandlers;
+    }
+
+    /** Delivers a Command, at once or after the one that is being delivered, and tells the end. */
+    void execute(final BaseCommand command, final CommandOutcome outcome) {
+        waiting.add(new Runnable() {
+            @Override
+            public void run() {
+                deliver(command, outcome);
+            }
+        });
+        if (isDelivering) {
+            return;
+        }
+        isDelivering = true;
+        try {
+            for (Runnable next = waiting.poll(); next != null; next = waiting.poll()) {
+                next.run();
+            }
+        } finally {
+            isDelivering = false;
+        }
+    }
+
+    private void deliver(BaseCommand command, CommandOutcome outcome) {
+        Map<UUID, BaseCommandHandler> subscribed = handlersOf(command.name());
+        Throwable first = null;
+        for (BaseCommandHandler handler : subscribed.values()) {
+            Throwable fault = run(handler, command);
+            first = first == null ? fault : first;
+        }
+        outcome.onDone(subscribed.size(), first);
+    }
+
+    /** Returns what the handler threw, or null; whatever it was, the others have their turn. */
+    private Throwable run(BaseCommandHandler handler, BaseCommand command) {
+        try {
+            handler.runAction(command);
+            return null;
+        } catch (CommandRefusedException refusal) {
+            return refusal;
+        } catch (RuntimeException | LinkageError | StackOverflowError fault) {
+            failedHandlers++;
+            faults.onHandlerFailed(handler, command, fault);
+            return fault;
+        }
+    }
+
+    private Map<UUID, BaseCommandHandler> handlersOf(String name) {
+        Map<UUID, BaseCommandHandler> now = handlers.get(registry.primaryName(name));
+        return now == null ? Collections.<UUID, BaseCommandHandler>emptyMap() : now;
+    }
+
+    private Map<UUID, BaseCommandHandler> copyOfHandlers(String name) {
+        return new LinkedHashMap<UUID, BaseCommandHandler>(handlersOf(name));
     }
 }

@@ -3,6 +3,8 @@ package org.raspilot.up.commands;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
+import java.util.Map;
+import org.raspilot.up.wire.MalformedException;
 
 /** One field of a Command as the catalogue describes it. */
 public final class CommandField {
@@ -16,20 +18,30 @@ public final class CommandField {
     private final boolean nullable;
     private final boolean required;
     private final String text;
+    private final FieldRule rule;
 
-    CommandField(String name, FieldType type, String unit, Double minimum, Double maximum,
-            List<?> choices, Integer maxLength, boolean nullable, boolean required, String text) {
-        this.name = name;
-        this.type = type;
-        this.unit = unit;
-        this.minimum = minimum;
-        this.maximum = maximum;
-        this.choices = choices == null ? null
-                : Collections.unmodifiableList(new ArrayList<Object>(choices));
-        this.maxLength = maxLength;
-        this.nullable = nullable;
-        this.required = required;
-        this.text = text;
+    private CommandField(CatalogueEntry entry) throws MalformedException {
+        name = entry.text("name");
+        type = entry.type("type");
+        unit = entry.text("unit");
+        minimum = entry.optionalNumber("minimum");
+        maximum = entry.optionalNumber("maximum");
+        List<Object> listed = entry.optionalList("choices");
+        choices = listed == null ? null
+                : Collections.unmodifiableList(new ArrayList<Object>(listed));
+        Double length = entry.optionalNumber("max_length");
+        maxLength = length == null ? null : (Integer) length.intValue();
+        nullable = entry.flag("nullable");
+        required = entry.flag("required");
+        text = entry.text("text");
+        rule = new FieldRule(type, minimum == null ? -Double.MAX_VALUE : minimum,
+                maximum == null ? Double.MAX_VALUE : maximum, choices,
+                maxLength == null ? Integer.MAX_VALUE : maxLength, text);
+    }
+
+    /** Reads a field out of a catalogue. */
+    static CommandField read(Map<?, ?> description) throws MalformedException {
+        return new CommandField(new CatalogueEntry(description));
     }
 
     /** Returns the name on the wire. */
@@ -84,15 +96,29 @@ public final class CommandField {
 
     /** Returns what is wrong with a JSON value, a sentence that names the field, or null. */
     public String validate(Object value) {
-        return null;
+        if (value == null && nullable) {
+            return null;
+        }
+        String complaint = rule.complaint(value);
+        return complaint == null ? null : name + " " + complaint;
     }
 
     /**
-     * Returns the value that a person typed; the text is not empty.
+     * Returns the value that a person typed, as a JSON value; {@code null} is null where that is
+     * allowed and the field is no text.
      *
      * @throws InvalidCommandException with one sentence that names the field
      */
     public Object parse(String input) {
-        return input;
+        Object value = type == FieldType.TEXT ? input : TypedValue.of(input.trim(), type);
+        if (value == TypedValue.NONE) {
+            throw new InvalidCommandException(
+                    name + " must be " + text + ", not " + FieldRule.shown(input));
+        }
+        String complaint = validate(value);
+        if (complaint != null) {
+            throw new InvalidCommandException(complaint);
+        }
+        return value;
     }
 }

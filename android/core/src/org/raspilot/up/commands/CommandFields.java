@@ -2,6 +2,7 @@ package org.raspilot.up.commands;
 
 import java.util.List;
 import java.util.Map;
+import java.util.regex.Pattern;
 
 /**
  * The fields of a received message, each read with its type and bounds.
@@ -10,6 +11,8 @@ import java.util.Map;
  * {@code optional} ones return null for a field that is absent or null.
  */
 public final class CommandFields {
+    private static final Pattern TOPIC = Pattern.compile("[a-z0-9_]+(\\.[a-z0-9_]+)+");
+
     private final Map<String, Object> data;
 
     /** Reads the fields of a message's data. */
@@ -24,32 +27,32 @@ public final class CommandFields {
 
     /** Returns a number within bounds. */
     public double number(String key, double minimum, double maximum) {
-        return ((Number) data.get(key)).doubleValue();
+        return ((Number) checked(key, FieldRule.number(minimum, maximum))).doubleValue();
     }
 
     /** Returns a number within bounds, or null. */
     public Double optionalNumber(String key, double minimum, double maximum) {
-        return data.get(key) == null ? null : number(key, minimum, maximum);
+        return data.get(key) == null ? null : (Double) number(key, minimum, maximum);
     }
 
     /** Returns a whole number within bounds. */
     public long whole(String key, long minimum, long maximum) {
-        return ((Number) data.get(key)).longValue();
+        return ((Number) checked(key, FieldRule.whole(minimum, maximum))).longValue();
     }
 
     /** Returns true or false. */
     public boolean flag(String key) {
-        return (Boolean) data.get(key);
+        return (Boolean) checked(key, FieldRule.of(FieldType.BOOLEAN));
     }
 
     /** Returns true, false or null. */
     public Boolean optionalFlag(String key) {
-        return (Boolean) data.get(key);
+        return data.get(key) == null ? null : (Boolean) flag(key);
     }
 
     /** Returns a text of at most {@code longest} characters. */
     public String text(String key, int longest) {
-        return (String) data.get(key);
+        return (String) checked(key, FieldRule.text(longest));
     }
 
     /** Returns a text of at most {@code longest} characters; absent: {@code otherwise}. */
@@ -59,7 +62,7 @@ public final class CommandFields {
 
     /** Returns one of the choices. */
     public String choice(String key, List<String> choices) {
-        return (String) data.get(key);
+        return (String) checked(key, FieldRule.choice(choices));
     }
 
     /** Returns one of the choices; absent: {@code otherwise}. */
@@ -68,28 +71,56 @@ public final class CommandFields {
     }
 
     /** Returns an object's fields. */
+    @SuppressWarnings("unchecked")
     public Map<String, Object> object(String key) {
-        return optionalObject(key);
+        return (Map<String, Object>) checked(key, FieldRule.of(FieldType.OBJECT));
     }
 
     /** Returns an object's fields, or null. */
-    @SuppressWarnings("unchecked")
     public Map<String, Object> optionalObject(String key) {
-        return (Map<String, Object>) data.get(key);
+        return data.get(key) == null ? null : object(key);
     }
 
     /** Returns a text of 1 to {@code longest} characters. */
     public String filledText(String key, int longest) {
-        return text(key, longest);
+        String text = text(key, longest);
+        if (text.isEmpty()) {
+            throw new InvalidCommandException(key + " must have 1 to " + longest + " characters");
+        }
+        return text;
     }
 
     /** Returns a text of 1 to {@code longest} characters that is not blank. */
     public String inkedText(String key, int longest) {
-        return text(key, longest);
+        String text = filledText(key, longest);
+        for (int i = 0; i < text.length(); i++) {
+            char c = text.charAt(i);
+            if (!Character.isWhitespace(c) && !Character.isSpaceChar(c) && c != '\u0085') {
+                return text;
+            }
+        }
+        throw new InvalidCommandException(key + " must not be blank");
     }
 
     /** Returns the topic of a record: words of {@code a-z 0-9 _} joined by dots, at most 64. */
     public String topic(String key) {
-        return text(key, 64);
+        String topic = text(key, 64);
+        if (!TOPIC.matcher(topic).matches()) {
+            throw new InvalidCommandException(key
+                    + " must be words of a to z, 0 to 9 and _, joined by dots: companion.airspeed");
+        }
+        return topic;
+    }
+
+    private Object checked(String key, FieldRule rule) {
+        if (!data.containsKey(key)) {
+            throw new InvalidCommandException(key + " is missing");
+        }
+        Object value = data.get(key);
+        String complaint = rule.complaint(value);
+        if (complaint != null) {
+            throw new InvalidCommandException(key + " " + complaint);
+        }
+        return value;
     }
 }

@@ -5,6 +5,8 @@ import java.util.Collections;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.wire.MalformedException;
 
 /** A Command as a person fills it in: its name, what it is for, its fields. */
 public final class CommandForm {
@@ -13,16 +15,27 @@ public final class CommandForm {
     private final String role;
     private final String text;
     private final boolean needsBeacon;
-    private final List<CommandField> fields;
+    private final Map<String, CommandField> fields = new LinkedHashMap<String, CommandField>();
 
-    CommandForm(String name, List<String> aliases, String role, String text, boolean needsBeacon,
-            List<CommandField> fields) {
-        this.name = name;
-        this.aliases = Collections.unmodifiableList(new ArrayList<String>(aliases));
-        this.role = role;
-        this.text = text;
-        this.needsBeacon = needsBeacon;
-        this.fields = Collections.unmodifiableList(new ArrayList<CommandField>(fields));
+    private CommandForm(CatalogueEntry entry) throws MalformedException {
+        name = entry.text("name");
+        role = entry.text("role");
+        text = entry.text("text");
+        needsBeacon = entry.flag("needs_beacon");
+        List<String> names = new ArrayList<String>();
+        for (Object alias : entry.list("aliases")) {
+            names.add(String.valueOf(alias));
+        }
+        aliases = Collections.unmodifiableList(names);
+        for (Object described : entry.list("fields")) {
+            CommandField field = CommandField.read(CatalogueEntry.of(described).description());
+            fields.put(field.name(), field);
+        }
+    }
+
+    /** Reads a form out of a catalogue. */
+    static CommandForm read(Object description) throws MalformedException {
+        return new CommandForm(CatalogueEntry.of(description));
     }
 
     /** Returns the name on the wire. */
@@ -50,13 +63,33 @@ public final class CommandForm {
         return needsBeacon;
     }
 
-    /** Returns the fields in their order; unmodifiable. */
+    /** Returns the fields in their order; a copy. */
     public List<CommandField> fields() {
-        return fields;
+        return new ArrayList<CommandField>(fields.values());
     }
 
-    /** Returns what is wrong with data as JSON values, one sentence that names the field, or null. */
+    /** Returns the field of a name, or null. */
+    public CommandField field(String fieldName) {
+        return fields.get(fieldName);
+    }
+
+    /** Returns what is wrong with data of JSON values, a sentence that names the field, or null. */
     public String validate(Map<String, ?> data) {
+        for (Map.Entry<String, ?> given : data.entrySet()) {
+            CommandField field = fields.get(given.getKey());
+            if (field == null) {
+                return name + " has no field " + given.getKey();
+            }
+            String complaint = field.validate(given.getValue());
+            if (complaint != null) {
+                return complaint;
+            }
+        }
+        for (CommandField field : fields.values()) {
+            if (field.isRequired() && !data.containsKey(field.name())) {
+                return field.name() + " is missing";
+            }
+        }
         return null;
     }
 
@@ -66,15 +99,28 @@ public final class CommandForm {
      * @throws InvalidCommandException with one sentence that names the field
      */
     public Map<String, Object> parse(Map<String, String> inputs) {
-        return new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        for (Map.Entry<String, String> input : inputs.entrySet()) {
+            String typed = input.getValue();
+            if (typed != null && typed.trim().length() > 0) {
+                CommandField field = fields.get(input.getKey());
+                data.put(input.getKey(), field == null ? typed : field.parse(typed));
+            }
+        }
+        String complaint = validate(data);
+        if (complaint != null) {
+            throw new InvalidCommandException(complaint);
+        }
+        return data;
     }
 
     /**
-     * Returns the Command of what a person typed.
+     * Returns the Command of what a person typed; one that the Up Library knows is checked as a
+     * whole besides.
      *
      * @throws InvalidCommandException with one sentence that names the field
      */
     public BaseCommand command(Map<String, String> inputs) {
-        return new BaseCommand(name, parse(inputs));
+        return CommandRegistry.builtin().read(new GeneralMessage(name, parse(inputs)));
     }
 }

@@ -1,5 +1,8 @@
 package org.raspilot.up.commands;
 
+import java.util.HashMap;
+import java.util.Map;
+import java.util.WeakHashMap;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.MalformedException;
@@ -11,20 +14,73 @@ import org.raspilot.up.wire.MalformedException;
  * and not executed again (the newest 256 ids of 60 s of a link). Source: docs/protocols.md 4.
  */
 public final class CommandReceiver {
+    private static final int LONGEST_REASON = 500;
+    private static final int SHOWN_NAME = 64;
+    private static final String FAILED = "carrying it out failed; the log says where";
+
+    private final CommandRegistry registry;
+    private final CommandExecutor executor;
+    private final Loop loop;
+    private final Map<AnswerSink, AnswerMemory> memories =
+            new WeakHashMap<AnswerSink, AnswerMemory>();
+    private final Map<String, Long> counts = new HashMap<String, Long>();
+
     /** Makes a receiver for the links of one loop. */
     public CommandReceiver(CommandRegistry registry, CommandExecutor executor, Loop loop) {
+        this.registry = registry;
+        this.executor = executor;
+        this.loop = loop;
     }
 
     /** Takes one line of a link, without its line end. */
     public void receiveLine(byte[] line, int length, AnswerSink answers) {
+        GeneralMessage message;
+        try {
+            message = GeneralMessage.read(line, length);
+        } catch (MalformedException malformed) {
+            receiveMalformed(malformed, answers);
+            return;
+        }
+        receive(message, answers);
     }
 
     /** Takes one message of a link. */
-    public void receive(GeneralMessage message, AnswerSink answers) {
+    public void receive(final GeneralMessage message, final AnswerSink answers) {
+        addOne("received");
+        if (isRepeated(message, answers)) {
+            addOne("repeated");
+            return;
+        }
+        String name = message.name();
+        if (!registry.knows(name) && !executor.hasHandlers(name)) {
+            String shown = name.length() <= SHOWN_NAME ? name : name.substring(0, SHOWN_NAME);
+            refuse(message.id(), answers, NackCode.UNKNOWN, "no Command '" + shown + "'");
+            return;
+        }
+        BaseCommand command;
+        try {
+            command = registry.read(message);
+        } catch (InvalidCommandException fault) {
+            refuse(message.id(), answers, NackCode.INVALID,
+                    registry.primaryName(name) + ": " + fault.getMessage());
+            return;
+        } catch (RuntimeException fault) {
+            // A Command of an application costs this message and not the link.
+            refuse(message.id(), answers, NackCode.FAILED, FAILED);
+            tellLoop(fault);
+            return;
+        }
+        executor.execute(command, new CommandOutcome() {
+            @Override
+            public void onDone(int handlers, Throwable fault) {
+                conclude(message, answers, handlers, fault);
+            }
+        });
     }
 
     /** Counts a line that is no General Message; refuses it when its id could be read. */
     public void receiveMalformed(MalformedException malformed, AnswerSink answers) {
+        refuse(malformed.id(), answers, NackCode.MALFORMED, malformed.reason());
     }
 
     /**
@@ -32,6 +88,72 @@ public final class CommandReceiver {
      * of a {@link NackCode}.
      */
     public long count(String what) {
-        return 0;
+        Long count = counts.get(what);
+        return count == null ? 0 : count;
+    }
+
+    /** Throws it where the loop tells its listener of it. */
+    private void tellLoop(final RuntimeException fault) {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                throw fault;
+            }
+        });
+    }
+
+    private boolean isRepeated(GeneralMessage message, AnswerSink answers) {
+        if (message.id() == null) {
+            return false;
+        }
+        AnswerMemory.Entry known = memory(answers).remember(message, loop.nowMs());
+        if (known != null && known.answer() != null) {
+            answers.answer(known.answer());
+        }
+        return known != null;
+    }
+
+    private void conclude(GeneralMessage message, AnswerSink answers, int handlers,
+            Throwable fault) {
+        if (fault instanceof CommandRefusedException) {
+            CommandRefusedException refusal = (CommandRefusedException) fault;
+            refuse(message.id(), answers, refusal.code(), refusal.reason());
+        } else if (fault != null) {
+            refuse(message.id(), answers, NackCode.FAILED, FAILED);
+        } else if (handlers == 0) {
+            refuse(message.id(), answers, NackCode.UNAVAILABLE,
+                    "nobody handles " + message.name());
+        } else if (message.id() != null) {
+            answer(message.id(), answers, new AckCommand(message.id()));
+        }
+    }
+
+    private void refuse(String id, AnswerSink answers, NackCode code, String reason) {
+        addOne(code.word());
+        if (id != null) {
+            String said = String.valueOf(reason);
+            int end = Math.min(said.length(),
+                    said.offsetByCodePoints(0, Math.min(LONGEST_REASON,
+                            said.codePointCount(0, said.length()))));
+            answer(id, answers, new NackCommand(id, code.word(), said.substring(0, end)));
+        }
+    }
+
+    private void answer(String id, AnswerSink answers, BaseCommand answer) {
+        memory(answers).keep(id, answer.toMessage());
+        answers.answer(answer.toMessage());
+    }
+
+    private AnswerMemory memory(AnswerSink answers) {
+        AnswerMemory memory = memories.get(answers);
+        if (memory == null) {
+            memory = new AnswerMemory();
+            memories.put(answers, memory);
+        }
+        return memory;
+    }
+
+    private void addOne(String what) {
+        counts.put(what, count(what) + 1);
     }
 }

@@ -1,6 +1,9 @@
 package org.raspilot.up.commands;
 
+import java.util.Arrays;
+import java.util.Collections;
 import java.util.LinkedHashMap;
+import java.util.List;
 import java.util.Map;
 
 /**
@@ -9,6 +12,8 @@ import java.util.Map;
  * <p>Source: docs/protocols.md 5, {@code arduino.pids.tunings} and {@code arduino.pids.values}.
  */
 public final class GainSet {
+    private static final List<String> NOTHING = Collections.emptyList();
+
     private final LoopGains rate;
     private final LoopGains stabilize;
     private final LoopGains navigation;
@@ -21,17 +26,32 @@ public final class GainSet {
     }
 
     /**
-     * Reads {@code {ratePIDs, stabPIDs, navPIDs?}}, as {@code arduino.pids.values} tells it too.
+     * Reads {@code {ratePIDs, stabPIDs, navPIDs?}}, as {@code arduino.pids.values} tells it too;
+     * a set is taken whole or not at all.
      *
      * @throws InvalidCommandException with one sentence that names the place
      */
-    public static GainSet ofData(Map<String, Object> data) {
-        throw new InvalidCommandException("pids.ratePIDs is missing");
+    public static GainSet ofData(Map<String, ?> data) {
+        only(data, Arrays.asList("ratePIDs", "stabPIDs"), Arrays.asList("navPIDs"), "pids");
+        LoopGains rate = loop(data.get("ratePIDs"), "ratePIDs");
+        LoopGains stabilize = loop(data.get("stabPIDs"), "stabPIDs");
+        if ((rate.rudder() == null) != (stabilize.rudder() == null)) {
+            throw new InvalidCommandException("pids must have a rudder in both loops or in none");
+        }
+        Object navigation = data.get("navPIDs");
+        return new GainSet(rate, stabilize,
+                navigation == null ? null : loop(navigation, "navPIDs"));
     }
 
     /** Returns the set in the form of the wire; nothing is rounded. */
     public Map<String, Object> toData() {
-        return new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("ratePIDs", loopData(rate));
+        data.put("stabPIDs", loopData(stabilize));
+        if (navigation != null) {
+            data.put("navPIDs", loopData(navigation));
+        }
+        return data;
     }
 
     /** Returns the gains of the rate loop. */
@@ -47,5 +67,66 @@ public final class GainSet {
     /** Returns the gains of navigation, or null. */
     public LoopGains navigation() {
         return navigation;
+    }
+
+    private static LoopGains loop(Object value, String place) {
+        Map<?, ?> data = only(value, Arrays.asList("ailerons", "elevator"),
+                Arrays.asList("rudder"), place);
+        Object rudder = data.get("rudder");
+        return new LoopGains(
+                gains(data.get("ailerons"), place + ".ailerons"),
+                gains(data.get("elevator"), place + ".elevator"),
+                rudder == null ? null : gains(rudder, place + ".rudder"));
+    }
+
+    private static Gains gains(Object value, String place) {
+        Map<?, ?> data = only(value, Arrays.asList("p", "i", "d"), NOTHING, place);
+        return new Gains(gain(data, "p", place), gain(data, "i", place), gain(data, "d", place));
+    }
+
+    private static double gain(Map<?, ?> data, String key, String place) {
+        Object value = data.get(key);
+        String complaint = FieldRule.number(0, Gains.GREATEST).complaint(value);
+        if (complaint != null) {
+            throw new InvalidCommandException(place + "." + key + " " + complaint);
+        }
+        return ((Number) value).doubleValue();
+    }
+
+    private static Map<?, ?> only(Object value, List<String> required, List<String> optional,
+            String place) {
+        if (!(value instanceof Map)) {
+            throw new InvalidCommandException(place + " must be an object");
+        }
+        Map<?, ?> data = (Map<?, ?>) value;
+        for (String key : required) {
+            if (!data.containsKey(key)) {
+                throw new InvalidCommandException(place + "." + key + " is missing");
+            }
+        }
+        for (Object key : data.keySet()) {
+            if (!required.contains(key) && !optional.contains(key)) {
+                throw new InvalidCommandException(place + "." + key + " is not known");
+            }
+        }
+        return data;
+    }
+
+    private static Map<String, Object> loopData(LoopGains loop) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("ailerons", gainsData(loop.ailerons()));
+        data.put("elevator", gainsData(loop.elevator()));
+        if (loop.rudder() != null) {
+            data.put("rudder", gainsData(loop.rudder()));
+        }
+        return data;
+    }
+
+    private static Map<String, Object> gainsData(Gains gains) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("p", gains.p());
+        data.put("i", gains.i());
+        data.put("d", gains.d());
+        return data;
     }
 }

@@ -52,6 +52,9 @@ public final class LocationCommand extends BaseCommand {
         accuracyM = fields.optionalNumber("accuracy", 0, Double.MAX_VALUE);
         speedMS = fields.optionalNumber("speed", 0, Double.MAX_VALUE);
         bearingDeg = fields.optionalNumber("bearing", -360, 360);
+        // Both are computed on board; they must only be what they claim to be.
+        fields.optionalNumber("distance_from_home", -Double.MAX_VALUE, Double.MAX_VALUE);
+        fields.optionalNumber("required_bearing", -Double.MAX_VALUE, Double.MAX_VALUE);
     }
 
     /** Returns the latitude in deg. */

@@ -30,12 +30,20 @@ public final class GeneralMessage {
      * {@code beacon} null is left out.
      */
     public GeneralMessage(String name, Map<String, ?> data, String id, Long beacon) {
+        this(data == null ? Collections.<String, Object>emptyMap() : Frozen.map(data), name, id,
+                beacon);
+    }
+
+    private GeneralMessage(Map<String, Object> frozenData, String name, String id, Long beacon) {
         this.name = name;
-        this.data = data == null
-                ? Collections.<String, Object>emptyMap()
-                : Collections.unmodifiableMap(new LinkedHashMap<String, Object>(data));
+        data = frozenData;
         this.id = id;
         this.beacon = beacon;
+    }
+
+    /** Returns a message of the same data under another name, id and beacon. */
+    public GeneralMessage with(String otherName, String otherId, Long otherBeacon) {
+        return new GeneralMessage(data, otherName, otherId, otherBeacon);
     }
 
     /** Returns the name of the Command, 1 to 128 characters. */
@@ -43,7 +51,7 @@ public final class GeneralMessage {
         return name;
     }
 
-    /** Returns the fields as JSON values (see {@link Json}); unmodifiable, never null. */
+    /** Returns the fields as JSON values (see {@link Json}); unmodifiable to its depth, never null. */
     public Map<String, Object> data() {
         return data;
     }

@@ -1,0 +1,70 @@
+package org.raspilot.up.commands;
+
+import java.util.Iterator;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.wire.Json;
+
+/**
+ * The ids of one link and what was answered to them: the newest 256 of 60 s.
+ *
+ * <p>An id with another name or other data is another Command, because old peers put one id on all
+ * of theirs. Source: docs/protocols.md 4.
+ */
+final class AnswerMemory {
+    static final int REMEMBERED = 256;
+    static final long REMEMBERED_MS = 60000;
+
+    private final Map<String, Entry> entries = new LinkedHashMap<String, Entry>();
+
+    /** Remembers a message with an id; returns what is known of it when it came before. */
+    Entry remember(GeneralMessage message, long nowMs) {
+        forgetOld(nowMs);
+        String content = message.name() + " " + Json.write(message.data());
+        Entry known = entries.get(message.id());
+        if (known != null && known.content.equals(content)) {
+            return known;
+        }
+        entries.remove(message.id());
+        Iterator<Entry> oldest = entries.values().iterator();
+        while (entries.size() >= REMEMBERED) {
+            oldest.next();
+            oldest.remove();
+        }
+        entries.put(message.id(), new Entry(content, nowMs));
+        return null;
+    }
+
+    /** Keeps the answer to an id for those who ask again. */
+    void keep(String id, GeneralMessage answer) {
+        Entry entry = entries.get(id);
+        if (entry != null) {
+            entry.answer = answer;
+        }
+    }
+
+    private void forgetOld(long nowMs) {
+        Iterator<Entry> oldest = entries.values().iterator();
+        while (oldest.hasNext() && oldest.next().timeMs < nowMs - REMEMBERED_MS) {
+            oldest.remove();
+        }
+    }
+
+    /** One id: what came with it and what was answered. */
+    static final class Entry {
+        private final String content;
+        private final long timeMs;
+        private GeneralMessage answer;
+
+        private Entry(String content, long timeMs) {
+            this.content = content;
+            this.timeMs = timeMs;
+        }
+
+        /** Returns the answer, or null as long as there is none. */
+        GeneralMessage answer() {
+            return answer;
+        }
+    }
+}

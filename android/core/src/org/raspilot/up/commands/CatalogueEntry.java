@@ -1,0 +1,70 @@
+package org.raspilot.up.commands;
+
+import java.util.List;
+import java.util.Map;
+import org.raspilot.up.wire.MalformedException;
+
+/** One object of a catalogue; each reading raises when the key holds something else. */
+final class CatalogueEntry {
+    private final Map<?, ?> description;
+
+    CatalogueEntry(Map<?, ?> description) {
+        this.description = description;
+    }
+
+    /** Makes an entry of what a list holds. */
+    static CatalogueEntry of(Object value) throws MalformedException {
+        if (!(value instanceof Map)) {
+            throw new MalformedException("an entry of the catalogue is no object");
+        }
+        return new CatalogueEntry((Map<?, ?>) value);
+    }
+
+    Map<?, ?> description() {
+        return description;
+    }
+
+    String text(String key) throws MalformedException {
+        return (String) typed(key, String.class, false);
+    }
+
+    boolean flag(String key) throws MalformedException {
+        return (Boolean) typed(key, Boolean.class, false);
+    }
+
+    Double optionalNumber(String key) throws MalformedException {
+        Object number = typed(key, Number.class, true);
+        return number == null ? null : (Double) ((Number) number).doubleValue();
+    }
+
+    List<Object> list(String key) throws MalformedException {
+        return listOf(typed(key, List.class, false));
+    }
+
+    List<Object> optionalList(String key) throws MalformedException {
+        return listOf(typed(key, List.class, true));
+    }
+
+    FieldType type(String key) throws MalformedException {
+        FieldType type = FieldType.ofWord(text(key));
+        if (type == null) {
+            throw new MalformedException("the catalogue has an unknown type " + text(key));
+        }
+        return type;
+    }
+
+    @SuppressWarnings("unchecked")
+    private static List<Object> listOf(Object value) {
+        return (List<Object>) value;
+    }
+
+    private Object typed(String key, Class<?> wanted, boolean isNullable)
+            throws MalformedException {
+        Object value = description.get(key);
+        if (value == null ? !isNullable : !wanted.isInstance(value)) {
+            throw new MalformedException("the catalogue has no good " + key + " in "
+                    + description.get("name"));
+        }
+        return value;
+    }
+}
