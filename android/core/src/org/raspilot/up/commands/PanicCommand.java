@@ -43,7 +43,8 @@ public final class PanicCommand extends BaseCommand {
         super(NAME, message);
         CommandFields fields = new CommandFields(message.data());
         panic = fields.flag("panic");
-        delayMs = fields.whole("delay_ms", 10, 1000);
+        // An older Raspberry Pi says 0, and fractions; a period is never quicker than asked.
+        delayMs = (long) Math.ceil(fields.number("delay_ms", 0, 10000));
         utilizationPercent = fields.optionalNumber("utilization", 0, 100);
     }
 
@@ -52,7 +53,7 @@ public final class PanicCommand extends BaseCommand {
         return panic;
     }
 
-    /** Returns the shortest period in ms. */
+    /** Returns the shortest period in ms, 0 to 10000. */
     public long delayMs() {
         return delayMs;
     }

@@ -51,7 +51,7 @@ public final class GeneralMessage {
         return name;
     }
 
-    /** Returns the fields as JSON values (see {@link Json}); unmodifiable to its depth, never null. */
+    /** Returns the fields as JSON values ({@link Json}); unmodifiable to their depth, not null. */
     public Map<String, Object> data() {
         return data;
     }

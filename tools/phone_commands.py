@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""Writes the forms of the Commands that the app shows: ``android/raspilot/assets/commands.json``.
+
+``tools/phone_commands.py [FILE]``. They are what the ground station's page gets: every Command that
+some ground may send, of Up and of every cog that is installed. The same Commands give the same
+bytes.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from up_ground.catalogue import Catalogue
+from up_ground.web.catalogue_message import catalogue_message
+
+ASSET = Path(__file__).resolve().parent.parent / "android" / "raspilot" / "assets" / "commands.json"
+
+
+def asset_text(catalogue: Catalogue) -> str:
+    """Return the content of the file; raises ValueError when a Command would be missing."""
+    if catalogue.problems:
+        raise ValueError(catalogue.problems[0])
+    message = catalogue_message(catalogue)
+    lacking = len(catalogue.sendable()) - len(message["commands"])
+    if lacking:
+        raise ValueError(f"the catalogue has become too long, it lacks {lacking} Commands")
+    return json.dumps(message, indent=1) + "\n"
+
+
+def main(arguments: list[str]) -> int:
+    """Write the file and say so; 1: it was left as it is, and why."""
+    path = Path(arguments[0]) if arguments else ASSET
+    try:
+        text = asset_text(Catalogue.installed())
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="ascii")
+    except (OSError, ValueError) as error:
+        sys.stderr.write(f"{path} is not written: {error}\n")
+        return 1
+    sys.stdout.write(f"{path}: {text.count('needs_beacon')} Commands\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
