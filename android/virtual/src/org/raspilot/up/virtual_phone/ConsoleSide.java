@@ -1,0 +1,176 @@
+package org.raspilot.up.virtual_phone;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Random;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.CommandExecutor;
+import org.raspilot.up.commands.CommandRegistry;
+import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.commands.HandlerFaultListener;
+import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.ground.Answer;
+import org.raspilot.up.ground.AnswerListener;
+import org.raspilot.up.ground.GroundListener;
+import org.raspilot.up.ground.GroundSide;
+import org.raspilot.up.ground.GroundStatus;
+import org.raspilot.up.ground.MemoryTokenStore;
+import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.loop.Loop;
+
+/** The ground side with lines in the place of a screen. */
+final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaultListener {
+    private final ConsoleOptions options;
+    private final Words words;
+    private GroundSide ground;
+    private GainSet told;
+
+    /** Builds nothing yet. */
+    ConsoleSide(ConsoleOptions options, Words words) {
+        this.options = options;
+        this.words = words;
+    }
+
+    @Override
+    public void start(Loop loop) {
+        CommandExecutor executor = new CommandExecutor(CommandRegistry.builtin(), this);
+        ground = new GroundSide(
+                loop, options.settings, new MemoryTokenStore(), executor, this, new Random());
+        executor.registerCommand(
+                Telemetry.NAME, new ConsoleTelemetry(ground, options.values, loop, words));
+        ground.start();
+    }
+
+    @Override
+    public void stop() {
+        ground.stop();
+    }
+
+    @Override
+    public void take(Map<?, ?> line) throws OptionException {
+        Answers answers = new Answers(line.get("tag"));
+        if (line.containsKey("send")) {
+            send(line, answers);
+        } else if (line.containsKey("gains")) {
+            gains(line.get("gains"), answers);
+        } else if (line.containsKey("seat")) {
+            seat(line.get("seat"));
+        } else {
+            throw new OptionException("a line has neither 'send' nor 'gains' nor 'seat'");
+        }
+    }
+
+    @Override
+    public void onTelemetry(Telemetry telemetry) {
+        if (telemetry.beacon() != null) {
+            ground.seen(telemetry.beacon());
+        }
+    }
+
+    @Override
+    public void onStatus(GroundStatus status) {
+        Map<String, Object> event = Words.event("status", "link", status.link().name());
+        event.put("sentence", status.linkSentence() + "; " + status.seatSentence());
+        event.put("seat", status.seat() == null ? null : status.seat().word());
+        event.put("standing", status.standing().name());
+        event.put("holder", number(status.holder()));
+        event.put("asked_by", number(status.askedBy()));
+        event.put("online", status.isAircraftOnline());
+        event.put("role", status.role());
+        event.put("tune_in_flight", status.tuneInFlight());
+        event.put("reason", status.reason());
+        event.put("rejection", status.rejection());
+        words.say(event);
+    }
+
+    @Override
+    public void onChanged() {
+        GainSet flying = ground.gains().snapshot().flying();
+        if (flying != told) {
+            told = flying;
+            Object data = flying == null ? null : flying.toData();
+            words.say(Words.event("gains", "flying", data));
+        }
+    }
+
+    @Override
+    public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command, Throwable fault) {
+        words.notice(command.name() + ": " + Words.faultText(fault));
+    }
+
+    private void send(Map<?, ?> line, Answers answers) throws OptionException {
+        Object name = line.get("send");
+        Object data = line.containsKey("data") ? line.get("data") : new LinkedHashMap<String, Object>();
+        if (!(name instanceof String) || !(data instanceof Map)) {
+            throw new OptionException("send is a Command's name, data an object");
+        }
+        ground.send(new BaseCommand((String) name, keyed(data)), answers);
+    }
+
+    private void gains(Object wanted, Answers answers) throws OptionException {
+        Long beacon = ground.telemetry().beacon();
+        if ("ask".equals(wanted)) {
+            ground.gains().ask(answers);
+        } else if ("undo".equals(wanted)) {
+            ground.gains().undo(beacon, answers);
+        } else if (wanted instanceof Map) {
+            try {
+                ground.gains().set(GainSet.ofData(keyed(wanted)), beacon, answers);
+            } catch (InvalidCommandException error) {
+                throw new OptionException("gains: " + error.getMessage());
+            }
+        } else {
+            throw new OptionException("gains: 'ask', 'undo' or a set of them");
+        }
+    }
+
+    private void seat(Object wanted) throws OptionException {
+        boolean isDone;
+        if ("request".equals(wanted)) {
+            isDone = ground.requestSeat();
+        } else if ("release".equals(wanted)) {
+            isDone = ground.releaseSeat();
+        } else if (wanted instanceof Map && ((Map<?, ?>) wanted).get("give") instanceof Long) {
+            isDone = ground.giveSeat(((Long) ((Map<?, ?>) wanted).get("give")).intValue());
+        } else {
+            throw new OptionException("seat: 'request', 'release' or {\"give\": number}");
+        }
+        if (!isDone) {
+            words.notice("the seat is not for us to ask for or to give now");
+        }
+    }
+
+    private static Map<String, Object> keyed(Object object) {
+        Map<String, Object> keyed = new LinkedHashMap<String, Object>();
+        for (Map.Entry<?, ?> each : ((Map<?, ?>) object).entrySet()) {
+            keyed.put((String) each.getKey(), each.getValue());
+        }
+        return keyed;
+    }
+
+    private static Long number(Integer value) {
+        return value == null ? null : Long.valueOf(value);
+    }
+
+    /** Says an answer with its question's tag. */
+    private final class Answers implements AnswerListener {
+        private final Object tag;
+
+        Answers(Object tag) {
+            this.tag = tag;
+        }
+
+        @Override
+        public void onAnswer(Answer answer) {
+            Map<String, Object> event = Words.event("answer", "tag", tag);
+            event.put("name", answer.name());
+            event.put("outcome", answer.outcome().name());
+            event.put("code", answer.code());
+            event.put("reason", answer.reason());
+            event.put("round_trip_ms", answer.roundTripMs());
+            event.put("data", answer.data());
+            words.say(event);
+        }
+    }
+}

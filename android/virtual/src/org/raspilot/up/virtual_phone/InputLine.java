@@ -1,0 +1,47 @@
+package org.raspilot.up.virtual_phone;
+
+import java.util.List;
+import java.util.Map;
+import org.raspilot.up.wire.Json;
+import org.raspilot.up.wire.MalformedException;
+
+/** One line that a program was told. */
+final class InputLine {
+    /** Its keys and values. */
+    final Map<?, ?> fields;
+
+    private InputLine(Map<?, ?> fields) {
+        this.fields = fields;
+    }
+
+    /** Returns a line's contents; raises OptionException with a sentence. */
+    static InputLine read(String text) throws OptionException {
+        try {
+            Object value = Json.parse(text);
+            if (value instanceof Map) {
+                return new InputLine((Map<?, ?>) value);
+            }
+        } catch (MalformedException error) {
+            throw new OptionException("a line is no JSON: " + error.getMessage());
+        }
+        throw new OptionException("a line is no JSON object");
+    }
+
+    /** Returns the time of a stepped line, ms; raises OptionException where there is none. */
+    long timeMs() throws OptionException {
+        Object value = fields.get("t");
+        if (!(value instanceof Long)) {
+            throw new OptionException("a line has no time 't'");
+        }
+        return (Long) value;
+    }
+
+    /** Returns what the network brought; null: nothing. Raises OptionException. */
+    List<?> network() throws OptionException {
+        Object value = fields.get("net");
+        if (value != null && !(value instanceof List)) {
+            throw new OptionException("net is no list");
+        }
+        return (List<?>) value;
+    }
+}

@@ -1,0 +1,96 @@
+package org.raspilot.up.virtual_phone;
+
+import java.io.BufferedReader;
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.InputStreamReader;
+import java.nio.charset.Charset;
+import java.util.Map;
+import java.util.concurrent.CountDownLatch;
+import org.raspilot.up.loop.FaultListener;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.loop.SelectorLoop;
+
+/** A program in real time with sockets of its own: it lives as long as its standard input. */
+final class LoopProgram implements FaultListener {
+    private final Words words;
+    private final SelectorLoop loop;
+
+    /** What it consists of; all calls come on the loop. */
+    interface Part {
+        /** Begins on this loop. */
+        void start(Loop loop);
+
+        /**
+         * Takes a line.
+         *
+         * @throws OptionException when it is not understood (a sentence, which is said)
+         */
+        void take(Map<?, ?> line) throws OptionException;
+
+        /** Ends. */
+        void stop();
+    }
+
+    /** Makes a loop of that name. */
+    LoopProgram(String name, Words words) {
+        this.words = words;
+        loop = new SelectorLoop(name, this);
+    }
+
+    /** Runs a part until there are no more lines. */
+    void run(InputStream input, final Part part) throws IOException {
+        loop.start();
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                part.start(loop);
+            }
+        });
+        BufferedReader lines =
+                new BufferedReader(new InputStreamReader(input, Charset.forName("UTF-8")));
+        for (String text = lines.readLine(); text != null; text = lines.readLine()) {
+            take(part, text);
+        }
+        end(part);
+    }
+
+    @Override
+    public void onFault(Throwable fault) {
+        words.notice(Words.faultText(fault));
+    }
+
+    private void take(final Part part, final String text) {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                try {
+                    part.take(InputLine.read(text).fields);
+                } catch (OptionException error) {
+                    words.notice(error.getMessage());
+                }
+            }
+        });
+    }
+
+    private void end(final Part part) {
+        final CountDownLatch isOver = new CountDownLatch(1);
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                try {
+                    part.stop();
+                } finally {
+                    isOver.countDown();
+                }
+            }
+        });
+        try {
+            isOver.await();
+        } catch (InterruptedException error) {
+            Thread.currentThread().interrupt();
+        }
+        loop.stop();
+        words.flush();
+    }
+}

@@ -1,0 +1,11 @@
+package org.raspilot.up.virtual_phone;
+
+/** A program was asked for something that it does not know: one sentence for the user. */
+final class OptionException extends Exception {
+    private static final long serialVersionUID = 1;
+
+    /** Takes the sentence. */
+    OptionException(String sentence) {
+        super(sentence);
+    }
+}

@@ -1,0 +1,53 @@
+package org.raspilot.up.virtual_phone;
+
+/** Reads the values of options; each raises OptionException with a sentence. */
+final class OptionWords {
+    private static final int LARGEST_PORT = 65535;
+
+    private OptionWords() {}
+
+    /** Splits at the last colons: what is before them may have some of its own. */
+    static String[] parts(String name, String value, int count, String form)
+            throws OptionException {
+        String[] found = new String[count];
+        String rest = value;
+        for (int at = count - 1; at > 0; at--) {
+            int colon = rest.lastIndexOf(':');
+            if (colon <= 0) {
+                throw new OptionException(name + " '" + value + "' is not " + form);
+            }
+            found[at] = rest.substring(colon + 1);
+            rest = rest.substring(0, colon);
+        }
+        found[0] = rest;
+        return found;
+    }
+
+    /** Returns a port, 1 to 65535. */
+    static int port(String name, String value) throws OptionException {
+        return (int) number(name + ": a port", value, 1, LARGEST_PORT);
+    }
+
+    /** Returns a whole number in its range. */
+    static long number(String what, String value, long least, long most) throws OptionException {
+        try {
+            long found = Long.parseLong(value);
+            if (found >= least && found <= most) {
+                return found;
+            }
+        } catch (NumberFormatException error) {
+            throw outOfRange(what, value, least, most);
+        }
+        throw outOfRange(what, value, least, most);
+    }
+
+    /** Returns what to raise for an option that nobody knows, or that has no value. */
+    static OptionException unknown(String name, boolean isLast) {
+        String why = isLast ? ": no such option, or its value is missing" : ": no such option";
+        return new OptionException(name + why + "; --help tells them");
+    }
+
+    private static OptionException outOfRange(String what, String value, long least, long most) {
+        return new OptionException(what + " is " + least + " to " + most + ", not '" + value + "'");
+    }
+}

@@ -1,0 +1,65 @@
+package org.raspilot.up.virtual_phone;
+
+import java.util.Map;
+import java.util.Random;
+import org.raspilot.up.airborne.Airborne;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.Side;
+
+/** The phone itself with its simulated sensors, on whatever loop. */
+final class PhoneSide implements LoopProgram.Part {
+    private final PhoneOptions options;
+    private final Words words;
+    private final PhoneEvents events;
+    private SimulatedSensors sensors;
+    private SimulatedSource<Map<?, ?>> record;
+    private Airborne airborne;
+
+    /** Builds nothing yet. */
+    PhoneSide(PhoneOptions options, Words words) {
+        this.options = options;
+        this.words = words;
+        events = new PhoneEvents(words);
+    }
+
+    @Override
+    public void start(Loop loop) {
+        sensors = new SimulatedSensors(loop, words);
+        record = new SimulatedSource<Map<?, ?>>("record", words);
+        airborne = new Airborne(
+                loop, options.settings, sensors, events, events, new Random(options.seed));
+        airborne.providers().register(new RecordProvider(record));
+        airborne.start();
+    }
+
+    @Override
+    public void stop() {
+        events.counters(airborne.status());
+        airborne.stop();
+    }
+
+    @Override
+    public void take(Map<?, ?> fields) throws OptionException {
+        sensors.take(fields);
+        Object content = fields.get("record");
+        if (content instanceof Map) {
+            record.take((Map<?, ?>) content);
+        } else if (content != null) {
+            throw new OptionException("record is no object");
+        }
+        Object level = fields.get("level");
+        if (level != null) {
+            calibrate(String.valueOf(level));
+        }
+    }
+
+    private void calibrate(String nose) throws OptionException {
+        try {
+            words.notice("mounting: " + airborne.calibrate(Side.valueOf(nose)).toText());
+        } catch (IllegalArgumentException error) {
+            throw new OptionException("not calibrated: " + error.getMessage());
+        } catch (IllegalStateException error) {
+            throw new OptionException("not calibrated: " + error.getMessage());
+        }
+    }
+}

@@ -1,0 +1,116 @@
+package org.raspilot.up.virtual_phone;
+
+import org.raspilot.up.loop.TcpConnection;
+import org.raspilot.up.loop.TcpListener;
+
+/** A TCP connection that a simulator keeps. */
+final class PipedConnection implements TcpConnection {
+    /** How many bytes it takes before some have left: as a small send buffer. */
+    static final int ROOM_BYTES = 8192;
+
+    private final PipedNetwork network;
+    private final long id;
+    private final TcpListener listener;
+    private int room = ROOM_BYTES;
+    private boolean isConnected;
+    private boolean isClosed;
+    private boolean isFull;
+
+    /** One thing that happens to a connection. */
+    interface Event {
+        /** Lets it happen. */
+        void happen(PipedConnection connection);
+    }
+
+    /** Takes its number on the pipe. */
+    PipedConnection(PipedNetwork network, long id, TcpListener listener) {
+        this.network = network;
+        this.id = id;
+        this.listener = listener;
+    }
+
+    /**
+     * Returns the event of that kind.
+     *
+     * @param detail what stands third in its line
+     * @throws OptionException when there is no such kind (a sentence)
+     */
+    static Event event(String kind, final Object detail) throws OptionException {
+        if ("connected".equals(kind)) {
+            return new Event() {
+                @Override
+                public void happen(PipedConnection connection) {
+                    connection.isConnected = true;
+                    connection.listener.onConnected();
+                }
+            };
+        }
+        if ("bytes".equals(kind)) {
+            final byte[] bytes = ((String) detail).getBytes(PipedNetwork.BYTES);
+            return new Event() {
+                @Override
+                public void happen(PipedConnection connection) {
+                    connection.listener.onBytes(bytes, bytes.length);
+                }
+            };
+        }
+        if ("room".equals(kind)) {
+            final int count = ((Long) detail).intValue();
+            return new Event() {
+                @Override
+                public void happen(PipedConnection connection) {
+                    connection.makeRoom(count);
+                }
+            };
+        }
+        if ("closed".equals(kind)) {
+            final String reason = (String) detail;
+            return new Event() {
+                @Override
+                public void happen(PipedConnection connection) {
+                    connection.end();
+                    connection.listener.onClosed(reason);
+                }
+            };
+        }
+        throw new OptionException("net: there is no event '" + kind + "'");
+    }
+
+    @Override
+    public int write(byte[] bytes, int offset, int length) {
+        if (!isConnected || isClosed) {
+            return 0;
+        }
+        int taken = Math.min(length, room);
+        if (taken > 0) {
+            room -= taken;
+            network.ask("write", id, new String(bytes, offset, taken, PipedNetwork.BYTES));
+        }
+        if (taken < length && !isFull) {
+            isFull = true;
+            network.ask("full", id);
+        }
+        return taken;
+    }
+
+    @Override
+    public void close() {
+        if (!isClosed) {
+            end();
+            network.ask("close", id);
+        }
+    }
+
+    private void makeRoom(int count) {
+        room += count;
+        if (isFull) {
+            isFull = false;
+            listener.onWritable();
+        }
+    }
+
+    private void end() {
+        isClosed = true;
+        network.forget(id);
+    }
+}

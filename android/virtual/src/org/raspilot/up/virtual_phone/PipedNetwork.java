@@ -1,0 +1,107 @@
+package org.raspilot.up.virtual_phone;
+
+import java.nio.charset.Charset;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.loop.Network;
+import org.raspilot.up.loop.TcpConnection;
+import org.raspilot.up.loop.TcpListener;
+import org.raspilot.up.loop.UdpListener;
+import org.raspilot.up.loop.UdpPort;
+
+/** A network that lies behind a pipe: a simulator opens, writes and closes for it. */
+final class PipedNetwork implements Network {
+    /** How bytes become text: each byte one character. */
+    static final Charset BYTES = Charset.forName("ISO-8859-1");
+
+    private final Map<Long, PipedConnection> connections = new HashMap<Long, PipedConnection>();
+    private final Map<Long, PipedUdpPort> ports = new HashMap<Long, PipedUdpPort>();
+    private List<Object> toDo = new ArrayList<Object>();
+    private long lastId;
+
+    @Override
+    public TcpConnection connectTcp(String host, int port, int timeoutMs, TcpListener listener) {
+        PipedConnection connection = new PipedConnection(this, ++lastId, listener);
+        connections.put(lastId, connection);
+        ask("connect", lastId, host, (long) port, (long) timeoutMs);
+        return connection;
+    }
+
+    @Override
+    public UdpPort openUdp(UdpListener listener) {
+        PipedUdpPort port = new PipedUdpPort(this, ++lastId, listener);
+        ports.put(lastId, port);
+        ask("open", lastId);
+        return port;
+    }
+
+    /** Asks the simulator for something. */
+    void ask(Object... words) {
+        toDo.add(Arrays.asList(words));
+    }
+
+    /** Forgets a connection or a socket. */
+    void forget(long id) {
+        connections.remove(id);
+        ports.remove(id);
+    }
+
+    /** Returns what the simulator is to do, and forgets it. */
+    List<Object> takeToDo() {
+        List<Object> taken = toDo;
+        toDo = new ArrayList<Object>();
+        return taken;
+    }
+
+    /**
+     * Lets every event happen on the loop, each guarded by itself.
+     *
+     * @throws OptionException when one is not understood (a sentence); those before it happen
+     */
+    void deliver(Loop loop, List<?> events) throws OptionException {
+        for (Object each : events) {
+            try {
+                loop.post(happening((List<?>) each));
+            } catch (ClassCastException error) {
+                throw new OptionException("net: an event is not understood: " + each);
+            } catch (IndexOutOfBoundsException error) {
+                throw new OptionException("net: an event is too short: " + each);
+            }
+        }
+    }
+
+    private Runnable happening(List<?> words) throws OptionException {
+        final String kind = (String) words.get(0);
+        final long id = (Long) words.get(1);
+        final Object first = words.size() > 2 ? words.get(2) : null;
+        if ("datagram".equals(kind)) {
+            final byte[] datagram = ((String) first).getBytes(BYTES);
+            final String host = (String) words.get(3);
+            final int port = ((Long) words.get(4)).intValue();
+            return new Runnable() {
+                @Override
+                public void run() {
+                    PipedUdpPort target = ports.get(id);
+                    if (target != null) {
+                        target.take(datagram, host, port);
+                    }
+                }
+            };
+        }
+        final PipedConnection.Event event = PipedConnection.event(kind, first);
+        return new Runnable() {
+            @Override
+            public void run() {
+                PipedConnection connection = connections.get(id);
+                // What was closed meanwhile hears nothing any more.
+                if (connection != null) {
+                    event.happen(connection);
+                }
+            }
+        };
+    }
+}

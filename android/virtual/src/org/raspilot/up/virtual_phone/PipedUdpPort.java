@@ -1,0 +1,42 @@
+package org.raspilot.up.virtual_phone;
+
+import org.raspilot.up.loop.UdpListener;
+import org.raspilot.up.loop.UdpPort;
+
+/** An UDP socket that a simulator keeps. */
+final class PipedUdpPort implements UdpPort {
+    private final PipedNetwork network;
+    private final long id;
+    private final UdpListener listener;
+    private boolean isClosed;
+
+    /** Takes its number on the pipe. */
+    PipedUdpPort(PipedNetwork network, long id, UdpListener listener) {
+        this.network = network;
+        this.id = id;
+        this.listener = listener;
+    }
+
+    @Override
+    public boolean send(byte[] datagram, String host, int port) {
+        if (isClosed) {
+            return false;
+        }
+        network.ask("send", id, new String(datagram, PipedNetwork.BYTES), host, (long) port);
+        return true;
+    }
+
+    @Override
+    public void close() {
+        if (!isClosed) {
+            isClosed = true;
+            network.forget(id);
+            network.ask("shut", id);
+        }
+    }
+
+    /** Hands a datagram on. */
+    void take(byte[] datagram, String host, int port) {
+        listener.onDatagram(datagram, datagram.length, host, port);
+    }
+}

@@ -1,0 +1,30 @@
+package org.raspilot.up.virtual_phone;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.RecordCommand;
+import org.raspilot.up.providers.Cadence;
+import org.raspilot.up.providers.SensorProvider;
+import org.raspilot.up.providers.SensorSource;
+
+/** Sends what a companion on board has the black box write, as {@code black_box.record}. */
+final class RecordProvider extends SensorProvider<Map<?, ?>> {
+    /** The quickest: the black box takes 200 a second of all together. */
+    private static final int PERIOD_MS = 50;
+
+    private static final int SILENCE_MS = 3000;
+
+    /** Takes what is fed as {@code "record"}: topic and content. */
+    RecordProvider(SensorSource<Map<?, ?>> source) {
+        super("record", source, Cadence.stream(PERIOD_MS, SILENCE_MS));
+    }
+
+    @Override
+    protected BaseCommand read(Map<?, ?> reading) {
+        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        data.put("topic", reading.get("topic"));
+        data.put("content", reading.get("content"));
+        return new BaseCommand(RecordCommand.NAME, data);
+    }
+}

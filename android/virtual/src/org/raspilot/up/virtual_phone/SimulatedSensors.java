@@ -1,0 +1,133 @@
+package org.raspilot.up.virtual_phone;
+
+import java.util.List;
+import java.util.Map;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.BatteryLevel;
+import org.raspilot.up.providers.Fix;
+import org.raspilot.up.providers.Pressure;
+import org.raspilot.up.providers.Rotation;
+import org.raspilot.up.providers.RotationRate;
+import org.raspilot.up.providers.SensorSource;
+import org.raspilot.up.providers.Sensors;
+
+/** All sensors of the virtual phone, fed by the lines of {@link VirtualPhone}'s page. */
+final class SimulatedSensors implements Sensors {
+    private final Loop loop;
+    private final SimulatedSource<Fix> location;
+    private final SimulatedSource<Rotation> rotation;
+    private final SimulatedSource<RotationRate> rate;
+    private final SimulatedSource<Pressure> pressure;
+    private final SimulatedSource<BatteryLevel> battery;
+
+    /** Makes them; readings get the loop's time. */
+    SimulatedSensors(Loop loop, Words words) {
+        this.loop = loop;
+        location = new SimulatedSource<Fix>("fix", words);
+        rotation = new SimulatedSource<Rotation>("rotation", words);
+        rate = new SimulatedSource<RotationRate>("rate", words);
+        pressure = new SimulatedSource<Pressure>("pressure", words);
+        battery = new SimulatedSource<BatteryLevel>("battery", words);
+    }
+
+    /**
+     * Takes the readings of a line, on the loop; the gyroscope's before the rotation's, which is
+     * sent with it.
+     *
+     * @throws OptionException when one is no reading (a sentence)
+     */
+    void take(Map<?, ?> line) throws OptionException {
+        long nowMs = loop.nowMs();
+        Object each = line.get("fix");
+        if (each != null) {
+            location.take(fix(each));
+        }
+        each = line.get("pressure");
+        if (each != null) {
+            pressure.take(new Pressure(number("pressure", each)));
+        }
+        each = line.get("rate");
+        if (each != null) {
+            double[] values = numbers("rate", each, 3);
+            rate.take(new RotationRate(values[0], values[1], values[2], nowMs));
+        }
+        each = line.get("rotation");
+        if (each != null) {
+            double[] values = numbers("rotation", each, 4);
+            rotation.take(turned(values, nowMs));
+        }
+        each = line.get("battery");
+        if (each != null) {
+            battery.take(new BatteryLevel(number("battery", each)));
+        }
+    }
+
+    @Override
+    public SensorSource<Fix> location() {
+        return location;
+    }
+
+    @Override
+    public SensorSource<Rotation> rotation() {
+        return rotation;
+    }
+
+    @Override
+    public SensorSource<RotationRate> rotationRate() {
+        return rate;
+    }
+
+    @Override
+    public SensorSource<Pressure> pressure() {
+        return pressure;
+    }
+
+    @Override
+    public SensorSource<BatteryLevel> battery() {
+        return battery;
+    }
+
+    private static Rotation turned(double[] values, long nowMs) throws OptionException {
+        try {
+            return new Rotation(values[0], values[1], values[2], values[3], nowMs);
+        } catch (IllegalArgumentException error) {
+            throw new OptionException("rotation: " + error.getMessage());
+        }
+    }
+
+    private static Fix fix(Object value) throws OptionException {
+        if (!(value instanceof Map)) {
+            throw new OptionException("fix is no object");
+        }
+        Map<?, ?> fields = (Map<?, ?>) value;
+        return new Fix(
+                number("fix.latitude", fields.get("latitude")),
+                number("fix.longitude", fields.get("longitude")),
+                numberOrNull("fix.altitude", fields.get("altitude")),
+                numberOrNull("fix.accuracy", fields.get("accuracy")),
+                numberOrNull("fix.speed", fields.get("speed")),
+                numberOrNull("fix.bearing", fields.get("bearing")));
+    }
+
+    private static double[] numbers(String name, Object value, int count) throws OptionException {
+        if (!(value instanceof List) || ((List<?>) value).size() != count) {
+            throw new OptionException(name + " is no list of " + count + " numbers");
+        }
+        double[] found = new double[count];
+        for (int at = 0; at < count; at++) {
+            found[at] = number(name, ((List<?>) value).get(at));
+        }
+        return found;
+    }
+
+    private static Double numberOrNull(String name, Object value) throws OptionException {
+        return value == null ? null : Double.valueOf(number(name, value));
+    }
+
+    private static double number(String name, Object value) throws OptionException {
+        if (!(value instanceof Number)) {
+            throw new OptionException(name + " is no number");
+        }
+        return ((Number) value).doubleValue();
+    }
+}

@@ -1,0 +1,59 @@
+package org.raspilot.up.virtual_phone;
+
+import java.util.Map;
+import org.raspilot.up.providers.SensorListener;
+import org.raspilot.up.providers.SensorSource;
+
+/**
+ * A sensor whose readings come from a simulator, which is told how often they are wanted.
+ *
+ * @param <R> what one reading is
+ */
+final class SimulatedSource<R> implements SensorSource<R> {
+    private final String key;
+    private final Words words;
+    private SensorListener<R> listener;
+
+    /** Takes the sensor's name in the simulator's lines. */
+    SimulatedSource(String key, Words words) {
+        this.key = key;
+        this.words = words;
+    }
+
+    @Override
+    public boolean isPresent() {
+        return true;
+    }
+
+    @Override
+    public String name() {
+        return "simulated " + key;
+    }
+
+    @Override
+    public void subscribe(long periodMs, SensorListener<R> who) {
+        listener = who;
+        say(periodMs);
+    }
+
+    @Override
+    public void unsubscribe() {
+        if (listener != null) {
+            listener = null;
+            say(0);
+        }
+    }
+
+    /** Hands a reading to whoever wants it; on the loop. */
+    void take(R reading) {
+        if (listener != null) {
+            listener.onReading(reading);
+        }
+    }
+
+    private void say(long periodMs) {
+        Map<String, Object> wants = Words.event("wants", "sensor", key);
+        wants.put("period_ms", periodMs);
+        words.say(wants);
+    }
+}
