@@ -1,0 +1,27 @@
+package org.raspilot.up.android.api23;
+
+import android.app.Activity;
+import android.content.Context;
+import android.os.PowerManager;
+
+/** Permissions that are asked for at run time, and the system's battery optimisation (API 23). */
+public final class Asking {
+    private Asking() {
+    }
+
+    /** Shows the system's question; the activity's onRequestPermissionsResult hears the answer. */
+    public static void forPermissions(Activity activity, String[] permissions, int request) {
+        activity.requestPermissions(permissions, request);
+    }
+
+    /** Says whether the user refused once, so that a reason is due before the next question. */
+    public static boolean isReasonDue(Activity activity, String permission) {
+        return activity.shouldShowRequestPermissionRationale(permission);
+    }
+
+    /** Says whether the system spares this application when it saves battery. */
+    public static boolean isSpared(Context context) {
+        PowerManager power = (PowerManager) context.getSystemService(Context.POWER_SERVICE);
+        return power == null || power.isIgnoringBatteryOptimizations(context.getPackageName());
+    }
+}

@@ -1,0 +1,14 @@
+package org.raspilot.up.android.api23;
+
+import android.app.PendingIntent;
+
+/** Flags of pending intents (API 23; Android 12 demands one of the two). */
+public final class Pending {
+    private Pending() {
+    }
+
+    /** Returns the flag by which nobody else fills in an intent. */
+    public static int immutable() {
+        return PendingIntent.FLAG_IMMUTABLE;
+    }
+}

@@ -1,0 +1,252 @@
+package org.raspilot.up.android;
+
+import android.content.Context;
+import android.os.Handler;
+import android.os.HandlerThread;
+import android.os.Looper;
+import android.os.Process;
+import java.io.IOException;
+import java.util.Random;
+import org.raspilot.up.Up;
+import org.raspilot.up.airborne.Airborne;
+import org.raspilot.up.airborne.AirborneListener;
+import org.raspilot.up.airborne.AirborneSettings;
+import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.loop.SelectorLoop;
+import org.raspilot.up.net.Place;
+import org.raspilot.up.providers.Mounting;
+
+/**
+ * One run of the airborne side, from start to stop: its loop, the sensors' thread, the locks that
+ * keep the phone awake. Made, begun and ended on the main thread; an ended one is not begun again.
+ */
+final class AirborneRun {
+    /** Hears of a run until its end; on the main thread, but {@link #onUp}. */
+    interface Host {
+        /** Registers handlers and providers; on the loop, before anything begins. */
+        void onUp(Up up);
+
+        /** Takes the status of now. */
+        void onStatus(AirborneStatus status);
+
+        /** Takes a line of the log. */
+        void onEvent(String sentence);
+
+        /** Takes the pressure by which the altitude is zero here, hPa. */
+        void onReferencePressure(double hPa);
+    }
+
+    private static final long STATUS_MS = 500;
+
+    private final Handler main = new Handler(Looper.getMainLooper());
+    private final Host host;
+    private final SelectorLoop loop;
+    private final HandlerThread sensorsThread;
+    private final AndroidSpeaker speaker;
+    private final AwakeLocks locks;
+    private final NetworkWatch network;
+    private final Airborne airborne;
+    private boolean isEnded;
+
+    /** Looks which sensors there are and begins to read and to connect. */
+    AirborneRun(Context context, AirborneSettings settings, boolean isOnWifi, SourceTexts texts,
+            Host host) throws IOException {
+        this.host = host;
+        loop = new SelectorLoop("up", new Faults("up"));
+        loop.start();
+        sensorsThread = new HandlerThread("up sensors", Process.THREAD_PRIORITY_FOREGROUND);
+        sensorsThread.start();
+        ProblemListener problems = new ProblemListener() {
+            @Override
+            public void onProblem(String sentence) {
+                tellEvent(sentence);
+            }
+        };
+        AndroidSources sensors = new AndroidSources(context, sensorsThread.getLooper(), loop,
+                texts, problems, new Declination(new Declination.Listener() {
+                    @Override
+                    public void onDeclination(double deg) {
+                        turnNorth(deg);
+                    }
+                }));
+        speaker = new AndroidSpeaker(context, texts, problems);
+        locks = new AwakeLocks(context);
+        network = new NetworkWatch(context, isOnWifi, new Runnable() {
+            @Override
+            public void run() {
+                comeBack();
+            }
+        });
+        airborne = new Airborne(loop, settings, sensors, speaker, new Listener(), new Random());
+        begin();
+    }
+
+    private void begin() {
+        locks.acquire();
+        Up.setInstance(airborne.up());
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                host.onUp(airborne.up());
+                airborne.start();
+                tick();
+            }
+        });
+        network.begin();
+    }
+
+    /** Ends everything; nothing is told any more. */
+    void end() {
+        isEnded = true;
+        Up.setInstance(null);
+        network.end();
+        speaker.end();
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                try {
+                    airborne.stop();
+                } finally {
+                    sensorsThread.quit();
+                    loop.stop();
+                }
+            }
+        });
+        locks.release();
+    }
+
+    /** Reads the location anew, as after a permission was given or taken. */
+    void restart(final String provider) {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                airborne.providers().restart(provider);
+            }
+        });
+    }
+
+    /** Takes another mounting. */
+    void setMounting(final Mounting mounting) {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                airborne.setMounting(mounting);
+            }
+        });
+    }
+
+    /** Lets the altitude be zero where the phone is. */
+    void zeroAltitudeHere() {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                try {
+                    tellPressure(airborne.zeroAltitudeHere());
+                } catch (IllegalStateException refusal) {
+                    tellEvent(refusal.getMessage());
+                }
+            }
+        });
+    }
+
+    /** Takes the pressure at altitude zero, hPa. */
+    void setReferencePressureHPa(final double hPa) {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                airborne.setReferencePressureHPa(hPa);
+            }
+        });
+    }
+
+    private void turnNorth(final double deg) {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                airborne.setDeclinationDeg(deg);
+            }
+        });
+    }
+
+    private void comeBack() {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                airborne.networkChanged();
+            }
+        });
+    }
+
+    private void tick() {
+        loop.schedule(STATUS_MS, new Runnable() {
+            @Override
+            public void run() {
+                tick();
+            }
+        });
+        tellStatus();
+    }
+
+    private void tellStatus() {
+        final AirborneStatus status = airborne.status();
+        tell(new Runnable() {
+            @Override
+            public void run() {
+                host.onStatus(status);
+            }
+        });
+    }
+
+    private void tellEvent(final String sentence) {
+        tell(new Runnable() {
+            @Override
+            public void run() {
+                host.onEvent(sentence);
+            }
+        });
+    }
+
+    private void tellPressure(final double hPa) {
+        tell(new Runnable() {
+            @Override
+            public void run() {
+                host.onReferencePressure(hPa);
+            }
+        });
+    }
+
+    /** Runs a call on the main thread, unless the run has ended by then. */
+    private void tell(final Runnable call) {
+        main.post(new Runnable() {
+            @Override
+            public void run() {
+                if (!isEnded) {
+                    call.run();
+                }
+            }
+        });
+    }
+
+    /** Hears of the airborne side on the loop. */
+    private final class Listener implements AirborneListener {
+        @Override
+        public void onConnected(Place place) {
+            tellStatus();
+        }
+
+        @Override
+        public void onDisconnected(String reason) {
+            tellStatus();
+        }
+
+        @Override
+        public void onPanic(long delayMs) {
+            tellStatus();
+        }
+
+        @Override
+        public void onEvent(String sentence) {
+            tellEvent(sentence);
+        }
+    }
+}

@@ -1,0 +1,76 @@
+package org.raspilot.up.android;
+
+import android.content.Context;
+import android.os.Handler;
+import android.os.Looper;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.BatteryLevel;
+import org.raspilot.up.providers.Fix;
+import org.raspilot.up.providers.Pressure;
+import org.raspilot.up.providers.Rotation;
+import org.raspilot.up.providers.RotationRate;
+import org.raspilot.up.providers.SensorSource;
+import org.raspilot.up.providers.Sensors;
+
+/**
+ * The phone's own sensors. The system calls on the thread that is handed in; readings are posted
+ * to the loop.
+ */
+public final class AndroidSources implements Sensors {
+    private final SensorSource<Fix> location;
+    private final SensorSource<Rotation> rotation;
+    private final SensorSource<RotationRate> rotationRate;
+    private final SensorSource<Pressure> pressure;
+    private final SensorSource<BatteryLevel> battery;
+
+    /**
+     * Looks which sensors there are.
+     *
+     * @param context of the application or of anything in it
+     * @param looper whose thread the system calls on
+     * @param fixes hears of each fix besides its provider
+     */
+    public AndroidSources(Context context, Looper looper, Loop loop, SourceTexts texts,
+            ProblemListener problems, FixListener fixes) {
+        Context lasting = context.getApplicationContext();
+        SensorDesk desk = new SensorDesk(lasting, looper);
+        location = new LocationSource(lasting, looper, loop, texts, problems, fixes);
+        rotation = rotation(desk, loop, texts, problems);
+        rotationRate = new GyroscopeSource(desk, loop, texts, problems);
+        pressure = new BarometerSource(desk, loop, texts, problems);
+        battery = new BatterySource(lasting, new Handler(looper), loop, texts);
+    }
+
+    /** Returns the best of what a phone has; its own fusion knows north and its gyroscope. */
+    static SensorSource<Rotation> rotation(SensorDesk desk, Loop loop, SourceTexts texts,
+            ProblemListener problems) {
+        SensorSource<Rotation> vector = new VectorSource(desk, VectorSource.WITH_NORTH, loop,
+                texts, problems);
+        return vector.isPresent() ? vector : new FieldSource(desk, loop, texts, problems);
+    }
+
+    @Override
+    public SensorSource<Fix> location() {
+        return location;
+    }
+
+    @Override
+    public SensorSource<Rotation> rotation() {
+        return rotation;
+    }
+
+    @Override
+    public SensorSource<RotationRate> rotationRate() {
+        return rotationRate;
+    }
+
+    @Override
+    public SensorSource<Pressure> pressure() {
+        return pressure;
+    }
+
+    @Override
+    public SensorSource<BatteryLevel> battery() {
+        return battery;
+    }
+}

@@ -1,0 +1,87 @@
+package org.raspilot.up.android;
+
+import android.content.Context;
+import android.os.Handler;
+import android.os.Looper;
+import android.speech.tts.TextToSpeech;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import org.raspilot.up.airborne.Speaker;
+
+/** Says texts by the phone's own text to speech; what comes before it is ready waits for it. */
+final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
+    private static final int MOST_WAITING = 5;
+
+    private final Handler main = new Handler(Looper.getMainLooper());
+    private final List<String> waiting = new ArrayList<String>();
+    private final ProblemListener problems;
+    private final String absence;
+    private TextToSpeech speech;
+    private boolean isReady;
+    private boolean isEnded;
+
+    /** Begins to look for something that speaks; on the main thread. */
+    AndroidSpeaker(Context context, SourceTexts texts, ProblemListener problems) {
+        this.problems = problems;
+        absence = texts.of(Lack.SPEECH);
+        speech = new TextToSpeech(context.getApplicationContext(), this);
+    }
+
+    @Override
+    public void speak(final String text) {
+        main.post(new Runnable() {
+            @Override
+            public void run() {
+                say(text);
+            }
+        });
+    }
+
+    @Override
+    public void onInit(final int status) {
+        // Some systems call while the constructor still runs.
+        main.post(new Runnable() {
+            @Override
+            public void run() {
+                begin(status == TextToSpeech.SUCCESS);
+            }
+        });
+    }
+
+    /** Falls silent for good; on the main thread. */
+    void end() {
+        isEnded = true;
+        waiting.clear();
+        if (speech != null) {
+            speech.shutdown();
+            speech = null;
+        }
+    }
+
+    private void begin(boolean isSuccess) {
+        if (isEnded) {
+            return;
+        }
+        isReady = isSuccess;
+        if (!isSuccess) {
+            speech = null;
+            problems.onProblem(absence);
+        }
+        for (String text : waiting) {
+            say(text);
+        }
+        waiting.clear();
+    }
+
+    private void say(String text) {
+        if (isEnded || speech == null) {
+            return;
+        }
+        if (isReady) {
+            speech.speak(text, TextToSpeech.QUEUE_ADD, new HashMap<String, String>());
+        } else if (waiting.size() < MOST_WAITING) {
+            waiting.add(text);
+        }
+    }
+}

@@ -1,0 +1,17 @@
+package org.raspilot.up.android;
+
+import android.hardware.Sensor;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.Pressure;
+
+/** The air's pressure, by the phone's barometer. */
+final class BarometerSource extends HardwareSource<Pressure> {
+    BarometerSource(SensorDesk desk, Loop loop, SourceTexts texts, ProblemListener problems) {
+        super(desk, Sensor.TYPE_PRESSURE, loop, texts, Lack.BAROMETER, problems);
+    }
+
+    @Override
+    Pressure read(float[] values, long timeMs) {
+        return new Pressure(values[0]);
+    }
+}

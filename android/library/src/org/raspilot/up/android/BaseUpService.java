@@ -1,0 +1,209 @@
+package org.raspilot.up.android;
+
+import android.Manifest;
+import android.app.Service;
+import android.content.Context;
+import android.content.Intent;
+import android.os.Binder;
+import android.os.Build;
+import android.os.IBinder;
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.List;
+import org.raspilot.up.Up;
+import org.raspilot.up.airborne.AirborneSettings;
+import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.android.api26.Foreground;
+import org.raspilot.up.providers.LocationProvider;
+import org.raspilot.up.providers.Mounting;
+
+/**
+ * Reads the sensors and sends them while nobody looks (thesis 4.5.2): a started service in the
+ * foreground that goes on when the screen is off and when the application is swept away.
+ *
+ * <p>An application extends it and names its subclass in its manifest. All its own state is on
+ * the main thread; the airborne side runs on a loop of its own ({@link AirborneRun}). Whoever
+ * wants to look binds to it without creating it.
+ */
+public abstract class BaseUpService extends Service {
+    /** Stops the service. */
+    public static final String ACTION_STOP = "org.raspilot.up.android.STOP";
+
+    private final List<UpWatcher> watchers = new ArrayList<UpWatcher>();
+    private final Airside airside = new Airside();
+    private Notice notice;
+    private AirborneRun run;
+    private AirborneStatus newest;
+
+    /** Starts a service that extends this; at the user's wish, so from a screen. */
+    public static void start(Context context, Class<? extends BaseUpService> service) {
+        Intent intent = new Intent(context, service);
+        if (Build.VERSION.SDK_INT >= 26) {
+            Foreground.start(context, intent);
+        } else {
+            context.startService(intent);
+        }
+    }
+
+    /** Stops it; without effect where it does not run. */
+    public static void stop(Context context, Class<? extends BaseUpService> service) {
+        context.stopService(new Intent(context, service));
+    }
+
+    /**
+     * Returns the settings of now; asked at each start, also when the system brings the service
+     * back.
+     *
+     * @throws IllegalArgumentException with a sentence for the user: the service stops then
+     */
+    protected abstract AirborneSettings readSettings();
+
+    /** Returns whether sockets are to stay on Wi-Fi while there is one, from Android 6 on. */
+    protected abstract boolean isOnWifi();
+
+    /** Returns the words for what the phone lacks. */
+    protected abstract SourceTexts sourceTexts();
+
+    /** Returns the words and pictures of the notification. */
+    protected abstract NoticeTexts noticeTexts();
+
+    /** Returns the notification's line for a status; null: nothing is known yet. */
+    protected abstract String noticeText(AirborneStatus status);
+
+    /** Takes what is worth a line of the log; on the main thread. */
+    protected abstract void onEvent(String sentence);
+
+    /** Takes the pressure by which the altitude is zero here, hPa, to keep it in the settings. */
+    protected abstract void onReferencePressure(double hPa);
+
+    /** Registers the application's own handlers and providers; on the loop, before the start. */
+    protected void onUp(Up up) {
+    }
+
+    @Override
+    public void onCreate() {
+        super.onCreate();
+        notice = new Notice(this, noticeTexts());
+    }
+
+    @Override
+    public int onStartCommand(Intent intent, int flags, int startId) {
+        if (intent != null && ACTION_STOP.equals(intent.getAction())) {
+            stopSelf();
+            return START_NOT_STICKY;
+        }
+        // Owed within 5 s of each start, whatever comes of it.
+        notice.begin(noticeText(newest), usesLocation());
+        if (run == null && !begin()) {
+            stopSelf();
+            return START_NOT_STICKY;
+        }
+        return START_STICKY;
+    }
+
+    @Override
+    public IBinder onBind(Intent intent) {
+        return airside;
+    }
+
+    @Override
+    public void onDestroy() {
+        if (run != null) {
+            run.end();
+            run = null;
+        }
+        watchers.clear();
+        stopForeground(true);
+        super.onDestroy();
+    }
+
+    private boolean begin() {
+        try {
+            run = new AirborneRun(this, readSettings(), isOnWifi(), sourceTexts(), new Host());
+            return true;
+        } catch (IllegalArgumentException wrong) {
+            onEvent(wrong.getMessage());
+        } catch (IOException failure) {
+            onEvent(failure.getMessage());
+        }
+        return false;
+    }
+
+    private boolean usesLocation() {
+        return Permissions.has(this, Manifest.permission.ACCESS_FINE_LOCATION)
+                || Permissions.has(this, Manifest.permission.ACCESS_COARSE_LOCATION);
+    }
+
+    private final class Host implements AirborneRun.Host {
+        @Override
+        public void onUp(Up up) {
+            BaseUpService.this.onUp(up);
+        }
+
+        @Override
+        public void onStatus(AirborneStatus status) {
+            newest = status;
+            notice.show(noticeText(status));
+            for (UpWatcher watcher : new ArrayList<UpWatcher>(watchers)) {
+                watcher.onStatus(status);
+            }
+        }
+
+        @Override
+        public void onEvent(String sentence) {
+            BaseUpService.this.onEvent(sentence);
+        }
+
+        @Override
+        public void onReferencePressure(double hPa) {
+            BaseUpService.this.onReferencePressure(hPa);
+        }
+    }
+
+    /** What a screen reaches of the service that it is bound to. On the main thread. */
+    public final class Airside extends Binder {
+        /** Adds a watcher, who hears at once what is known. */
+        public void add(UpWatcher watcher) {
+            if (!watchers.contains(watcher)) {
+                watchers.add(watcher);
+            }
+            if (newest != null) {
+                watcher.onStatus(newest);
+            }
+        }
+
+        /** Takes a watcher away. */
+        public void remove(UpWatcher watcher) {
+            watchers.remove(watcher);
+        }
+
+        /** Looks at the permissions anew: what was not permitted may be read now. */
+        public void permissionsChanged() {
+            if (run != null) {
+                notice.begin(noticeText(newest), usesLocation());
+                run.restart(LocationProvider.NAME);
+            }
+        }
+
+        /** Takes another mounting at once. */
+        public void setMounting(Mounting mounting) {
+            if (run != null) {
+                run.setMounting(mounting);
+            }
+        }
+
+        /** Takes the pressure at altitude zero, hPa, at once. */
+        public void setReferencePressureHPa(double hPa) {
+            if (run != null) {
+                run.setReferencePressureHPa(hPa);
+            }
+        }
+
+        /** Lets the altitude be zero here; {@link BaseUpService#onReferencePressure} hears it. */
+        public void zeroAltitudeHere() {
+            if (run != null) {
+                run.zeroAltitudeHere();
+            }
+        }
+    }
+}

@@ -1,0 +1,93 @@
+package org.raspilot.up.android;
+
+import android.hardware.Sensor;
+import android.hardware.SensorEvent;
+import android.hardware.SensorEventListener;
+import android.hardware.SensorManager;
+import java.util.concurrent.TimeUnit;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.Rotation;
+import org.raspilot.up.providers.SensorListener;
+import org.raspilot.up.providers.SensorSource;
+
+/**
+ * How the phone lies, by gravity and the earth's magnetic field: for phones without a fusion of
+ * their own. In turns the aeroplane's own acceleration passes for gravity: good for a heading and
+ * for the ground, poor for flying by.
+ */
+final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
+    private static final double SMOOTH_MS = 200;
+
+    private final SensorDesk desk;
+    private final Sensor accelerometer;
+    private final Sensor magnetometer;
+    private final String absence;
+    private final String refusal;
+    private final Handover<Rotation> handover;
+    private final ProblemListener problems;
+    private final Smooth gravity = new Smooth(SMOOTH_MS);
+    private final Smooth field = new Smooth(SMOOTH_MS);
+    private final float[] matrix = new float[9];
+
+    FieldSource(SensorDesk desk, Loop loop, SourceTexts texts, ProblemListener problems) {
+        this.desk = desk;
+        accelerometer = desk.find(Sensor.TYPE_ACCELEROMETER);
+        magnetometer = desk.find(Sensor.TYPE_MAGNETIC_FIELD);
+        absence = texts.of(Lack.ROTATION);
+        refusal = texts.of(Lack.REFUSED);
+        handover = new Handover<Rotation>(loop);
+        this.problems = problems;
+    }
+
+    @Override
+    public boolean isPresent() {
+        return accelerometer != null && magnetometer != null;
+    }
+
+    @Override
+    public String name() {
+        return isPresent() ? accelerometer.getName() + ", " + magnetometer.getName() : absence;
+    }
+
+    @Override
+    public void subscribe(long periodMs, SensorListener<Rotation> listener) {
+        if (!isPresent()) {
+            throw new IllegalStateException(absence);
+        }
+        desk.forget(this);
+        handover.to(listener);
+        listen(accelerometer, periodMs);
+        listen(magnetometer, periodMs);
+    }
+
+    @Override
+    public void unsubscribe() {
+        desk.forget(this);
+        handover.to(null);
+    }
+
+    @Override
+    public void onSensorChanged(SensorEvent event) {
+        long timeMs = TimeUnit.NANOSECONDS.toMillis(event.timestamp);
+        if (event.sensor.getType() == Sensor.TYPE_MAGNETIC_FIELD) {
+            field.take(event.values, timeMs);
+            return;
+        }
+        gravity.take(event.values, timeMs);
+        boolean isKnown = gravity.isKnown() && field.isKnown() && SensorManager.getRotationMatrix(
+                matrix, null, gravity.values(), field.values());
+        if (isKnown) {
+            handover.give(new Rotation(RotationMatrix.quaternion(matrix), timeMs));
+        }
+    }
+
+    @Override
+    public void onAccuracyChanged(Sensor changed, int accuracy) {
+    }
+
+    private void listen(Sensor sensor, long periodMs) {
+        if (!desk.listen(this, sensor, periodMs)) {
+            problems.onProblem(refusal + ": " + sensor.getName());
+        }
+    }
+}

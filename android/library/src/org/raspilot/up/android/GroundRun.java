@@ -1,0 +1,159 @@
+package org.raspilot.up.android;
+
+import android.content.Context;
+import android.os.Handler;
+import android.os.Looper;
+import android.util.Log;
+import java.io.IOException;
+import java.util.Random;
+import org.raspilot.up.Up;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.HandlerFaultListener;
+import org.raspilot.up.ground.Answer;
+import org.raspilot.up.ground.AnswerListener;
+import org.raspilot.up.ground.GroundListener;
+import org.raspilot.up.ground.GroundSettings;
+import org.raspilot.up.ground.GroundSide;
+import org.raspilot.up.ground.GroundStatus;
+import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.loop.SelectorLoop;
+import org.raspilot.up.providers.ProvidersController;
+
+/**
+ * One run of the ground side on a loop of its own. Made, used and ended on the main thread, which
+ * hears of it; what the loop says quicker than the main thread draws is told once, by its newest.
+ */
+final class GroundRun implements GroundListener, HandlerFaultListener {
+    /** Registers an application's own handlers. */
+    interface Setup {
+        /** Takes what handlers are registered in; on the loop, before anything begins. */
+        void onUp(Up up);
+    }
+
+    /** Something to do with the ground side on its loop. */
+    interface Call {
+        /** Does it. */
+        void with(GroundSide side);
+    }
+
+    private static final String TAG = "Up";
+
+    private final Handler main = new Handler(Looper.getMainLooper());
+    private final SelectorLoop loop;
+    private final GroundSide side;
+    private final NetworkWatch network;
+    private final GroundView view;
+    private final Up up;
+    private volatile boolean isEnded;
+
+    /** Begins to connect, on Wi-Fi or whatever there is; the view is told. */
+    GroundRun(Context context, GroundSettings settings, GroundView view, final Setup setup)
+            throws IOException {
+        this.view = view;
+        loop = new SelectorLoop("up ground", new Faults("up ground"));
+        loop.start();
+        up = new Up(loop, new ProvidersController(loop), this);
+        side = new GroundSide(loop, settings, new PreferencesTokenStore(context),
+                up.commandExecutor(), this, new Random());
+        network = new NetworkWatch(context, false, new Runnable() {
+            @Override
+            public void run() {
+                comeBack();
+            }
+        });
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                setup.onUp(up);
+                side.start();
+                onStatus(side.status());
+                onChanged();
+            }
+        });
+        network.begin();
+    }
+
+    /** Ends everything; answers that are still due say that the link is lost. */
+    void end() {
+        isEnded = true;
+        network.end();
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                try {
+                    side.stop();
+                } finally {
+                    loop.stop();
+                }
+            }
+        });
+    }
+
+    /** Returns the loop's clock, ms. */
+    long nowMs() {
+        return loop.nowMs();
+    }
+
+    /** Does something with the ground side on its loop. */
+    void post(final Call call) {
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                call.with(side);
+            }
+        });
+    }
+
+    /** Returns a listener for the loop that hands the answer to one on the main thread. */
+    AnswerListener onMain(final AnswerListener listener) {
+        return new AnswerListener() {
+            @Override
+            public void onAnswer(final Answer answer) {
+                main.post(new Runnable() {
+                    @Override
+                    public void run() {
+                        listener.onAnswer(answer);
+                    }
+                });
+            }
+        };
+    }
+
+    @Override
+    public void onTelemetry(Telemetry telemetry) {
+        if (!isEnded) {
+            view.take(telemetry);
+        }
+    }
+
+    @Override
+    public void onStatus(GroundStatus status) {
+        if (!isEnded) {
+            view.take(status);
+        }
+    }
+
+    @Override
+    public void onChanged() {
+        if (!isEnded) {
+            view.take(side.track().snapshot(), side.events().snapshot(),
+                    side.alarms().snapshot(), side.gains().snapshot());
+        }
+    }
+
+    @Override
+    public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
+            Throwable fault) {
+        Log.e(TAG, handler.getClass().getName() + " failed at " + command.name(), fault);
+    }
+
+    private void comeBack() {
+        post(new Call() {
+            @Override
+            public void with(GroundSide ground) {
+                ground.reconnectNow();
+            }
+        });
+    }
+}

@@ -1,0 +1,162 @@
+package org.raspilot.up.android;
+
+import android.os.Handler;
+import android.os.Looper;
+import java.util.ArrayList;
+import java.util.List;
+import org.raspilot.up.ground.Alarms;
+import org.raspilot.up.ground.EventLog;
+import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GroundStatus;
+import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.Track;
+
+/**
+ * The newest of all that the ground side knows, and the watchers on the main thread. Taken from
+ * the loop; a watcher that is slower than the aircraft is told of the newest only.
+ */
+final class GroundView implements Runnable {
+    private final Handler main = new Handler(Looper.getMainLooper());
+    private final List<GroundWatcher> watchers = new ArrayList<GroundWatcher>();
+    private final Object lock = new Object();
+    private boolean isPosted;
+    private boolean isTelemetryNew;
+    private boolean isStatusNew;
+    private boolean isChanged;
+    private Telemetry telemetry = Telemetry.NOTHING;
+    private GroundStatus status;
+    private Track.Snapshot track;
+    private EventLog.Snapshot events;
+    private Alarms.Snapshot alarms;
+    private GainsDesk.Snapshot gains;
+
+    /** Adds a watcher; on the main thread. */
+    void add(GroundWatcher watcher) {
+        if (!watchers.contains(watcher)) {
+            watchers.add(watcher);
+        }
+    }
+
+    /** Takes a watcher away; on the main thread. */
+    void remove(GroundWatcher watcher) {
+        watchers.remove(watcher);
+    }
+
+    void take(Telemetry newest) {
+        synchronized (lock) {
+            telemetry = newest;
+            isTelemetryNew = true;
+            wake();
+        }
+    }
+
+    void take(GroundStatus newest) {
+        synchronized (lock) {
+            status = newest;
+            isStatusNew = true;
+            wake();
+        }
+    }
+
+    void take(Track.Snapshot newTrack, EventLog.Snapshot newEvents, Alarms.Snapshot newAlarms,
+            GainsDesk.Snapshot newGains) {
+        synchronized (lock) {
+            track = newTrack;
+            events = newEvents;
+            alarms = newAlarms;
+            gains = newGains;
+            isChanged = true;
+            wake();
+        }
+    }
+
+    /** Forgets everything, as before another link; the watchers hear that nothing is known. */
+    void forget() {
+        synchronized (lock) {
+            telemetry = Telemetry.NOTHING;
+            status = null;
+            track = null;
+            events = null;
+            alarms = null;
+            gains = null;
+            isTelemetryNew = true;
+            isChanged = true;
+            wake();
+        }
+    }
+
+    Telemetry telemetry() {
+        synchronized (lock) {
+            return telemetry;
+        }
+    }
+
+    GroundStatus status() {
+        synchronized (lock) {
+            return status;
+        }
+    }
+
+    Track.Snapshot track() {
+        synchronized (lock) {
+            return track;
+        }
+    }
+
+    EventLog.Snapshot events() {
+        synchronized (lock) {
+            return events;
+        }
+    }
+
+    Alarms.Snapshot alarms() {
+        synchronized (lock) {
+            return alarms;
+        }
+    }
+
+    GainsDesk.Snapshot gains() {
+        synchronized (lock) {
+            return gains;
+        }
+    }
+
+    @Override
+    public void run() {
+        final Telemetry newTelemetry;
+        final GroundStatus newStatus;
+        final boolean isOtherNew;
+        synchronized (lock) {
+            newTelemetry = isTelemetryNew ? telemetry : null;
+            newStatus = isStatusNew ? status : null;
+            isOtherNew = isChanged;
+            isTelemetryNew = false;
+            isStatusNew = false;
+            isChanged = false;
+            isPosted = false;
+        }
+        for (GroundWatcher watcher : new ArrayList<GroundWatcher>(watchers)) {
+            tell(watcher, newStatus, newTelemetry, isOtherNew);
+        }
+    }
+
+    private static void tell(GroundWatcher watcher, GroundStatus status, Telemetry telemetry,
+            boolean isOtherNew) {
+        if (status != null) {
+            watcher.onStatus(status);
+        }
+        if (telemetry != null) {
+            watcher.onTelemetry(telemetry);
+        }
+        if (isOtherNew) {
+            watcher.onChanged();
+        }
+    }
+
+    private void wake() {
+        if (!isPosted) {
+            isPosted = true;
+            main.post(this);
+        }
+    }
+}

@@ -1,0 +1,42 @@
+package org.raspilot.up.android;
+
+import java.util.concurrent.atomic.AtomicReference;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.SensorListener;
+
+/**
+ * Brings readings from the system's threads to the loop; a reading that still waits when the next
+ * one comes is replaced by it.
+ *
+ * @param <R> what one reading is
+ */
+final class Handover<R> implements Runnable {
+    private final Loop loop;
+    private final AtomicReference<R> waiting = new AtomicReference<R>();
+    private SensorListener<R> listener;
+
+    Handover(Loop loop) {
+        this.loop = loop;
+    }
+
+    /** Names who takes the readings from now on; null: nobody. Only on the loop. */
+    void to(SensorListener<R> taker) {
+        listener = taker;
+        waiting.set(null);
+    }
+
+    /** Takes a reading; on any thread. */
+    void give(R reading) {
+        if (waiting.getAndSet(reading) == null) {
+            loop.post(this);
+        }
+    }
+
+    @Override
+    public void run() {
+        R reading = waiting.getAndSet(null);
+        if (reading != null && listener != null) {
+            listener.onReading(reading);
+        }
+    }
+}

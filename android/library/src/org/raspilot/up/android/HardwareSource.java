@@ -1,0 +1,77 @@
+package org.raspilot.up.android;
+
+import android.hardware.Sensor;
+import android.hardware.SensorEvent;
+import android.hardware.SensorEventListener;
+import java.util.concurrent.TimeUnit;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.SensorListener;
+import org.raspilot.up.providers.SensorSource;
+
+/**
+ * A source that is one of the phone's built-in sensors.
+ *
+ * @param <R> what one reading is
+ */
+abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener {
+    private final SensorDesk desk;
+    private final Sensor sensor;
+    private final String absence;
+    private final Handover<R> handover;
+    private final ProblemListener problems;
+    private final String refusal;
+
+    /** Takes the type of {@link Sensor} and why there is nothing where the phone has none. */
+    HardwareSource(SensorDesk desk, int type, Loop loop, SourceTexts texts, Lack lack,
+            ProblemListener problems) {
+        this.desk = desk;
+        sensor = desk.find(type);
+        absence = texts.of(lack);
+        refusal = texts.of(Lack.REFUSED);
+        handover = new Handover<R>(loop);
+        this.problems = problems;
+    }
+
+    /** Returns the reading of an event, or null for none; on the sensors' thread. */
+    abstract R read(float[] values, long timeMs);
+
+    @Override
+    public final boolean isPresent() {
+        return sensor != null;
+    }
+
+    @Override
+    public final String name() {
+        return sensor == null ? absence : sensor.getName();
+    }
+
+    @Override
+    public final void subscribe(long periodMs, SensorListener<R> listener) {
+        if (sensor == null) {
+            throw new IllegalStateException(absence);
+        }
+        desk.forget(this);
+        handover.to(listener);
+        if (!desk.listen(this, sensor, periodMs)) {
+            problems.onProblem(refusal + ": " + sensor.getName());
+        }
+    }
+
+    @Override
+    public final void unsubscribe() {
+        desk.forget(this);
+        handover.to(null);
+    }
+
+    @Override
+    public final void onSensorChanged(SensorEvent event) {
+        R reading = read(event.values, TimeUnit.NANOSECONDS.toMillis(event.timestamp));
+        if (reading != null) {
+            handover.give(reading);
+        }
+    }
+
+    @Override
+    public final void onAccuracyChanged(Sensor changed, int accuracy) {
+    }
+}

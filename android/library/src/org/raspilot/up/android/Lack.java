@@ -1,0 +1,25 @@
+package org.raspilot.up.android;
+
+/** Why a sensor cannot be read on this phone. */
+public enum Lack {
+    /** The user did not permit the location. */
+    LOCATION_PERMISSION,
+    /** The phone has neither GPS nor another source of its location. */
+    LOCATION,
+    /** The location is there and permitted, but switched off in the phone's settings. */
+    LOCATION_OFF,
+    /** There is nothing by which the phone knows how it lies. */
+    ROTATION,
+    /** There is nothing by which the phone knows where north is. */
+    NORTH,
+    /** There is no gyroscope. */
+    GYROSCOPE,
+    /** There is no barometer. */
+    BAROMETER,
+    /** The system does not tell the battery's level. */
+    BATTERY,
+    /** The system refused to read a sensor that is there. */
+    REFUSED,
+    /** There is nothing that speaks. */
+    SPEECH
+}

@@ -1,0 +1,27 @@
+package org.raspilot.up.android;
+
+import android.app.Activity;
+
+/** What the application says in the notification of its service. */
+public interface NoticeTexts {
+    /** Returns a drawable: white on transparent. */
+    int icon();
+
+    /** Returns the drawable of the button that stops. */
+    int stopIcon();
+
+    /** Returns the name of the channel inside the system, from Android 8 on; never changes. */
+    String channel();
+
+    /** Returns what the user reads as the channel's name. */
+    String channelName();
+
+    /** Returns the headline. */
+    String title();
+
+    /** Returns the words on the button that stops. */
+    String stop();
+
+    /** Returns the screen that a touch opens. */
+    Class<? extends Activity> screen();
+}

@@ -1,0 +1,88 @@
+package org.raspilot.up.android;
+
+import android.app.IntentService;
+import android.content.Context;
+import android.content.Intent;
+import android.os.Message;
+import android.os.Messenger;
+import android.os.RemoteException;
+import android.util.Log;
+import java.io.IOException;
+import org.raspilot.up.loop.SelectorLoop;
+
+/**
+ * Asks a runner for an instance and ends (thesis 3.5.1, "Intent Service"): one request after the
+ * other on a thread of its own. Where an instance runs, the messenger hears it, and the
+ * application starts its {@link BaseUpService}, which connects where the runner says.
+ */
+public final class SpawnService extends IntentService {
+    private static final String TAG = "Up";
+    private static final String HOST = "host";
+    private static final String PORT = "port";
+    private static final String AIRCRAFT = "aircraft";
+    private static final String PROFILE = "profile";
+    private static final String ANSWER = "answer";
+
+    /** Made by the system. */
+    public SpawnService() {
+        super("up spawn");
+        // A request that the system interrupted is not repeated behind the user's back.
+        setIntentRedelivery(false);
+    }
+
+    /**
+     * Asks.
+     *
+     * @param aircraft the aircraft's name
+     * @param profile a ready-made configuration of the runner; empty: none
+     * @param answer hears one message with {@link #result}
+     */
+    public static void ask(Context context, String host, int port, String aircraft,
+            String profile, Messenger answer) {
+        context.startService(new Intent(context, SpawnService.class)
+                .putExtra(HOST, host)
+                .putExtra(PORT, port)
+                .putExtra(AIRCRAFT, aircraft)
+                .putExtra(PROFILE, profile)
+                .putExtra(ANSWER, answer));
+    }
+
+    /** Returns what a message to the messenger says. */
+    public static SpawnResult result(Message message) {
+        return SpawnResult.of(message.getData());
+    }
+
+    @Override
+    protected void onHandleIntent(Intent intent) {
+        if (intent == null) {
+            return;
+        }
+        SpawnRequest request = new SpawnRequest(intent.getStringExtra(HOST),
+                intent.getIntExtra(PORT, 0), intent.getStringExtra(AIRCRAFT),
+                intent.getStringExtra(PROFILE));
+        Messenger answer = intent.getParcelableExtra(ANSWER);
+        tell(answer, run(request));
+    }
+
+    private static SpawnResult run(SpawnRequest request) {
+        SelectorLoop loop = new SelectorLoop("up spawn loop", new Faults("up spawn"));
+        try {
+            loop.start();
+            return request.run(loop);
+        } catch (IOException failure) {
+            return SpawnResult.refused(failure.getMessage());
+        } finally {
+            loop.stop();
+        }
+    }
+
+    private static void tell(Messenger answer, SpawnResult result) {
+        Message message = Message.obtain();
+        message.setData(result.toBundle());
+        try {
+            answer.send(message);
+        } catch (RemoteException gone) {
+            Log.w(TAG, "nobody waits for the runner's answer any more", gone);
+        }
+    }
+}

@@ -1,0 +1,252 @@
+package org.raspilot.up.android;
+
+import android.app.Service;
+import android.content.Intent;
+import android.os.Binder;
+import android.os.IBinder;
+import android.os.SystemClock;
+import java.io.IOException;
+import org.raspilot.up.Up;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.commands.PidTuningsCommand;
+import org.raspilot.up.ground.Alarms;
+import org.raspilot.up.ground.Answer;
+import org.raspilot.up.ground.AnswerListener;
+import org.raspilot.up.ground.EventLog;
+import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GroundSettings;
+import org.raspilot.up.ground.GroundSide;
+import org.raspilot.up.ground.GroundStatus;
+import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.Track;
+
+/**
+ * Receives telemetry and sends Commands for as long as somebody looks (thesis 4.5.2): a bound
+ * service. An application extends it and names its subclass in its manifest.
+ */
+public abstract class TelemetryService extends Service {
+    private final GroundView view = new GroundView();
+    private final Ground ground = new Ground();
+    private GroundRun run;
+    private String fault = "";
+
+    /**
+     * Returns the settings of now; asked when the service begins and at {@link Ground#reload}.
+     *
+     * @throws IllegalArgumentException with a sentence for the user: there is no link then
+     */
+    protected abstract GroundSettings readSettings();
+
+    /** Registers the application's own handlers, telemetry's too; on the loop. */
+    protected void onUp(Up up) {
+    }
+
+    @Override
+    public void onCreate() {
+        super.onCreate();
+        begin();
+    }
+
+    @Override
+    public IBinder onBind(Intent intent) {
+        return ground;
+    }
+
+    @Override
+    public void onDestroy() {
+        end();
+        super.onDestroy();
+    }
+
+    private void begin() {
+        fault = "";
+        try {
+            run = new GroundRun(this, readSettings(), view, new GroundRun.Setup() {
+                @Override
+                public void onUp(Up up) {
+                    TelemetryService.this.onUp(up);
+                }
+            });
+        } catch (IllegalArgumentException wrong) {
+            fault = wrong.getMessage();
+        } catch (IOException failure) {
+            fault = failure.getMessage();
+        }
+    }
+
+    private void end() {
+        if (run != null) {
+            run.end();
+            run = null;
+        }
+    }
+
+    /** What a screen reaches of the service that it is bound to. On the main thread. */
+    public final class Ground extends Binder {
+        /** Adds a watcher: it is told of what comes from now on. */
+        public void add(GroundWatcher watcher) {
+            view.add(watcher);
+        }
+
+        /** Takes a watcher away; answers that are due to it come all the same. */
+        public void remove(GroundWatcher watcher) {
+            view.remove(watcher);
+        }
+
+        /** Returns what is wrong with the settings, in a sentence; empty: nothing. */
+        public String fault() {
+            return fault;
+        }
+
+        /** Ends the link and begins anew with the settings of now. */
+        public void reload() {
+            end();
+            view.forget();
+            begin();
+        }
+
+        /** Returns the clock by which ages are asked, ms. */
+        public long nowMs() {
+            return run == null ? SystemClock.elapsedRealtime() : run.nowMs();
+        }
+
+        /** Returns the newest frame; {@link Telemetry#NOTHING}: none yet. */
+        public Telemetry telemetry() {
+            return view.telemetry();
+        }
+
+        /** Returns the newest status; null: none yet. */
+        public GroundStatus status() {
+            return view.status();
+        }
+
+        /** Returns the newest track; null: none yet. */
+        public Track.Snapshot track() {
+            return view.track();
+        }
+
+        /** Returns what happened; null: nothing is known yet. */
+        public EventLog.Snapshot events() {
+            return view.events();
+        }
+
+        /** Returns what is wrong with the flight; null: nothing is known yet. */
+        public Alarms.Snapshot alarms() {
+            return view.alarms();
+        }
+
+        /** Returns the gains; null: nothing is known yet. */
+        public GainsDesk.Snapshot gains() {
+            return view.gains();
+        }
+
+        /** Sends a Command; {@code shownBeacon} is that of the frame on the screen, or null. */
+        public void send(final BaseCommand command, final Long shownBeacon,
+                AnswerListener listener) {
+            ask(command.name(), listener, new Asking() {
+                @Override
+                public void ask(GroundSide side, AnswerListener answers) {
+                    side.send(command, shownBeacon, answers);
+                }
+            });
+        }
+
+        /** Asks which gains fly. */
+        public void askGains(AnswerListener listener) {
+            ask(PidTuningsCommand.NAME, listener, new Asking() {
+                @Override
+                public void ask(GroundSide side, AnswerListener answers) {
+                    side.gains().ask(answers);
+                }
+            });
+        }
+
+        /** Sets the gains. */
+        public void setGains(final GainSet gains, final Long shownBeacon,
+                AnswerListener listener) {
+            ask(PidTuningsCommand.NAME, listener, new Asking() {
+                @Override
+                public void ask(GroundSide side, AnswerListener answers) {
+                    side.gains().set(gains, shownBeacon, answers);
+                }
+            });
+        }
+
+        /** Sets what flew before the newest set. */
+        public void undoGains(final Long shownBeacon, AnswerListener listener) {
+            ask(PidTuningsCommand.NAME, listener, new Asking() {
+                @Override
+                public void ask(GroundSide side, AnswerListener answers) {
+                    side.gains().undo(shownBeacon, answers);
+                }
+            });
+        }
+
+        /** Asks for the seat that commands. */
+        public void requestSeat() {
+            post(new GroundRun.Call() {
+                @Override
+                public void with(GroundSide side) {
+                    side.requestSeat();
+                }
+            });
+        }
+
+        /** Hands the seat to the ground of a number. */
+        public void giveSeat(final int to) {
+            post(new GroundRun.Call() {
+                @Override
+                public void with(GroundSide side) {
+                    side.giveSeat(to);
+                }
+            });
+        }
+
+        /** Leaves the seat free. */
+        public void releaseSeat() {
+            post(new GroundRun.Call() {
+                @Override
+                public void with(GroundSide side) {
+                    side.releaseSeat();
+                }
+            });
+        }
+
+        /** Forgets the way that the aircraft has come. */
+        public void clearTrack() {
+            post(new GroundRun.Call() {
+                @Override
+                public void with(GroundSide side) {
+                    side.track().clear();
+                }
+            });
+        }
+
+        private void post(GroundRun.Call call) {
+            if (run != null) {
+                run.post(call);
+            }
+        }
+
+        private void ask(String name, AnswerListener listener, final Asking asking) {
+            if (run == null) {
+                listener.onAnswer(Answer.refused(name, "no_link", fault));
+                return;
+            }
+            final AnswerListener answers = run.onMain(listener);
+            run.post(new GroundRun.Call() {
+                @Override
+                public void with(GroundSide side) {
+                    asking.ask(side, answers);
+                }
+            });
+        }
+    }
+
+    /** Something that is asked of the aircraft, on the loop. */
+    private interface Asking {
+        /** Asks it. */
+        void ask(GroundSide side, AnswerListener answers);
+    }
+}
