@@ -16,7 +16,7 @@ import org.raspilot.app.R;
  * Where the aircraft flew, without a map: north up, home in the middle of a metric grid.
  *
  * <p>It shows everything until somebody drags or pinches; a double tap or {@link #follow()} brings
- * that back. Metres are north and east of home.
+ * that back. Metres are north and east of the origin: home, or the first place that was heard.
  */
 public final class TrackView extends Instrument {
     private static final float GRID_DP = 56;
@@ -35,6 +35,7 @@ public final class TrackView extends Instrument {
     private float[] eastM = new float[0];
     private boolean[] isBreak = new boolean[0];
     private int count;
+    private boolean isOriginHome;
     private float[] lines = new float[0];
     private double aircraftNorthM = Double.NaN;
     private double aircraftEastM = Double.NaN;
@@ -61,8 +62,10 @@ public final class TrackView extends Instrument {
      * @param north metres of each point
      * @param east metres of each point
      * @param hasGapBefore true: nothing was known before the point, no line leads to it
+     * @param isHome whether 0 north, 0 east is home; else it is the first place heard
      */
-    public void setTrack(float[] north, float[] east, boolean[] hasGapBefore) {
+    public void setTrack(float[] north, float[] east, boolean[] hasGapBefore, boolean isHome) {
+        isOriginHome = isHome;
         northM = north;
         eastM = east;
         isBreak = hasGapBefore;
@@ -237,6 +240,10 @@ public final class TrackView extends Instrument {
     private void drawHome(Canvas canvas) {
         float x = geometry.x(0);
         float y = geometry.y(0);
+        if (!isOriginHome) {
+            canvas.drawCircle(x, y, dp(3), area(inks().dim));
+            return;
+        }
         canvas.drawCircle(x, y, dp(10), area(inks().ground));
         canvas.drawCircle(x, y, dp(10), line(inks().good, 2));
         centred(canvas, homeLetter, x, y, 12, inks().good);

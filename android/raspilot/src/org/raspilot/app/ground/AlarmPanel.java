@@ -1,0 +1,88 @@
+package org.raspilot.app.ground;
+
+import android.view.View;
+import android.widget.Button;
+import android.widget.TextView;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import org.raspilot.app.R;
+import org.raspilot.app.view.Inks;
+import org.raspilot.up.ground.Alarm;
+import org.raspilot.up.ground.EventLevel;
+
+/** What is wrong now, in words, and the button that silences it. Gone while nothing is wrong. */
+final class AlarmPanel implements View.OnClickListener {
+    private final View element;
+    private final TextView text;
+    private final Button silence;
+    private final Inks inks;
+    private final AlarmBell bell;
+    private final Sounder sounder;
+
+    /** Finds its views; the bell is kept by who makes this. */
+    AlarmPanel(View root, AlarmBell bell, Sounder sounder) {
+        this.bell = bell;
+        this.sounder = sounder;
+        inks = Inks.of(root.getContext());
+        element = root.findViewById(R.id.ground_alarms);
+        text = (TextView) root.findViewById(R.id.ground_alarm_text);
+        silence = (Button) root.findViewById(R.id.ground_silence);
+        silence.setOnClickListener(this);
+    }
+
+    /** Shows the moment, and sounds what has to be heard. */
+    void update(Picture picture) {
+        List<Alarm> active = picture.alarms == null
+                ? java.util.Collections.<Alarm>emptyList() : picture.alarms.active();
+        if (picture.alarms != null) {
+            // What is not known leaves what was silenced as it is.
+            bell.take(loud(active));
+            sounder.ring(bell.look(picture.nowMs));
+        }
+        element.setVisibility(active.isEmpty() ? View.GONE : View.VISIBLE);
+        String words = words(active);
+        if (!words.contentEquals(text.getText())) {
+            // A live region: a screen reader says it when it changes.
+            text.setText(words);
+        }
+        text.setTextColor(hasAlarm(active) ? inks.alarm : inks.warning);
+        silence.setVisibility(bell.isRinging() ? View.VISIBLE : View.GONE);
+    }
+
+    @Override
+    public void onClick(View button) {
+        bell.silence();
+        sounder.hush();
+        silence.setVisibility(View.GONE);
+    }
+
+    private static Map<String, AlarmBell.Ring> loud(List<Alarm> active) {
+        Map<String, AlarmBell.Ring> loud = new HashMap<String, AlarmBell.Ring>();
+        for (Alarm each : active) {
+            if (each.isLoud()) {
+                boolean isAlarm = each.level() == EventLevel.ALARM;
+                loud.put(each.kind().name(),
+                        isAlarm ? AlarmBell.Ring.ALARM : AlarmBell.Ring.WARNING);
+            }
+        }
+        return loud;
+    }
+
+    private static boolean hasAlarm(List<Alarm> active) {
+        for (Alarm each : active) {
+            if (each.level() == EventLevel.ALARM) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    private static String words(List<Alarm> active) {
+        StringBuilder all = new StringBuilder();
+        for (Alarm each : active) {
+            all.append(all.length() == 0 ? "" : "\n").append(SeatPanel.sentence(each.text()));
+        }
+        return all.toString();
+    }
+}

@@ -1,0 +1,90 @@
+package org.raspilot.app.ground;
+
+import android.content.res.Resources;
+
+import org.raspilot.app.R;
+import org.raspilot.app.view.FrameText;
+import org.raspilot.app.view.Inks;
+import org.raspilot.up.ground.Age;
+import org.raspilot.up.ground.Freshness;
+import org.raspilot.up.ground.Telemetry;
+
+/**
+ * The line at the top of a screen: mode, motor, age of the newest frame; or for how long nothing
+ * came. It knows which frame was drawn, and so seen.
+ */
+public final class FrameLine implements FrameText.DrawnListener {
+    private final FrameText view;
+    private final Inks inks;
+    private Long shownBeacon;
+
+    /** Takes the view that shows it. */
+    public FrameLine(FrameText view) {
+        this.view = view;
+        inks = Inks.of(view.getContext());
+        view.setDrawnListener(this);
+    }
+
+    /** Lets go of the view: nothing is seen any more. */
+    public void close() {
+        view.setDrawnListener(null);
+        shownBeacon = null;
+    }
+
+    /** Returns the beacon of the newest frame that was drawn; null: none. */
+    public Long shownBeacon() {
+        return shownBeacon;
+    }
+
+    /** Forgets what was seen: another link, another aircraft. */
+    public void forget() {
+        shownBeacon = null;
+    }
+
+    @Override
+    public void onDrawn(Long beacon) {
+        shownBeacon = beacon;
+    }
+
+    /** Shows the moment. */
+    public void update(Picture picture) {
+        Telemetry telemetry = picture.telemetry;
+        Resources words = view.getResources();
+        Long ageMs = telemetry.ageMs(picture.nowMs);
+        if (ageMs == null) {
+            show(words.getString(R.string.frame_none), inks.dim, null);
+        } else if (telemetry.isSilent(picture.nowMs)) {
+            int text = telemetry.age().isLate(picture.nowMs)
+                    ? R.string.frame_late : R.string.frame_silent;
+            show(words.getString(text, Age.text(ageMs)), inks.alarm, telemetry.beacon());
+        } else {
+            String text = words.getString(R.string.frame_live, mode(picture, words),
+                    armed(picture, words), Age.text(ageMs));
+            show(text, inks.ink, telemetry.beacon());
+        }
+    }
+
+    private void show(String text, int colour, Long beacon) {
+        if (view.getCurrentTextColor() != colour) {
+            view.setTextColor(colour);
+        }
+        view.setFrame(text, beacon);
+    }
+
+    private static String mode(Picture picture, Resources words) {
+        String mode = picture.telemetry.text("flight_mode");
+        return isLive(picture, "flight_mode") ? mode : words.getString(R.string.mode_unknown);
+    }
+
+    private static String armed(Picture picture, Resources words) {
+        Boolean isArmed = picture.telemetry.flag("armed");
+        if (isArmed == null || !isLive(picture, "armed")) {
+            return words.getString(R.string.armed_unknown);
+        }
+        return words.getString(isArmed ? R.string.armed_yes : R.string.armed_no);
+    }
+
+    private static boolean isLive(Picture picture, String path) {
+        return picture.telemetry.freshness(path, picture.nowMs) == Freshness.LIVE;
+    }
+}

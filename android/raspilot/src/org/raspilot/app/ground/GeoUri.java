@@ -1,0 +1,22 @@
+package org.raspilot.app.ground;
+
+import java.util.Locale;
+
+/** The address under which a map of the system shows a place (RFC 5870 and Android's {@code q}). */
+final class GeoUri {
+    private GeoUri() {
+    }
+
+    /**
+     * Returns {@code geo:47.1234567,8.1234567?q=47.1234567,8.1234567(label)}.
+     *
+     * @param latitudeDeg -90 to 90 degrees
+     * @param longitudeDeg -180 to 180 degrees
+     * @param label what stands at the pin: encoded already, as by Uri.encode
+     */
+    static String of(double latitudeDeg, double longitudeDeg, String label) {
+        // Not the user's language: a decimal comma would be another place.
+        String place = String.format(Locale.ROOT, "%.7f,%.7f", latitudeDeg, longitudeDeg);
+        return "geo:" + place + "?q=" + place + "(" + label + ")";
+    }
+}

@@ -1,0 +1,68 @@
+package org.raspilot.app.ground;
+
+import android.app.Activity;
+import android.view.View;
+
+import org.raspilot.app.R;
+import org.raspilot.app.view.FrameText;
+import org.raspilot.up.android.TelemetryService;
+
+/** The parts of the ground screen while its views live. */
+final class GroundScreen {
+    private final FrameLine frame;
+    private final AlarmPanel alarms;
+    private final SeatPanel seat;
+    private final InstrumentPanel instruments;
+    private final TrackPanel track;
+    private final StatePanel state;
+    private final EventPanel events;
+    private final ValuesPanel values;
+    private final PanelSwitch panels;
+
+    /** Finds all views; {@code panel} is which panel is to be seen where one only fits. */
+    GroundScreen(Activity activity, View root, int panel, GroundSpeed speed, AlarmPanel alarms) {
+        this.alarms = alarms;
+        frame = new FrameLine((FrameText) root.findViewById(R.id.ground_frame));
+        seat = new SeatPanel(root);
+        instruments = new InstrumentPanel(root, speed);
+        track = new TrackPanel(activity, root);
+        state = new StatePanel(root);
+        events = new EventPanel(root);
+        values = new ValuesPanel(root);
+        panels = new PanelSwitch(root, panel);
+    }
+
+    /** Asks this ground from now on; null: none. */
+    void setGround(TelemetryService.Ground ground) {
+        frame.forget();
+        seat.setGround(ground);
+    }
+
+    /** Returns which panel is to be seen; {@code otherwise} where all are. */
+    int panel(int otherwise) {
+        return panels.chosen(otherwise);
+    }
+
+    /** Shows what each frame changes. */
+    void showNewest(Picture picture) {
+        frame.update(picture);
+        instruments.update(picture);
+        track.update(picture);
+    }
+
+    /** Shows everything. */
+    void showAll(Picture picture) {
+        showNewest(picture);
+        alarms.update(picture);
+        seat.update(picture);
+        state.update(picture);
+        events.update(picture);
+        values.update(picture);
+    }
+
+    /** Lets go of the views. */
+    void close() {
+        seat.setGround(null);
+        frame.close();
+    }
+}

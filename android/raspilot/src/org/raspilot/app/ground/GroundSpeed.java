@@ -1,0 +1,79 @@
+package org.raspilot.app.ground;
+
+/**
+ * Ground speed worked out from the places that telemetry tells: it carries none itself.
+ *
+ * <p>Main thread only.
+ */
+final class GroundSpeed {
+    private static final double EARTH_RADIUS_M = 6371009;
+    private static final int KEPT = 16;
+    private static final long LONGEST_MS = 6000;
+    private static final long SHORTEST_MS = 400;
+    private static final long WINDOW_MS = 2200;
+    private static final long JITTER_MS = 50;
+    private static final long AGAIN_MS = 300;
+
+    private final double[] latitudesDeg = new double[KEPT];
+    private final double[] longitudesDeg = new double[KEPT];
+    private final long[] timesMs = new long[KEPT];
+    private int count;
+
+    /**
+     * Takes a place; the same fix is told in many frames and counts once.
+     *
+     * @param latitudeDeg -90 to 90 degrees
+     * @param longitudeDeg -180 to 180 degrees
+     * @param measuredMs when it was measured, by one monotonic clock
+     */
+    void take(double latitudeDeg, double longitudeDeg, long measuredMs) {
+        if (count > 0) {
+            long sinceMs = measuredMs - timesMs[count - 1];
+            boolean isSame = latitudeDeg == latitudesDeg[count - 1]
+                    && longitudeDeg == longitudesDeg[count - 1];
+            if (sinceMs < JITTER_MS || sinceMs < AGAIN_MS && isSame) {
+                return;
+            }
+            if (sinceMs > LONGEST_MS) {
+                count = 0;
+            }
+        }
+        if (count == KEPT) {
+            count--;
+            System.arraycopy(latitudesDeg, 1, latitudesDeg, 0, count);
+            System.arraycopy(longitudesDeg, 1, longitudesDeg, 0, count);
+            System.arraycopy(timesMs, 1, timesMs, 0, count);
+        }
+        latitudesDeg[count] = latitudeDeg;
+        longitudesDeg[count] = longitudeDeg;
+        timesMs[count] = measuredMs;
+        count++;
+    }
+
+    /** Forgets every place. */
+    void clear() {
+        count = 0;
+    }
+
+    /** Returns the speed in m/s over about the last two seconds; null: not known. */
+    Double metresPerSecond() {
+        int last = count - 1;
+        int from = 0;
+        while (from < last - 1 && timesMs[last] - timesMs[from] > WINDOW_MS) {
+            from++;
+        }
+        long timeMs = last < 1 ? 0 : timesMs[last] - timesMs[from];
+        if (timeMs < SHORTEST_MS) {
+            return null;
+        }
+        return 1000 * distanceM(from, last) / timeMs;
+    }
+
+    private double distanceM(int from, int to) {
+        double north = Math.toRadians(latitudesDeg[to] - latitudesDeg[from]);
+        double middle = Math.toRadians((latitudesDeg[to] + latitudesDeg[from]) / 2);
+        double eastDeg = longitudesDeg[to] - longitudesDeg[from];
+        eastDeg -= Math.rint(eastDeg / 360) * 360;
+        return EARTH_RADIUS_M * Math.hypot(north, Math.toRadians(eastDeg) * Math.cos(middle));
+    }
+}

@@ -1,0 +1,39 @@
+package org.raspilot.app.ground;
+
+import org.raspilot.up.android.TelemetryService;
+import org.raspilot.up.ground.Alarms;
+import org.raspilot.up.ground.EventLog;
+import org.raspilot.up.ground.GroundStatus;
+import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.Track;
+
+/** What is known at a moment, for the parts of a screen. Immutable. */
+public final class Picture {
+    /** The newest frame; {@link Telemetry#NOTHING} while there is none. */
+    public final Telemetry telemetry;
+    /** The status; null: there is no service yet. */
+    public final GroundStatus status;
+    /** The track; null: not known yet. */
+    public final Track.Snapshot track;
+    /** The events; null: not known yet. */
+    public final EventLog.Snapshot events;
+    /** The alarms; null: not known yet. */
+    public final Alarms.Snapshot alarms;
+    /** The loop's clock at this moment, ms. */
+    public final long nowMs;
+
+    private Picture(TelemetryService.Ground ground) {
+        boolean isThere = ground != null;
+        telemetry = isThere ? ground.telemetry() : Telemetry.NOTHING;
+        status = isThere ? ground.status() : null;
+        track = isThere ? ground.track() : null;
+        events = isThere ? ground.events() : null;
+        alarms = isThere ? ground.alarms() : null;
+        nowMs = isThere ? ground.nowMs() : 0;
+    }
+
+    /** Returns what a ground knows now; null: there is none, nothing is known. */
+    public static Picture of(TelemetryService.Ground ground) {
+        return new Picture(ground);
+    }
+}

@@ -1,0 +1,113 @@
+package org.raspilot.app.ground;
+
+import android.view.LayoutInflater;
+import android.view.View;
+import android.view.ViewGroup;
+import android.widget.TextView;
+
+import org.raspilot.app.R;
+import org.raspilot.app.view.Hatch;
+import org.raspilot.app.view.Inks;
+import org.raspilot.app.view.Instrument;
+import org.raspilot.up.ground.Freshness;
+
+/** A line with a word and a value that looks old when it is old. */
+final class Row {
+    /** How a value looks while it is of now. */
+    enum Look {
+        /** As any other. */
+        PLAIN,
+        /** As it should be. */
+        GOOD,
+        /** It needs a look. */
+        WARNING,
+        /** It needs a hand now. */
+        ALARM
+    }
+
+    private final View element;
+    private final TextView label;
+    private final TextView value;
+    private final Inks inks;
+    private final Hatch hatch;
+    private Boolean wasStale;
+
+    /** Takes an element that was inflated from row_ground. */
+    Row(View element, Inks inks) {
+        this.element = element;
+        this.inks = inks;
+        hatch = new Hatch(element.getContext(), inks.hatch);
+        label = (TextView) element.findViewById(R.id.row_label);
+        value = (TextView) element.findViewById(R.id.row_value);
+    }
+
+    /** Makes a row at the end of a list of rows. */
+    static Row in(ViewGroup list, int labelText, Inks inks) {
+        LayoutInflater inflater = LayoutInflater.from(list.getContext());
+        View element = inflater.inflate(R.layout.row_ground, list, false);
+        list.addView(element);
+        Row row = new Row(element, inks);
+        row.label.setText(labelText);
+        return row;
+    }
+
+    /** Says what the value is. */
+    void label(String text) {
+        show(label, text);
+    }
+
+    /**
+     * Shows a value.
+     *
+     * @param text what it is; ignored where it is not known
+     * @param freshness LIVE, STALE (grey, hatched, with its age) or NONE
+     * @param age how old, in words
+     */
+    void show(String text, Freshness freshness, String age, Look look) {
+        boolean isStale = freshness == Freshness.STALE;
+        String shown = freshness == Freshness.NONE ? Instrument.UNKNOWN : text;
+        if (isStale) {
+            shown = element.getResources().getString(R.string.ground_old, text, age);
+        }
+        show(value, shown);
+        int colour = freshness == Freshness.LIVE ? colourOf(look) : inks.dim;
+        if (value.getCurrentTextColor() != colour) {
+            value.setTextColor(colour);
+        }
+        if (wasStale == null || wasStale != isStale) {
+            wasStale = isStale;
+            hatch.setActive(isStale);
+            setBackground();
+        }
+    }
+
+    /** Shows or hides the row. */
+    void setVisible(boolean isVisible) {
+        element.setVisibility(isVisible ? View.VISIBLE : View.GONE);
+    }
+
+    private void setBackground() {
+        if (value.getBackground() != hatch) {
+            value.setBackground(hatch);
+        }
+    }
+
+    private int colourOf(Look look) {
+        switch (look) {
+            case GOOD:
+                return inks.good;
+            case WARNING:
+                return inks.warning;
+            case ALARM:
+                return inks.alarm;
+            default:
+                return inks.ink;
+        }
+    }
+
+    private static void show(TextView view, String text) {
+        if (!text.contentEquals(view.getText())) {
+            view.setText(text);
+        }
+    }
+}

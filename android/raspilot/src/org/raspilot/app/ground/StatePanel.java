@@ -1,0 +1,228 @@
+package org.raspilot.app.ground;
+
+import android.content.Context;
+import android.content.Intent;
+import android.content.IntentFilter;
+import android.content.res.Resources;
+import android.os.BatteryManager;
+import android.view.View;
+import android.view.ViewGroup;
+import java.util.List;
+import java.util.Locale;
+import org.raspilot.app.R;
+import org.raspilot.app.view.Inks;
+import org.raspilot.up.ground.Freshness;
+import org.raspilot.up.ground.Telemetry;
+
+/** Who flies, how, what forbids it, and how it stands with board, phones and load. */
+final class StatePanel {
+    private static final double LOW_PERCENT = 20;
+    private static final long BATTERY_EACH_MS = 5000;
+    private static final String[] READINGS = {
+        "orientation", "rx", "servo", "flight", "location", "altitude", "heading", "battery"
+    };
+
+    private final Context context;
+    private final Resources words;
+    private final Row mode;
+    private final Row armed;
+    private final Row vetoes;
+    private final Row raspilot;
+    private final Row switchRow;
+    private final Row failsafe;
+    private final Row receiver;
+    private final Row imu;
+    private final Row board;
+    private final Row panic;
+    private final Row load;
+    private final Row stale;
+    private final Row home;
+    private final Row aircraftBattery;
+    private final Row phoneBattery;
+    private final Row blackBox;
+    private String phonePercent = "";
+    private boolean isPhoneLow;
+    private long batteryLookedMs;
+
+    /** Makes its rows in the list that a layout has for them. */
+    StatePanel(View root) {
+        context = root.getContext().getApplicationContext();
+        words = root.getResources();
+        ViewGroup list = (ViewGroup) root.findViewById(R.id.ground_state);
+        Inks inks = Inks.of(root.getContext());
+        mode = Row.in(list, R.string.state_mode, inks);
+        armed = Row.in(list, R.string.state_motor, inks);
+        vetoes = Row.in(list, R.string.state_vetoes, inks);
+        failsafe = Row.in(list, R.string.state_failsafe, inks);
+        panic = Row.in(list, R.string.state_panic, inks);
+        stale = Row.in(list, R.string.state_stale, inks);
+        switchRow = Row.in(list, R.string.state_switch, inks);
+        raspilot = Row.in(list, R.string.state_raspilot, inks);
+        receiver = Row.in(list, R.string.state_receiver, inks);
+        imu = Row.in(list, R.string.state_imu, inks);
+        board = Row.in(list, R.string.state_board, inks);
+        home = Row.in(list, R.string.state_home, inks);
+        aircraftBattery = Row.in(list, R.string.state_aircraft_battery, inks);
+        phoneBattery = Row.in(list, R.string.state_phone_battery, inks);
+        load = Row.in(list, R.string.state_load, inks);
+        blackBox = Row.in(list, R.string.state_black_box, inks);
+    }
+
+    /** Shows the moment. */
+    void update(Picture picture) {
+        Telemetry telemetry = picture.telemetry;
+        text(mode, picture, "flight_mode");
+        text(raspilot, picture, "mode");
+        text(switchRow, picture, "arduino.switch");
+        Boolean isArmed = telemetry.flag("armed");
+        flag(armed, picture, "armed", R.string.armed_yes, R.string.armed_no, Row.Look.WARNING,
+                Row.Look.PLAIN);
+        showVetoes(picture, isArmed);
+        flag(failsafe, picture, "arduino.failsafe", R.string.state_acts, R.string.state_no,
+                Row.Look.ALARM, Row.Look.PLAIN);
+        flag(receiver, picture, "arduino.receiver_valid", R.string.state_valid,
+                R.string.state_invalid, Row.Look.PLAIN, Row.Look.ALARM);
+        flag(imu, picture, "arduino.imu_valid", R.string.state_valid, R.string.state_invalid,
+                Row.Look.PLAIN, Row.Look.ALARM);
+        flag(board, picture, "arduino.connected", R.string.state_connected, R.string.state_gone,
+                Row.Look.PLAIN, Row.Look.ALARM);
+        showPanic(picture);
+        showLoad(picture);
+        showHome(picture);
+        showStale(picture);
+        showBatteries(picture);
+        showBlackBox(picture);
+    }
+
+    private void showVetoes(Picture picture, Boolean isArmed) {
+        List<String> all = picture.telemetry.texts("vetoes");
+        boolean isFree = all != null && all.isEmpty();
+        String text = all == null ? "" : isFree ? words.getString(R.string.state_none)
+                : joined(all);
+        // In the air a veto is no warning: it tells what would have to be so to arm once more.
+        boolean isWarning = !isFree && !Boolean.TRUE.equals(isArmed);
+        show(vetoes, picture, "vetoes", all == null ? null : text,
+                isWarning ? Row.Look.WARNING : Row.Look.PLAIN);
+    }
+
+    private void showPanic(Picture picture) {
+        Boolean isPanic = picture.telemetry.flag("load.panic");
+        Double delayMs = picture.telemetry.number("load.delay_ms");
+        String text = null;
+        if (isPanic != null) {
+            text = words.getString(R.string.state_no);
+            if (isPanic) {
+                text = delayMs == null ? words.getString(R.string.state_yes)
+                        : words.getString(R.string.state_panic_delay, Math.round(delayMs));
+            }
+        }
+        show(panic, picture, "load.panic", text,
+                Boolean.TRUE.equals(isPanic) ? Row.Look.WARNING : Row.Look.PLAIN);
+    }
+
+    private void showLoad(Picture picture) {
+        Double cpu = picture.telemetry.number("load.cpu");
+        Double ram = picture.telemetry.number("load.ram");
+        String text = cpu == null || ram == null ? null
+                : words.getString(R.string.state_load_value, Math.round(cpu), Math.round(ram));
+        show(load, picture, "load.cpu", text, Row.Look.PLAIN);
+    }
+
+    private void showHome(Picture picture) {
+        Double distance = picture.telemetry.number("home.distance");
+        Double bearing = picture.telemetry.number("home.bearing");
+        String text = distance == null || bearing == null ? null
+                : words.getString(R.string.state_home_value, Math.round(distance),
+                        Math.round(bearing));
+        show(home, picture, "home.distance", text, Row.Look.PLAIN);
+    }
+
+    private void showStale(Picture picture) {
+        Telemetry telemetry = picture.telemetry;
+        if (telemetry.isSilent(picture.nowMs)) {
+            boolean wasThere = telemetry.ageMs(picture.nowMs) != null;
+            String text = words.getString(wasThere ? R.string.state_all : R.string.state_nothing);
+            stale.show(text, Freshness.LIVE, "", Row.Look.ALARM);
+            return;
+        }
+        StringBuilder all = new StringBuilder();
+        for (String reading : READINGS) {
+            if (telemetry.readingAgeMs(reading, picture.nowMs) != null
+                    && telemetry.age().isStale(reading, picture.nowMs)) {
+                all.append(all.length() == 0 ? "" : ", ").append(reading);
+            }
+        }
+        boolean isFresh = all.length() == 0;
+        stale.show(isFresh ? words.getString(R.string.state_none) : all.toString(),
+                Freshness.LIVE, "", isFresh ? Row.Look.PLAIN : Row.Look.WARNING);
+    }
+
+    private void showBatteries(Picture picture) {
+        Double percent = picture.telemetry.number("android.batteryLevel");
+        String text = percent == null ? null : percent(percent);
+        show(aircraftBattery, picture, "android.batteryLevel", text,
+                percent != null && percent < LOW_PERCENT ? Row.Look.WARNING : Row.Look.PLAIN);
+        long nowMs = android.os.SystemClock.elapsedRealtime();
+        if (phonePercent.isEmpty() || nowMs - batteryLookedMs > BATTERY_EACH_MS) {
+            batteryLookedMs = nowMs;
+            lookAtBattery();
+        }
+        phoneBattery.show(phonePercent,
+                phonePercent.isEmpty() ? Freshness.NONE : Freshness.LIVE, "",
+                isPhoneLow ? Row.Look.WARNING : Row.Look.PLAIN);
+    }
+
+    private void lookAtBattery() {
+        Intent told = context.registerReceiver(null,
+                new IntentFilter(Intent.ACTION_BATTERY_CHANGED));
+        int level = told == null ? -1 : told.getIntExtra(BatteryManager.EXTRA_LEVEL, -1);
+        int scale = told == null ? 0 : told.getIntExtra(BatteryManager.EXTRA_SCALE, 0);
+        boolean isKnown = level >= 0 && scale > 0;
+        double percent = isKnown ? 100.0 * level / scale : 0;
+        phonePercent = isKnown ? percent(percent) : "";
+        isPhoneLow = isKnown && percent < LOW_PERCENT;
+    }
+
+    private void showBlackBox(Picture picture) {
+        String problem = picture.telemetry.text("black_box.problem");
+        Boolean isRecording = picture.telemetry.flag("black_box.recording");
+        blackBox.setVisible(isRecording != null);
+        if (isRecording == null) {
+            return;
+        }
+        String text = problem != null ? problem
+                : words.getString(isRecording ? R.string.state_records : R.string.state_no);
+        show(blackBox, picture, "black_box.recording", text,
+                problem != null ? Row.Look.WARNING : Row.Look.PLAIN);
+    }
+
+    private void text(Row row, Picture picture, String path) {
+        show(row, picture, path, picture.telemetry.text(path), Row.Look.PLAIN);
+    }
+
+    private void flag(Row row, Picture picture, String path, int yes, int no, Row.Look lookOfYes,
+            Row.Look lookOfNo) {
+        Boolean flag = picture.telemetry.flag(path);
+        String text = flag == null ? null : words.getString(flag ? yes : no);
+        show(row, picture, path, text, Boolean.TRUE.equals(flag) ? lookOfYes : lookOfNo);
+    }
+
+    private static void show(Row row, Picture picture, String path, String text, Row.Look look) {
+        Freshness freshness = text == null ? Freshness.NONE
+                : picture.telemetry.freshness(path, picture.nowMs);
+        row.show(text == null ? "" : text, freshness,
+                InstrumentPanel.ageText(picture, path), look);
+    }
+
+    private static String percent(double percent) {
+        return String.format(Locale.ROOT, "%d %%", Math.round(percent));
+    }
+
+    private static String joined(List<String> all) {
+        StringBuilder text = new StringBuilder();
+        for (String each : all) {
+            text.append(text.length() == 0 ? "" : "; ").append(each);
+        }
+        return text.toString();
+    }
+}

@@ -1,0 +1,128 @@
+package org.raspilot.app.ground;
+
+import android.app.Activity;
+import android.content.ActivityNotFoundException;
+import android.content.Intent;
+import android.net.Uri;
+import android.view.View;
+import android.widget.TextView;
+import android.widget.Toast;
+import java.util.List;
+import org.raspilot.app.R;
+import org.raspilot.app.view.TrackView;
+import org.raspilot.up.ground.Freshness;
+import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.Track;
+import org.raspilot.up.ground.TrackPoint;
+
+/** The track, where the aircraft is, and the way to the system's own map. */
+final class TrackPanel implements View.OnClickListener {
+    private final Activity activity;
+    private final TrackView view;
+    private final TextView place;
+    private final View map;
+    private Track.Snapshot shown;
+    private Double latitudeDeg;
+    private Double longitudeDeg;
+
+    /** Finds its views. */
+    TrackPanel(Activity activity, View root) {
+        this.activity = activity;
+        view = (TrackView) root.findViewById(R.id.ground_track);
+        place = (TextView) root.findViewById(R.id.ground_place);
+        map = root.findViewById(R.id.ground_map);
+        map.setOnClickListener(this);
+        root.findViewById(R.id.ground_follow).setOnClickListener(this);
+        root.findViewById(R.id.ground_larger).setOnClickListener(this);
+        root.findViewById(R.id.ground_smaller).setOnClickListener(this);
+    }
+
+    /** Shows the moment. */
+    void update(Picture picture) {
+        Track.Snapshot track = picture.track;
+        if (track != shown) {
+            shown = track;
+            showTrack(track);
+        }
+        Telemetry telemetry = picture.telemetry;
+        boolean hasTrack = track != null && !track.points().isEmpty();
+        boolean isThere = telemetry.number("location.latitude") != null;
+        TrackPoint newest = hasTrack ? track.points().get(track.points().size() - 1) : null;
+        boolean isHeadingLive = telemetry.freshness("heading.actual", picture.nowMs)
+                == Freshness.LIVE;
+        view.setAircraft(newest == null ? null : newest.northM(),
+                newest == null ? null : newest.eastM(),
+                isHeadingLive ? telemetry.number("heading.actual") : null);
+        Freshness freshness = telemetry.freshness("location.latitude", picture.nowMs);
+        if (!hasTrack) {
+            freshness = Freshness.NONE;
+        } else if (!isThere) {
+            // Where it flew stays known when nobody tells any more where it is.
+            freshness = Freshness.STALE;
+        }
+        String age = InstrumentPanel.ageText(picture, "location.latitude");
+        view.setFreshness(freshness, age);
+        showPlace(picture, age);
+    }
+
+    @Override
+    public void onClick(View button) {
+        int id = button.getId();
+        if (id == R.id.ground_follow) {
+            view.follow();
+        } else if (id == R.id.ground_larger) {
+            view.enlarge();
+        } else if (id == R.id.ground_smaller) {
+            view.shrink();
+        } else if (id == R.id.ground_map) {
+            openMap();
+        }
+    }
+
+    private void showTrack(Track.Snapshot track) {
+        List<TrackPoint> points = track == null
+                ? java.util.Collections.<TrackPoint>emptyList() : track.points();
+        float[] north = new float[points.size()];
+        float[] east = new float[north.length];
+        boolean[] hasGapBefore = new boolean[north.length];
+        for (int each = 0; each < north.length; each++) {
+            TrackPoint point = points.get(each);
+            north[each] = (float) point.northM();
+            east[each] = (float) point.eastM();
+            hasGapBefore[each] = point.isAfterSilence();
+        }
+        view.setTrack(north, east, hasGapBefore, track != null && track.isOriginHome());
+    }
+
+    private void showPlace(Picture picture, String age) {
+        Telemetry telemetry = picture.telemetry;
+        Double latitude = telemetry.number("location.latitude");
+        Double longitude = telemetry.number("location.longitude");
+        if (latitude != null && longitude != null) {
+            latitudeDeg = latitude;
+            longitudeDeg = longitude;
+        }
+        map.setEnabled(latitudeDeg != null);
+        if (latitudeDeg == null) {
+            place.setText(R.string.ground_place_unknown);
+            return;
+        }
+        boolean isLive = telemetry.freshness("location.latitude", picture.nowMs)
+                == Freshness.LIVE;
+        int text = isLive ? R.string.ground_place : R.string.ground_place_old;
+        place.setText(activity.getString(text, latitudeDeg, longitudeDeg, age));
+    }
+
+    private void openMap() {
+        if (latitudeDeg == null) {
+            return;
+        }
+        String label = Uri.encode(activity.getString(R.string.ground_map_label));
+        Uri uri = Uri.parse(GeoUri.of(latitudeDeg, longitudeDeg, label));
+        try {
+            activity.startActivity(new Intent(Intent.ACTION_VIEW, uri));
+        } catch (ActivityNotFoundException none) {
+            Toast.makeText(activity, R.string.ground_no_map, Toast.LENGTH_LONG).show();
+        }
+    }
+}

@@ -1,0 +1,128 @@
+package org.raspilot.app.ground;
+
+import android.text.Editable;
+import android.text.TextWatcher;
+import android.view.LayoutInflater;
+import android.view.View;
+import android.view.ViewGroup;
+import android.widget.BaseAdapter;
+import android.widget.EditText;
+import android.widget.ListView;
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import java.util.Locale;
+import org.raspilot.app.R;
+import org.raspilot.app.view.Inks;
+import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.TelemetryRow;
+import org.raspilot.up.ground.TelemetryText;
+
+/** Every value of the newest frame, those of modules that nobody here knows too. */
+final class ValuesPanel extends BaseAdapter implements TextWatcher {
+    private final View element;
+    private final EditText filter;
+    private final LayoutInflater inflater;
+    private final Inks inks;
+    private List<TelemetryRow> all = Collections.emptyList();
+    private List<TelemetryRow> rows = Collections.emptyList();
+    private Telemetry shown;
+    private Picture picture = Picture.of(null);
+
+    /** Finds its views. */
+    ValuesPanel(View root) {
+        inflater = LayoutInflater.from(root.getContext());
+        inks = Inks.of(root.getContext());
+        element = root.findViewById(R.id.ground_values_box);
+        filter = (EditText) root.findViewById(R.id.ground_filter);
+        filter.addTextChangedListener(this);
+        ListView list = (ListView) root.findViewById(R.id.ground_values);
+        list.setAdapter(this);
+    }
+
+    /** Shows the moment, while anybody can see it. */
+    void update(Picture now) {
+        if (!element.isShown()) {
+            return;
+        }
+        picture = now;
+        if (shown != now.telemetry) {
+            shown = now.telemetry;
+            all = TelemetryText.rows(now.telemetry);
+            rows = chosen(all, filter.getText().toString());
+        }
+        notifyDataSetChanged();
+    }
+
+    /** Returns the rows in whose path each of the words stands, whatever its case. */
+    private static List<TelemetryRow> chosen(List<TelemetryRow> all, String words) {
+        List<TelemetryRow> found = new ArrayList<TelemetryRow>();
+        String[] each = words.trim().toLowerCase(Locale.ROOT).split("\\s+");
+        for (TelemetryRow row : all) {
+            String path = row.path().toLowerCase(Locale.ROOT);
+            boolean isChosen = true;
+            for (String word : each) {
+                isChosen &= path.contains(word);
+            }
+            if (isChosen) {
+                found.add(row);
+            }
+        }
+        return found;
+    }
+
+    @Override
+    public int getCount() {
+        return rows.size();
+    }
+
+    @Override
+    public Object getItem(int position) {
+        return rows.get(position);
+    }
+
+    @Override
+    public long getItemId(int position) {
+        return position;
+    }
+
+    @Override
+    public boolean areAllItemsEnabled() {
+        return false;
+    }
+
+    @Override
+    public boolean isEnabled(int position) {
+        return false;
+    }
+
+    @Override
+    public View getView(int position, View used, ViewGroup list) {
+        View element = used;
+        if (element == null) {
+            element = inflater.inflate(R.layout.row_ground, list, false);
+            element.setTag(new Row(element, inks));
+        }
+        TelemetryRow row = rows.get(position);
+        Row view = (Row) element.getTag();
+        view.label(row.path());
+        String value = row.unit().isEmpty() ? row.value() : row.value() + " " + row.unit();
+        view.show(value, picture.telemetry.freshness(row.path(), picture.nowMs),
+                InstrumentPanel.ageText(picture, row.path()), Row.Look.PLAIN);
+        return element;
+    }
+
+    @Override
+    public void afterTextChanged(Editable text) {
+        rows = chosen(all, text.toString());
+        notifyDataSetChanged();
+    }
+
+    @Override
+    public void beforeTextChanged(CharSequence text, int start, int count, int after) {
+    }
+
+    @Override
+    public void onTextChanged(CharSequence text, int start, int before, int count) {
+    }
+}
