@@ -1,7 +1,8 @@
 """Fetches by Maven the jars of the groups of pom.xml that are not here yet, and checks their sums.
 
 ``fetch.py FOLDER GROUP...``: a group is an execution of pom.xml. Every jar must have its SHA-256 in
-jars.sha256; one that differs is removed. ``--offline`` as Maven's own.
+jars.sha256; one that differs is removed. ``--offline`` as Maven's own; ``--list`` only says the
+file names.
 """
 
 from __future__ import annotations
@@ -123,6 +124,9 @@ def main(arguments: list[str]) -> int:
     """Run with command line ``arguments``; return the exit status."""
     options = [each for each in arguments if each.startswith("-")]
     folder, *wanted = [each for each in arguments if not each.startswith("-")]
+    if "--list" in options:
+        print(*(name for group in wanted for name in groups(POM)[group]))
+        return 0
     try:
         fetch(Path(folder), wanted, POM, SUMS, options)
     except FetchError as failure:

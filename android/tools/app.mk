@@ -1,0 +1,81 @@
+# The Raspilot app: its code compiled for each Android level, its resources, the signed APK.
+PACKAGES := aapt android-framework-res zipalign apksigner dexdump p7zip libzopfli1 android-libnativeloader
+LIBRARY ?= library
+RASPILOT ?= raspilot
+MANIFEST := $(RASPILOT)/AndroidManifest.xml
+
+# The levels that have classes of their own, and what each level offers.
+LEVELS := $(sort $(patsubst src-%,%,$(notdir $(wildcard $(LIBRARY)/src-* $(RASPILOT)/src-*))))
+FRAMEWORK_23 := $(JARS)/android-all-6.0.1_r3-robolectric-r1.jar
+FRAMEWORK_26 := $(JARS)/android-all-8.0.0_r4-robolectric-r1.jar
+FRAMEWORK_29 := $(JARS)/android-all-10-robolectric-5803371.jar
+STUBS := $(JARS)/android-4.1.1.4.jar
+BOOT := $(BUILD)/boot-$(LEAST).jar
+
+RESOURCES := $(BUILD)/resources.apk
+R_JAVA := $(BUILD)/gen/R.java
+NEWER_JARS := $(LEVELS:%=$(BUILD)/newer-%.jar)
+APP_JAR := $(BUILD)/app.jar
+DEX := $(BUILD)/classes.dex
+
+APP := $(call java,$(LIBRARY)/src $(RASPILOT)/src)
+newer = $(call java,$(LIBRARY)/src-$(1) $(RASPILOT)/src-$(1))
+RES := $(sort $(shell find $(RASPILOT)/res $(RASPILOT)/assets -type f 2>/dev/null))
+
+$(BUILD)/debian-tools: tools/app.mk
+	@$(foreach tool,aapt zipalign apksigner dexdump,$(call need,$(tool),$(PACKAGES));)
+	@[ -f $(FRAMEWORK_RES) ] || { echo 'Building for Android needs $(FRAMEWORK_RES):' \
+		'apt-get install $(PACKAGES)' >&2; exit 1; }
+	@mkdir -p $(@D)
+	@touch $@
+
+# The public stubs have android.* only: the rest of what API 16 offers is taken from its framework.
+$(BOOT): tools/boot.py tools/pack.py $(JARS)/.stubs
+	@$(PYTHON) tools/boot.py $(JARS)/android-all-4.1.2_r1-robolectric-0.jar $@
+
+# The manifest's package is that of R; the application's name is shorter.
+$(RESOURCES) $(R_JAVA) &: $(RES) $(MANIFEST) $(BUILD)/RES.list ../up/version.py tools/aapt \
+		| $(BUILD)/debian-tools
+	@echo 'compile the resources'
+	@mkdir -p $(BUILD)/gen
+	@tools/aapt package -f -M $(MANIFEST) -S $(RASPILOT)/res \
+		$(if $(wildcard $(RASPILOT)/assets),-A $(RASPILOT)/assets) -I $(FRAMEWORK_RES) \
+		-F $(RESOURCES) -J $(BUILD)/gen --rename-manifest-package $(PACKAGE) \
+		--min-sdk-version $(LEAST) --target-sdk-version $(TARGET) --replace-version \
+		--version-name $(VERSION) --version-code $(shell $(PYTHON) tools/verify.py code $(VERSION))
+	@touch $(RESOURCES) $(R_JAVA)
+
+# Classes for a newer Android know the framework of exactly that level, and the core. How its own
+# annotations are written is not ours to lint.
+define level
+NEWER_$(1) := $$(call newer,$(1))
+$(BUILD)/newer-$(1).jar: $$(NEWER_$(1)) $(CORE_JAR) $(BUILD)/NEWER_$(1).list $(JARS)/.level-$(1)
+	$$(call compile,$$@,$$(NEWER_$(1)),$(CORE_JAR):$$(FRAMEWORK_$(1)),-Xlint:-classfile)
+endef
+$(foreach each,$(LEVELS),$(eval $(call level,$(each))))
+
+empty :=
+APP_PATH := $(subst $(empty) $(empty),:,$(strip $(CORE_JAR) $(NEWER_JARS) $(STUBS) $(BOOT)))
+APP_CODE := $(APP) $(R_JAVA)
+$(APP_JAR): $(APP_CODE) $(CORE_JAR) $(NEWER_JARS) $(BOOT) $(BUILD)/APP_CODE.list $(JARS)/.stubs
+	$(call compile,$@,$(APP_CODE),$(APP_PATH))
+
+# Before anything is packed: no call may be newer than its guard.
+$(DEX): $(APP_JAR) $(NEWER_JARS) $(CORE_JAR) $(BUILD)/.guarded $(JARS)/.dx
+	@echo 'translate to dex'
+	@java -cp $(JARS)/dalvik-dx-16.0.1.jar com.android.dx.command.Main --dex \
+		--min-sdk-version=$(LEAST) --no-locals --output=$@ $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
+
+$(BUILD)/unsigned.apk: $(RESOURCES) $(DEX) tools/assemble.py | $(BUILD)/debian-tools
+	@$(PYTHON) tools/assemble.py $(RESOURCES) $(DEX) $@.loose
+	@rm -f $@ && zipalign -p 4 $@.loose $@ && rm $@.loose
+
+$(APK): $(BUILD)/unsigned.apk tools/sign
+	@tools/sign $< $@ $(BUILD)/debug.keystore
+
+apk: $(APK)
+	@zipalign -c -p 4 $(APK) || { echo '$(APK) is not aligned' >&2; exit 1; }
+	@said=$$(apksigner verify --verbose --min-sdk-version $(LEAST) -Werr $(APK)) && \
+		echo "$$said" | grep -E '^(Verifies|Verified using v[123] )' || \
+		{ echo "$$said" >&2; exit 1; }
+	@$(PYTHON) tools/verify.py $(APK) $(MANIFEST) $(VERSION) $(LIMIT)

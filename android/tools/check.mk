@@ -1,0 +1,41 @@
+# What is wrong is found before it flies: calls newer than their guard, and SpotBugs.
+PUBLIC_23 := $(JARS)/gummy-bears-api-23-0.12.0.signature
+PUBLIC_26 := $(JARS)/gummy-bears-api-26-0.12.0.signature
+# No signature of API 29 can be had: what it has and API 26 has not stands in a list.
+PUBLIC_29 := $(PUBLIC_26)
+SNIFFER := $(JARS)/animal-sniffer-1.24.jar:$(JARS)/asm-9.7.jar
+SNIFF := java -cp $(BUILD)/signatures.jar:$(SNIFFER) Signatures
+OURS := org.raspilot
+
+$(BUILD)/signatures.jar: tools/Signatures.java $(JARS)/.sniffer
+	$(call compile,$@,tools/Signatures.java,$(SNIFFER))
+
+$(BUILD)/api-$(LEAST).signature: $(STUBS:$(JARS)/%=$(JARS)/.stubs) $(BOOT) $(BUILD)/signatures.jar
+	@$(SNIFF) build $@ $(STUBS) $(BOOT)
+
+# Everything keeps to the java.* of API 16; android.* too, but for the classes of newer levels,
+# which keep to what is public in theirs. Those are reached behind the check of the version only.
+$(BUILD)/.guarded: $(CORE_JAR) $(APP_JAR) $(NEWER_JARS) $(MANIFEST) $(BUILD)/api-$(LEAST).signature \
+		tools/guards.py $(LEVELS:%=$(JARS)/.level-%) $(wildcard tools/newer-*.list)
+	@echo 'check that no call is newer than its guard'
+	@$(SNIFF) check $(BUILD)/api-$(LEAST).signature $(OURS) - $(CORE_JAR) $(APP_JAR)
+	@$(foreach each,$(LEVELS),$(SNIFF) check $(BUILD)/api-$(LEAST).signature $(OURS),android - \
+		$(BUILD)/newer-$(each).jar && $(SNIFF) check $(PUBLIC_$(each)) $(OURS) \
+		$(or $(wildcard tools/newer-$(each).list),-) $(BUILD)/newer-$(each).jar &&) true
+	@$(PYTHON) tools/guards.py $(MANIFEST) $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
+	@touch $@
+
+SPOTBUGS_PATH = $(subst $(empty) $(empty),:,$(patsubst %,$(JARS)/%,$(shell \
+	$(PYTHON) tools/fetch.py --list $(JARS) spotbugs)))
+SPOTTED := $(CORE_JAR) $(VIRTUAL_JAR) $(APP_JAR) $(NEWER_JARS)
+
+check: $(BUILD)/.guarded $(BUILD)/.spotted
+
+$(BUILD)/.spotted: $(SPOTTED) tools/spotbugs.xml $(JARS)/.spotbugs
+	@echo 'look for bugs'
+	@java -cp '$(SPOTBUGS_PATH)' edu.umd.cs.findbugs.FindBugs2 -textui -quiet -effort:max -medium \
+		-exitcode -longBugCodes -exclude tools/spotbugs.xml \
+		-auxclasspath $(STUBS):$(BOOT):$(subst $(empty) $(empty),:,$(foreach each,$(LEVELS),$(FRAMEWORK_$(each)))) \
+		$(SPOTTED)
+	@echo 'SpotBugs finds nothing'
+	@touch $@
