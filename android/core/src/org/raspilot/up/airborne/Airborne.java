@@ -1,61 +1,204 @@
 package org.raspilot.up.airborne;
 
+import java.util.Random;
+import org.raspilot.up.Up;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.HandlerFaultListener;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.net.Place;
 import org.raspilot.up.providers.Mounting;
-import org.raspilot.up.providers.Nose;
+import org.raspilot.up.providers.Outlet;
+import org.raspilot.up.providers.Panic;
 import org.raspilot.up.providers.ProvidersController;
+import org.raspilot.up.providers.ProvidersListener;
 import org.raspilot.up.providers.Sensors;
+import org.raspilot.up.providers.Side;
 
-/** The airborne phone: finds the Raspberry Pi, sends its sensors, answers its Commands. */
+/**
+ * The airborne phone: finds the Raspberry Pi, sends what its sensors read, carries Commands out.
+ *
+ * <p>Your own provider is one class and one {@code providers().register(...)}, your own Command
+ * Handler one {@code up().commandExecutor().registerCommand(...)}. Only on the loop. Source:
+ * thesis 4.5.2, "Base Up Service".
+ */
 public final class Airborne {
-    /** Takes its surroundings; nothing begins before {@link #start}. */
-    public Airborne(
-            Loop loop,
-            AirborneSettings settings,
-            Sensors sensors,
-            Speaker speaker,
-            AirborneListener listener) {}
-
-    /** Begins; on the loop. */
-    public void start() {}
-
-    /** Ends everything; on the loop. */
-    public void stop() {}
-
-    /** Returns what the screen shows; on the loop. */
-    public AirborneStatus status() {
-        return null;
-    }
-
-    /** Returns the providers: register yours here. */
-    public ProvidersController providers() {
-        return null;
-    }
-
-    /** Takes another mounting at once, as after a calibration. */
-    public void setMounting(Mounting mounting) {}
+    private final AirborneSettings settings;
+    private final AirborneListener listener;
+    private final Up up;
+    private final BasicProviders basics;
+    private final AirborneHandlers handlers;
+    private final AirborneLink link;
+    private final SilenceReport silence;
+    private long answers;
+    private boolean isRunning;
 
     /**
-     * Returns the mounting by which the phone lies level now, and keeps to it.
+     * Takes its surroundings; nothing begins before {@link #start}.
      *
-     * @throws IllegalStateException without a rotation sensor or a reading of it (a sentence)
+     * @param random seeded by whoever makes it: waits and ids vary by it
+     */
+    public Airborne(Loop loop, AirborneSettings settings, Sensors sensors, Speaker speaker,
+            AirborneListener listener, Random random) {
+        this.settings = settings;
+        this.listener = listener;
+        up = new Up(loop, new ProvidersController(loop), new Faults());
+        link = new AirborneLink(loop, settings, random, new LinkOwner());
+        handlers = new AirborneHandlers(providers().panic(), speaker, new SentAnswers());
+        handlers.register(up.commandExecutor());
+        basics = new BasicProviders(settings, sensors);
+        basics.register(providers());
+        silence = new SilenceReport(loop, providers(), listener);
+        providers().addListener(new Problems());
+        providers().panic().addListener(new Panic.Listener() {
+            @Override
+            public void onPanic(Panic panic) {
+                Airborne.this.listener.onPanic(panic.delayMs());
+            }
+        });
+    }
+
+    /** Begins to read, to connect and to send. */
+    public void start() {
+        if (!isRunning) {
+            isRunning = true;
+            providers().start(link);
+            link.start();
+            silence.start();
+        }
+    }
+
+    /** Ends everything; it may be started again. */
+    public void stop() {
+        if (isRunning) {
+            isRunning = false;
+            silence.stop();
+            link.stop();
+            providers().stop();
+        }
+    }
+
+    /** Returns the Up of this side: its Command Executor takes your handlers. */
+    public Up up() {
+        return up;
+    }
+
+    /** Returns the providers: register yours here, before or after the start. */
+    public ProvidersController providers() {
+        return up.providersController();
+    }
+
+    /** Returns where else to send: newest wins, nothing is kept without a link. */
+    public Outlet outlet() {
+        return link;
+    }
+
+    /** Returns what the screen shows. */
+    public AirborneStatus status() {
+        return new AirborneStatus(isRunning, link.isOpen(), link.status().sentence(),
+                link.status().place(), settings.mode(), settings.orientationTransport(),
+                link.orientationText(), providers().panic().delayMs(), providers().statuses(),
+                new AirborneCounters(up.commandReceiver(), link.connections(),
+                        handlers.telemetry(), answers));
+    }
+
+    /** Takes another mounting at once. */
+    public void setMounting(Mounting mounting) {
+        basics.setMounting(mounting);
+    }
+
+    /**
+     * Returns the mounting by which the aeroplane is level now, and keeps to it.
+     *
+     * @param nose which side of the phone points to the nose
+     * @throws IllegalStateException without a fresh reading of the rotation sensor (a sentence)
      * @throws IllegalArgumentException when that side points up or down (a sentence)
      */
-    public Mounting calibrate(Nose nose) {
-        return null;
+    public Mounting calibrate(Side nose) {
+        return basics.calibrate(nose);
     }
 
     /** Takes the angle from magnetic to true north, degrees, east positive. */
-    public void setDeclinationDeg(double declinationDeg) {}
+    public void setDeclinationDeg(double declinationDeg) {
+        basics.setDeclinationDeg(declinationDeg);
+    }
 
-    /** Takes the pressure at altitude zero, hPa (QNH). */
-    public void setReferencePressureHPa(double hPa) {}
+    /**
+     * Takes the pressure at altitude zero, hPa (QNH).
+     *
+     * @throws IllegalArgumentException when it is not within 300 to 1100 (a sentence)
+     */
+    public void setReferencePressureHPa(double hPa) {
+        basics.altitude().setReferenceHPa(hPa);
+    }
 
-    /** Lets the altitude be zero where the phone is now; returns the reference pressure, hPa. */
+    /**
+     * Lets the altitude be zero where the phone is now; returns the reference pressure, hPa.
+     *
+     * @throws IllegalStateException without a reading of the barometer (a sentence)
+     */
     public double zeroAltitudeHere() {
-        return 0;
+        return basics.altitude().zeroHere();
     }
 
     /** Tries at once instead of after the wait, as when the phone's network came back. */
-    public void networkChanged() {}
+    public void networkChanged() {
+        if (isRunning) {
+            link.reconnectNow();
+        }
+    }
+
+    private final class LinkOwner implements AirborneLink.Owner {
+        @Override
+        public void onOpened(Place place) {
+            listener.onConnected(place);
+            providers().linkOpened();
+        }
+
+        @Override
+        public void onLine(byte[] line, int length) {
+            up.commandReceiver().receiveLine(line, length, link);
+        }
+
+        @Override
+        public void onClosed(String reason) {
+            providers().linkClosed();
+            listener.onDisconnected(reason);
+        }
+
+        @Override
+        public void onTrouble(String sentence) {
+            listener.onEvent(sentence);
+        }
+    }
+
+    private final class SentAnswers implements AirborneHandlers.Answers {
+        @Override
+        public void onAck(String id) {
+            answers++;
+            link.answered(id);
+        }
+
+        @Override
+        public void onNack(String id, String reason) {
+            answers++;
+            link.answered(id);
+            listener.onEvent("the Raspberry Pi refuses what was sent: " + reason);
+        }
+    }
+
+    private final class Problems implements ProvidersListener {
+        @Override
+        public void onProvider(String name, String sentence) {
+            listener.onEvent(name + ": " + sentence);
+        }
+    }
+
+    private final class Faults implements HandlerFaultListener {
+        @Override
+        public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
+                Throwable fault) {
+            listener.onEvent("the handler of " + command.name() + " failed: " + fault);
+        }
+    }
 }

@@ -38,7 +38,8 @@ public final class AirborneSettings {
         generalPort = builder.generalPort;
         orientationPort = builder.orientationPort;
         discoveryPort = builder.discoveryPort;
-        discoveryHosts = Collections.unmodifiableList(new ArrayList<String>(builder.discoveryHosts));
+        discoveryHosts =
+                Collections.unmodifiableList(new ArrayList<String>(builder.discoveryHosts));
         runnerHost = builder.runnerHost;
         runnerPort = builder.runnerPort;
         aircraft = builder.aircraft;
@@ -59,7 +60,7 @@ public final class AirborneSettings {
         return mode;
     }
 
-    /** Returns the Raspberry Pi's host; empty: Discovery. Flight Controller Mode only. */
+    /** Returns the Raspberry Pi's host; empty: Discovery, in Black Box Mode the runner. */
     public String host() {
         return host;
     }
@@ -84,7 +85,7 @@ public final class AirborneSettings {
         return discoveryHosts;
     }
 
-    /** Returns the runner's host, Black Box Mode only. */
+    /** Returns the runner's host, Black Box Mode only; empty: the host runs already. */
     public String runnerHost() {
         return runnerHost;
     }
@@ -110,7 +111,7 @@ public final class AirborneSettings {
     }
 
     /** Returns whether orientation leaves in Flight Controller Mode too. */
-    public boolean redundantOrientation() {
+    public boolean isOrientationRedundant() {
         return redundantOrientation;
     }
 
@@ -124,7 +125,7 @@ public final class AirborneSettings {
         return locationPeriodMs;
     }
 
-    /** Returns how often altitude and heading leave at most, ms. */
+    /** Returns how often the altitude leaves at most, ms. */
     public int altitudePeriodMs() {
         return altitudePeriodMs;
     }
@@ -149,7 +150,15 @@ public final class AirborneSettings {
         return mounting;
     }
 
-    /** Returns how orientation leaves in this mode: in Flight Controller Mode only by redundancy. */
+    /** Returns whether a runner is asked for a server: in Black Box Mode, when one is named. */
+    public boolean isByRunner() {
+        return mode == AirborneMode.BLACK_BOX && !runnerHost.isEmpty();
+    }
+
+    /**
+     * Returns how orientation leaves in this mode: in Flight Controller Mode the Arduino's is flown
+     * by, and the phone's is off unless redundancy is wanted (thesis 4.2.3).
+     */
     public OrientationTransport orientationTransport() {
         boolean isWanted = mode == AirborneMode.BLACK_BOX || redundantOrientation;
         return isWanted ? orientation : OrientationTransport.OFF;
@@ -183,7 +192,7 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets the Raspberry Pi's host; empty: Discovery. Flight Controller Mode only. */
+        /** Sets the Raspberry Pi's host; empty: Discovery, in Black Box Mode the runner. */
         public Builder host(String value) {
             host = value;
             return this;
@@ -213,7 +222,7 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets the runner's host, Black Box Mode only. */
+        /** Sets the runner's host, Black Box Mode only; empty: the host runs already. */
         public Builder runnerHost(String value) {
             runnerHost = value;
             return this;
@@ -261,7 +270,7 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets how often altitude and heading leave at most, ms. */
+        /** Sets how often the altitude leaves at most, ms. */
         public Builder altitudePeriodMs(int value) {
             altitudePeriodMs = value;
             return this;
@@ -293,7 +302,9 @@ public final class AirborneSettings {
 
         /** Returns the settings; raises IllegalArgumentException with a sentence for the user. */
         public AirborneSettings build() {
-            return new AirborneSettings(this);
+            AirborneSettings settings = new AirborneSettings(this);
+            SettingsRules.judge(settings);
+            return settings;
         }
     }
 }

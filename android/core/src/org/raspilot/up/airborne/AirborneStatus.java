@@ -2,6 +2,7 @@ package org.raspilot.up.airborne;
 
 import java.util.List;
 import org.raspilot.up.net.Place;
+import org.raspilot.up.providers.OrientationProvider;
 import org.raspilot.up.providers.ProviderStatus;
 
 /** What the airborne screen shows: a snapshot that never changes, for any thread. */
@@ -12,44 +13,24 @@ public final class AirborneStatus {
     private final Place place;
     private final AirborneMode mode;
     private final OrientationTransport orientation;
-    private final double orientationHz;
+    private final String orientationText;
     private final long panicDelayMs;
     private final List<ProviderStatus> providers;
-    private final long telemetry;
-    private final long executed;
-    private final long refused;
-    private final long malformed;
-    private final long connections;
+    private final AirborneCounters counters;
 
-    AirborneStatus(
-            boolean isRunning,
-            boolean isConnected,
-            String linkText,
-            Place place,
-            AirborneMode mode,
-            OrientationTransport orientation,
-            double orientationHz,
-            long panicDelayMs,
-            List<ProviderStatus> providers,
-            long telemetry,
-            long executed,
-            long refused,
-            long malformed,
-            long connections) {
+    AirborneStatus(boolean isRunning, boolean isConnected, String linkText, Place place,
+            AirborneMode mode, OrientationTransport orientation, String orientationText,
+            long panicDelayMs, List<ProviderStatus> providers, AirborneCounters counters) {
         this.isRunning = isRunning;
         this.isConnected = isConnected;
         this.linkText = linkText;
         this.place = place;
         this.mode = mode;
         this.orientation = orientation;
-        this.orientationHz = orientationHz;
+        this.orientationText = orientationText;
         this.panicDelayMs = panicDelayMs;
         this.providers = providers;
-        this.telemetry = telemetry;
-        this.executed = executed;
-        this.refused = refused;
-        this.malformed = malformed;
-        this.connections = connections;
+        this.counters = counters;
     }
 
     /** Returns whether it was started. */
@@ -62,12 +43,12 @@ public final class AirborneStatus {
         return isConnected;
     }
 
-    /** Returns the state of the link in one sentence. */
+    /** Returns the state of the link in one sentence without a full stop. */
     public String linkText() {
         return linkText;
     }
 
-    /** Returns where it is, or was last, connected to; null: never. */
+    /** Returns where it is, or was last, connected to or trying to; null: nowhere yet. */
     public Place place() {
         return place;
     }
@@ -82,9 +63,19 @@ public final class AirborneStatus {
         return orientation;
     }
 
-    /** Returns orientation frames in the last second. */
+    /** Returns where orientation goes, or why it does not, in a sentence; {@code off}. */
+    public String orientationText() {
+        return orientationText;
+    }
+
+    /** Returns how many orientation frames left in the last second. */
     public double orientationHz() {
-        return orientationHz;
+        for (ProviderStatus provider : providers) {
+            if (provider.name().equals(OrientationProvider.NAME)) {
+                return provider.rateHz();
+            }
+        }
+        return 0;
     }
 
     /** Returns the delay of Panic Mode, ms; 0: none. */
@@ -92,33 +83,33 @@ public final class AirborneStatus {
         return panicDelayMs;
     }
 
-    /** Returns each provider, in the order of registration. */
+    /** Returns each provider, in the order of registration; unmodifiable. */
     public List<ProviderStatus> providers() {
         return providers;
     }
 
-    /** Returns telemetry messages that came. */
-    public long telemetry() {
-        return telemetry;
-    }
-
-    /** Returns commands that were executed. */
-    public long executed() {
-        return executed;
-    }
-
-    /** Returns commands that were refused. */
-    public long refused() {
-        return refused;
-    }
-
-    /** Returns lines dropped because they were no General Messages. */
-    public long malformed() {
-        return malformed;
-    }
-
     /** Returns how often the link came. */
     public long connections() {
-        return connections;
+        return counters.connections();
+    }
+
+    /** Returns how many telemetry messages came. */
+    public long telemetry() {
+        return counters.telemetry();
+    }
+
+    /** Returns how many other Commands were carried out. */
+    public long executed() {
+        return counters.executed();
+    }
+
+    /** Returns how many Commands were refused. */
+    public long refused() {
+        return counters.refused();
+    }
+
+    /** Returns how many lines were dropped because they were no General Messages. */
+    public long malformed() {
+        return counters.malformed();
     }
 }

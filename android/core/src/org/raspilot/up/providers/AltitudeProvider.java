@@ -1,12 +1,76 @@
 package org.raspilot.up.providers;
 
-/** Sends what the Altitude sensor reads. */
-public final class AltitudeProvider extends UpProvider {
+import java.util.Collections;
+import org.raspilot.up.commands.AltitudeCommand;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.wire.GeneralMessage;
+
+/**
+ * Sends the altitude by the barometer: {@code up.altitude.change}.
+ *
+ * <p>It is over where the air has the reference pressure: over the sea when that is the QNH, over
+ * the field after {@link #zeroHere}. It is not smoothed, for that would delay it.
+ */
+public final class AltitudeProvider extends SensorProvider<Pressure> {
     /** The name under which it is registered. */
     public static final String NAME = "altitude";
+    /** The lowest reference pressure, hPa: a field at 9 km. */
+    public static final double LEAST_REFERENCE_HPA = 300;
+    /** The highest reference pressure, hPa. */
+    public static final double MOST_REFERENCE_HPA = 1100;
 
-    /** Takes the sensor. */
-    public AltitudeProvider(SensorSource<Pressure> source) {
-        super(NAME);
+    private static final long SILENCE_MS = 3000;
+
+    private double referenceHPa = StandardAtmosphere.SEA_LEVEL_HPA;
+
+    /** Takes the barometer, and how often an altitude leaves at most, ms. */
+    public AltitudeProvider(SensorSource<Pressure> source, int periodMs) {
+        super(NAME, source, Cadence.stream(periodMs, SILENCE_MS));
+    }
+
+    /**
+     * Takes the pressure at altitude zero, hPa.
+     *
+     * @throws IllegalArgumentException when it is not within 300 to 1100 (a sentence)
+     */
+    public void setReferenceHPa(double hPa) {
+        if (!isReference(hPa)) {
+            throw new IllegalArgumentException("the reference pressure is 300 to 1100 hPa, not "
+                    + hPa);
+        }
+        referenceHPa = hPa;
+    }
+
+    /** Returns the pressure at altitude zero, hPa. */
+    public double referenceHPa() {
+        return referenceHPa;
+    }
+
+    /**
+     * Lets the altitude be zero where the device is; returns the reference pressure, hPa.
+     *
+     * @throws IllegalStateException without a reading of the barometer (a sentence)
+     */
+    public double zeroHere() {
+        if (newest() == null) {
+            throw new IllegalStateException("the barometer has said nothing yet");
+        }
+        setReferenceHPa(newest().hPa());
+        return referenceHPa;
+    }
+
+    /** Returns whether a reference pressure can be used. */
+    public static boolean isReference(double hPa) {
+        return hPa >= LEAST_REFERENCE_HPA && hPa <= MOST_REFERENCE_HPA;
+    }
+
+    @Override
+    protected BaseCommand read(Pressure pressure) {
+        if (!(pressure.hPa() > 0)) {
+            throw new IllegalArgumentException("a pressure of " + pressure.hPa() + " hPa");
+        }
+        double altitudeM = StandardAtmosphere.altitudeM(pressure.hPa(), referenceHPa);
+        return new AltitudeCommand(new GeneralMessage(AltitudeCommand.NAME,
+                Collections.singletonMap("altitude", Rounded.to(2, altitudeM))));
     }
 }

@@ -4,28 +4,47 @@ package org.raspilot.up.providers;
  * How the aircraft lies in the world, in degrees (aerospace convention, as the firmware's).
  *
  * <p>Roll: right wing down is positive, -180 to 180. Pitch: nose up is positive, -90 to 90. Yaw:
- * clockwise from north, 0 to 360 (360 excluded).
+ * clockwise from north, 0 to 360 (360 excluded). With the nose straight up or down roll and yaw are
+ * one turn; it is all told as yaw, and roll is 0.
  */
 public final class Attitude {
+    /** Below this cosine of the pitch roll and yaw cannot be told apart. */
+    private static final double GIMBAL_LOCK = 1e-7;
+
     private final double rollDeg;
     private final double pitchDeg;
     private final double yawDeg;
 
-    /** Keeps the three angles as they are. */
+    /** Keeps roll and pitch as they are, and the yaw as 0 to 360. */
     public Attitude(double rollDeg, double pitchDeg, double yawDeg) {
         this.rollDeg = rollDeg;
         this.pitchDeg = pitchDeg;
-        this.yawDeg = yawDeg;
+        this.yawDeg = circle(yawDeg);
     }
 
-    /** Returns the angles of a rotation from aircraft axes (nose, right wing, down) to north-east-down. */
+    /** Returns the angles of a rotation from aircraft axes (nose, right wing, down) to NED. */
     public static Attitude of(Quaternion bodyToNed) {
-        throw new UnsupportedOperationException();
+        double[] nose = bodyToNed.turn(1, 0, 0);
+        double[] wing = bodyToNed.turn(0, 1, 0);
+        double[] belly = bodyToNed.turn(0, 0, 1);
+        double level = Math.hypot(nose[0], nose[1]);
+        double pitch = Math.atan2(-nose[2], level);
+        double roll = 0;
+        double yaw;
+        if (level < GIMBAL_LOCK) {
+            yaw = Math.atan2(-wing[0], wing[1]);
+        } else {
+            roll = Math.atan2(wing[2], belly[2]);
+            yaw = Math.atan2(nose[1], nose[0]);
+        }
+        return new Attitude(Math.toDegrees(roll), Math.toDegrees(pitch), Math.toDegrees(yaw));
     }
 
-    /** Returns the rotation from aircraft axes (nose, right wing, down) to north-east-down. */
+    /** Returns the rotation from aircraft axes (nose, right wing, down) to north, east, down. */
     public Quaternion bodyToNed() {
-        throw new UnsupportedOperationException();
+        return Quaternion.about(Math.toRadians(yawDeg), 0, 0, 1)
+                .times(Quaternion.about(Math.toRadians(pitchDeg), 0, 1, 0))
+                .times(Quaternion.about(Math.toRadians(rollDeg), 1, 0, 0));
     }
 
     /** Returns degrees, right wing down is positive. */
@@ -38,8 +57,16 @@ public final class Attitude {
         return pitchDeg;
     }
 
-    /** Returns degrees clockwise from north. */
+    /** Returns degrees clockwise from north, 0 to 360. */
     public double yawDeg() {
         return yawDeg;
+    }
+
+    /** Returns the same direction as 0 to 360, 360 excluded. */
+    static double circle(double deg) {
+        double turned = deg % 360;
+        double positive = turned < 0 ? turned + 360 : turned;
+        // The sum of a tiny negative angle and 360 is 360.
+        return positive >= 360 ? 0 : positive;
     }
 }

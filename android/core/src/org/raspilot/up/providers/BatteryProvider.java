@@ -1,12 +1,30 @@
 package org.raspilot.up.providers;
 
-/** Sends what the Battery sensor reads. */
-public final class BatteryProvider extends UpProvider {
+import java.util.Collections;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.BatteryCommand;
+import org.raspilot.up.wire.GeneralMessage;
+
+/** Sends the device's battery level: {@code android.battery}, on change and each ten seconds. */
+public final class BatteryProvider extends SensorProvider<BatteryLevel> {
     /** The name under which it is registered. */
     public static final String NAME = "battery";
 
-    /** Takes the sensor. */
+    private static final long LEAST_MS = 1000;
+    private static final long REPEAT_MS = 10000;
+    private static final long SILENCE_MS = 10000;
+
+    /** Takes the battery. */
     public BatteryProvider(SensorSource<BatteryLevel> source) {
-        super(NAME);
+        super(NAME, source, Cadence.level(LEAST_MS, REPEAT_MS, SILENCE_MS));
+    }
+
+    @Override
+    protected BaseCommand read(BatteryLevel level) {
+        if (!(level.percent() >= 0 && level.percent() <= 100)) {
+            throw new IllegalArgumentException("a level of " + level.percent() + " percent");
+        }
+        return new BatteryCommand(new GeneralMessage(BatteryCommand.NAME,
+                Collections.singletonMap("level", Math.round(level.percent()))));
     }
 }

@@ -1,12 +1,38 @@
 package org.raspilot.up.providers;
 
-/** Sends what the Heading sensor reads. */
-public final class HeadingProvider extends UpProvider {
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.HeadingCommand;
+
+/** Sends where the aircraft's nose points, by the compass: {@code up.heading.change}. */
+public final class HeadingProvider extends SensorProvider<Rotation> {
     /** The name under which it is registered. */
     public static final String NAME = "heading";
 
-    /** Takes the sensor. */
-    public HeadingProvider(SensorSource<Rotation> source) {
-        super(NAME);
+    private static final String ACTUAL = "actual";
+    private static final long SILENCE_MS = 2000;
+
+    private Mounting mounting;
+    private double declinationDeg;
+
+    /** Takes the rotation sensor, how it is mounted, and how often a heading leaves at most, ms. */
+    public HeadingProvider(SensorSource<Rotation> source, Mounting mounting, int periodMs) {
+        super(NAME, source, Cadence.stream(periodMs, SILENCE_MS));
+        this.mounting = mounting;
+    }
+
+    /** Takes another mounting, as after a calibration. */
+    public void setMounting(Mounting other) {
+        mounting = other;
+    }
+
+    /** Takes the angle from magnetic to true north, degrees, east positive. */
+    public void setDeclinationDeg(double deg) {
+        declinationDeg = deg;
+    }
+
+    @Override
+    protected BaseCommand read(Rotation rotation) {
+        Attitude attitude = mounting.attitude(rotation, declinationDeg);
+        return new HeadingCommand(Rounded.direction(attitude.yawDeg()), ACTUAL);
     }
 }

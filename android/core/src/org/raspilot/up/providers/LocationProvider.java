@@ -1,12 +1,37 @@
 package org.raspilot.up.providers;
 
-/** Sends what the Location sensor reads. */
-public final class LocationProvider extends UpProvider {
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.LocationCommand;
+
+/** Sends where the device is, as GPS says it: {@code up.location.update}. */
+public final class LocationProvider extends SensorProvider<Fix> {
     /** The name under which it is registered. */
     public static final String NAME = "location";
 
-    /** Takes the sensor. */
-    public LocationProvider(SensorSource<Fix> source) {
-        super(NAME);
+    private static final long SILENCE_MS = 10000;
+
+    /** Takes the GPS, and how often a fix leaves at most, ms. */
+    public LocationProvider(SensorSource<Fix> source, int periodMs) {
+        super(NAME, source, Cadence.stream(periodMs, SILENCE_MS));
+    }
+
+    @Override
+    protected BaseCommand read(Fix fix) {
+        return new LocationCommand(
+                Rounded.to(7, fix.latitudeDeg()),
+                Rounded.to(7, fix.longitudeDeg()),
+                rounded(1, fix.altitudeM()),
+                rounded(1, fix.accuracyM()),
+                rounded(2, fix.speedMS()),
+                isKnown(fix.bearingDeg()) ? Rounded.direction(fix.bearingDeg()) : null);
+    }
+
+    /** What GPS does not know must not keep the place from being told. */
+    private static Double rounded(int decimals, Double value) {
+        return isKnown(value) ? Rounded.to(decimals, value) : null;
+    }
+
+    private static boolean isKnown(Double value) {
+        return value != null && !value.isNaN() && !value.isInfinite();
     }
 }

@@ -1,27 +1,138 @@
 package org.raspilot.up.providers;
 
-/** Sends the aircraft's attitude and rates as Orientation Forward frames (protocols 3). */
+import java.util.Locale;
+import org.raspilot.up.wire.OrientationFrame;
+
+/**
+ * Sends the aircraft's attitude and rates as Orientation Forward frames (protocols 3).
+ *
+ * <p>The rates are the gyroscope's; without one, or while it is silent, they are those by which the
+ * attitude changes.
+ */
 public final class OrientationProvider extends UpProvider {
     /** The name under which it is registered. */
     public static final String NAME = "orientation";
+    /** The lowest rate, Hz. */
+    public static final int LEAST_HZ = 50;
+    /** The highest rate, Hz. */
+    public static final int MOST_HZ = 200;
 
-    /** Takes both sensors, the mounting and the rate, 50 to 200 Hz. */
-    public OrientationProvider(
-            SensorSource<Rotation> rotation,
-            SensorSource<RotationRate> rotationRate,
-            Mounting mounting,
-            int rateHz) {
-        super(NAME);
+    private static final long SILENCE_MS = 500;
+    private static final long RATE_WORTH_MS = 100;
+    /** Times are told in ms: over less the differences would be noise. */
+    private static final long LEAST_DIFFERENCE_MS = 20;
+
+    private final SensorSource<Rotation> rotations;
+    private final SensorSource<RotationRate> gyroscope;
+    private Mounting mounting;
+    private double declinationDeg;
+    private Rotation newest;
+    private Rotation earlier;
+    private RotationRate difference = new RotationRate(0, 0, 0, 0);
+    private RotationRate measured;
+    private OrientationFrame last;
+
+    /** Takes both sensors, the mounting, and how often a frame leaves, 50 to 200 Hz. */
+    public OrientationProvider(SensorSource<Rotation> rotations,
+            SensorSource<RotationRate> gyroscope, Mounting mounting, int rateHz) {
+        super(NAME, Cadence.stream(1000.0 / rateHz, SILENCE_MS));
+        this.rotations = rotations;
+        this.gyroscope = gyroscope;
+        this.mounting = mounting;
     }
 
     /** Takes another mounting, as after a calibration. */
-    public void setMounting(Mounting mounting) {}
+    public void setMounting(Mounting other) {
+        mounting = other;
+    }
 
     /** Takes the angle from magnetic to true north, degrees, east positive. */
-    public void setDeclinationDeg(double declinationDeg) {}
+    public void setDeclinationDeg(double deg) {
+        declinationDeg = deg;
+    }
 
-    /** Returns the newest rotation, or null: what {@link Mounting#level} wants. */
-    public Rotation newestRotation() {
-        return null;
+    @Override
+    protected boolean isPresent() {
+        return rotations.isPresent();
+    }
+
+    @Override
+    protected String sensorName() {
+        return rotations.name() + " and "
+                + (gyroscope.isPresent() ? gyroscope.name() : "no gyroscope");
+    }
+
+    @Override
+    protected boolean isOpen(Outlet to) {
+        return to.isOrientationOpen();
+    }
+
+    @Override
+    protected void subscribe(long periodMs) {
+        newest = null;
+        earlier = null;
+        measured = null;
+        if (gyroscope.isPresent()) {
+            gyroscope.subscribe(periodMs, new SensorListener<RotationRate>() {
+                @Override
+                public void onReading(RotationRate reading) {
+                    measured = reading;
+                }
+            });
+        }
+        rotations.subscribe(periodMs, new SensorListener<Rotation>() {
+            @Override
+            public void onReading(Rotation reading) {
+                take(reading);
+            }
+        });
+    }
+
+    @Override
+    protected void unsubscribe() {
+        rotations.unsubscribe();
+        if (gyroscope.isPresent()) {
+            gyroscope.unsubscribe();
+        }
+    }
+
+    @Override
+    protected boolean transmit(Outlet to) {
+        Attitude attitude = mounting.attitude(newest, declinationDeg);
+        double[] rates = mounting.ratesDegS(isMeasured() ? measured : difference);
+        OrientationFrame frame = new OrientationFrame(
+                (float) attitude.rollDeg(), (float) attitude.pitchDeg(), (float) attitude.yawDeg(),
+                (float) rates[0], (float) rates[1], (float) rates[2]);
+        if (!frame.isInRange()) {
+            refuse("its reading cannot be used: a rate that is none, or above 4000 deg/s");
+            return false;
+        }
+        boolean isTaken = to.sendOrientation(frame);
+        if (isTaken) {
+            last = frame;
+        }
+        return isTaken;
+    }
+
+    @Override
+    protected String lastText() {
+        return last == null ? "" : String.format(Locale.ROOT, "roll %.1f, pitch %.1f, yaw %.1f",
+                last.rollDeg(), last.pitchDeg(), last.yawDeg());
+    }
+
+    private void take(Rotation reading) {
+        newest = reading;
+        if (earlier == null) {
+            earlier = reading;
+        } else if (reading.timeMs() - earlier.timeMs() >= LEAST_DIFFERENCE_MS) {
+            difference = RotationRate.between(earlier, reading);
+            earlier = reading;
+        }
+        offer(true);
+    }
+
+    /** Both times are the sensors' own: a gyroscope that fell behind is not believed. */
+    private boolean isMeasured() {
+        return measured != null && newest.timeMs() - measured.timeMs() <= RATE_WORTH_MS;
     }
 }

@@ -1,18 +1,17 @@
 package org.raspilot.up.providers;
 
-import java.util.Map;
+import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.wire.OrientationFrame;
 
 /** Where a provider's data goes: the links to the Raspberry Pi. */
 public interface Outlet {
     /**
-     * Sends a Command; one of the same name that still waits for a slow link is replaced.
+     * Sends a Command; one that still waits for a slow link under the same key is replaced.
      *
-     * @param name which Command
-     * @param data its fields as the protocol has them
+     * @param key whose Command it is: the provider's name
      * @return whether the link took it; false: it is not connected, and nothing is kept
      */
-    boolean sendNewest(String name, Map<String, Object> data);
+    boolean sendNewest(String key, BaseCommand command);
 
     /** Sends an orientation frame, newest wins; returns whether the link took it. */
     boolean sendOrientation(OrientationFrame frame);
@@ -20,6 +19,6 @@ public interface Outlet {
     /** Returns whether the link for Commands is connected. */
     boolean isOpen();
 
-    /** Returns whether the link for orientation is connected. */
+    /** Returns whether orientation can leave now. */
     boolean isOrientationOpen();
 }

@@ -1,44 +1,126 @@
 package org.raspilot.up.providers;
 
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 import org.raspilot.up.loop.Loop;
 
-/** Keeps the providers: registers, starts and stops them (thesis 4.5.2). */
+/** Keeps the providers: registers, starts and stops them (thesis 4.5.2). Only on the loop. */
 public final class ProvidersController {
+    private final Loop loop;
+    private final Panic panic = new Panic();
+    private final Map<String, UpProvider> providers = new LinkedHashMap<String, UpProvider>();
+    private final List<ProvidersListener> listeners = new ArrayList<ProvidersListener>();
+    private final ProvidersListener telling = new ProvidersListener() {
+        @Override
+        public void onProvider(String name, String sentence) {
+            for (ProvidersListener listener : new ArrayList<ProvidersListener>(listeners)) {
+                listener.onProvider(name, sentence);
+            }
+        }
+    };
+    private Outlet outlet;
+
     /** Takes the loop on which everything happens. */
-    public ProvidersController(Loop loop) {}
+    public ProvidersController(Loop loop) {
+        this.loop = loop;
+    }
 
     /** Returns the Panic that all providers follow. */
     public Panic panic() {
-        return null;
+        return panic;
     }
 
-    /** Registers a provider; while running it is started at once. Raises IllegalArgumentException. */
-    public void register(UpProvider provider) {}
+    /** Tells this one of the providers' problems. */
+    public void addListener(ProvidersListener listener) {
+        listeners.add(listener);
+    }
+
+    /**
+     * Registers a provider; while the others run it is started at once.
+     *
+     * @throws IllegalArgumentException when one of that name is registered
+     * @throws IllegalStateException when this very one was registered before
+     */
+    public void register(UpProvider provider) {
+        if (providers.containsKey(provider.name())) {
+            throw new IllegalArgumentException(
+                    "a provider '" + provider.name() + "' is registered already");
+        }
+        provider.attach(loop, panic, telling);
+        providers.put(provider.name(), provider);
+        if (outlet != null) {
+            provider.start(outlet);
+        }
+    }
 
     /** Stops and forgets a provider; returns whether there was one of that name. */
     public boolean unregister(String name) {
-        return false;
+        UpProvider provider = providers.remove(name);
+        if (provider != null) {
+            provider.stop();
+        }
+        return provider != null;
     }
 
     /** Returns the provider of that name, or null. */
     public UpProvider provider(String name) {
-        return null;
+        return providers.get(name);
     }
 
-    /** Starts all in the order of their registration. */
-    public void start(Outlet outlet) {}
+    /** Starts all in the order of their registration; they send into the outlet. */
+    public void start(Outlet to) {
+        outlet = to;
+        for (UpProvider provider : all()) {
+            provider.start(to);
+        }
+    }
 
     /** Stops all in reverse order. */
-    public void stop() {}
+    public void stop() {
+        outlet = null;
+        List<UpProvider> reversed = all();
+        Collections.reverse(reversed);
+        for (UpProvider provider : reversed) {
+            provider.stop();
+        }
+    }
 
-    /** Starts one anew, as after a permission was given; returns whether there is one. */
+    /** Starts one anew, as after a permission was given; returns whether there is one running. */
     public boolean restart(String name) {
-        return false;
+        UpProvider provider = providers.get(name);
+        if (provider == null || outlet == null) {
+            return false;
+        }
+        provider.stop();
+        provider.start(outlet);
+        return true;
+    }
+
+    /** Takes that a new link is there: each provider sends at once what is known and fresh. */
+    public void linkOpened() {
+        for (UpProvider provider : all()) {
+            provider.linkOpened();
+        }
+    }
+
+    /** Takes that the link is gone: what it asked for is forgotten. */
+    public void linkClosed() {
+        panic.forget();
     }
 
     /** Returns what each does now, in the order of their registration. */
     public List<ProviderStatus> statuses() {
-        return null;
+        List<ProviderStatus> statuses = new ArrayList<ProviderStatus>();
+        for (UpProvider provider : all()) {
+            statuses.add(provider.status());
+        }
+        return Collections.unmodifiableList(statuses);
+    }
+
+    private List<UpProvider> all() {
+        return new ArrayList<UpProvider>(providers.values());
     }
 }

@@ -5,16 +5,12 @@ public final class Quaternion {
     /** No rotation at all. */
     public static final Quaternion NONE = new Quaternion(1, 0, 0, 0);
 
-    private static final double SMALLEST = 1e-6;
+    private static final double SHORTEST = 1e-6;
 
-    /** The real part: the cosine of half the angle. */
-    public final double w;
-    /** The first axis times the sine of half the angle. */
-    public final double x;
-    /** The second axis times the sine of half the angle. */
-    public final double y;
-    /** The third axis times the sine of half the angle. */
-    public final double z;
+    private final double w;
+    private final double x;
+    private final double y;
+    private final double z;
 
     /** Keeps the four parts as they are. */
     public Quaternion(double w, double x, double y, double z) {
@@ -24,11 +20,40 @@ public final class Quaternion {
         this.z = z;
     }
 
-    /** Returns the rotation by an angle (rad, right-handed) about an axis of any length but zero. */
+    /** Returns the rotation by an angle (rad, right-handed) about an axis of any length but 0. */
     public static Quaternion about(double angleRad, double x, double y, double z) {
-        double length = Math.sqrt(x * x + y * y + z * z);
-        double part = Math.sin(angleRad / 2) / length;
+        double part = Math.sin(angleRad / 2) / Math.sqrt(x * x + y * y + z * z);
         return new Quaternion(Math.cos(angleRad / 2), x * part, y * part, z * part);
+    }
+
+    /**
+     * Returns the rotation that turns the three axes into these.
+     *
+     * @param a where the first axis goes, of length one; b and c are square to it and each other
+     */
+    static Quaternion ofAxes(double[] a, double[] b, double[] c) {
+        // One of the four is at least a half: dividing by it is exact enough (Shepperd, 1978).
+        double fourW = 1 + a[0] + b[1] + c[2];
+        double fourX = 1 + a[0] - b[1] - c[2];
+        double fourY = 1 - a[0] + b[1] - c[2];
+        double fourZ = 1 - a[0] - b[1] + c[2];
+        double most = Math.max(Math.max(fourW, fourX), Math.max(fourY, fourZ));
+        double wx = b[2] - c[1];
+        double wy = c[0] - a[2];
+        double wz = a[1] - b[0];
+        double xy = a[1] + b[0];
+        double xz = a[2] + c[0];
+        double yz = b[2] + c[1];
+        if (most == fourW) {
+            return new Quaternion(most, wx, wy, wz).unit();
+        }
+        if (most == fourX) {
+            return new Quaternion(wx, most, xy, xz).unit();
+        }
+        if (most == fourY) {
+            return new Quaternion(wy, xy, most, yz).unit();
+        }
+        return new Quaternion(wz, xz, yz, most).unit();
     }
 
     /** Returns this times that: as rotations, that one first. */
@@ -45,10 +70,10 @@ public final class Quaternion {
         return new Quaternion(w, -x, -y, -z);
     }
 
-    /** Returns it at length one; raises IllegalArgumentException when it is zero or not finite. */
+    /** Returns it at length one; raises IllegalArgumentException when it is 0 or not finite. */
     public Quaternion unit() {
         double length = Math.sqrt(w * w + x * x + y * y + z * z);
-        if (!(length > SMALLEST) || Double.isInfinite(length)) {
+        if (!(length > SHORTEST) || Double.isInfinite(length)) {
             throw new IllegalArgumentException("no rotation: a quaternion of length " + length);
         }
         return new Quaternion(w / length, x / length, y / length, z / length);
@@ -59,5 +84,25 @@ public final class Quaternion {
         Quaternion turned =
                 times(new Quaternion(0, vectorX, vectorY, vectorZ)).times(conjugate());
         return new double[] {turned.x, turned.y, turned.z};
+    }
+
+    /** Returns the real part: of a rotation the cosine of half its angle. */
+    public double w() {
+        return w;
+    }
+
+    /** Returns the first axis times the sine of half the angle. */
+    public double x() {
+        return x;
+    }
+
+    /** Returns the second axis times the sine of half the angle. */
+    public double y() {
+        return y;
+    }
+
+    /** Returns the third axis times the sine of half the angle. */
+    public double z() {
+        return z;
     }
 }

@@ -10,29 +10,30 @@ public final class Rotation {
     private final Quaternion deviceToWorld;
     private final long timeMs;
 
-    /** Keeps w, x, y, z scaled to length one; raises IllegalArgumentException for no rotation. */
+    /** Keeps w, x, y, z at length one; raises IllegalArgumentException for no rotation. */
     public Rotation(double w, double x, double y, double z, long timeMs) {
         this(new Quaternion(w, x, y, z), timeMs);
     }
 
-    /** Keeps the quaternion scaled to length one; raises IllegalArgumentException for no rotation. */
+    /** Keeps the quaternion at length one; raises IllegalArgumentException for no rotation. */
     public Rotation(Quaternion deviceToWorld, long timeMs) {
         this.deviceToWorld = deviceToWorld.unit();
         this.timeMs = timeMs;
     }
 
     /**
-     * Returns the rotation of Android's three or four values of a rotation vector event.
+     * Returns the rotation of the values of an Android rotation vector event.
      *
      * @param values x, y, z (each axis times the sine of half the angle) and, where there is a
      *     fourth, w; older systems leave it out
+     * @throws IllegalArgumentException when they are no rotation
      */
     public static Rotation ofVector(float[] values, long timeMs) {
         double x = values[0];
         double y = values[1];
         double z = values[2];
-        double w = values.length > 3 ? values[3] : Math.sqrt(Math.max(0, 1 - x * x - y * y - z * z));
-        return new Rotation(w, x, y, z, timeMs);
+        double rest = Math.max(0, 1 - x * x - y * y - z * z);
+        return new Rotation(values.length > 3 ? values[3] : Math.sqrt(rest), x, y, z, timeMs);
     }
 
     /** Returns the unit quaternion, device to east-north-up. */

@@ -1,6 +1,6 @@
 package org.raspilot.up.providers;
 
-/** How quickly the device turns about its own axes, by its gyroscope; rad/s, right-handed. */
+/** How quickly the device turns about its own axes; rad/s, right-handed. */
 public final class RotationRate {
     private final double xRadS;
     private final double yRadS;
@@ -15,17 +15,36 @@ public final class RotationRate {
         this.timeMs = timeMs;
     }
 
-    /** Returns about the axis to the right edge, rad/s. */
+    /**
+     * Returns the mean rate between two rotations: what a device without a gyroscope has.
+     *
+     * @return null when the later one is not later
+     */
+    public static RotationRate between(Rotation earlier, Rotation later) {
+        double seconds = (later.timeMs() - earlier.timeMs()) / 1000.0;
+        if (seconds <= 0) {
+            return null;
+        }
+        Quaternion turn = earlier.deviceToWorld().conjugate().times(later.deviceToWorld());
+        double sine = Math.sqrt(turn.x() * turn.x() + turn.y() * turn.y() + turn.z() * turn.z());
+        // A quaternion and its negative are one rotation: the shorter way is meant.
+        double angleRad = 2 * Math.atan2(sine, Math.abs(turn.w()));
+        double scale = sine == 0 ? 0 : Math.copySign(angleRad / sine / seconds, turn.w());
+        return new RotationRate(
+                turn.x() * scale, turn.y() * scale, turn.z() * scale, later.timeMs());
+    }
+
+    /** Returns the rate about the axis to the right edge, rad/s. */
     public double xRadS() {
         return xRadS;
     }
 
-    /** Returns about the axis to the top edge, rad/s. */
+    /** Returns the rate about the axis to the top edge, rad/s. */
     public double yRadS() {
         return yRadS;
     }
 
-    /** Returns about the axis out of the screen, rad/s. */
+    /** Returns the rate about the axis out of the screen, rad/s. */
     public double zRadS() {
         return zRadS;
     }

@@ -3,8 +3,8 @@ package org.raspilot.up.providers;
 /**
  * One kind of sensor of this device, whatever measures behind it (thesis 4.5.2, "Providers").
  *
- * <p>Android's parts and the simulated ones on the JVM implement it. All calls come on the loop, and
- * readings are handed over on the loop.
+ * <p>Android's parts and the simulated ones on the JVM implement it. All calls come on the loop,
+ * and readings are handed over on the loop.
  *
  * @param <R> what one reading is
  */

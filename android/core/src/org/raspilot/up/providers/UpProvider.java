@@ -3,14 +3,63 @@ package org.raspilot.up.providers;
 import org.raspilot.up.loop.Loop;
 
 /**
- * Reads one sensor, makes of its readings what the Raspberry Pi wants, and sends it (thesis 3.5.2).
+ * Reads a sensor, makes of its readings what the Raspberry Pi wants, and sends it (thesis 3.5.2).
+ *
+ * <p>A provider of one sensor and one Command is best a {@link SensorProvider}. What a hook throws
+ * is told as the provider's problem and harms no other provider. Only on the loop.
  */
 public abstract class UpProvider {
     private final String name;
+    private final Cadence cadence;
+    private Stream stream;
+    private Loop loop;
+    private ProvidersListener listener;
+    private Outlet outlet;
+    private boolean isThere;
+    private boolean isStarted;
+    private long startedMs;
+    private String problem = "";
 
-    /** Takes the name under which it is registered and shown. */
-    protected UpProvider(String name) {
+    /** Takes the name under which it is registered and shown, and how often it sends. */
+    protected UpProvider(String name, Cadence cadence) {
         this.name = name;
+        this.cadence = cadence;
+    }
+
+    /** Returns whether this device has the sensor. */
+    protected abstract boolean isPresent();
+
+    /** Returns what the sensor calls itself. */
+    protected abstract String sensorName();
+
+    /** Begins to read the sensor, as often as periodMs says; each reading leads to offer. */
+    protected abstract void subscribe(long periodMs);
+
+    /** Ends what subscribe began. */
+    protected abstract void unsubscribe();
+
+    /** Sends the newest reading; returns whether the link took it. */
+    protected abstract boolean transmit(Outlet to);
+
+    /** Returns what left last, as text for the screen; empty: nothing. */
+    protected abstract String lastText();
+
+    /** Returns whether the link is there on which it sends; by default the one for Commands. */
+    protected boolean isOpen(Outlet to) {
+        return to.isOpen();
+    }
+
+    /** Takes that a reading came and is kept; it is sent when the cadence allows, if it is news. */
+    protected final void offer(boolean isNews) {
+        if (isStarted) {
+            trouble("");
+            stream.offer(isNews);
+        }
+    }
+
+    /** Takes that a reading cannot be used, and why; it counts as no reading. */
+    protected final void refuse(String sentence) {
+        trouble(sentence);
     }
 
     /** Returns the name. */
@@ -18,22 +67,140 @@ public abstract class UpProvider {
         return name;
     }
 
-    /** Gives it its surroundings; {@link ProvidersController} calls it once at registration. */
-    final void attach(Loop loop, Panic panic) {}
+    /** Gives it its surroundings; {@link ProvidersController} does so when it is registered. */
+    final void attach(Loop onLoop, Panic panic, ProvidersListener told) {
+        if (stream != null) {
+            throw new IllegalStateException("the provider '" + name + "' was registered before");
+        }
+        loop = onLoop;
+        listener = told;
+        stream = new Stream(onLoop, panic, cadence, new Stream.Sender() {
+            @Override
+            public boolean isOpen() {
+                return UpProvider.this.isOpen(outlet);
+            }
 
-    /** Begins to read the sensor and to send into the outlet. */
-    public final void start(Outlet outlet) {}
+            @Override
+            public boolean transmit() {
+                return guardedTransmit();
+            }
+        });
+        look();
+    }
 
-    /** Ends what {@link #start} began. */
-    public final void stop() {}
+    /** Begins to read the sensor and to send; one that is absent is told by its name. */
+    final void start(Outlet to) {
+        if (isStarted) {
+            return;
+        }
+        outlet = to;
+        look();
+        if (!isThere) {
+            listener.onProvider(name, sensorName());
+            return;
+        }
+        isStarted = true;
+        startedMs = loop.nowMs();
+        stream.begin();
+        try {
+            subscribe((long) cadence.periodMs());
+        } catch (RuntimeException fault) {
+            // A sensor may refuse (a permission is missing): the others go on.
+            stop();
+            trouble("the sensor cannot be read: " + sentence(fault));
+        }
+    }
+
+    /** Ends what start began. */
+    final void stop() {
+        if (!isStarted) {
+            return;
+        }
+        isStarted = false;
+        stream.end();
+        try {
+            unsubscribe();
+        } catch (RuntimeException fault) {
+            // The others are still to be stopped.
+            trouble("the sensor cannot be left: " + sentence(fault));
+        }
+    }
+
+    /** Takes that a new link is there. */
+    final void linkOpened() {
+        if (isStarted) {
+            stream.reopen();
+        }
+    }
 
     /** Returns what it does now. */
     public final ProviderState state() {
-        return ProviderState.STOPPED;
+        if (!isThere) {
+            return ProviderState.ABSENT;
+        }
+        if (!isStarted) {
+            return ProviderState.STOPPED;
+        }
+        if (isSilent()) {
+            return ProviderState.SILENT;
+        }
+        boolean sends = stream.newestMs() >= 0 && isOpen(outlet);
+        return sends ? ProviderState.SENDING : ProviderState.WAITING;
     }
 
-    /** Returns what the screen shows. */
+    /** Returns what the screen shows; only of a provider that is registered. */
     public final ProviderStatus status() {
-        return null;
+        long newestMs = stream.newestMs();
+        return new ProviderStatus(
+                name,
+                sensorName(),
+                state(),
+                stream.hz(),
+                newestMs < 0 ? -1 : loop.nowMs() - newestMs,
+                lastText(),
+                problem,
+                stream.sent());
+    }
+
+    private boolean isSilent() {
+        long newestMs = stream.newestMs();
+        if (cadence.isLevel() && newestMs >= 0) {
+            return false;
+        }
+        return loop.nowMs() - Math.max(startedMs, newestMs) > cadence.silenceLimitMs();
+    }
+
+    private void look() {
+        isThere = false;
+        try {
+            isThere = isPresent();
+        } catch (RuntimeException fault) {
+            // As above; a sensor that cannot be asked for is not there.
+            trouble("the sensor cannot be looked for: " + sentence(fault));
+        }
+    }
+
+    private boolean guardedTransmit() {
+        try {
+            return transmit(outlet);
+        } catch (RuntimeException fault) {
+            // One provider that fails harms no other one.
+            trouble("its reading cannot be sent: " + sentence(fault));
+            return false;
+        }
+    }
+
+    private void trouble(String sentence) {
+        if (!sentence.equals(problem)) {
+            problem = sentence;
+            if (!sentence.isEmpty()) {
+                listener.onProvider(name, sentence);
+            }
+        }
+    }
+
+    /** Returns what an exception says, or its kind when it says nothing. */
+    static String sentence(RuntimeException fault) {
+        return fault.getMessage() == null ? fault.getClass().getSimpleName() : fault.getMessage();
     }
 }

@@ -1,0 +1,47 @@
+package org.raspilot.up.airborne;
+
+import org.raspilot.up.commands.CommandReceiver;
+import org.raspilot.up.commands.NackCode;
+
+/** What was counted on the airborne side since it was made; immutable. */
+final class AirborneCounters {
+    private final long connections;
+    private final long telemetry;
+    private final long executed;
+    private final long refused;
+    private final long malformed;
+
+    /** Takes the counts of now; answers are those that came to what was sent with an id. */
+    AirborneCounters(CommandReceiver receiver, long connections, long telemetry, long answers) {
+        this.connections = connections;
+        this.telemetry = telemetry;
+        malformed = receiver.count(NackCode.MALFORMED.word());
+        long others = 0;
+        for (NackCode code : NackCode.values()) {
+            others += code == NackCode.MALFORMED ? 0 : receiver.count(code.word());
+        }
+        refused = others;
+        executed = receiver.count("received") - receiver.count("repeated") - refused - telemetry
+                - answers;
+    }
+
+    long connections() {
+        return connections;
+    }
+
+    long telemetry() {
+        return telemetry;
+    }
+
+    long executed() {
+        return executed;
+    }
+
+    long refused() {
+        return refused;
+    }
+
+    long malformed() {
+        return malformed;
+    }
+}

@@ -1,0 +1,167 @@
+package org.raspilot.up.airborne;
+
+import java.util.Random;
+import org.raspilot.up.commands.AnswerSink;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.net.KnownPlace;
+import org.raspilot.up.net.OrientationSender;
+import org.raspilot.up.net.Place;
+import org.raspilot.up.net.UpSocket;
+import org.raspilot.up.net.UpSocketListener;
+import org.raspilot.up.net.UpSocketSettings;
+import org.raspilot.up.net.UpSocketStatus;
+import org.raspilot.up.providers.Outlet;
+import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.wire.OrientationFrame;
+
+/** The two links to the Raspberry Pi: one for Commands, one for orientation where it is on. */
+final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
+    private static final String DEAD = "the Raspberry Pi does not answer any more";
+
+    private final Owner owner;
+    private final KnownPlace known;
+    private final UpSocket socket;
+    private final OrientationSender orientation;
+    private final AnswerWatch watch;
+    private String told = "";
+
+    /** Is told what happens on the link for Commands. */
+    interface Owner {
+        /** Tells that it is there. */
+        void onOpened(Place place);
+
+        /** Gives a line that came. */
+        void onLine(byte[] line, int length);
+
+        /** Tells that it is gone, and why. */
+        void onClosed(String reason);
+
+        /** Tells why it is not there, once until that changes. */
+        void onTrouble(String sentence);
+    }
+
+    AirborneLink(Loop loop, AirborneSettings settings, Random random, Owner owner) {
+        this.owner = owner;
+        known = new KnownPlace(Finders.by(loop, settings));
+        socket = new UpSocket(loop, known, this, UpSocketSettings.lines(), random);
+        OrientationTransport transport = settings.orientationTransport();
+        orientation = transport == OrientationTransport.OFF ? null
+                : new OrientationSender(loop, known,
+                        transport == OrientationTransport.UDP
+                                ? OrientationSender.Transport.UDP
+                                : OrientationSender.Transport.TCP,
+                        random);
+        watch = new AnswerWatch(loop, Integer.toHexString(random.nextInt()) + ".", new Runnable() {
+            @Override
+            public void run() {
+                socket.drop(DEAD);
+            }
+        });
+    }
+
+    /** Begins to connect. */
+    void start() {
+        told = "";
+        socket.start();
+        if (orientation != null) {
+            orientation.start();
+        }
+    }
+
+    /** Closes both. */
+    void stop() {
+        if (orientation != null) {
+            orientation.stop();
+        }
+        socket.stop();
+    }
+
+    /** Tries at once instead of after the wait. */
+    void reconnectNow() {
+        socket.reconnectNow();
+        if (orientation != null) {
+            orientation.reconnectNow();
+        }
+    }
+
+    /** Takes that an answer came to an id of ours. */
+    void answered(String id) {
+        watch.answered(id);
+    }
+
+    /** Returns where the link for Commands stands. */
+    UpSocketStatus status() {
+        return socket.status();
+    }
+
+    /** Returns how often it came. */
+    long connections() {
+        return socket.counters().connects();
+    }
+
+    /** Returns where orientation goes, or why it does not. */
+    String orientationText() {
+        return orientation == null ? "off" : orientation.sentence();
+    }
+
+    @Override
+    public boolean sendNewest(String key, BaseCommand command) {
+        return socket.isConnected()
+                && socket.sendNewest(key, command.toMessage(watch.nextId(), null).toLine());
+    }
+
+    @Override
+    public boolean sendOrientation(OrientationFrame frame) {
+        return orientation != null && orientation.send(frame.toBytes());
+    }
+
+    @Override
+    public boolean isOpen() {
+        return socket.isConnected();
+    }
+
+    @Override
+    public boolean isOrientationOpen() {
+        return orientation != null && orientation.isReady();
+    }
+
+    @Override
+    public void answer(GeneralMessage answer) {
+        socket.send(answer.toLine());
+    }
+
+    @Override
+    public void onConnected(UpSocket connected) {
+        told = "";
+        watch.opened();
+        if (orientation != null) {
+            // After a gap the other connection may be as dead as this one was.
+            orientation.reconnectNow();
+        }
+        owner.onOpened(connected.status().place());
+    }
+
+    @Override
+    public void onReceived(UpSocket from, byte[] bytes, int length) {
+        watch.heard();
+        owner.onLine(bytes, length);
+    }
+
+    @Override
+    public void onLost(UpSocket lost, String reason) {
+        watch.closed();
+        told = lost.status().sentence();
+        owner.onClosed(reason);
+    }
+
+    @Override
+    public void onStatus(UpSocket changed) {
+        UpSocketStatus status = changed.status();
+        boolean isTrouble = status.state() == UpSocketStatus.State.WAITING;
+        if (isTrouble && !status.sentence().equals(told)) {
+            told = status.sentence();
+            owner.onTrouble(told);
+        }
+    }
+}

@@ -1,0 +1,95 @@
+package org.raspilot.up.airborne;
+
+import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.loop.Loop;
+
+/**
+ * Notices a connection that is dead although nobody closed it, as after a gap of the radio.
+ *
+ * <p>After a second in which no line came the next message carries an id, which asks for an answer;
+ * one that does not come within two seconds ends the connection. A peer that has not answered an id
+ * on this connection, as an old one never does, is not judged.
+ */
+final class AnswerWatch {
+    /** After so long without a line an answer is asked for, ms. */
+    static final long QUIET_MS = 1000;
+    /** So long an answer may take, ms. */
+    static final long ANSWER_MS = 2000;
+
+    private final Loop loop;
+    private final Runnable onDead;
+    private final String prefix;
+    private final Runnable ending = new Runnable() {
+        @Override
+        public void run() {
+            onDead.run();
+        }
+    };
+    private Cancellable timer;
+    private long asked;
+    private long heardMs;
+    private boolean isOpen;
+    private boolean isAsking;
+    private boolean isFirst;
+    private boolean isAnswering;
+
+    /**
+     * Makes a watch.
+     *
+     * @param prefix begins the ids; another one for each run of the program
+     */
+    AnswerWatch(Loop loop, String prefix, Runnable onDead) {
+        this.loop = loop;
+        this.prefix = prefix;
+        this.onDead = onDead;
+    }
+
+    /** Takes that a connection is there. */
+    void opened() {
+        closed();
+        isOpen = true;
+        isFirst = true;
+        isAnswering = false;
+        heardMs = loop.nowMs();
+    }
+
+    /** Takes that it is gone. */
+    void closed() {
+        isOpen = false;
+        settle();
+    }
+
+    /** Takes that a line came. */
+    void heard() {
+        heardMs = loop.nowMs();
+        settle();
+    }
+
+    /** Takes that an answer came. */
+    void answered(String id) {
+        isAnswering |= isOpen && id.startsWith(prefix);
+    }
+
+    /** Returns the id that the next message is to carry, or null. */
+    String nextId() {
+        boolean isQuiet = loop.nowMs() - heardMs >= QUIET_MS;
+        if (!isOpen || isAsking || !(isFirst || isQuiet)) {
+            return null;
+        }
+        isFirst = false;
+        isAsking = true;
+        if (isAnswering) {
+            timer = loop.schedule(ANSWER_MS, ending);
+        }
+        asked++;
+        return prefix + asked;
+    }
+
+    private void settle() {
+        isAsking = false;
+        if (timer != null) {
+            timer.cancel();
+            timer = null;
+        }
+    }
+}

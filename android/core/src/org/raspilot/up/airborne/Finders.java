@@ -1,0 +1,49 @@
+package org.raspilot.up.airborne;
+
+import java.util.List;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.net.BroadcastAddresses;
+import org.raspilot.up.net.DiscoveryClient;
+import org.raspilot.up.net.FixedPlace;
+import org.raspilot.up.net.InterfaceBroadcasts;
+import org.raspilot.up.net.Place;
+import org.raspilot.up.net.PlaceFinder;
+import org.raspilot.up.net.RunnerClient;
+import org.raspilot.up.net.RunnerRequest;
+
+/** Chooses how the Raspberry Pi, or the server in its place, is found. */
+final class Finders {
+    /** The name that nameless clients of a runner share (protocols 8). */
+    private static final String NAMELESS = "default";
+
+    private Finders() {}
+
+    /** Returns the runner in Black Box Mode, else the configured host, else Discovery. */
+    static PlaceFinder by(Loop loop, final AirborneSettings settings) {
+        if (settings.isByRunner()) {
+            RunnerRequest request = new RunnerRequest(
+                    settings.aircraft().isEmpty() ? NAMELESS : settings.aircraft(),
+                    settings.profile().isEmpty() ? null : settings.profile(),
+                    null);
+            return new RunnerClient(loop, settings.runnerHost(), settings.runnerPort(), request);
+        }
+        if (!settings.host().isEmpty()) {
+            return new FixedPlace(new Place(
+                    settings.host(), settings.generalPort(), settings.orientationPort()));
+        }
+        return new DiscoveryClient(loop, asked(settings), settings.discoveryPort(),
+                settings.generalPort(), settings.orientationPort());
+    }
+
+    private static BroadcastAddresses asked(final AirborneSettings settings) {
+        if (settings.discoveryHosts().isEmpty()) {
+            return new InterfaceBroadcasts();
+        }
+        return new BroadcastAddresses() {
+            @Override
+            public List<String> current() {
+                return settings.discoveryHosts();
+            }
+        };
+    }
+}

@@ -1,0 +1,55 @@
+package org.raspilot.up.airborne;
+
+import java.util.HashSet;
+import java.util.Set;
+import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.ProviderState;
+import org.raspilot.up.providers.ProviderStatus;
+import org.raspilot.up.providers.ProvidersController;
+
+/** Tells the listener when a sensor falls silent and when it speaks again. */
+final class SilenceReport {
+    private static final long PERIOD_MS = 1000;
+
+    private final Loop loop;
+    private final ProvidersController providers;
+    private final AirborneListener listener;
+    private final Set<String> silent = new HashSet<String>();
+    private final Runnable looking = new Runnable() {
+        @Override
+        public void run() {
+            look();
+        }
+    };
+    private Cancellable timer;
+
+    SilenceReport(Loop loop, ProvidersController providers, AirborneListener listener) {
+        this.loop = loop;
+        this.providers = providers;
+        this.listener = listener;
+    }
+
+    void start() {
+        silent.clear();
+        timer = loop.schedule(PERIOD_MS, looking);
+    }
+
+    void stop() {
+        timer.cancel();
+    }
+
+    private void look() {
+        timer = loop.schedule(PERIOD_MS, looking);
+        for (ProviderStatus status : providers.statuses()) {
+            String who = status.name() + ": " + status.sensor();
+            if (status.state() == ProviderState.SILENT) {
+                if (silent.add(status.name())) {
+                    listener.onEvent(who + " says nothing");
+                }
+            } else if (silent.remove(status.name())) {
+                listener.onEvent(who + " speaks again");
+            }
+        }
+    }
+}

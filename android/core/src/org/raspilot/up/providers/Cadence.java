@@ -1,0 +1,70 @@
+package org.raspilot.up.providers;
+
+/** How often a provider sends, and how long its readings are worth sending; times in ms. */
+public final class Cadence {
+    /** A reading that is older than so many periods is not sent any more. */
+    private static final int WORTH_PERIODS = 2;
+
+    private final double periodMs;
+    private final long repeatMs;
+    private final long worthMs;
+    private final long silenceLimitMs;
+
+    private Cadence(double periodMs, long repeatMs, long worthMs, long silenceLimitMs) {
+        if (!(periodMs > 0) || silenceLimitMs <= 0) {
+            throw new IllegalArgumentException("periods and limits are more than 0 ms");
+        }
+        this.periodMs = periodMs;
+        this.repeatMs = repeatMs;
+        this.worthMs = worthMs;
+        this.silenceLimitMs = silenceLimitMs;
+    }
+
+    /**
+     * Returns the cadence of what changes all the time: each reading is sent once, while it is
+     * fresh, at most one in a period.
+     *
+     * @param silenceLimitMs how long the sensor may say nothing before it counts as silent
+     */
+    public static Cadence stream(double periodMs, long silenceLimitMs) {
+        return new Cadence(
+                periodMs, 0, (long) Math.ceil(WORTH_PERIODS * periodMs), silenceLimitMs);
+    }
+
+    /**
+     * Returns the cadence of what holds until it changes, as a battery's level: sent when it
+     * changes and again and again, for the sensor speaks of changes only.
+     *
+     * @param leastMs the shortest time between two messages
+     * @param repeatMs after so long the same is sent again
+     * @param silenceLimitMs how long the first reading may take before the sensor counts as silent
+     */
+    public static Cadence level(double leastMs, long repeatMs, long silenceLimitMs) {
+        return new Cadence(leastMs, repeatMs, Long.MAX_VALUE, silenceLimitMs);
+    }
+
+    /** Returns the shortest time between two messages. */
+    double periodMs() {
+        return periodMs;
+    }
+
+    /** Returns whether the value holds until it changes. */
+    boolean isLevel() {
+        return repeatMs > 0;
+    }
+
+    /** Returns after how long the same is sent again; 0: never. */
+    long repeatMs() {
+        return repeatMs;
+    }
+
+    /** Returns how old a reading may be when it is sent. */
+    long worthMs() {
+        return worthMs;
+    }
+
+    /** Returns how long the sensor may say nothing. */
+    long silenceLimitMs() {
+        return silenceLimitMs;
+    }
+}

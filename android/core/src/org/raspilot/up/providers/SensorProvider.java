@@ -1,0 +1,103 @@
+package org.raspilot.up.providers;
+
+import java.util.Map;
+import org.raspilot.up.commands.BaseCommand;
+
+/**
+ * A provider that makes of each reading of one sensor one Command: extend it for your own sensor.
+ *
+ * @param <R> what one reading is
+ */
+public abstract class SensorProvider<R> extends UpProvider {
+    private final SensorSource<R> source;
+    private final boolean isLevel;
+    private R newest;
+    private BaseCommand waiting;
+    private Map<String, Object> last;
+
+    /** Takes its name, its sensor, and how often it sends. */
+    protected SensorProvider(String name, SensorSource<R> source, Cadence cadence) {
+        super(name, cadence);
+        this.source = source;
+        this.isLevel = cadence.isLevel();
+    }
+
+    /**
+     * Returns the Command of a reading, or null when there is nothing to tell.
+     *
+     * @throws IllegalArgumentException when the reading cannot be used (a sentence for the user)
+     */
+    protected abstract BaseCommand read(R reading);
+
+    /** Returns the newest reading that could be used since the start, or null. */
+    public final R newest() {
+        return newest;
+    }
+
+    @Override
+    protected final boolean isPresent() {
+        return source.isPresent();
+    }
+
+    @Override
+    protected final String sensorName() {
+        return source.name();
+    }
+
+    @Override
+    protected final void subscribe(long periodMs) {
+        newest = null;
+        waiting = null;
+        source.subscribe(periodMs, new SensorListener<R>() {
+            @Override
+            public void onReading(R reading) {
+                take(reading);
+            }
+        });
+    }
+
+    @Override
+    protected final void unsubscribe() {
+        source.unsubscribe();
+        newest = null;
+    }
+
+    @Override
+    protected final boolean transmit(Outlet to) {
+        boolean isTaken = to.sendNewest(name(), waiting);
+        if (isTaken) {
+            last = waiting.data();
+        }
+        return isTaken;
+    }
+
+    @Override
+    protected final String lastText() {
+        if (last == null) {
+            return "";
+        }
+        StringBuilder text = new StringBuilder();
+        for (Map.Entry<String, Object> field : last.entrySet()) {
+            text.append(text.length() == 0 ? "" : ", ");
+            text.append(field.getKey()).append(' ').append(field.getValue());
+        }
+        return text.toString();
+    }
+
+    private void take(R reading) {
+        BaseCommand command;
+        try {
+            command = read(reading);
+        } catch (RuntimeException fault) {
+            // A reading that is no good must not end the sensor's own thread or the others.
+            refuse("its reading cannot be used: " + sentence(fault));
+            return;
+        }
+        if (command != null) {
+            boolean isNews = !isLevel || waiting == null || !waiting.data().equals(command.data());
+            newest = reading;
+            waiting = command;
+            offer(isNews);
+        }
+    }
+}

@@ -1,0 +1,42 @@
+package org.raspilot.up.providers;
+
+/** A side of the device, seen by someone who looks at its screen held upright. */
+public enum Side {
+    /** The top edge. */
+    TOP(0, 1, 0),
+    /** The right edge. */
+    RIGHT(1, 0, 0),
+    /** The bottom edge. */
+    BOTTOM(0, -1, 0),
+    /** The left edge. */
+    LEFT(-1, 0, 0),
+    /** The screen. */
+    SCREEN(0, 0, 1),
+    /** The back. */
+    BACK(0, 0, -1);
+
+    private final int x;
+    private final int y;
+    private final int z;
+
+    Side(int x, int y, int z) {
+        this.x = x;
+        this.y = y;
+        this.z = z;
+    }
+
+    /** Returns the part of its direction along the device's axis to the right edge. */
+    int x() {
+        return x;
+    }
+
+    /** Returns the part of its direction along the device's axis to the top edge. */
+    int y() {
+        return y;
+    }
+
+    /** Returns the part of its direction along the device's axis out of the screen. */
+    int z() {
+        return z;
+    }
+}

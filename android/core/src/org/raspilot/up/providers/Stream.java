@@ -1,0 +1,147 @@
+package org.raspilot.up.providers;
+
+import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.loop.Loop;
+
+/** Decides when a provider sends: its newest reading, once, as its cadence and Panic allow. */
+final class Stream implements Panic.Listener {
+    private static final double NEVER = Double.POSITIVE_INFINITY;
+
+    private final Loop loop;
+    private final Panic panic;
+    private final Cadence cadence;
+    private final Sender sender;
+    private final RateMeter rate = new RateMeter();
+    private final Runnable pumping = new Runnable() {
+        @Override
+        public void run() {
+            pump();
+        }
+    };
+    private Cancellable timer;
+    private boolean isRunning;
+    private boolean isFirst;
+    private boolean isUnsent;
+    private long newestMs = -1;
+    private long lastMs;
+    private double dueMs;
+    private long sent;
+
+    /** What it drives: the provider. */
+    interface Sender {
+        /** Returns whether there is a link now. */
+        boolean isOpen();
+
+        /** Sends the newest reading; returns whether it left. */
+        boolean transmit();
+    }
+
+    Stream(Loop loop, Panic panic, Cadence cadence, Sender sender) {
+        this.loop = loop;
+        this.panic = panic;
+        this.cadence = cadence;
+        this.sender = sender;
+    }
+
+    /** Begins without a reading. */
+    void begin() {
+        isRunning = true;
+        isFirst = true;
+        isUnsent = false;
+        newestMs = -1;
+        panic.addListener(this);
+    }
+
+    /** Ends; nothing leaves any more. */
+    void end() {
+        isRunning = false;
+        cancel();
+        panic.removeListener(this);
+    }
+
+    /** Takes that a reading came just now; it leaves if it is news. */
+    void offer(boolean isNews) {
+        newestMs = loop.nowMs();
+        isUnsent |= isNews;
+        pump();
+    }
+
+    /** Takes that a new link is there: what is known and still true leaves at once. */
+    void reopen() {
+        isFirst = true;
+        isUnsent = newestMs >= 0;
+        pump();
+    }
+
+    @Override
+    public void onPanic(Panic now) {
+        pump();
+    }
+
+    /** Returns when the newest reading came; -1: none since the beginning. */
+    long newestMs() {
+        return newestMs;
+    }
+
+    /** Returns how many left. */
+    long sent() {
+        return sent;
+    }
+
+    /** Returns how many left in the last second, Hz. */
+    double hz() {
+        return rate.hz(loop.nowMs());
+    }
+
+    private void pump() {
+        cancel();
+        long nowMs = loop.nowMs();
+        double wantedMs = wantedMs();
+        if (wantedMs == NEVER || !sender.isOpen()) {
+            return;
+        }
+        if (nowMs >= wantedMs) {
+            emit(nowMs);
+            wantedMs = wantedMs();
+        }
+        if (wantedMs != NEVER) {
+            timer = loop.schedule(Math.max(1, (long) Math.ceil(wantedMs - nowMs)), pumping);
+        }
+    }
+
+    private double wantedMs() {
+        if (!isRunning || newestMs < 0) {
+            return NEVER;
+        }
+        if (isUnsent) {
+            if (isFirst) {
+                return 0;
+            }
+            return panic.isOn() ? Math.max(dueMs, lastMs + panic.delayMs()) : dueMs;
+        }
+        return cadence.isLevel() ? lastMs + panic.periodMs(cadence.repeatMs()) : NEVER;
+    }
+
+    private void emit(long nowMs) {
+        isUnsent = false;
+        if (nowMs - newestMs > cadence.worthMs()) {
+            return;
+        }
+        // A message that leaves late does not shift those after it, one that is a period late does.
+        boolean isInStep = !isFirst && nowMs < dueMs + cadence.periodMs();
+        dueMs = (isInStep ? dueMs : nowMs) + cadence.periodMs();
+        isFirst = false;
+        lastMs = nowMs;
+        if (sender.transmit()) {
+            sent++;
+            rate.happened(nowMs);
+        }
+    }
+
+    private void cancel() {
+        if (timer != null) {
+            timer.cancel();
+            timer = null;
+        }
+    }
+}
