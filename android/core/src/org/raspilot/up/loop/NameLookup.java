@@ -15,8 +15,8 @@ import java.util.concurrent.TimeUnit;
 /**
  * Looks names up on threads of its own, so that a slow name server holds nothing but its asker.
  *
- * <p>Whoever asks for a name that is being looked up waits for the same answer. Numeric addresses
- * need no thread. Threads that have nothing to do end after 5 s.
+ * <p>Whoever asks for a name that is being looked up waits for the same answer. IPv4
+ * addresses need no thread. Threads that have nothing to do end after 5 s.
  */
 final class NameLookup {
     private static final int MOST_THREADS = 4;
@@ -45,11 +45,12 @@ final class NameLookup {
     /** Looks a name or an address up; the asker hears later, never before this call returned. */
     void look(final String host, final Asker asker) {
         if (host == null || host.isEmpty()) {
-            tell(asker, null, "the host is empty");
-        } else if (isNumeric(host)) {
-            // No name server is asked for a numeric address.
-            final Answer answer = ask(host);
-            tell(asker, answer.addresses, answer.reason);
+            tell(asker, new Answer(null, "the host is empty"));
+            return;
+        }
+        final InetAddress numeric = numeric(host);
+        if (numeric != null) {
+            tell(asker, new Answer(new InetAddress[] {numeric}, null));
         } else if (askers.containsKey(host)) {
             askers.get(host).add(asker);
         } else {
@@ -57,6 +58,30 @@ final class NameLookup {
             waiting.add(asker);
             askers.put(host, waiting);
             lookAside(host);
+        }
+    }
+
+    /**
+     * Returns the IPv4 address that four decimal numbers are, without asking anybody; null: it is
+     * something else. The system's own reading asks the name server for what it cannot read.
+     */
+    static InetAddress numeric(String host) {
+        if (!host.matches("[0-9]{1,3}(\\.[0-9]{1,3}){3}")) {
+            return null;
+        }
+        final String[] words = host.split("\\.");
+        final byte[] bytes = new byte[words.length];
+        for (int i = 0; i < words.length; i++) {
+            final int number = Integer.parseInt(words[i]);
+            if (number > 255) {
+                return null;
+            }
+            bytes[i] = (byte) number;
+        }
+        try {
+            return InetAddress.getByAddress(bytes);
+        } catch (UnknownHostException impossible) {
+            throw new IllegalStateException(impossible);
         }
     }
 
@@ -87,18 +112,18 @@ final class NameLookup {
     /** Told one by one, so that what one asker throws keeps the answer from no other. */
     private void tellAll(String host, Answer answer) {
         for (Asker asker : askers.remove(host)) {
-            tell(asker, answer.addresses, answer.reason);
+            tell(asker, answer);
         }
     }
 
-    private void tell(final Asker asker, final InetAddress[] addresses, final String reason) {
+    private void tell(final Asker asker, final Answer answer) {
         loop.post(new Runnable() {
             @Override
             public void run() {
-                if (addresses == null) {
-                    asker.onUnknown(reason);
+                if (answer.addresses == null) {
+                    asker.onUnknown(answer.reason);
                 } else {
-                    asker.onAddresses(addresses);
+                    asker.onAddresses(answer.addresses);
                 }
             }
         });
@@ -113,11 +138,6 @@ final class NameLookup {
             // Android throws SecurityException where the app may not use the network.
             return new Answer(null, "the name " + host + " cannot be looked up: " + error);
         }
-    }
-
-    /** A name never has a colon; four decimal numbers are no name either. */
-    static boolean isNumeric(String host) {
-        return host.indexOf(':') >= 0 || host.matches("[0-9]{1,3}(\\.[0-9]{1,3}){3}");
     }
 
     /** Looks up, on the calling thread. */

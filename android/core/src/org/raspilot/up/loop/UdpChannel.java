@@ -113,6 +113,8 @@ final class UdpChannel implements UdpPort, Ready {
                 known.clear();
             }
             name = new Name();
+            name.address = NameLookup.numeric(host);
+            name.foundMs = loop.nowMs();
             known.put(host, name);
         }
         if (!name.isAsked && (name.address == null || loop.nowMs() - name.foundMs > NAME_LIFE_MS)) {

@@ -4,7 +4,7 @@ package org.raspilot.up.loop;
 public interface UdpPort {
     /**
      * Sends a datagram to {@code host}, a name or an address, and returns whether the system took
-     * it. A name is looked up at the first datagram, which is lost like every one before the
+     * it. An address is used at once. A name is looked up at the first datagram, which is lost like every one before the
      * answer; it is looked up again once a minute.
      */
     boolean send(byte[] datagram, String host, int port);

@@ -1,0 +1,27 @@
+package org.raspilot.up.loop;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+
+/** Keeps the faults that a loop told, for a test to look at. */
+public final class Faults implements FaultListener {
+    private final List<Throwable> all = Collections.synchronizedList(new ArrayList<Throwable>());
+
+    @Override
+    public void onFault(Throwable fault) {
+        all.add(fault);
+    }
+
+    /** Returns those until now. */
+    public List<Throwable> all() {
+        return new ArrayList<Throwable>(all);
+    }
+
+    /** Fails with the first fault as its cause when there was one. */
+    public void mustBeNone() {
+        if (!all.isEmpty()) {
+            throw new AssertionError("a call threw", all.get(0));
+        }
+    }
+}

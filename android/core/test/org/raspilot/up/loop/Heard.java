@@ -1,0 +1,57 @@
+package org.raspilot.up.loop;
+
+import java.io.ByteArrayOutputStream;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.Callable;
+
+/** Keeps what a TCP connection told; to be looked at on the loop. */
+class Heard implements TcpListener {
+    final List<String> told = new ArrayList<String>();
+    final ByteArrayOutputStream bytes = new ByteArrayOutputStream();
+
+    @Override
+    public void onConnected() {
+        told.add("connected");
+    }
+
+    @Override
+    public void onBytes(byte[] read, int length) {
+        bytes.write(read, 0, length);
+    }
+
+    @Override
+    public void onWritable() {
+        told.add("writable");
+    }
+
+    @Override
+    public void onClosed(String reason) {
+        told.add(reason);
+    }
+
+    /** Returns whether something was told that begins so. */
+    Callable<Boolean> has(final String beginning) {
+        return new Callable<Boolean>() {
+            @Override
+            public Boolean call() {
+                for (String each : told) {
+                    if (each.startsWith(beginning)) {
+                        return true;
+                    }
+                }
+                return false;
+            }
+        };
+    }
+
+    /** Returns whether so many bytes came. */
+    Callable<Boolean> hasBytes(final int count) {
+        return new Callable<Boolean>() {
+            @Override
+            public Boolean call() {
+                return bytes.size() >= count;
+            }
+        };
+    }
+}

@@ -1,0 +1,121 @@
+package org.raspilot.up.loop;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertTrue;
+import static org.junit.Assert.fail;
+
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+import org.junit.Test;
+
+public final class ManualLoopTest {
+    private final Faults faults = new Faults();
+    private final ManualLoop loop = new ManualLoop(null, faults);
+    private final List<String> done = new ArrayList<String>();
+
+    @Test
+    public void timersRunInTheOrderOfTheirTimesEachAtItsOwn() {
+        loop.schedule(30, note("c"));
+        loop.schedule(10, note("a"));
+        loop.schedule(20, note("b"));
+        loop.schedule(10, note("a too"));
+        loop.advance(25);
+        assertEquals(Arrays.asList("a at 10", "a too at 10", "b at 20"), done);
+        assertEquals(25, loop.nowMs());
+        assertEquals(30, loop.nextDueMs());
+        assertEquals(1, loop.pendingTimers());
+    }
+
+    @Test
+    public void aCancelledTimerDoesNotRun() {
+        final Cancellable first = loop.schedule(10, note("first"));
+        final Cancellable second = loop.schedule(20, note("second"));
+        assertTrue(second.isPending());
+        second.cancel();
+        assertFalse(second.isPending());
+        loop.advance(10);
+        assertFalse(first.isPending());
+        first.cancel();
+        second.cancel();
+        loop.advance(100);
+        assertEquals(Arrays.asList("first at 10"), done);
+        assertEquals(-1, loop.nextDueMs());
+    }
+
+    @Test
+    public void timersAndCallsOfACallRunInTheSameStep() {
+        loop.schedule(10, new Runnable() {
+            @Override
+            public void run() {
+                loop.schedule(5, note("later"));
+                loop.schedule(-5, note("now"));
+                loop.post(note("posted"));
+            }
+        });
+        loop.advance(20);
+        assertEquals(Arrays.asList("posted at 10", "now at 10", "later at 15"), done);
+    }
+
+    @Test
+    public void whatWasPostedRunsWithoutTimePassing() {
+        loop.post(note("posted"));
+        assertEquals(0, loop.nextDueMs());
+        loop.advance(0);
+        assertEquals(Arrays.asList("posted at 0"), done);
+        assertEquals(-1, loop.nextDueMs());
+    }
+
+    @Test
+    public void whatOneCallThrowsIsToldAndHarmsNoOther() {
+        final IllegalStateException fault = new IllegalStateException("broken");
+        final NoSuchMethodError error = new NoSuchMethodError("newer than this phone");
+        loop.schedule(10, thrower(fault));
+        loop.schedule(10, note("other"));
+        loop.post(thrower(error));
+        loop.advance(10);
+        assertEquals(Arrays.asList("other at 10"), done);
+        assertEquals(Arrays.<Throwable>asList(error, fault), faults.all());
+        assertEquals(2, loop.faults());
+    }
+
+    @Test
+    public void timeDoesNotGoBack() {
+        try {
+            loop.advance(-1);
+            fail("it went back");
+        } catch (IllegalArgumentException expected) {
+            assertEquals("time does not go back: -1", expected.getMessage());
+        }
+    }
+
+    @Test
+    public void aDelayOfCenturiesIsNotThePast() {
+        loop.advance(1000);
+        loop.schedule(Long.MAX_VALUE, note("never"));
+        loop.advance(1000000000000L);
+        assertTrue(done.isEmpty());
+    }
+
+    private Runnable note(final String name) {
+        return new Runnable() {
+            @Override
+            public void run() {
+                done.add(name + " at " + loop.nowMs());
+            }
+        };
+    }
+
+    private static Runnable thrower(final Throwable fault) {
+        return new Runnable() {
+            @Override
+            public void run() {
+                if (fault instanceof Error) {
+                    throw (Error) fault;
+                }
+                throw (RuntimeException) fault;
+            }
+        };
+    }
+}

@@ -1,0 +1,169 @@
+package org.raspilot.up.loop;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertTrue;
+
+import java.io.IOException;
+import java.net.DatagramPacket;
+import java.net.DatagramSocket;
+import java.net.InetAddress;
+import java.nio.channels.SelectableChannel;
+import java.nio.channels.SelectionKey;
+import java.nio.channels.Selector;
+import java.nio.channels.spi.AbstractSelectableChannel;
+import java.nio.channels.spi.AbstractSelectionKey;
+import java.nio.channels.spi.AbstractSelector;
+import java.nio.channels.spi.SelectorProvider;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+import java.util.concurrent.Callable;
+import org.junit.Rule;
+import org.junit.Test;
+
+public final class SocketSelectorTest {
+    private final List<Selector> opened = new ArrayList<Selector>();
+    private final List<String> heard = new ArrayList<String>();
+
+    @Rule
+    public final RunningLoop running = new RunningLoop(new SocketSelector() {
+        @Override
+        Selector openSelector() throws IOException {
+            final Selector next = opened.isEmpty() ? new Spinner() : super.openSelector();
+            opened.add(next);
+            return next;
+        }
+    }, new SystemResolver());
+
+    @Test
+    public void aSelectorThatReturnsWithoutReasonIsReplacedAndItsSocketsMove() throws Exception {
+        final DatagramSocket peer = new DatagramSocket(0, InetAddress.getByName("127.0.0.1"));
+        peer.setSoTimeout(20000);
+        final UdpPort port = running.call(new Callable<UdpPort>() {
+            @Override
+            public UdpPort call() throws IOException {
+                return running.loop.openUdp(new UdpListener() {
+                    @Override
+                    public void onDatagram(byte[] bytes, int length, String host, int from) {
+                        heard.add(host);
+                    }
+                });
+            }
+        });
+        running.call(new Callable<Boolean>() {
+            @Override
+            public Boolean call() {
+                return port.send(new byte[1], "127.0.0.1", peer.getLocalPort());
+            }
+        });
+        final DatagramPacket packet = new DatagramPacket(new byte[1], 1);
+        peer.receive(packet);
+        peer.send(packet);
+        running.await("a datagram by the new selector", new Callable<Boolean>() {
+            @Override
+            public Boolean call() {
+                return heard.size() == 1;
+            }
+        });
+        peer.close();
+        final long before = running.loop.rounds();
+        running.pass(300);
+        assertEquals(2, opened.size());
+        final long rounds = running.loop.rounds() - before;
+        assertTrue("woke " + rounds + " times", rounds <= 6);
+        running.faults.mustBeNone();
+    }
+
+    /** A selector that never sleeps and never sees anything. */
+    private static final class Spinner extends AbstractSelector {
+        private final Set<SelectionKey> keys = new HashSet<SelectionKey>();
+        private final Set<SelectionKey> selected = new HashSet<SelectionKey>();
+
+        Spinner() {
+            super(SelectorProvider.provider());
+        }
+
+        @Override
+        protected SelectionKey register(AbstractSelectableChannel channel, int operations,
+                Object attachment) {
+            final SelectionKey key = new Key(this, channel, operations);
+            key.attach(attachment);
+            keys.add(key);
+            return key;
+        }
+
+        @Override
+        protected void implCloseSelector() {
+            keys.clear();
+        }
+
+        @Override
+        public Set<SelectionKey> keys() {
+            return keys;
+        }
+
+        @Override
+        public Set<SelectionKey> selectedKeys() {
+            return selected;
+        }
+
+        @Override
+        public int selectNow() {
+            return 0;
+        }
+
+        @Override
+        public int select(long timeoutMs) {
+            return 0;
+        }
+
+        @Override
+        public int select() {
+            return 0;
+        }
+
+        @Override
+        public Selector wakeup() {
+            return this;
+        }
+    }
+
+    /** A key of it. */
+    private static final class Key extends AbstractSelectionKey {
+        private final Selector selector;
+        private final SelectableChannel channel;
+        private final int operations;
+
+        Key(Selector selector, SelectableChannel channel, int operations) {
+            this.selector = selector;
+            this.channel = channel;
+            this.operations = operations;
+        }
+
+        @Override
+        public SelectableChannel channel() {
+            return channel;
+        }
+
+        @Override
+        public Selector selector() {
+            return selector;
+        }
+
+        @Override
+        public int interestOps() {
+            return operations;
+        }
+
+        @Override
+        public SelectionKey interestOps(int wanted) {
+            return this;
+        }
+
+        @Override
+        public int readyOps() {
+            return 0;
+        }
+    }
+}
