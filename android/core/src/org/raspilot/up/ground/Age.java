@@ -54,6 +54,11 @@ public final class Age {
         return new Age(true, false, receivedMs, Math.max(0, wayMs), copy);
     }
 
+    /** Returns the same age of a frame that was so long on its way. */
+    Age ofWay(long anotherMs) {
+        return new Age(isKnown, isLinkLost, receivedMs, Math.max(0, anotherMs), onBoardMs);
+    }
+
     /** Returns the same age after the link was lost: everything is stale from now on. */
     Age ofLostLink() {
         return new Age(isKnown, true, receivedMs, wayMs, onBoardMs);

@@ -1,7 +1,10 @@
 package org.raspilot.up.ground;
 
+import java.util.ArrayList;
 import java.util.Collections;
+import java.util.EnumMap;
 import java.util.List;
+import java.util.Map;
 
 /**
  * The alarms that are on: one begins at once and ends {@link #OVER_MS} after its cause. Only on
@@ -10,6 +13,12 @@ import java.util.List;
 public final class Alarms {
     /** An alarm ends when its cause has been away for so long, ms. */
     public static final long OVER_MS = 2000;
+    /** The airborne phone's battery is low below this, percent. */
+    public static final double BATTERY_LOW = 20;
+    /** The airborne phone's battery is nearly empty below this, percent. */
+    public static final double BATTERY_EMPTY = 10;
+
+    private static final double BATTERY_BACK = 3;
 
     /** The alarms of a moment. Immutable. */
     public static final class Snapshot {
@@ -52,10 +61,111 @@ public final class Alarms {
         }
     }
 
+    private final Map<Alarm.Kind, Long> causeMs = new EnumMap<Alarm.Kind, Long>(Alarm.Kind.class);
+    private final Map<Alarm.Kind, Alarm> known = new EnumMap<Alarm.Kind, Alarm>(Alarm.Kind.class);
+    private boolean hadBoard;
     private Snapshot snapshot = new Snapshot(0, Collections.<Alarm>emptyList());
+
+    Alarms() {
+    }
 
     /** Returns the alarms of now. */
     public Snapshot snapshot() {
         return snapshot;
+    }
+
+    /** Ends all: nobody listens to the aircraft any more. */
+    void clear() {
+        causeMs.clear();
+        known.clear();
+        hadBoard = false;
+        publish();
+    }
+
+    /** Looks at the moment; true: what is wrong has changed. */
+    boolean take(Telemetry telemetry, GroundStatus status, long nowMs) {
+        hadBoard = hadBoard || Boolean.TRUE.equals(Fact.board(telemetry));
+        for (Alarm each : wrong(telemetry, status)) {
+            known.put(each.kind(), each);
+            causeMs.put(each.kind(), nowMs);
+        }
+        for (Alarm.Kind kind : Alarm.Kind.values()) {
+            final Long lastMs = causeMs.get(kind);
+            if (lastMs != null && nowMs - lastMs >= OVER_MS) {
+                causeMs.remove(kind);
+                known.remove(kind);
+            }
+        }
+        return publish();
+    }
+
+    private boolean publish() {
+        final List<Alarm> active = new ArrayList<Alarm>(known.values());
+        if (active.equals(snapshot.active())) {
+            return false;
+        }
+        snapshot = new Snapshot(snapshot.version() + 1, Collections.unmodifiableList(active));
+        return true;
+    }
+
+    private List<Alarm> wrong(Telemetry telemetry, GroundStatus status) {
+        final List<Alarm> found = new ArrayList<Alarm>();
+        // Before the first frame nothing went silent.
+        if (telemetry != Telemetry.NOTHING && status.isSilent()) {
+            found.add(new Alarm(Alarm.Kind.SILENT, EventLevel.ALARM, silence(status)));
+        }
+        if (isTrue(telemetry, "arduino.failsafe")) {
+            found.add(new Alarm(Alarm.Kind.FAILSAFE, EventLevel.ALARM,
+                    "failsafe: the board flies without a receiver"));
+        } else if (isFalse(telemetry, "arduino.receiver_valid")) {
+            found.add(new Alarm(Alarm.Kind.RECEIVER, isTrue(telemetry, "armed")
+                    ? EventLevel.ALARM : EventLevel.WARNING, "the receiver is lost"));
+        }
+        if (isFalse(telemetry, "arduino.imu_valid")) {
+            found.add(new Alarm(Alarm.Kind.IMU, EventLevel.ALARM,
+                    "the IMU is invalid: nothing stabilises"));
+        }
+        if (Fact.NOT_YET.equals(Fact.board(telemetry)) && !hadBoard) {
+            found.add(new Alarm(Alarm.Kind.BOARD, EventLevel.WARNING,
+                    "the board is not here yet"));
+        } else if (isFalse(telemetry, "arduino.connected")) {
+            found.add(new Alarm(Alarm.Kind.BOARD, EventLevel.ALARM, "the board is gone"));
+        }
+        if (Boolean.FALSE.equals(Fact.phone(telemetry))) {
+            found.add(new Alarm(Alarm.Kind.PHONE, EventLevel.WARNING, "the phone is gone"));
+        }
+        if (isTrue(telemetry, "load.panic")) {
+            found.add(new Alarm(Alarm.Kind.PANIC, EventLevel.WARNING,
+                    "panic: every sender slows down"));
+        }
+        final Double percent = telemetry.number("android.batteryLevel");
+        final double low = BATTERY_LOW
+                + (known.containsKey(Alarm.Kind.BATTERY) ? BATTERY_BACK : 0);
+        if (percent != null && percent < low) {
+            final boolean isEmpty = percent < BATTERY_EMPTY;
+            found.add(new Alarm(Alarm.Kind.BATTERY,
+                    isEmpty ? EventLevel.ALARM : EventLevel.WARNING,
+                    "the phone's battery is " + (isEmpty ? "nearly empty" : "low")));
+        }
+        return found;
+    }
+
+    /** The same words as long as the same is wrong: an alarm must not blink with each attempt. */
+    private static String silence(GroundStatus status) {
+        if (!status.isOpen()) {
+            return "no link";
+        }
+        if (Boolean.FALSE.equals(status.isAircraftOnline())) {
+            return "the aircraft is not connected to the proxy";
+        }
+        return status.isLate() ? "telemetry comes too late" : "the aircraft is silent";
+    }
+
+    private static boolean isTrue(Telemetry telemetry, String path) {
+        return Boolean.TRUE.equals(telemetry.flag(path));
+    }
+
+    private static boolean isFalse(Telemetry telemetry, String path) {
+        return Boolean.FALSE.equals(telemetry.flag(path));
     }
 }

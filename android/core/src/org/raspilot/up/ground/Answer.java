@@ -36,7 +36,8 @@ public final class Answer {
         this.data = data;
     }
 
-    static Answer refused(String name, String code, String reason) {
+    /** Returns the answer to a Command that was not sent; {@code code} as in {@link #code}. */
+    public static Answer refused(String name, String code, String reason) {
         return new Answer(Outcome.REFUSED, name, code, reason, null, null);
     }
 

@@ -1,6 +1,6 @@
 package org.raspilot.up.ground;
 
-import java.util.Locale;
+import java.math.BigDecimal;
 
 /** One gain that differs between two sets. Immutable. */
 public final class GainChange {
@@ -36,8 +36,15 @@ public final class GainChange {
         return key.words() + " " + from + number(after);
     }
 
-    private static String number(double value) {
-        final String text = String.format(Locale.ROOT, "%.4f", value);
-        return text.replaceFirst("\\.?0+$", "");
+    /** Returns a gain as the shortest text that is this number, without an exponent. */
+    static String number(double value) {
+        if (Double.isNaN(value) || Double.isInfinite(value)) {
+            return String.valueOf(value);
+        }
+        // The board holds gains in single precision: 0.1f is not 0.10000000149.
+        final boolean isSingle = (float) value == value;
+        final String text = isSingle ? Float.toString((float) value) : Double.toString(value);
+        final String plain = new BigDecimal(text).toPlainString();
+        return plain.contains(".") ? plain.replaceFirst("\\.?0+$", "") : plain;
     }
 }

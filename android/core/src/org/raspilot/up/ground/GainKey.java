@@ -19,6 +19,9 @@ public final class GainKey {
     /** All 27 gains: loops, in them axes, in them terms. */
     public static final List<GainKey> ALL = all();
 
+    /** How many gains a loop has. */
+    static final int IN_LOOP = 9;
+
     private static final String[] LOOP_WORDS = {"rate", "stabilize", "navigation"};
     private static final String[] AXIS_WORDS = {"roll", "pitch", "yaw"};
 
@@ -57,13 +60,22 @@ public final class GainKey {
         return LOOP_WORDS[loop] + " " + AXIS_WORDS[axis] + " " + term().toUpperCase(Locale.ROOT);
     }
 
+    /** Says whether it is the rudder's, which a set may leave out. */
+    boolean isRudder() {
+        return axis == 2;
+    }
+
+    /** Says whether a set has its loop. */
+    boolean isIn(GainSet set) {
+        return loopOf(set) != null;
+    }
+
     /** Returns this gain of a set; null: the set has none or is null. */
     public Double of(GainSet set) {
         if (set == null) {
             return null;
         }
-        final LoopGains inLoop =
-                loop == 0 ? set.rate() : loop == 1 ? set.stabilize() : set.navigation();
+        final LoopGains inLoop = loopOf(set);
         if (inLoop == null) {
             return null;
         }
@@ -78,6 +90,10 @@ public final class GainKey {
     @Override
     public String toString() {
         return path();
+    }
+
+    private LoopGains loopOf(GainSet set) {
+        return loop == 0 ? set.rate() : loop == 1 ? set.stabilize() : set.navigation();
     }
 
     private static List<GainKey> all() {

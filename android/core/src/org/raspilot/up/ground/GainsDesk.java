@@ -1,14 +1,26 @@
 package org.raspilot.up.ground;
 
+import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
+import java.util.Map;
+import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.commands.PidTuningsCommand;
+import org.raspilot.up.loop.Loop;
 
 /** Asks for the gains, knows what flies now, sets them whole and undoes it. Only on the loop. */
 public final class GainsDesk {
-    /** So many sets are remembered. */
+    /** So many sets are remembered, and so many can be undone. */
     public static final int KEPT = 50;
+    /** What the aircraft tells of its gains. */
+    static final String VALUES = "arduino.pids.values";
+
+    /** The board holds gains in single precision. */
+    private static final double SINGLE = 1e-6;
+    private static final double NEAR_ZERO = 1e-9;
 
     /** The gains of a moment. Immutable. */
     public static final class Snapshot {
@@ -32,7 +44,7 @@ public final class GainsDesk {
             return version;
         }
 
-        /** Returns what the aircraft said last that flies; null: it has not said, or is asked. */
+        /** Returns what the aircraft said last that flies; null: it has not said yet. */
         public GainSet flying() {
             return flying;
         }
@@ -53,20 +65,45 @@ public final class GainsDesk {
         }
     }
 
-    private Snapshot snapshot = new Snapshot(0, null, null, null,
-            Collections.<GainsEntry>emptyList());
+    /** Sends a Command as {@link GroundSide#send} does. */
+    interface Sender {
+        void send(BaseCommand command, Long shownBeacon, AnswerListener listener);
+    }
 
-    GainsDesk() {
+    private final Loop loop;
+    private final Sender sender;
+    private final ArrayDeque<GainsEntry> history = new ArrayDeque<GainsEntry>();
+    private final ArrayDeque<GainSet> undoable = new ArrayDeque<GainSet>();
+    private GainSet flying;
+    private Long toldMs;
+    private int number;
+    private boolean isDue = true;
+    private long version;
+    private Snapshot snapshot;
+
+    GainsDesk(Loop loop, Sender sender) {
+        this.loop = loop;
+        this.sender = sender;
+    }
+
+    /** Returns a number that rises with each change. */
+    public long version() {
+        return version;
     }
 
     /** Returns the gains of now. */
     public Snapshot snapshot() {
+        if (snapshot == null || snapshot.version() != version) {
+            snapshot = new Snapshot(version, flying, toldMs, undoable.peekLast(),
+                    Collections.unmodifiableList(new ArrayList<GainsEntry>(history)));
+        }
         return snapshot;
     }
 
     /** Asks the aircraft which gains fly; the answer's data are they. */
     public void ask(AnswerListener listener) {
-        listener.onAnswer(Answer.refused("arduino.pids.tunings", "no_link", "there is no link"));
+        isDue = false;
+        sender.send(PidTuningsCommand.request(), null, listener);
     }
 
     /**
@@ -75,16 +112,122 @@ public final class GainsDesk {
      * @param shownBeacon the beacon of the frame that the screen shows; null: none
      */
     public void set(GainSet gains, Long shownBeacon, AnswerListener listener) {
-        ask(listener);
+        transmit(gains, shownBeacon, listener, false);
     }
 
     /** Sets what flew before the newest set that was carried out and not yet undone. */
     public void undo(Long shownBeacon, AnswerListener listener) {
-        ask(listener);
+        final GainSet before = undoable.peekLast();
+        if (before == null) {
+            listener.onAnswer(Answer.refused(PidTuningsCommand.NAME, "invalid",
+                    "there is no set of gains to undo"));
+        } else {
+            transmit(before, shownBeacon, listener, true);
+        }
     }
 
     /** Returns the gains of {@code form} that differ from those of {@code flying} (or null). */
     public static List<GainChange> difference(GainSet flying, GainSet form) {
-        return Collections.unmodifiableList(new ArrayList<GainChange>());
+        final List<GainChange> changes = new ArrayList<GainChange>();
+        for (GainKey key : GainKey.ALL) {
+            final Double before = key.of(flying);
+            final Double after = key.of(form);
+            if (after != null && !isSame(before, after)) {
+                changes.add(new GainChange(key, before, after));
+            }
+        }
+        return Collections.unmodifiableList(changes);
+    }
+
+    /**
+     * Returns the gains that a Command sets; null: it sets none.
+     *
+     * @throws InvalidCommandException with one sentence when they are no whole set
+     */
+    static GainSet gainsOf(BaseCommand command) {
+        final Object pids = command.data().get("pids");
+        if (!command.name().equals(PidTuningsCommand.NAME) || Answers.isRequest(command)) {
+            return null;
+        }
+        if (!(pids instanceof Map)) {
+            throw new InvalidCommandException("pids is missing");
+        }
+        @SuppressWarnings("unchecked")
+        final Map<String, Object> data = (Map<String, Object>) pids;
+        return GainSet.ofData(data);
+    }
+
+    /** Takes what the aircraft says that flies; false: it is no set of gains. */
+    boolean told(Map<String, Object> values) {
+        try {
+            flying = GainSet.ofData(values);
+        } catch (InvalidCommandException fault) {
+            return false;
+        }
+        toldMs = loop.nowMs();
+        version++;
+        return true;
+    }
+
+    /** Hears that the aircraft may fly others: the link is another one. */
+    void want() {
+        isDue = true;
+    }
+
+    /** Asks for the gains where they are due; called while Commands can be sent. */
+    void onMoment() {
+        if (isDue) {
+            ask(new AnswerListener() {
+                @Override
+                public void onAnswer(Answer answer) {
+                    // Asked by itself: once. What came is told; the pilot can ask again.
+                }
+            });
+        }
+    }
+
+    private void transmit(final GainSet gains, Long shownBeacon, final AnswerListener listener,
+            final boolean isUndo) {
+        final String fault = GainsForm.fault(gains);
+        if (fault != null) {
+            listener.onAnswer(Answer.refused(PidTuningsCommand.NAME, "invalid", fault));
+            return;
+        }
+        final GainSet before = flying;
+        sender.send(new PidTuningsCommand(gains), shownBeacon, new AnswerListener() {
+            @Override
+            public void onAnswer(Answer answer) {
+                if (answer.outcome() != Answer.Outcome.REFUSED) {
+                    remember(before, gains, answer, isUndo);
+                }
+                listener.onAnswer(answer);
+            }
+        });
+    }
+
+    private void remember(GainSet before, GainSet after, Answer answer, boolean isUndo) {
+        number++;
+        history.add(new GainsEntry(number, loop.nowMs(), before, after, answer));
+        if (history.size() > KEPT) {
+            history.remove();
+        }
+        if (answer.isAck()) {
+            if (isUndo) {
+                undoable.remove(after);
+            } else if (before != null) {
+                undoable.add(before);
+            }
+            if (undoable.size() > KEPT) {
+                undoable.remove();
+            }
+        }
+        // After a timeout nobody knows which gains fly, until the aircraft has told.
+        isDue |= answer.outcome() != Answer.Outcome.NACK;
+        version++;
+    }
+
+    private static boolean isSame(Double before, double after) {
+        return before != null && Math.abs(before - after)
+                <= Math.max(NEAR_ZERO, SINGLE * Math.max(Math.abs(before), Math.abs(after)));
     }
 }

@@ -8,7 +8,7 @@ public interface GroundListener {
      */
     void onTelemetry(Telemetry telemetry);
 
-    /** Takes the status, when it has changed. */
+    /** Takes the status: when something of it has changed, and each second for its figures. */
     void onStatus(GroundStatus status);
 
     /** Hears that track, events, alarms or gains have changed: their versions say which. */

@@ -3,7 +3,12 @@ package org.raspilot.up.ground;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandExecutor;
+import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.commands.TelemetryCommand;
+import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.wire.GeneralMessage;
 
 /**
  * The ground's end of the link: telemetry in, Commands out, the seat, and what a screen shows.
@@ -12,6 +17,31 @@ import org.raspilot.up.loop.Loop;
  * 4.5.2, docs/protocols.md 4, 6 and 9.
  */
 public final class GroundSide implements TelemetrySource {
+    /** So often, ms, what time alone changes is looked at. */
+    private static final long TICK_MS = 250;
+    private static final long STATUS_MS = 1000;
+
+    private final Loop loop;
+    private final GroundSettings settings;
+    private final CommandExecutor executor;
+    private final GroundListener listener;
+    private final GroundLink link;
+    private final TelemetryStream stream = new TelemetryStream();
+    private final SeenBeacons beacons = new SeenBeacons();
+    private final Answers answers;
+    private final CommandDesk desk;
+    private final GainsDesk gains;
+    private final HomeSearch home = new HomeSearch();
+    private final Track track = new Track();
+    private final EventLog events = new EventLog();
+    private final Alarms alarms = new Alarms();
+    private final Judge judge = new Judge(events, alarms);
+    private Cancellable tick;
+    private Cancellable silence;
+    private boolean wasSilent = true;
+    private long statusMs;
+    private long toldVersions;
+
     /**
      * Makes a ground that is not started.
      *
@@ -21,81 +51,279 @@ public final class GroundSide implements TelemetrySource {
      */
     public GroundSide(Loop loop, GroundSettings settings, TokenStore tokens,
             CommandExecutor executor, GroundListener listener, Random random) {
+        this.loop = loop;
+        this.settings = settings;
+        this.executor = executor;
+        this.listener = listener;
+        link = new GroundLink(loop, settings, tokens, new Links(), random);
+        answers = new Answers(loop, random);
+        desk = new CommandDesk(loop, settings, link, answers, beacons);
+        gains = new GainsDesk(loop, new GainsDesk.Sender() {
+            @Override
+            public void send(BaseCommand command, Long shownBeacon, AnswerListener answered) {
+                transmit(command, shownBeacon, answered);
+            }
+        });
     }
 
     /** Begins to connect, and connects again after each loss; started already, without effect. */
     public void start() {
+        if (tick == null) {
+            judge.forget();
+            stream.forget();
+            tick();
+            link.start();
+        }
     }
 
     /** Gives the link up; Commands that wait for their answer hear that it is lost. */
     public void stop() {
+        if (tick != null) {
+            tick.cancel();
+            tick = null;
+            cancelSilence();
+            link.stop();
+            judge.forget();
+            tellChanged();
+        }
     }
 
     /** Tries at once, as when the phone's network came back. */
     public void reconnectNow() {
+        link.reconnectNow();
     }
 
     /** Returns the status of now. */
     public GroundStatus status() {
-        return new GroundStatus(new GroundStatus.Draft());
+        final long nowMs = loop.nowMs();
+        final Telemetry newest = stream.newest();
+        final GroundStatus.Draft draft = new GroundStatus.Draft();
+        draft.link = link.facts();
+        draft.isDirect = settings.isDirect();
+        draft.rateHz = stream.rateHz(nowMs);
+        draft.isSilent = newest.isSilent(nowMs);
+        draft.isLate = newest.age().isLate(nowMs);
+        draft.role = newest.text("ground.role");
+        draft.tuneInFlight = newest.flag("ground.tune_in_flight");
+        draft.home = home.home();
+        draft.counters = new GroundCounters(draft.link.connections, stream.frames(),
+                stream.lost(), draft.link.malformed, link.tooLong(), draft.link.strangeControl,
+                answers.strange());
+        return new GroundStatus(draft);
     }
 
     @Override
     public Telemetry telemetry() {
-        return Telemetry.NOTHING;
+        return stream.newest();
     }
 
     /** Returns the way that the aircraft has come. */
     public Track track() {
-        return null;
+        return track;
     }
 
     /** Returns what happened. */
     public EventLog events() {
-        return null;
+        return events;
     }
 
     /** Returns what is wrong. */
     public Alarms alarms() {
-        return null;
+        return alarms;
     }
 
     /** Returns the gains. */
     public GainsDesk gains() {
-        return null;
+        return gains;
     }
 
     /** Hears that the screen has drawn the frame with that beacon; null: one without. */
     public void seen(Long beacon) {
+        beacons.seen(beacon);
     }
 
     /** Sends a Command with the newest beacon that was {@link #seen}. */
-    public void send(BaseCommand command, AnswerListener listener) {
-        send(command, null, listener);
+    public void send(BaseCommand command, AnswerListener answered) {
+        send(command, beacons.newestSeen(), answered);
     }
 
     /**
      * Sends a Command once, never again by itself, or refuses it with a sentence.
      *
      * @param shownBeacon the beacon of the frame that the screen shows; null: none is shown
-     * @param listener hears what became of it, once
+     * @param answered hears what became of it, once
      */
-    public void send(BaseCommand command, Long shownBeacon, AnswerListener listener) {
-        listener.onAnswer(Answer.refused(command.name(), "no_link", "there is no link"));
+    public void send(BaseCommand command, Long shownBeacon, AnswerListener answered) {
+        final GainSet set;
+        try {
+            set = GainsDesk.gainsOf(command);
+        } catch (InvalidCommandException fault) {
+            answered.onAnswer(Answer.refused(command.name(), "invalid", fault.getMessage()));
+            return;
+        }
+        if (set == null) {
+            transmit(command, shownBeacon, answered);
+        } else {
+            gains.set(set, shownBeacon, answered);
+        }
+        tellChanged();
     }
 
-    /** Asks for the seat; a free one is given at once. False: there is nobody to ask. */
+    /** Asks for the seat; a free one is given at once. False: nobody can be asked now. */
     public boolean requestSeat() {
-        return false;
+        return link.requestSeat();
     }
 
     /** Hands the seat to the listener with that number. False: it is not ours. */
     public boolean giveSeat(int to) {
-        return false;
+        return link.giveSeat(to);
     }
 
     /** Leaves the seat free. False: it is not ours. */
     public boolean releaseSeat() {
-        return false;
+        return link.releaseSeat();
+    }
+
+    /** Forgets who asked for the seat: the pilot keeps it. */
+    public void dismissSeatAsk() {
+        link.dismissAsk();
+    }
+
+    private void transmit(final BaseCommand command, Long shownBeacon,
+            final AnswerListener answered) {
+        final GainSet set = command.data().containsKey("pids")
+                ? GainsDesk.gainsOf(command) : null;
+        final String words = set == null ? CommandWords.of(command) : CommandWords.ofGains(
+                GainsDesk.difference(gains.snapshot().flying(), set));
+        final boolean isQuiet = Answers.isRequest(command);
+        desk.send(command, shownBeacon, new AnswerListener() {
+            @Override
+            public void onAnswer(Answer answer) {
+                if (answer.outcome() != Answer.Outcome.REFUSED && !(isQuiet && answer.isAck())) {
+                    events.note(loop.nowMs(),
+                            answer.isAck() ? EventLevel.INFO : EventLevel.WARNING,
+                            set == null ? "command" : "gains",
+                            CommandWords.outcome(words, answer));
+                }
+                answered.onAnswer(answer);
+                tellChanged();
+            }
+        });
+    }
+
+    private void onFrame(GeneralMessage message) {
+        final long nowMs = loop.nowMs();
+        final Telemetry frame = stream.take(message, nowMs);
+        beacons.onFrame(frame);
+        home.take(frame);
+        track.take(frame, home.home(), nowMs);
+        watchSilence(frame, nowMs);
+        judge.onFrame(frame, status(), nowMs);
+        executor.executeCommand(new TelemetryCommand(message));
+        listener.onTelemetry(frame);
+        if (wasSilent != frame.isSilent(nowMs)) {
+            tellStatus();
+        }
+        if (desk.standing() == SeatStanding.OURS && !frame.isSilent(nowMs)) {
+            gains.onMoment();
+        }
+        tellChanged();
+    }
+
+    /** Sees to it that silence is told when it begins, not when something happens. */
+    private void watchSilence(Telemetry frame, long nowMs) {
+        cancelSilence();
+        final Long ageMs = frame.ageMs(nowMs);
+        if (ageMs != null && ageMs <= Age.SILENT_MS) {
+            silence = loop.schedule(Age.SILENT_MS + 1 - ageMs, new Runnable() {
+                @Override
+                public void run() {
+                    judge.onMoment(stream.newest(), status(), loop.nowMs());
+                    tellStatus();
+                    tellChanged();
+                }
+            });
+        }
+    }
+
+    private void cancelSilence() {
+        if (silence != null) {
+            silence.cancel();
+            silence = null;
+        }
+    }
+
+    private void tick() {
+        tick = loop.schedule(TICK_MS, new Runnable() {
+            @Override
+            public void run() {
+                tick();
+                judge.onMoment(stream.newest(), status(), loop.nowMs());
+                if (loop.nowMs() - statusMs >= STATUS_MS) {
+                    tellStatus();
+                }
+                tellChanged();
+            }
+        });
+    }
+
+    private void tellStatus() {
+        statusMs = loop.nowMs();
+        final GroundStatus status = status();
+        wasSilent = status.isSilent();
+        listener.onStatus(status);
+    }
+
+    private void tellChanged() {
+        // Each of them only rises, and so does their sum.
+        final long versions = track.version() + events.version()
+                + alarms.snapshot().version() + gains.version();
+        if (versions != toldVersions) {
+            toldVersions = versions;
+            listener.onChanged();
+        }
+    }
+
+    private final class Links implements LinkListener {
+        @Override
+        public void onMessage(GeneralMessage message) {
+            if (message.name().equals(Telemetry.NAME)) {
+                onFrame(message);
+                return;
+            }
+            if (message.name().equals(GainsDesk.VALUES) && !gains.told(message.data())) {
+                events.note(loop.nowMs(), EventLevel.WARNING, "gains",
+                        "the aircraft told gains that are no whole set");
+            }
+            answers.take(message);
+            executor.executeCommand(new BaseCommand(message));
+            tellChanged();
+        }
+
+        @Override
+        public void onOpened() {
+            stream.onRoundTrip(link.facts().roundTripMs);
+            gains.want();
+        }
+
+        @Override
+        public void onLost(String reason) {
+            beacons.onLost();
+            cancelSilence();
+            if (stream.newest() != Telemetry.NOTHING) {
+                listener.onTelemetry(stream.onLost());
+            }
+            answers.lost();
+        }
+
+        @Override
+        public void onLink() {
+            final long nowMs = loop.nowMs();
+            final GroundStatus status = status();
+            judge.onLink(status, nowMs);
+            judge.onMoment(stream.newest(), status, nowMs);
+            tellStatus();
+            tellChanged();
+        }
     }
 }

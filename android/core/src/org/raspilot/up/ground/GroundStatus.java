@@ -6,18 +6,8 @@ import org.raspilot.up.wire.Seat;
 public final class GroundStatus {
     /** What a {@link GroundSide} fills in before it makes a status of it. */
     static final class Draft {
-        LinkState link = LinkState.STOPPED;
-        long sinceMs;
-        String reason = "not started";
-        String rejection = "";
+        LinkFacts link = new LinkFacts();
         boolean isDirect;
-        Seat seat;
-        Integer holder;
-        boolean isHolderKnown;
-        Integer askedBy;
-        Boolean isAircraftOnline;
-        Double roundTripMs;
-        int failures;
         Double rateHz;
         boolean isSilent = true;
         boolean isLate;
@@ -34,7 +24,7 @@ public final class GroundStatus {
     private final boolean isDirect;
     private final Seat seat;
     private final Integer holder;
-    private final boolean isHolderKnown;
+    private final SeatStanding standing;
     private final Integer askedBy;
     private final Boolean isAircraftOnline;
     private final Double roundTripMs;
@@ -48,18 +38,19 @@ public final class GroundStatus {
     private final GroundCounters counters;
 
     GroundStatus(Draft draft) {
-        link = draft.link;
-        sinceMs = draft.sinceMs;
-        reason = draft.reason;
-        rejection = draft.rejection;
+        final LinkFacts facts = draft.link;
+        link = facts.state;
+        sinceMs = facts.sinceMs;
+        reason = facts.reason;
+        rejection = facts.rejection;
         isDirect = draft.isDirect;
-        seat = draft.seat;
-        holder = draft.holder;
-        isHolderKnown = draft.isHolderKnown;
-        askedBy = draft.askedBy;
-        isAircraftOnline = draft.isAircraftOnline;
-        roundTripMs = draft.roundTripMs;
-        failures = draft.failures;
+        seat = facts.seat;
+        holder = facts.holder;
+        standing = SeatStanding.of(facts, draft.isDirect);
+        askedBy = facts.askedBy;
+        isAircraftOnline = facts.isAircraftOnline;
+        roundTripMs = facts.roundTripMs;
+        failures = facts.failures;
         rateHz = draft.rateHz;
         isSilent = draft.isSilent;
         isLate = draft.isLate;
@@ -106,16 +97,7 @@ public final class GroundStatus {
 
     /** Returns who has the seat. */
     public SeatStanding standing() {
-        if (!isOpen()) {
-            return SeatStanding.UNKNOWN;
-        }
-        if (isDirect || seat == Seat.COMMAND) {
-            return SeatStanding.OURS;
-        }
-        if (!isHolderKnown) {
-            return SeatStanding.LATER;
-        }
-        return holder == null ? SeatStanding.FREE : SeatStanding.HELD;
+        return standing;
     }
 
     /** Returns the number of the ground that commands; null: nobody, or not known. */
@@ -194,7 +176,7 @@ public final class GroundStatus {
 
     /** Returns who commands for a pilot, without a full stop. */
     public String seatSentence() {
-        switch (standing()) {
+        switch (standing) {
             case OURS:
                 if (isDirect) {
                     return "a direct link: what is sent arrives";

@@ -60,6 +60,11 @@ public final class Telemetry {
         return new Telemetry(tree, beacon, receivedMs, Age.ofFrame(receivedMs, wayMs, ages));
     }
 
+    /** Returns the same frame with another way. */
+    Telemetry ofWay(long wayMs) {
+        return new Telemetry(tree, beacon, receivedMs, age.ofWay(wayMs));
+    }
+
     /** Returns the same frame after its link was lost: everything in it is stale. */
     Telemetry ofLostLink() {
         return new Telemetry(tree, beacon, receivedMs, age.ofLostLink());

@@ -1,16 +1,135 @@
 package org.raspilot.up.ground;
 
+import java.math.BigDecimal;
+import java.math.RoundingMode;
 import java.util.ArrayList;
 import java.util.Collections;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 
 /** Tells all of a frame as rows for a list, fields of unknown cogs too. */
 public final class TelemetryText {
+    /** So many rows at most; more come from no aircraft. */
+    public static final int MOST_ROWS = 500;
+
+    private static final String UNKNOWN = "--";
+    private static final int LONGEST_PATH = 80;
+    private static final int LONGEST_VALUE = 120;
+    private static final int LONGEST_LISTED = 16;
+    private static final Map<String, String> UNITS = new HashMap<String, String>();
+
+    static {
+        for (String path : new String[] {"orientation", "location.latitude",
+            "location.longitude", "home.bearing", "heading"}) {
+            UNITS.put(path, "deg");
+        }
+        UNITS.put("rates", "deg/s");
+        UNITS.put("rx", "us");
+        UNITS.put("servo", "us");
+        UNITS.put("location.altitude", "m");
+        UNITS.put("home.distance", "m");
+        UNITS.put("altitude", "m");
+        UNITS.put("altitude_required", "m");
+        UNITS.put("android.batteryLevel", "%");
+        UNITS.put("arduino.loop_us", "us");
+        UNITS.put("arduino.late_us", "us");
+        UNITS.put("load.cpu", "%");
+        UNITS.put("load.ram", "%");
+        UNITS.put("load.delay_ms", "ms");
+        UNITS.put("age_ms", "ms");
+        UNITS.put("black_box.megabytes", "MB");
+        UNITS.put("system.uptime_s", "s");
+        UNITS.put("system.clock_ms", "ms");
+    }
+
     private TelemetryText() {
     }
 
     /** Returns the rows in the frame's order, unmodifiable. */
     public static List<TelemetryRow> rows(Telemetry telemetry) {
-        return Collections.unmodifiableList(new ArrayList<TelemetryRow>());
+        final List<TelemetryRow> rows = new ArrayList<TelemetryRow>();
+        add(rows, "", telemetry.tree());
+        return Collections.unmodifiableList(rows);
+    }
+
+    /**
+     * Returns the unit of the value at a path as docs/protocols.md 6 has it; empty: none is known.
+     */
+    public static String unit(String path) {
+        final String own = UNITS.get(path);
+        if (own != null) {
+            return own;
+        }
+        final int dot = path.indexOf('.');
+        final String all = dot < 0 ? null : UNITS.get(path.substring(0, dot));
+        return all == null ? "" : all;
+    }
+
+    private static void add(List<TelemetryRow> rows, String path, Object value) {
+        if (rows.size() >= MOST_ROWS) {
+            return;
+        }
+        if (value instanceof Map && !((Map<?, ?>) value).isEmpty()) {
+            for (Map.Entry<?, ?> each : ((Map<?, ?>) value).entrySet()) {
+                final String key = each.getKey().toString();
+                add(rows, path.isEmpty() ? key : path + "." + key, each.getValue());
+            }
+        } else if (!path.isEmpty()) {
+            final String unit = value instanceof Number ? unit(path) : "";
+            rows.add(new TelemetryRow(SafeText.of(path, LONGEST_PATH),
+                    SafeText.of(text(path, value), LONGEST_VALUE), unit));
+        }
+    }
+
+    private static String text(String path, Object value) {
+        if (value == null) {
+            return UNKNOWN;
+        }
+        if (value instanceof Boolean) {
+            return Boolean.TRUE.equals(value) ? "yes" : "no";
+        }
+        if (value instanceof Number) {
+            return number((Number) value, path.startsWith("location.l") ? 6 : 3);
+        }
+        if (value instanceof List) {
+            return list((List<?>) value);
+        }
+        return value instanceof Map ? "none" : value.toString();
+    }
+
+    private static String list(List<?> values) {
+        if (values.isEmpty()) {
+            return "none";
+        }
+        final StringBuilder text = new StringBuilder();
+        int count = 0;
+        for (Object each : values) {
+            if (count == LONGEST_LISTED) {
+                return text.append(", and ").append(values.size() - count).append(" more")
+                        .toString();
+            }
+            text.append(count == 0 ? "" : ", ");
+            final boolean isNested = each instanceof Map || each instanceof List;
+            text.append(isNested ? "{...}" : text("", each));
+            count++;
+        }
+        return text.toString();
+    }
+
+    private static String number(Number value, int decimals) {
+        if (!(value instanceof Double)) {
+            return value.toString();
+        }
+        final double exact = value.doubleValue();
+        if (exact == 0) {
+            return "0";
+        }
+        if (!(Math.abs(exact) >= 1e-3 && Math.abs(exact) < 1e9)) {
+            return value.toString();
+        }
+        final BigDecimal rounded =
+                new BigDecimal(exact).setScale(decimals, RoundingMode.HALF_EVEN);
+        return rounded.stripTrailingZeros().toPlainString();
     }
 }

@@ -1,12 +1,25 @@
 package org.raspilot.up.ground;
 
+import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
 
-/** The way that the aircraft has come, in metres from its home. Only on the loop. */
+/**
+ * The way that the aircraft has come, in metres from its home: points at least
+ * {@link #NEAREST_M} apart; when there are too many, every second one is left out. Only on the
+ * loop.
+ */
 public final class Track {
     /** So many points at most. */
     public static final int MOST_POINTS = 4000;
+    /** Points are not nearer to each other, m. */
+    public static final double NEAREST_M = 2;
+
+    private static final double METRES_A_DEGREE = 111195;
+    /** Nothing known for longer is a silence, unless places come more seldom than that. */
+    private static final long GAP_MS = 900;
+    private static final int INTERVALS = 5;
 
     /** The track of a moment. Immutable. */
     public static final class Snapshot {
@@ -43,15 +56,156 @@ public final class Track {
         }
     }
 
+    private static final class Spot {
+        final double latitudeDeg;
+        final double longitudeDeg;
+        final Double altitudeM;
+        final boolean isAfterSilence;
+
+        Spot(double latitudeDeg, double longitudeDeg, Double altitudeM, boolean isAfterSilence) {
+            this.latitudeDeg = latitudeDeg;
+            this.longitudeDeg = longitudeDeg;
+            this.altitudeM = altitudeM;
+            this.isAfterSilence = isAfterSilence;
+        }
+    }
+
+    private List<Spot> spots = new ArrayList<Spot>();
+    private Spot newest;
+    private Home home;
+    private Home firstPlace;
+    private Long knownMs;
+    private final long[] intervalsMs = new long[INTERVALS];
+    private int intervals;
+    private boolean isAfterSilence;
+    private long version;
     private Snapshot snapshot =
             new Snapshot(0, null, false, Collections.<TrackPoint>emptyList());
 
+    Track() {
+    }
+
+    /** Returns a number that rises with each change. */
+    public long version() {
+        return version;
+    }
+
     /** Returns the track of now. */
     public Snapshot snapshot() {
+        if (snapshot.version() != version) {
+            final Home origin = home == null ? firstPlace : home;
+            final List<TrackPoint> points = new ArrayList<TrackPoint>(spots.size() + 1);
+            for (Spot each : spots) {
+                points.add(point(origin, each));
+            }
+            if (newest != null && (spots.isEmpty() || spots.get(spots.size() - 1) != newest)) {
+                points.add(point(origin, newest));
+            }
+            snapshot = new Snapshot(version, origin, home != null,
+                    Collections.unmodifiableList(points));
+        }
         return snapshot;
     }
 
     /** Forgets the way that was come. */
     public void clear() {
+        spots.clear();
+        newest = null;
+        firstPlace = null;
+        isAfterSilence = false;
+        version++;
+    }
+
+    /** Takes the place of a frame, where it has one that is one; time only goes on. */
+    void take(Telemetry telemetry, Home known, long nowMs) {
+        if (known != null && known != home) {
+            home = known;
+            version++;
+        }
+        final Double latitude = telemetry.number("location.latitude");
+        final Double longitude = telemetry.number("location.longitude");
+        if (latitude == null || longitude == null || Math.abs(latitude) > 90
+                || Math.abs(longitude) > 180) {
+            return;
+        }
+        Double altitude = telemetry.number("location.altitude");
+        if (altitude == null) {
+            altitude = telemetry.number("altitude");
+        }
+        if (!telemetry.age().isStale("location", nowMs)) {
+            isAfterSilence |= wasSilent(nowMs);
+        }
+        if (firstPlace == null) {
+            firstPlace = new Home(latitude, longitude);
+        }
+        newest = new Spot(latitude, longitude, altitude, isAfterSilence && !spots.isEmpty());
+        version++;
+        if (spots.isEmpty() || distanceM(spots.get(spots.size() - 1), newest) >= NEAREST_M) {
+            isAfterSilence = false;
+            spots.add(newest);
+            if (spots.size() >= MOST_POINTS) {
+                thin();
+            }
+        }
+    }
+
+    private boolean wasSilent(long nowMs) {
+        final Long beforeMs = knownMs;
+        knownMs = nowMs;
+        if (beforeMs == null) {
+            return false;
+        }
+        double periodMs = 0;
+        if (intervals >= INTERVALS) {
+            final long[] sorted = intervalsMs.clone();
+            Arrays.sort(sorted);
+            periodMs = sorted[INTERVALS / 2];
+        }
+        intervalsMs[intervals % INTERVALS] = nowMs - beforeMs;
+        intervals++;
+        return nowMs - beforeMs > Math.max(GAP_MS, 2.5 * periodMs);
+    }
+
+    /** Leaves out every second point; what was told of it, the next one tells. */
+    private void thin() {
+        final List<Spot> kept = new ArrayList<Spot>();
+        boolean hasGap = false;
+        for (int place = 0; place < spots.size(); place++) {
+            final Spot spot = spots.get(place);
+            hasGap |= spot.isAfterSilence;
+            if (place % 2 == 0 || place == spots.size() - 1) {
+                kept.add(hasGap == spot.isAfterSilence ? spot : new Spot(spot.latitudeDeg,
+                        spot.longitudeDeg, spot.altitudeM, hasGap));
+                hasGap = false;
+            }
+        }
+        newest = kept.get(kept.size() - 1);
+        spots = kept;
+    }
+
+    private static TrackPoint point(Home origin, Spot spot) {
+        return new TrackPoint(northM(origin.latitudeDeg(), spot.latitudeDeg),
+                eastM(origin.longitudeDeg(), spot.longitudeDeg, origin.latitudeDeg()),
+                spot.altitudeM, spot.isAfterSilence);
+    }
+
+    private static double distanceM(Spot a, Spot b) {
+        return Math.hypot(northM(a.latitudeDeg, b.latitudeDeg),
+                eastM(a.longitudeDeg, b.longitudeDeg, a.latitudeDeg));
+    }
+
+    /** Flat is near enough as far as a model aircraft flies. */
+    private static double northM(double fromDeg, double toDeg) {
+        return (toDeg - fromDeg) * METRES_A_DEGREE;
+    }
+
+    private static double eastM(double fromDeg, double toDeg, double latitudeDeg) {
+        double apartDeg = toDeg - fromDeg;
+        if (apartDeg > 180) {
+            apartDeg -= 360;
+        } else if (apartDeg < -180) {
+            apartDeg += 360;
+        }
+        return apartDeg * METRES_A_DEGREE * Math.cos(Math.toRadians(latitudeDeg));
     }
 }

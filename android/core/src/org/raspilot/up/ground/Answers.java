@@ -1,0 +1,165 @@
+package org.raspilot.up.ground;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Random;
+import org.raspilot.up.commands.AckCommand;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.NackCommand;
+import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.wire.GeneralMessage;
+
+/** Commands that were sent: each ends once, whatever comes twice, late or for another one. */
+final class Answers {
+    /** An answer that has not come by then, ms, does not count any more. */
+    static final long LIMIT_MS = 3000;
+    /** So many Commands may wait for their answer. */
+    static final int MOST = 32;
+
+    private static final int LONGEST_REASON = 500;
+    /** What comes besides the ack when a Command asks for something. */
+    private static final Map<String, String> CONTENT_OF = new HashMap<String, String>();
+
+    static {
+        CONTENT_OF.put("arduino.pids.tunings", "arduino.pids.values");
+        CONTENT_OF.put("arduino.profile.request", "arduino.profile.values");
+    }
+
+    private final class Sent implements Runnable {
+        final String id;
+        final String name;
+        final AnswerListener listener;
+        final long sentMs = loop.nowMs();
+        final Cancellable timer = loop.schedule(LIMIT_MS, this);
+        String awaited;
+        Map<String, Object> data;
+        Long ackedMs;
+
+        Sent(String id, String name, String awaited, AnswerListener listener) {
+            this.id = id;
+            this.name = name;
+            this.awaited = awaited;
+            this.listener = listener;
+        }
+
+        @Override
+        public void run() {
+            endUnanswered(this, Answer.Outcome.TIMEOUT,
+                    "no answer within " + LIMIT_MS / 1000 + " s");
+        }
+    }
+
+    private final Loop loop;
+    private final Random random;
+    private final Map<String, Sent> sent = new LinkedHashMap<String, Sent>();
+    private long number;
+    private long strange;
+
+    Answers(Loop loop, Random random) {
+        this.loop = loop;
+        this.random = random;
+    }
+
+    /** Returns how many Commands wait for their answer. */
+    int waiting() {
+        return sent.size();
+    }
+
+    /** Returns how many answers were of no Command that waits: other grounds', or late ones. */
+    long strange() {
+        return strange;
+    }
+
+    /** Returns the id under which to send a Command; the listener hears what becomes of it. */
+    String expect(BaseCommand command, AnswerListener listener) {
+        // Grounds share the aircraft's link: the number alone would be another one's, too.
+        final String id = String.format("%016x-%d", random.nextLong(), ++number);
+        final boolean asks = isRequest(command);
+        final String awaited = asks ? CONTENT_OF.get(command.name()) : null;
+        sent.put(id, new Sent(id, command.name(), awaited, listener));
+        return id;
+    }
+
+    /** Says whether a Command only asks for something, which every observer may. */
+    static boolean isRequest(BaseCommand command) {
+        return CONTENT_OF.containsKey(command.name())
+                && (!command.name().equals("arduino.pids.tunings")
+                || Boolean.TRUE.equals(command.data().get("request")));
+    }
+
+    /** Forgets a Command that could not be sent after all; its listener hears nothing. */
+    void withdraw(String id) {
+        final Sent gone = sent.remove(id);
+        if (gone != null) {
+            gone.timer.cancel();
+        }
+    }
+
+    /** Takes what the aircraft says, where it answers something. */
+    void take(GeneralMessage message) {
+        final boolean isAck = message.name().equals(AckCommand.NAME);
+        if (isAck || message.name().equals(NackCommand.NAME)) {
+            final Object id = message.data().get("id");
+            final Sent found = id instanceof String ? sent.get(id) : null;
+            if (found == null) {
+                strange++;
+            } else {
+                onAnswer(found, isAck, message.data());
+            }
+            return;
+        }
+        for (Sent each : new ArrayList<Sent>(sent.values())) {
+            if (message.name().equals(each.awaited)) {
+                each.awaited = null;
+                each.data = Collections.unmodifiableMap(message.data());
+                if (each.ackedMs != null) {
+                    end(each, Answer.Outcome.ACK, "", "", each.ackedMs);
+                }
+            }
+        }
+    }
+
+    /** Hears that the link is gone: what was sent may or may not have arrived. */
+    void lost() {
+        for (Sent each : new ArrayList<Sent>(sent.values())) {
+            endUnanswered(each, Answer.Outcome.LOST, "the link was lost before an answer came");
+        }
+    }
+
+    private void onAnswer(Sent found, boolean isAck, Map<String, Object> data) {
+        final long tookMs = loop.nowMs() - found.sentMs;
+        if (!isAck) {
+            end(found, Answer.Outcome.NACK, text(data, "code"), text(data, "reason"), tookMs);
+        } else if (found.awaited != null) {
+            found.ackedMs = tookMs;
+        } else {
+            end(found, Answer.Outcome.ACK, "", "", tookMs);
+        }
+    }
+
+    private void endUnanswered(Sent each, Answer.Outcome outcome, String why) {
+        if (each.ackedMs != null) {
+            end(each, Answer.Outcome.ACK, "", "what was asked for did not come", each.ackedMs);
+        } else {
+            end(each, outcome, "", why + "; it is not known whether it was carried out", null);
+        }
+    }
+
+    private void end(Sent each, Answer.Outcome outcome, String code, String reason,
+            Long tookMs) {
+        if (sent.remove(each.id) != null) {
+            each.timer.cancel();
+            each.listener.onAnswer(
+                    new Answer(outcome, each.name, code, reason, tookMs, each.data));
+        }
+    }
+
+    private static String text(Map<String, Object> data, String key) {
+        final Object found = data.get(key);
+        return found instanceof String ? SafeText.of((String) found, LONGEST_REASON) : "";
+    }
+}

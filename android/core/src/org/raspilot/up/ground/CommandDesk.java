@@ -1,0 +1,107 @@
+package org.raspilot.up.ground;
+
+import org.raspilot.up.commands.ArmCommand;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.TelemetryFrequencyCommand;
+import org.raspilot.up.loop.Loop;
+
+/**
+ * Sends what may be sent now or says why it is not: nothing waits for a better moment, nothing is
+ * sent twice.
+ */
+final class CommandDesk {
+    private final Loop loop;
+    private final GroundSettings settings;
+    private final GroundLink link;
+    private final Answers answers;
+    private final SeenBeacons beacons;
+
+    CommandDesk(Loop loop, GroundSettings settings, GroundLink link, Answers answers,
+            SeenBeacons beacons) {
+        this.loop = loop;
+        this.settings = settings;
+        this.link = link;
+        this.answers = answers;
+        this.beacons = beacons;
+    }
+
+    /**
+     * Sends a Command once.
+     *
+     * @param shown the beacon of the frame that the pilot has seen; null: none
+     */
+    void send(BaseCommand command, Long shown, AnswerListener listener) {
+        final boolean isRequest = Answers.isRequest(command);
+        Answer refused = refusal(command);
+        if (refused == null && !isRequest) {
+            refused = beaconFault(command, shown);
+        }
+        if (refused != null) {
+            listener.onAnswer(refused);
+            return;
+        }
+        final Long echoed = beacons.isFresh(shown, loop.nowMs()) ? shown : null;
+        final String id = answers.expect(command, listener);
+        final byte[] line;
+        try {
+            line = command.toMessage(id, echoed).toLine();
+        } catch (IllegalArgumentException fault) {
+            answers.withdraw(id);
+            listener.onAnswer(Answer.refused(command.name(), "invalid", fault.getMessage()));
+            return;
+        }
+        if (!link.send(line)) {
+            answers.withdraw(id);
+            listener.onAnswer(Answer.refused(command.name(), "no_link",
+                    "the link takes nothing more now"));
+        } else if (command.name().equals(TelemetryFrequencyCommand.NAME)) {
+            link.expectAnotherPeriod();
+        }
+    }
+
+    /** Returns why nothing can be sent now; null: it can. */
+    Answer refusal(BaseCommand command) {
+        final LinkFacts facts = link.facts();
+        if (!link.isOpen()) {
+            return Answer.refused(command.name(), "no_link",
+                    facts.reason.isEmpty() ? "there is no link"
+                            : "there is no link: " + facts.reason);
+        }
+        if (Boolean.FALSE.equals(facts.isAircraftOnline)) {
+            return Answer.refused(command.name(), "no_aircraft", "the aircraft "
+                    + settings.aircraft() + " is not connected to the proxy");
+        }
+        if (standing() != SeatStanding.OURS) {
+            return Answer.refused(command.name(), "no_seat",
+                    "this ground only listens: ask for the seat first");
+        }
+        if (answers.waiting() >= Answers.MOST) {
+            return Answer.refused(command.name(), "busy",
+                    "too many Commands wait for their answer");
+        }
+        return null;
+    }
+
+    /** Returns who has the seat; one that was left is not ours, whatever is still to be said. */
+    SeatStanding standing() {
+        final LinkFacts facts = link.facts();
+        return SeatStanding.of(facts, settings.isDirect());
+    }
+
+    /** Nobody commands what they do not see: the screen may hang, or what it shows be late. */
+    private Answer beaconFault(BaseCommand command, Long shown) {
+        if (shown == null) {
+            if (beacons.areNoneSent() && !command.name().equals(ArmCommand.NAME)) {
+                // A thesis aircraft's telemetry has no beacons.
+                return null;
+            }
+            return Answer.refused(command.name(), "no_beacon",
+                    "it is only sent with the beacon of telemetry that was seen");
+        }
+        if (!beacons.isFresh(shown, loop.nowMs())) {
+            return Answer.refused(command.name(), "stale", "the telemetry on the screen is older"
+                    + " than " + SeenBeacons.FRESH_MS / 1000 + " s");
+        }
+        return null;
+    }
+}

@@ -1,0 +1,69 @@
+package org.raspilot.up.ground;
+
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import org.raspilot.up.commands.BaseCommand;
+
+/** What a Command does and what became of it, in the words of an event. */
+final class CommandWords {
+    private static final int SHOWN_CHANGES = 4;
+    private static final Map<String, String> WORDS = new HashMap<String, String>();
+    private static final Map<String, String> FIELDS = new HashMap<String, String>();
+
+    static {
+        put("up.flight_mode.set", "flight mode %s", "mode");
+        put("up.arm", "arm", "");
+        put("up.disarm", "disarm", "");
+        put("up.telemetry.frequency", "telemetry every %s ms", "frequency");
+        put("up.heading.change", "heading %s deg", "heading");
+        put("up.altitude.change", "altitude %s m", "altitude");
+        put("android.speak", "say \"%s\"", "text");
+        put("black_box.mark", "mark \"%s\"", "text");
+        put("arduino.calibrate", "calibrate %s", "what");
+        put("arduino.profile.request", "ask for the profile", "");
+        put("arduino.pids.tunings", "ask for the gains", "");
+    }
+
+    private CommandWords() {
+    }
+
+    /** Returns a Command in words; one that is not known here by its name. */
+    static String of(BaseCommand command) {
+        final String words = WORDS.get(command.name());
+        if (words == null) {
+            return command.name();
+        }
+        return words.replace("%s", String.valueOf(command.data().get(FIELDS.get(command.name()))));
+    }
+
+    /** Returns a set of gains in words: what it changes. */
+    static String ofGains(List<GainChange> changes) {
+        final StringBuilder text = new StringBuilder("gains");
+        for (int place = 0; place < Math.min(SHOWN_CHANGES, changes.size()); place++) {
+            text.append(place == 0 ? ": " : ", ").append(changes.get(place));
+        }
+        if (changes.size() > SHOWN_CHANGES) {
+            text.append(" and ").append(changes.size() - SHOWN_CHANGES).append(" more");
+        }
+        return text.toString();
+    }
+
+    /** Returns what became of a Command that was sent. */
+    static String outcome(String words, Answer answer) {
+        switch (answer.outcome()) {
+            case ACK:
+                return words + ": carried out";
+            case NACK:
+                return words + ": refused by the aircraft: "
+                        + (answer.reason().isEmpty() ? answer.code() : answer.reason());
+            default:
+                return words + ": " + answer.reason();
+        }
+    }
+
+    private static void put(String name, String words, String field) {
+        WORDS.put(name, words);
+        FIELDS.put(name, field);
+    }
+}

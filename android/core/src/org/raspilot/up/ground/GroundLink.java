@@ -1,0 +1,373 @@
+package org.raspilot.up.ground;
+
+import java.util.Random;
+import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.net.FixedPlace;
+import org.raspilot.up.net.Place;
+import org.raspilot.up.net.UpSocket;
+import org.raspilot.up.net.UpSocketListener;
+import org.raspilot.up.net.UpSocketSettings;
+import org.raspilot.up.net.UpSocketStatus;
+import org.raspilot.up.wire.ControlLine;
+import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.wire.Hello;
+import org.raspilot.up.wire.HelloAnswer;
+import org.raspilot.up.wire.MalformedException;
+import org.raspilot.up.wire.Seat;
+
+/**
+ * The link to the aircraft: says hello, keeps the seat and its token, comes back after each loss.
+ *
+ * <p>Source: docs/protocols.md 9.
+ */
+final class GroundLink implements UpSocketListener {
+    /** A hello that is not answered for so long, ms, is given up. */
+    static final long HELLO_TIMEOUT_MS = 5000;
+    /** A proxy says by then, ms, who commands; an aircraft's own listener never does. */
+    static final long HOLDER_TOLD_MS = 1000;
+
+    private static final int CONNECT_TIMEOUT_MS = 5000;
+    private static final int HEARTBEAT_MS = 1000;
+    private static final int FIRST_RETRY_MS = 500;
+    private static final int LAST_RETRY_MS = 2000;
+
+    private final Loop loop;
+    private final GroundSettings settings;
+    private final TokenStore tokens;
+    private final LinkListener listener;
+    private final UpSocket socket;
+    private final LinkFacts facts = new LinkFacts();
+    private final QuietLimit quiet = new QuietLimit();
+    private Seat wanted;
+    private String token;
+    private boolean isGreeted;
+    private long connectingMs;
+    private long connectTookMs;
+    private long helloMs;
+    private long heardMs;
+    private Cancellable helloTimer;
+    private Cancellable quietTimer;
+    private UpSocketStatus judged;
+
+    GroundLink(Loop loop, GroundSettings settings, TokenStore tokens, LinkListener listener,
+            Random random) {
+        this.loop = loop;
+        this.settings = settings;
+        this.tokens = tokens;
+        this.listener = listener;
+        final UpSocketSettings lines = UpSocketSettings.lines()
+                .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
+                .withRetryMs(FIRST_RETRY_MS, LAST_RETRY_MS);
+        socket = new UpSocket(loop,
+                new FixedPlace(new Place(settings.host(), settings.port(), 0)), this,
+                // A thesis peer knows no heartbeat.
+                settings.isDirect() ? lines : lines.withHeartbeatMs(HEARTBEAT_MS), random);
+    }
+
+    LinkFacts facts() {
+        return facts;
+    }
+
+    long tooLong() {
+        return socket.counters().tooLong();
+    }
+
+    /** Returns whether messages can go now. */
+    boolean isOpen() {
+        return facts.state == LinkState.OPEN;
+    }
+
+    void start() {
+        if (facts.state != LinkState.STOPPED) {
+            return;
+        }
+        wanted = settings.seat();
+        token = null;
+        if (wanted == Seat.COMMAND && !settings.isDirect()) {
+            final String stored = tokens.load(settings.tokenKey());
+            token = Hello.isToken(stored) ? stored : null;
+        }
+        facts.failures = 0;
+        facts.rejection = "";
+        facts.become(LinkState.CONNECTING, loop.nowMs(), "");
+        socket.start();
+        listener.onLink();
+    }
+
+    void stop() {
+        if (facts.state != LinkState.STOPPED) {
+            socket.stop();
+            close(LinkState.STOPPED, "stopped");
+            listener.onLink();
+        }
+    }
+
+    void reconnectNow() {
+        socket.reconnectNow();
+    }
+
+    /** Sends a line; false: there is no link, or too much waits. */
+    boolean send(byte[] line) {
+        return isOpen() && socket.send(line);
+    }
+
+    /** Hears that the period of telemetry may change. */
+    void expectAnotherPeriod() {
+        quiet.forget();
+    }
+
+    boolean requestSeat() {
+        if (settings.isDirect() || facts.state == LinkState.STOPPED) {
+            return false;
+        }
+        wanted = Seat.COMMAND;
+        if (!isOpen()) {
+            // Nobody can be asked now; the next hello asks for it.
+            return false;
+        }
+        final boolean isUntold = facts.seat != Seat.COMMAND && !facts.isHolderKnown
+                && loop.nowMs() - facts.sinceMs >= HOLDER_TOLD_MS;
+        if (isUntold) {
+            // Only a new hello gives the seat of an aircraft's own listener.
+            return sayHelloAnew();
+        }
+        return send(ControlLine.of(ControlLine.Kind.SEAT_REQUEST).toLine());
+    }
+
+    void dismissAsk() {
+        if (facts.askedBy != null) {
+            facts.askedBy = null;
+            listener.onLink();
+        }
+    }
+
+    boolean giveSeat(int to) {
+        return holds() && to >= 0
+                && send(ControlLine.of(ControlLine.Kind.SEAT_GIVE, to).toLine());
+    }
+
+    boolean releaseSeat() {
+        if (!holds()) {
+            return false;
+        }
+        wanted = Seat.LISTEN;
+        if (!facts.isHolderKnown) {
+            dropToken();
+            return sayHelloAnew();
+        }
+        facts.isLeft = send(ControlLine.of(ControlLine.Kind.SEAT_RELEASE).toLine());
+        listener.onLink();
+        return facts.isLeft;
+    }
+
+    @Override
+    public void onConnected(UpSocket connected) {
+        final long nowMs = loop.nowMs();
+        connectTookMs = nowMs - connectingMs;
+        heardMs = nowMs;
+        quiet.forget();
+        watchQuiet();
+        isGreeted = settings.isDirect();
+        if (isGreeted) {
+            opened(connectTookMs);
+            return;
+        }
+        helloMs = nowMs;
+        helloTimer = loop.schedule(HELLO_TIMEOUT_MS, new Runnable() {
+            @Override
+            public void run() {
+                socket.drop("no answer to the hello within " + HELLO_TIMEOUT_MS / 1000
+                        + " s: is this the ground port of a Ground Station Proxy?"
+                        + " (a direct link says no hello)");
+            }
+        });
+        final String resume = wanted == Seat.COMMAND ? token : null;
+        socket.send(Hello.ofGround(settings.aircraft(), wanted, resume).toLine());
+    }
+
+    @Override
+    public void onReceived(UpSocket from, byte[] bytes, int length) {
+        heardMs = loop.nowMs();
+        if (ControlLine.isControlLine(bytes, length)) {
+            if (settings.isDirect()) {
+                facts.strangeControl++;
+            } else if (isGreeted) {
+                onControl(ControlLine.read(bytes, length));
+            } else {
+                onHelloAnswer(HelloAnswer.read(bytes, length));
+            }
+        } else if (!isGreeted) {
+            socket.drop("the other side does not answer a hello: it is no Ground Station Proxy of"
+                    + " this version (a direct link says no hello)");
+        } else {
+            onLine(bytes, length);
+        }
+    }
+
+    @Override
+    public void onLost(UpSocket lost, String reason) {
+        final boolean wasOpen = isOpen();
+        final LinkState next =
+                facts.state == LinkState.STOPPED ? LinkState.STOPPED : LinkState.WAITING;
+        close(next, reason);
+        if (wasOpen) {
+            listener.onLost(reason);
+        }
+    }
+
+    @Override
+    public void onStatus(UpSocket changed) {
+        final UpSocketStatus status = socket.status();
+        if (status == judged || facts.state == LinkState.STOPPED) {
+            return;
+        }
+        judged = status;
+        if (status.state() == UpSocketStatus.State.WAITING) {
+            facts.failures++;
+            if (facts.state != LinkState.WAITING) {
+                close(LinkState.WAITING, status.sentence());
+            }
+        } else if (status.state() == UpSocketStatus.State.CONNECTING
+                || status.state() == UpSocketStatus.State.FINDING) {
+            connectingMs = loop.nowMs();
+            facts.state = LinkState.CONNECTING;
+        }
+        listener.onLink();
+    }
+
+    private boolean holds() {
+        return isOpen() && facts.seat == Seat.COMMAND && !facts.isLeft;
+    }
+
+    private boolean sayHelloAnew() {
+        socket.drop("another seat is asked for");
+        socket.reconnectNow();
+        return true;
+    }
+
+    private void onHelloAnswer(HelloAnswer answer) {
+        if (answer == null) {
+            facts.strangeControl++;
+        } else if (!answer.isAccepted()) {
+            facts.rejection = answer.code();
+            socket.drop("the proxy refuses: " + SafeText.of(answer.reason(), 300) + " ("
+                    + answer.code() + ")");
+        } else if (answer.seat() == Seat.AIR) {
+            facts.strangeControl++;
+        } else {
+            isGreeted = true;
+            opened(Math.min(connectTookMs, loop.nowMs() - helloMs));
+            facts.seat = answer.seat();
+            if (answer.seat() == Seat.COMMAND) {
+                keep(answer.token());
+            }
+            listener.onOpened();
+            listener.onLink();
+        }
+    }
+
+    private void onControl(ControlLine said) {
+        if (said == null) {
+            facts.strangeControl++;
+            return;
+        }
+        switch (said.kind()) {
+            case SEAT_COMMAND:
+                facts.seat = Seat.COMMAND;
+                wanted = Seat.COMMAND;
+                facts.isLeft = false;
+                keep(said.token());
+                break;
+            case SEAT_LISTEN:
+                facts.seat = Seat.LISTEN;
+                wanted = Seat.LISTEN;
+                facts.isLeft = false;
+                facts.askedBy = null;
+                dropToken();
+                break;
+            case SEAT_ASKED:
+                facts.askedBy = said.number();
+                break;
+            case SEAT_HOLDER:
+                facts.holder = said.number();
+                facts.isHolderKnown = true;
+                break;
+            case AIRCRAFT_ONLINE:
+                facts.isAircraftOnline = true;
+                break;
+            case AIRCRAFT_OFFLINE:
+                facts.isAircraftOnline = false;
+                break;
+            default:
+                // What only a ground says.
+                facts.strangeControl++;
+                return;
+        }
+        listener.onLink();
+    }
+
+    private void onLine(byte[] line, int length) {
+        final GeneralMessage message;
+        try {
+            message = GeneralMessage.read(line, length);
+        } catch (MalformedException fault) {
+            facts.malformed++;
+            return;
+        }
+        quiet.heard(heardMs);
+        listener.onMessage(message);
+    }
+
+    private void opened(long roundTripMs) {
+        cancel(helloTimer);
+        facts.become(LinkState.OPEN, loop.nowMs(), "");
+        facts.roundTripMs = settings.isDirect() ? null : Double.valueOf(roundTripMs);
+        facts.rejection = "";
+        facts.failures = 0;
+        facts.connections++;
+        if (settings.isDirect()) {
+            listener.onOpened();
+            listener.onLink();
+        }
+    }
+
+    private void close(LinkState state, String reason) {
+        cancel(helloTimer);
+        cancel(quietTimer);
+        isGreeted = false;
+        facts.roundTripMs = null;
+        facts.become(state, loop.nowMs(), reason);
+    }
+
+    private void watchQuiet() {
+        final long limitMs = quiet.limitMs(facts.isAircraftOnline);
+        final long restMs = heardMs + limitMs - loop.nowMs();
+        if (restMs <= 0) {
+            socket.drop("nothing came for " + Math.round(limitMs / 1000.0) + " s");
+            return;
+        }
+        quietTimer = loop.schedule(Math.min(restMs, QuietLimit.SHORTEST_MS), new Runnable() {
+            @Override
+            public void run() {
+                watchQuiet();
+            }
+        });
+    }
+
+    private void keep(String given) {
+        token = given;
+        tokens.save(settings.tokenKey(), given);
+    }
+
+    private void dropToken() {
+        token = null;
+        tokens.forget(settings.tokenKey());
+    }
+
+    private static void cancel(Cancellable timer) {
+        if (timer != null) {
+            timer.cancel();
+        }
+    }
+}

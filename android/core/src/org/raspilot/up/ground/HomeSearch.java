@@ -1,0 +1,64 @@
+package org.raspilot.up.ground;
+
+/**
+ * Works out where the aircraft's home is from its place, its distance and its bearing; keeps the
+ * first place found, only a home that moved replaces it.
+ */
+final class HomeSearch {
+    /** Mean radius of the Earth, m. */
+    static final double EARTH_RADIUS_M = 6371008.8;
+
+    private static final double MOVED_M = 20;
+    private static final double FARTHEST_M = 1e6;
+
+    private Home home;
+
+    /** Returns it; null: not known. */
+    Home home() {
+        return home;
+    }
+
+    /** Takes a frame. */
+    void take(Telemetry telemetry) {
+        final Double latitude = telemetry.number("location.latitude");
+        final Double longitude = telemetry.number("location.longitude");
+        final Double distance = telemetry.number("home.distance");
+        final Double bearing = telemetry.number("home.bearing");
+        if (latitude == null || longitude == null || distance == null || bearing == null
+                || Math.abs(latitude) > 90 || Math.abs(longitude) > 180
+                || !(distance >= 0 && distance <= FARTHEST_M)) {
+            return;
+        }
+        final Home found = destination(latitude, longitude, bearing, distance);
+        if (home == null || distanceM(home, found) > MOVED_M) {
+            home = found;
+        }
+    }
+
+    /** Returns the point that far away on the great circle that begins with that bearing. */
+    static Home destination(double latitudeDeg, double longitudeDeg, double bearingDeg,
+            double distanceM) {
+        final double north = Math.toRadians(latitudeDeg);
+        final double way = distanceM / EARTH_RADIUS_M;
+        final double turn = Math.toRadians(bearingDeg);
+        final double there = Math.asin(Math.sin(north) * Math.cos(way)
+                + Math.cos(north) * Math.sin(way) * Math.cos(turn));
+        final double east = Math.toRadians(longitudeDeg)
+                + Math.atan2(Math.sin(turn) * Math.sin(way) * Math.cos(north),
+                        Math.cos(way) - Math.sin(north) * Math.sin(there));
+        final double turned = (Math.toDegrees(east) + 540) % 360 - 180;
+        return new Home(Math.toDegrees(there), turned);
+    }
+
+    /** Returns the great-circle distance (haversine), m. */
+    static double distanceM(Home a, Home b) {
+        final double south = Math.toRadians(a.latitudeDeg());
+        final double north = Math.toRadians(b.latitudeDeg());
+        final double halfNorth = Math.sin((north - south) / 2);
+        final double halfEast =
+                Math.sin(Math.toRadians(b.longitudeDeg() - a.longitudeDeg()) / 2);
+        final double h = halfNorth * halfNorth
+                + Math.cos(south) * Math.cos(north) * halfEast * halfEast;
+        return 2 * EARTH_RADIUS_M * Math.asin(Math.min(1, Math.sqrt(h)));
+    }
+}

@@ -1,0 +1,36 @@
+package org.raspilot.up.ground;
+
+import org.raspilot.up.wire.Seat;
+
+/** What is known about the link now; written by {@link GroundLink} alone. */
+final class LinkFacts {
+    LinkState state = LinkState.STOPPED;
+    long sinceMs;
+    String reason = "not started";
+    String rejection = "";
+    Seat seat;
+    Integer holder;
+    boolean isHolderKnown;
+    /** The seat was left; the proxy has yet to say so, and already drops what is sent. */
+    boolean isLeft;
+    Integer askedBy;
+    Boolean isAircraftOnline;
+    Double roundTripMs;
+    int failures;
+    long connections;
+    long malformed;
+    long strangeControl;
+
+    /** Forgets what only a connection can know. */
+    void become(LinkState now, long nowMs, String why) {
+        state = now;
+        sinceMs = nowMs;
+        reason = why;
+        seat = null;
+        holder = null;
+        isHolderKnown = false;
+        isLeft = false;
+        askedBy = null;
+        isAircraftOnline = null;
+    }
+}

@@ -1,0 +1,53 @@
+package org.raspilot.up.ground;
+
+/**
+ * Says how long a link to a proxy may be without a byte before it is taken for dead.
+ *
+ * <p>A proxy sends no heartbeat: what comes is telemetry, so the limit follows its period. A phone
+ * that walked out of its network hears nothing of that from the system for minutes.
+ */
+final class QuietLimit {
+    /** Never less, ms: the proxy tells within 3 s that an aircraft went silent. */
+    static final long SHORTEST_MS = 4000;
+    /** Longer than telemetry's longest period (10 s). */
+    static final long UNKNOWN_MS = 12000;
+    /** Where the aircraft is not there nothing has to come; hellos are cheap. */
+    static final long OFFLINE_MS = 30000;
+
+    private static final int GAPS = 8;
+    private static final int FACTOR = 5;
+
+    private final long[] gapsMs = new long[GAPS];
+    private int count;
+    private Long heardMs;
+
+    /** Hears that the telemetry's period may change, or that the link is another one. */
+    void forget() {
+        count = 0;
+        heardMs = null;
+    }
+
+    /** Hears that a message came. */
+    void heard(long nowMs) {
+        if (heardMs != null) {
+            gapsMs[count % GAPS] = nowMs - heardMs;
+            count++;
+        }
+        heardMs = nowMs;
+    }
+
+    /** Returns the limit, ms; {@code isOnline} null: nobody told. */
+    long limitMs(Boolean isOnline) {
+        if (Boolean.FALSE.equals(isOnline)) {
+            return OFFLINE_MS;
+        }
+        if (count < GAPS) {
+            return UNKNOWN_MS;
+        }
+        long longestMs = 0;
+        for (long each : gapsMs) {
+            longestMs = Math.max(longestMs, each);
+        }
+        return Math.max(SHORTEST_MS, Math.min(UNKNOWN_MS, FACTOR * longestMs));
+    }
+}

@@ -1,0 +1,87 @@
+package org.raspilot.up.ground;
+
+import java.util.ArrayDeque;
+import java.util.Iterator;
+
+/** The beacons that telemetry brought: whether the pilot has seen what flies now. */
+final class SeenBeacons {
+    /** A beacon that the aircraft sent longer ago, ms, is stale (docs/protocols.md 4). */
+    static final long FRESH_MS = 2000;
+    /** More frames than this within FRESH_MS come from no aircraft. */
+    private static final int KEPT = 512;
+
+    private static final class Heard {
+        final long beacon;
+        final long sentMs;
+
+        Heard(long beacon, long sentMs) {
+            this.beacon = beacon;
+            this.sentMs = sentMs;
+        }
+    }
+
+    private final ArrayDeque<Heard> heard = new ArrayDeque<Heard>();
+    private Heard seen;
+    private boolean hasFrames;
+    private boolean hasBeacons;
+
+    /** Remembers a frame's beacon; null: it has none. */
+    void onFrame(Telemetry frame) {
+        hasFrames = true;
+        if (frame.beacon() == null) {
+            return;
+        }
+        hasBeacons = true;
+        heard.add(new Heard(frame.beacon(), frame.receivedMs() - frame.age().wayMs()));
+        if (heard.size() > KEPT) {
+            heard.remove();
+        }
+    }
+
+    /** Forgets all: what comes over another connection has to be seen anew. */
+    void onLost() {
+        heard.clear();
+        seen = null;
+        hasFrames = false;
+        hasBeacons = false;
+    }
+
+    /** Hears that the screen has drawn the frame with that beacon; an older one changes nothing. */
+    void seen(Long beacon) {
+        final Heard found = find(beacon);
+        if (found != null && (seen == null || found.sentMs >= seen.sentMs)) {
+            seen = found;
+        }
+    }
+
+    /** Returns the newest beacon that was seen; null: none. */
+    Long newestSeen() {
+        return seen == null ? null : Long.valueOf(seen.beacon);
+    }
+
+    /** Says whether telemetry comes, and has no beacons, as the thesis's. */
+    boolean areNoneSent() {
+        return hasFrames && !hasBeacons;
+    }
+
+    /** Says whether the aircraft would take that beacon as fresh. */
+    boolean isFresh(Long beacon, long nowMs) {
+        final Heard found = find(beacon);
+        return found != null && nowMs - found.sentMs <= FRESH_MS;
+    }
+
+    private Heard find(Long beacon) {
+        if (beacon == null) {
+            return null;
+        }
+        // The newest first: a hostile aircraft may tell one beacon twice.
+        final Iterator<Heard> each = heard.descendingIterator();
+        while (each.hasNext()) {
+            final Heard found = each.next();
+            if (found.beacon == beacon) {
+                return found;
+            }
+        }
+        return null;
+    }
+}

@@ -1,0 +1,102 @@
+package org.raspilot.up.ground;
+
+import org.raspilot.up.wire.GeneralMessage;
+
+/**
+ * Makes frames of messages, and knows of the frames before: what is missing, how late they come.
+ *
+ * <p>How long a frame was on its way is half of the least round trip to the proxy, and by how much
+ * it came later than the quickest one by the aircraft's own clock ({@code system.clock_ms}).
+ */
+final class TelemetryStream {
+    private static final long LARGEST_GAP = 1000;
+    /** Beacons of one life of an aircraft are nearer: each life draws its first at random. */
+    private static final long ONE_LIFE = 1000000;
+    private static final int TIMES = 32;
+    private static final long STOPPED_MS = 10000;
+
+    private final Delay delay = new Delay();
+    private final long[] timesMs = new long[TIMES];
+    private Telemetry newest = Telemetry.NOTHING;
+    private long frames;
+    private long lost;
+    private double roundTripMs;
+    private Double leastTripMs;
+
+    Telemetry newest() {
+        return newest;
+    }
+
+    long frames() {
+        return frames;
+    }
+
+    long lost() {
+        return lost;
+    }
+
+    /** Takes a message of that name and returns it as a frame. */
+    Telemetry take(GeneralMessage message, long nowMs) {
+        final Long beacon = message.beacon();
+        if (beacon != null && newest.beacon() != null) {
+            // Beacons are the peer's: their difference may not fit a long.
+            final double gap = (double) beacon - (double) newest.beacon();
+            if (gap > 1 && gap <= LARGEST_GAP) {
+                lost += (long) gap - 1;
+            }
+            if (Math.abs(gap) > ONE_LIFE) {
+                delay.forget();
+            }
+        }
+        final Telemetry bare = Telemetry.of(message.data(), beacon, nowMs, 0);
+        final Double heldMs = delay.take(bare.number("system.clock_ms"), nowMs);
+        if (delay.hasBegun()) {
+            leastTripMs = roundTripMs > 0 ? Double.valueOf(roundTripMs) : null;
+        }
+        newest = bare.ofWay(Math.round(wayMs(heldMs)));
+        timesMs[(int) (frames % TIMES)] = nowMs;
+        frames++;
+        return newest;
+    }
+
+    /** Takes how long it is to the other side and back now. */
+    void onRoundTrip(Double tookMs) {
+        roundTripMs = tookMs == null ? 0 : tookMs;
+        if (tookMs != null && (leastTripMs == null || tookMs < leastTripMs)) {
+            leastTripMs = tookMs;
+        }
+    }
+
+    /** Forgets the newest frame: the link is started anew. */
+    void forget() {
+        newest = Telemetry.NOTHING;
+    }
+
+    /** Makes everything stale: the link is lost. */
+    Telemetry onLost() {
+        newest = newest.ofLostLink();
+        return newest;
+    }
+
+    /** Returns how many frames come a second; null: too few came, or they stopped. */
+    Double rateHz(long nowMs) {
+        final int count = (int) Math.min(frames, TIMES);
+        if (count < 3) {
+            return null;
+        }
+        final long lastMs = timesMs[(int) ((frames - 1) % TIMES)];
+        final long firstMs = timesMs[(int) ((frames - count) % TIMES)];
+        if (lastMs <= firstMs || nowMs - lastMs > STOPPED_MS) {
+            return null;
+        }
+        return (count - 1) * 1000.0 / (Math.max(nowMs, lastMs) - firstMs);
+    }
+
+    private double wayMs(Double heldMs) {
+        if (heldMs == null) {
+            return roundTripMs / 2;
+        }
+        // What queues on the way to the proxy is held time: the least is the way itself.
+        return (leastTripMs == null ? roundTripMs : leastTripMs) / 2 + heldMs;
+    }
+}
