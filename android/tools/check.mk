@@ -33,7 +33,7 @@ check: $(BUILD)/.guarded $(BUILD)/.spotted
 
 $(BUILD)/.spotted: $(SPOTTED) tools/spotbugs.xml $(JARS)/.spotbugs
 	@echo 'look for bugs'
-	@java -cp '$(SPOTBUGS_PATH)' edu.umd.cs.findbugs.FindBugs2 -textui -quiet -effort:max -medium \
+	@java -Dslf4j.internal.verbosity=ERROR -cp "$(SPOTBUGS_PATH)" edu.umd.cs.findbugs.FindBugs2 -effort:max -medium \
 		-exitcode -longBugCodes -exclude tools/spotbugs.xml \
 		-auxclasspath $(STUBS):$(BOOT):$(subst $(empty) $(empty),:,$(foreach each,$(LEVELS),$(FRAMEWORK_$(each)))) \
 		$(SPOTTED)
