@@ -28,12 +28,13 @@ help:
 	@echo 'make scenarios  fly every scenario that is shipped and count (SCENARIO=receiver-lost for some)'
 	@echo 'make test     set up everything and run every test (TEST=tests/up for some)'
 	@echo 'make test-browser  only the tests of the page in a headless Chromium'
-	@echo 'make check    lint, types, import contracts'
+	@echo 'make check    lint, types, import contracts; of the phone where a JDK and Debian'"'"'s tools are'
 	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
 	@echo 'make pictures  the documentation'"'"'s pictures of the page, from a flight'
 	@echo 'make format   put the code into the project'"'"'s form'
 	@echo 'make schemas  JSON Schema of every configuration file, into build/schemas'
 	@echo 'make -C arduino help  the firmware: build, upload, figures'
+	@echo 'make -C android help  the phone: the app, the Up Library, its tests'
 	@echo 'make clean    remove what the others made'
 
 $(PY):
@@ -71,10 +72,12 @@ test-browser: $(VENV)/.dev-ready $(WEB)
 check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy main.py tools/import_contracts.py $(PACKAGES)
+	$(BIN)/mypy main.py tools/import_contracts.py tools/phone_commands.py $(PACKAGES)
 	@for cog in $(COGS); do echo "mypy $$cog"; \
 		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
+	MYPYPATH=android/tools $(BIN)/mypy android/tools/*.py
 	$(PY) tools/import_contracts.py
+	@android/tools/where_ready check
 
 # The peers besides; HAProxy, socat and gcc (Debian) are measured where they are installed.
 $(VENV)/.bench-ready: $(SETUPS) | $(PY)
@@ -94,5 +97,5 @@ schemas: $(VENV)/.run-ready
 	$(BIN)/up schemas build/schemas
 
 clean:
-	rm -rf build dist run arduino/build* $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info \
-		ground/node_modules $(VENDOR) $(VENDOR).new.*
+	rm -rf build dist run arduino/build* android/build $(VENV) .pytest_cache .mypy_cache \
+		.ruff_cache .hypothesis *.egg-info ground/node_modules $(VENDOR) $(VENDOR).new.*

@@ -7,6 +7,7 @@ the shape alone). Shapes are distances: a pixel is covered as far as its middle 
 
 from __future__ import annotations
 
+import itertools
 import math
 import struct
 import sys
@@ -43,7 +44,7 @@ def disc(x: float, y: float, radius: float) -> float:
 def stroke(x: float, y: float, points: tuple[tuple[float, float], ...], half: float) -> float:
     """Return the distance from a line through ``points`` with round ends, ``half`` its width."""
     nearest = math.inf
-    for (ax, ay), (bx, by) in zip(points, points[1:], strict=False):
+    for (ax, ay), (bx, by) in itertools.pairwise(points):
         dx, dy = bx - ax, by - ay
         along = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)
         along = min(1.0, max(0.0, along))
