@@ -18,6 +18,13 @@ public final class Faults implements FaultListener {
         return new ArrayList<Throwable>(all);
     }
 
+    /** Returns those until now and forgets them: they were meant. */
+    public List<Throwable> takeAll() {
+        final List<Throwable> taken = all();
+        all.clear();
+        return taken;
+    }
+
     /** Fails with the first fault as its cause when there was one. */
     public void mustBeNone() {
         if (!all.isEmpty()) {

@@ -1,0 +1,19 @@
+package org.raspilot.up.net;
+
+import java.util.ArrayList;
+import java.util.List;
+
+/** Keeps what a finder told. */
+final class Found implements FindListener {
+    final List<String> told = new ArrayList<String>();
+
+    @Override
+    public void onFound(Place place) {
+        told.add(place.toString());
+    }
+
+    @Override
+    public void onNotFound(String reason) {
+        told.add(reason);
+    }
+}

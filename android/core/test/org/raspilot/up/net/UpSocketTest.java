@@ -1,0 +1,319 @@
+package org.raspilot.up.net;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertNull;
+import static org.junit.Assert.assertTrue;
+
+import java.util.Arrays;
+import java.util.Random;
+import org.junit.After;
+import org.junit.Test;
+import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.loop.Faults;
+import org.raspilot.up.loop.ManualLoop;
+import org.raspilot.up.loop.ScriptedNetwork;
+
+/** When an UpSocket connects, gives up and tries again. */
+public final class UpSocketTest {
+    private static final Place PLACE = new Place("192.0.2.7", 50001, 50000);
+
+    private final Faults faults = new Faults();
+    private final ScriptedNetwork network = new ScriptedNetwork();
+    private final ManualLoop loop = new ManualLoop(network, faults);
+    private final Diary diary = new Diary();
+    private final UpSocket socket = socket(new FixedPlace(PLACE), diary);
+
+    @After
+    public void nothingWasThrown() {
+        faults.mustBeNone();
+    }
+
+    @Test
+    public void itGoesToTheGeneralPortOfItsPlace() {
+        assertEquals("STOPPED: not started", socket.status().toString());
+        socket.start();
+        socket.start();
+        assertEquals(1, network.connections.size());
+        assertEquals("192.0.2.7", network.newest().host);
+        assertEquals(50001, network.newest().port);
+        assertEquals(2000, network.newest().timeoutMs);
+        assertEquals("CONNECTING: connecting to 192.0.2.7:50001", socket.status().toString());
+        network.newest().accept();
+        assertEquals("CONNECTED: connected to 192.0.2.7:50001", socket.status().toString());
+        assertEquals(PLACE, socket.status().place());
+        assertEquals(Arrays.asList("connected"), diary.told);
+        assertEquals(1, socket.counters().connects());
+    }
+
+    @Test
+    public void aRawSocketGoesToTheOrientationPort() {
+        new UpSocket(loop, new FixedPlace(PLACE), diary, UpSocketSettings.raw(), new Random(1))
+                .start();
+        assertEquals(50000, network.newest().port);
+    }
+
+    @Test
+    public void theWaitsDoubleFromHalfASecondToTwoEachVariedByAFifth() {
+        socket.start();
+        final int[] wantedMs = {500, 1000, 2000, 2000, 2000};
+        final long[] gotMs = new long[wantedMs.length];
+        for (int i = 0; i < wantedMs.length; i++) {
+            gotMs[i] = msToNextAttempt("refused");
+            assertTrue(i + ": " + gotMs[i], Math.abs(gotMs[i] - wantedMs[i]) <= wantedMs[i] / 5);
+        }
+        assertTrue("no jitter", gotMs[2] != gotMs[3] || gotMs[3] != gotMs[4]);
+        assertEquals(5, socket.counters().failedAttempts());
+        assertEquals(0, socket.counters().lost());
+        assertTrue(diary.told.isEmpty());
+    }
+
+    @Test
+    public void theSameSeedWaitsTheSame() {
+        final UpSocket twin = socket(new FixedPlace(PLACE), diary);
+        twin.start();
+        final long firstMs = msToNextAttempt("refused");
+        twin.stop();
+        socket.start();
+        assertEquals(firstMs, msToNextAttempt("refused"));
+    }
+
+    @Test
+    public void anAttemptThatTookLongWaitsNoLongerThanTheShortestAfterwards() {
+        socket.start();
+        for (int i = 0; i < 5; i++) {
+            loop.advance(2000);
+            final long waitMs = msToNextAttempt("no answer");
+            assertTrue("waited " + waitMs, waitMs <= 600);
+        }
+    }
+
+    @Test
+    public void theStatusSaysWhyItIsNotConnected() {
+        socket.start();
+        network.newest().end("no connection to 192.0.2.7:50001: Connection refused");
+        assertEquals("WAITING: no connection to 192.0.2.7:50001: Connection refused; trying again",
+                socket.status().toString());
+        loop.advance(0);
+        assertEquals(UpSocketStatus.State.WAITING, diary.states.get(diary.states.size() - 1));
+    }
+
+    @Test
+    public void aConnectionThatLivedIsComeBackToSoon() {
+        socket.start();
+        for (int i = 0; i < 4; i++) {
+            network.newest().accept();
+            loop.advance(2000);
+            final long waitMs = msToNextAttempt("broke");
+            assertTrue("waited " + waitMs, waitMs >= 400 && waitMs <= 600);
+        }
+        assertEquals(4, socket.counters().lost());
+        assertEquals(Arrays.asList("connected", "lost: broke"), diary.told.subList(0, 2));
+    }
+
+    @Test
+    public void aPeerThatHangsUpAtOnceIsAskedMoreAndMoreSeldom() {
+        socket.start();
+        long waitMs = 0;
+        for (int i = 0; i < 4; i++) {
+            network.newest().accept();
+            waitMs = msToNextAttempt("closed");
+        }
+        assertTrue("waited " + waitMs, waitMs >= 1600);
+    }
+
+    @Test
+    public void thePhonesNetworkCameBack() {
+        socket.start();
+        network.newest().end("refused");
+        loop.advance(10);
+        socket.reconnectNow();
+        assertEquals(2, network.connections.size());
+        socket.reconnectNow();
+        assertEquals("this attempt is young", 2, network.connections.size());
+        loop.advance(500);
+        socket.reconnectNow();
+        assertTrue("of the old network", network.connections.get(1).isClosed);
+        assertEquals(3, network.connections.size());
+        network.newest().accept();
+        loop.advance(5000);
+        socket.reconnectNow();
+        assertEquals(3, network.connections.size());
+        socket.stop();
+        socket.reconnectNow();
+        loop.advance(60000);
+        assertEquals(3, network.connections.size());
+    }
+
+    @Test
+    public void reconnectNowBeginsWithTheShortestWaitAgain() {
+        socket.start();
+        for (int i = 0; i < 4; i++) {
+            msToNextAttempt("refused");
+        }
+        network.newest().end("refused");
+        socket.reconnectNow();
+        final long waitMs = msToNextAttempt("refused");
+        assertTrue("waited " + waitMs, waitMs <= 600);
+    }
+
+    @Test
+    public void itsOwnerMayDropAConnectionOrAnAttempt() {
+        socket.drop("not started");
+        socket.start();
+        socket.drop("the network changed");
+        assertTrue(network.newest().isClosed);
+        assertTrue(diary.told.isEmpty());
+        loop.advance(600);
+        network.newest().accept();
+        socket.drop("no answer to the hello");
+        assertTrue(network.newest().isClosed);
+        assertEquals(Arrays.asList("connected", "lost: no answer to the hello"), diary.told);
+        loop.advance(1200);
+        assertEquals(3, network.connections.size());
+    }
+
+    @Test
+    public void stopEndsWhateverIsUnderWay() {
+        socket.start();
+        socket.stop();
+        assertTrue("connecting", network.newest().isClosed);
+        assertTrue(diary.told.isEmpty());
+        socket.start();
+        network.newest().accept();
+        socket.stop();
+        assertTrue("connected", network.newest().isClosed);
+        assertEquals(Arrays.asList("connected", "lost: stopped"), diary.told);
+        socket.start();
+        network.newest().end("refused");
+        socket.stop();
+        loop.advance(60000);
+        assertEquals("STOPPED: stopped", socket.status().toString());
+        assertEquals("waiting", 3, network.connections.size());
+        assertEquals(0, loop.pendingTimers());
+        assertEquals(0, socket.counters().lost());
+    }
+
+    @Test
+    public void theFinderIsAskedAnewBeforeEachAttempt() {
+        final Finder finder = new Finder();
+        final UpSocket moving = socket(finder, diary);
+        moving.start();
+        assertEquals("FINDING: looking for the peer", moving.status().toString());
+        finder.listener.onFound(PLACE);
+        network.newest().end("refused");
+        loop.advance(600);
+        assertEquals(2, finder.asked);
+        finder.listener.onFound(new Place("192.0.2.8", 1, 2));
+        assertEquals("192.0.2.8", network.newest().host);
+        moving.stop();
+    }
+
+    @Test
+    public void aPlaceThatIsNotFoundIsLookedForAgain() {
+        final Finder finder = new Finder();
+        final UpSocket lost = socket(finder, diary);
+        lost.start();
+        finder.listener.onNotFound("no answer from Discovery");
+        assertEquals("WAITING: no answer from Discovery; trying again", lost.status().toString());
+        assertNull(lost.status().place());
+        loop.advance(600);
+        assertEquals(2, finder.asked);
+        lost.stop();
+        assertTrue("the search is cancelled", finder.isCancelled);
+        finder.listener.onFound(PLACE);
+        assertTrue("too late", network.connections.isEmpty());
+    }
+
+    @Test
+    public void aFinderThatThrowsIsAskedAgain() {
+        final int[] asked = new int[1];
+        final UpSocket unlucky = socket(new PlaceFinder() {
+            @Override
+            public Cancellable find(FindListener listener) {
+                asked[0]++;
+                throw new IllegalStateException("a finder");
+            }
+        }, diary);
+        loop.post(new Runnable() {
+            @Override
+            public void run() {
+                unlucky.start();
+            }
+        });
+        loop.advance(600);
+        assertEquals(2, asked[0]);
+        assertEquals("WAITING: the search failed; trying again", unlucky.status().toString());
+        unlucky.stop();
+        assertEquals(2, faults.takeAll().size());
+    }
+
+    @Test
+    public void itsListenerMayStopItAnywhere() {
+        final UpSocket[] shy = new UpSocket[1];
+        final Diary stopper = new Diary() {
+            @Override
+            public void onReceived(UpSocket from, byte[] bytes, int length) {
+                super.onReceived(from, bytes, length);
+                from.stop();
+            }
+
+            @Override
+            public void onLost(UpSocket from, String reason) {
+                super.onLost(from, reason);
+                from.stop();
+            }
+        };
+        shy[0] = socket(new FixedPlace(PLACE), stopper);
+        shy[0].start();
+        network.newest().accept();
+        network.newest().say("one\ntwo\n");
+        assertEquals(Arrays.asList("connected", "< one", "lost: stopped"), stopper.told);
+        shy[0].start();
+        network.newest().accept();
+        network.newest().end("broke");
+        loop.advance(60000);
+        assertEquals(UpSocketStatus.State.STOPPED, shy[0].status().state());
+        assertEquals(2, network.connections.size());
+    }
+
+    /** Ends the newest attempt or connection and returns how long the next one lets wait. */
+    private long msToNextAttempt(String reason) {
+        final int count = network.connections.size();
+        network.newest().end(reason);
+        long waitedMs = 0;
+        while (network.connections.size() == count) {
+            loop.advance(1);
+            waitedMs++;
+            assertTrue("never tried again", waitedMs < 10000);
+        }
+        return waitedMs;
+    }
+
+    private UpSocket socket(PlaceFinder finder, UpSocketListener listener) {
+        return new UpSocket(loop, finder, listener, UpSocketSettings.lines(), new Random(6));
+    }
+
+    /** A finder that answers when the test lets it. */
+    private static final class Finder implements PlaceFinder, Cancellable {
+        private FindListener listener;
+        private int asked;
+        private boolean isCancelled;
+
+        @Override
+        public Cancellable find(FindListener asker) {
+            asked++;
+            listener = asker;
+            return this;
+        }
+
+        @Override
+        public void cancel() {
+            isCancelled = true;
+        }
+
+        @Override
+        public boolean isPending() {
+            return !isCancelled;
+        }
+    }
+}
