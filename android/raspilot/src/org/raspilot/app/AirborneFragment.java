@@ -1,7 +1,205 @@
 package org.raspilot.app;
 
 import android.app.Fragment;
+import android.os.Bundle;
+import android.view.LayoutInflater;
+import android.view.View;
+import android.view.ViewGroup;
+import org.raspilot.up.airborne.AirborneSettings;
+import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.android.BaseUpService;
+import org.raspilot.up.android.ProblemListener;
+import org.raspilot.up.providers.Mounting;
 
-/** The airborne screen. */
-public final class AirborneFragment extends Fragment {
+/** The airborne screen: what is sent, at which rate, whereto, and how the phone is mounted. */
+public final class AirborneFragment extends Fragment
+        implements AirborneLink.Watcher, EventBook.Watcher, SpawnDesk.Watcher {
+    private static final String IS_STARTING = "starting";
+    private static final String WAS_ASKED = "asked";
+
+    private AirborneLink link;
+    private RunPanel run;
+    private ProvidersPanel providers;
+    private MountingPanel mounting;
+    private PhonePanel phone;
+    private AirborneStatus status;
+    private boolean isStarting;
+    private boolean wasAsked;
+
+    @Override
+    public void onCreate(Bundle saved) {
+        super.onCreate(saved);
+        isStarting = saved != null && saved.getBoolean(IS_STARTING);
+        wasAsked = saved != null && saved.getBoolean(WAS_ASKED);
+        link = new AirborneLink(getActivity(), this);
+    }
+
+    @Override
+    public View onCreateView(LayoutInflater inflater, ViewGroup container, Bundle saved) {
+        View root = inflater.inflate(R.layout.fragment_airborne, container, false);
+        AppSettings settings = new AppSettings(getActivity());
+        run = new RunPanel(root, new View.OnClickListener() {
+            @Override
+            public void onClick(View pressed) {
+                press();
+            }
+        });
+        providers = new ProvidersPanel(root, new View.OnClickListener() {
+            @Override
+            public void onClick(View pressed) {
+                zeroAltitude();
+            }
+        });
+        phone = new PhonePanel(getActivity(), root, settings);
+        mounting = new MountingPanel(root, settings, new MountingPanel.Listener() {
+            @Override
+            public void onMounting(Mounting newMounting) {
+                take(newMounting);
+            }
+        }, new ProblemListener() {
+            @Override
+            public void onProblem(String sentence) {
+                application().note(sentence);
+            }
+        });
+        return root;
+    }
+
+    @Override
+    public void onStart() {
+        super.onStart();
+        application().events().watch(this);
+        application().spawning().watch(this);
+        mounting.begin();
+        link.begin();
+        showAll();
+    }
+
+    @Override
+    public void onResume() {
+        super.onResume();
+        phone.show();
+    }
+
+    @Override
+    public void onStop() {
+        link.end();
+        mounting.end();
+        application().spawning().watch(null);
+        application().events().unwatch(this);
+        status = null;
+        super.onStop();
+    }
+
+    @Override
+    public void onDestroyView() {
+        run = null;
+        providers = null;
+        mounting = null;
+        phone = null;
+        super.onDestroyView();
+    }
+
+    @Override
+    public void onSaveInstanceState(Bundle state) {
+        super.onSaveInstanceState(state);
+        state.putBoolean(IS_STARTING, isStarting);
+        state.putBoolean(WAS_ASKED, wasAsked);
+    }
+
+    @Override
+    public void onAirborne(AirborneStatus newest) {
+        status = newest;
+        showRun();
+    }
+
+    @Override
+    public void onEvents() {
+        showRun();
+    }
+
+    @Override
+    public void onSpawning() {
+        showRun();
+    }
+
+    /** Goes on where the user has answered; what was refused is a sensor that is absent. */
+    void permissionsAnswered() {
+        if (phone != null) {
+            phone.show();
+        }
+        if (link != null && link.isRunning()) {
+            link.airside().permissionsChanged();
+        }
+        if (isStarting) {
+            isStarting = false;
+            start();
+        }
+    }
+
+    private void press() {
+        if (application().spawning().isAsking()) {
+            application().spawning().cancel();
+        } else if (link.isRunning()) {
+            new StopQuestion().show(getFragmentManager(), StopQuestion.TAG);
+        } else if (!wasAsked && phone.ask()) {
+            wasAsked = true;
+            isStarting = true;
+        } else {
+            start();
+        }
+    }
+
+    private void start() {
+        try {
+            AirborneSettings settings = new AppSettings(getActivity()).airborne();
+            if (settings.isByRunner()) {
+                application().spawning().ask(settings);
+            } else {
+                BaseUpService.start(getActivity(), RaspilotUpService.class);
+            }
+        } catch (IllegalArgumentException wrong) {
+            application().note(wrong.getMessage());
+        }
+    }
+
+    private void take(Mounting newMounting) {
+        if (link.isRunning()) {
+            link.airside().setMounting(newMounting);
+        }
+    }
+
+    private void zeroAltitude() {
+        if (link.isRunning()) {
+            link.airside().zeroAltitudeHere();
+        }
+    }
+
+    private void showAll() {
+        try {
+            run.showSettings(new AppSettings(getActivity()).airborne());
+        } catch (IllegalArgumentException wrong) {
+            run.showFault(wrong.getMessage());
+        }
+        phone.show();
+        showRun();
+    }
+
+    private void showRun() {
+        if (run == null) {
+            return;
+        }
+        providers.show(status);
+        if (link.isRunning()) {
+            run.showRunning(status);
+        } else {
+            EventBook.Entry newest = application().events().newest();
+            run.showStopped(application().spawning().isAsking(),
+                    newest == null ? null : newest.text());
+        }
+    }
+
+    private RaspilotApplication application() {
+        return RaspilotApplication.of(getActivity());
+    }
 }

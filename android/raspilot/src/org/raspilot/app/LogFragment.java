@@ -1,7 +1,111 @@
 package org.raspilot.app;
 
 import android.app.Fragment;
+import android.content.ClipData;
+import android.content.ClipboardManager;
+import android.content.Context;
+import android.content.Intent;
+import android.os.Bundle;
+import android.view.LayoutInflater;
+import android.view.View;
+import android.view.ViewGroup;
+import android.widget.ArrayAdapter;
+import android.widget.ListView;
+import android.widget.Toast;
+import java.text.SimpleDateFormat;
+import java.util.Locale;
 
-/** The log screen. */
-public final class LogFragment extends Fragment {
+/** The log screen: what happened since the application began, to read, share and copy. */
+public final class LogFragment extends Fragment implements EventBook.Watcher {
+    private static final String TIME = "HH:mm:ss";
+
+    private ArrayAdapter<String> lines;
+    private LogText text;
+
+    @Override
+    public View onCreateView(LayoutInflater inflater, ViewGroup container, Bundle saved) {
+        View root = inflater.inflate(R.layout.fragment_log, container, false);
+        final Context context = getActivity();
+        text = new LogText(new SimpleDateFormat(TIME, Locale.US), new LogText.Times() {
+            @Override
+            public String of(String line, int times) {
+                return context.getString(R.string.log_times, line, times);
+            }
+        });
+        lines = new ArrayAdapter<String>(context, R.layout.row_log);
+        ListView list = (ListView) root.findViewById(R.id.log_lines);
+        list.setAdapter(lines);
+        list.setEmptyView(root.findViewById(R.id.log_empty));
+        root.findViewById(R.id.log_share).setOnClickListener(new View.OnClickListener() {
+            @Override
+            public void onClick(View pressed) {
+                share();
+            }
+        });
+        root.findViewById(R.id.log_copy).setOnClickListener(new View.OnClickListener() {
+            @Override
+            public void onClick(View pressed) {
+                copy();
+            }
+        });
+        root.findViewById(R.id.log_clear).setOnClickListener(new View.OnClickListener() {
+            @Override
+            public void onClick(View pressed) {
+                events().clear();
+            }
+        });
+        return root;
+    }
+
+    @Override
+    public void onStart() {
+        super.onStart();
+        events().watch(this);
+        onEvents();
+    }
+
+    @Override
+    public void onStop() {
+        events().unwatch(this);
+        super.onStop();
+    }
+
+    @Override
+    public void onDestroyView() {
+        lines = null;
+        super.onDestroyView();
+    }
+
+    @Override
+    public void onEvents() {
+        if (lines == null) {
+            return;
+        }
+        lines.setNotifyOnChange(false);
+        lines.clear();
+        for (EventBook.Entry entry : events().entries()) {
+            lines.add(text.line(entry));
+        }
+        lines.notifyDataSetChanged();
+    }
+
+    private void share() {
+        Intent intent = new Intent(Intent.ACTION_SEND)
+                .setType("text/plain")
+                .putExtra(Intent.EXTRA_SUBJECT, getString(R.string.log_subject))
+                .putExtra(Intent.EXTRA_TEXT, text.all(events().entries()));
+        startActivity(Intent.createChooser(intent, getString(R.string.log_share)));
+    }
+
+    private void copy() {
+        ClipboardManager clipboard = (ClipboardManager)
+                getActivity().getSystemService(Context.CLIPBOARD_SERVICE);
+        clipboard.setPrimaryClip(ClipData.newPlainText(getString(R.string.log_subject),
+                text.all(events().entries())));
+        Toast.makeText(getActivity(), R.string.log_copied, Toast.LENGTH_SHORT).show();
+    }
+
+    private EventBook events() {
+        return RaspilotApplication.of(getActivity()).events();
+    }
 }

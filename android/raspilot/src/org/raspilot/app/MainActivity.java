@@ -24,6 +24,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
         setTheme(AppTheme.style(this));
         super.onCreate(saved);
         setContentView(R.layout.activity_main);
+        TelemetryLink.prepare(this);
         isTwoPanes = getResources().getBoolean(R.bool.two_panes);
         if (saved != null) {
             chosen = Screen.named(saved.getString(CHOSEN));
@@ -53,6 +54,14 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
 
     @Override
     public void onTabReselected(ActionBar.Tab tab, FragmentTransaction unused) {
+    }
+
+    /** Hears the answer of the user; the API 16 stubs do not know what it overrides. */
+    public void onRequestPermissionsResult(int request, String[] permissions, int[] answers) {
+        Fragment airborne = getFragmentManager().findFragmentByTag(Screen.Part.AIRBORNE.name());
+        if (airborne instanceof AirborneFragment) {
+            ((AirborneFragment) airborne).permissionsAnswered();
+        }
     }
 
     private void makeTabs() {

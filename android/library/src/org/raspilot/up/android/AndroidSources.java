@@ -3,6 +3,7 @@ package org.raspilot.up.android;
 import android.content.Context;
 import android.os.Handler;
 import android.os.Looper;
+import java.util.concurrent.Executor;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.providers.BatteryLevel;
 import org.raspilot.up.providers.Fix;
@@ -30,22 +31,27 @@ public final class AndroidSources implements Sensors {
      * @param looper whose thread the system calls on
      * @param fixes hears of each fix besides its provider
      */
-    public AndroidSources(Context context, Looper looper, Loop loop, SourceTexts texts,
+    public AndroidSources(Context context, Looper looper, final Loop loop, SourceTexts texts,
             ProblemListener problems, FixListener fixes) {
         Context lasting = context.getApplicationContext();
+        Executor posting = new Executor() {
+            @Override
+            public void execute(Runnable call) {
+                loop.post(call);
+            }
+        };
         SensorDesk desk = new SensorDesk(lasting, looper);
-        location = new LocationSource(lasting, looper, loop, texts, problems, fixes);
-        rotation = rotation(desk, loop, texts, problems);
-        rotationRate = new GyroscopeSource(desk, loop, texts, problems);
-        pressure = new BarometerSource(desk, loop, texts, problems);
-        battery = new BatterySource(lasting, new Handler(looper), loop, texts);
+        location = new LocationSource(lasting, looper, posting, texts, problems, fixes);
+        rotation = rotation(desk, posting, texts, problems);
+        rotationRate = new GyroscopeSource(desk, posting, texts, problems);
+        pressure = new BarometerSource(desk, posting, texts, problems);
+        battery = new BatterySource(lasting, new Handler(looper), posting, texts);
     }
 
     /** Returns the best of what a phone has; its own fusion knows north and its gyroscope. */
-    static SensorSource<Rotation> rotation(SensorDesk desk, Loop loop, SourceTexts texts,
+    static SensorSource<Rotation> rotation(SensorDesk desk, Executor loop, SourceTexts texts,
             ProblemListener problems) {
-        SensorSource<Rotation> vector = new VectorSource(desk, VectorSource.WITH_NORTH, loop,
-                texts, problems);
+        SensorSource<Rotation> vector = new VectorSource(desk, loop, texts, problems);
         return vector.isPresent() ? vector : new FieldSource(desk, loop, texts, problems);
     }
 

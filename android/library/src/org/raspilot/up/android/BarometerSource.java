@@ -1,12 +1,12 @@
 package org.raspilot.up.android;
 
 import android.hardware.Sensor;
-import org.raspilot.up.loop.Loop;
+import java.util.concurrent.Executor;
 import org.raspilot.up.providers.Pressure;
 
 /** The air's pressure, by the phone's barometer. */
 final class BarometerSource extends HardwareSource<Pressure> {
-    BarometerSource(SensorDesk desk, Loop loop, SourceTexts texts, ProblemListener problems) {
+    BarometerSource(SensorDesk desk, Executor loop, SourceTexts texts, ProblemListener problems) {
         super(desk, Sensor.TYPE_PRESSURE, loop, texts, Lack.BAROMETER, problems);
     }
 

@@ -6,7 +6,7 @@ import android.content.Intent;
 import android.content.IntentFilter;
 import android.os.BatteryManager;
 import android.os.Handler;
-import org.raspilot.up.loop.Loop;
+import java.util.concurrent.Executor;
 import org.raspilot.up.providers.BatteryLevel;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
@@ -20,7 +20,7 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
     private boolean isListening;
 
     /** Takes a context that outlives every subscription. */
-    BatterySource(Context context, Handler handler, Loop loop, SourceTexts texts) {
+    BatterySource(Context context, Handler handler, Executor loop, SourceTexts texts) {
         this.context = context;
         this.handler = handler;
         absence = texts.of(Lack.BATTERY);

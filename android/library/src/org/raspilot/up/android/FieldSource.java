@@ -4,8 +4,8 @@ import android.hardware.Sensor;
 import android.hardware.SensorEvent;
 import android.hardware.SensorEventListener;
 import android.hardware.SensorManager;
+import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
-import org.raspilot.up.loop.Loop;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
@@ -29,7 +29,7 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
     private final Smooth field = new Smooth(SMOOTH_MS);
     private final float[] matrix = new float[9];
 
-    FieldSource(SensorDesk desk, Loop loop, SourceTexts texts, ProblemListener problems) {
+    FieldSource(SensorDesk desk, Executor loop, SourceTexts texts, ProblemListener problems) {
         this.desk = desk;
         accelerometer = desk.find(Sensor.TYPE_ACCELEROMETER);
         magnetometer = desk.find(Sensor.TYPE_MAGNETIC_FIELD);

@@ -18,7 +18,6 @@ import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.loop.SelectorLoop;
-import org.raspilot.up.providers.ProvidersController;
 
 /**
  * One run of the ground side on a loop of its own. Made, used and ended on the main thread, which
@@ -53,7 +52,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         this.view = view;
         loop = new SelectorLoop("up ground", new Faults("up ground"));
         loop.start();
-        up = new Up(loop, new ProvidersController(loop), this);
+        up = new Up(loop, this);
         side = new GroundSide(loop, settings, new PreferencesTokenStore(context),
                 up.commandExecutor(), this, new Random());
         network = new NetworkWatch(context, false, new Runnable() {

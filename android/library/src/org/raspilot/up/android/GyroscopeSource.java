@@ -1,12 +1,12 @@
 package org.raspilot.up.android;
 
 import android.hardware.Sensor;
-import org.raspilot.up.loop.Loop;
+import java.util.concurrent.Executor;
 import org.raspilot.up.providers.RotationRate;
 
 /** How quickly the phone turns, by its gyroscope. */
 final class GyroscopeSource extends HardwareSource<RotationRate> {
-    GyroscopeSource(SensorDesk desk, Loop loop, SourceTexts texts, ProblemListener problems) {
+    GyroscopeSource(SensorDesk desk, Executor loop, SourceTexts texts, ProblemListener problems) {
         super(desk, Sensor.TYPE_GYROSCOPE, loop, texts, Lack.GYROSCOPE, problems);
     }
 

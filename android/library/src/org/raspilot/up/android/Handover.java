@@ -1,7 +1,7 @@
 package org.raspilot.up.android;
 
+import java.util.concurrent.Executor;
 import java.util.concurrent.atomic.AtomicReference;
-import org.raspilot.up.loop.Loop;
 import org.raspilot.up.providers.SensorListener;
 
 /**
@@ -11,11 +11,11 @@ import org.raspilot.up.providers.SensorListener;
  * @param <R> what one reading is
  */
 final class Handover<R> implements Runnable {
-    private final Loop loop;
+    private final Executor loop;
     private final AtomicReference<R> waiting = new AtomicReference<R>();
     private SensorListener<R> listener;
 
-    Handover(Loop loop) {
+    Handover(Executor loop) {
         this.loop = loop;
     }
 
@@ -28,7 +28,7 @@ final class Handover<R> implements Runnable {
     /** Takes a reading; on any thread. */
     void give(R reading) {
         if (waiting.getAndSet(reading) == null) {
-            loop.post(this);
+            loop.execute(this);
         }
     }
 

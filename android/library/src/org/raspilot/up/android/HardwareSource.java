@@ -3,8 +3,8 @@ package org.raspilot.up.android;
 import android.hardware.Sensor;
 import android.hardware.SensorEvent;
 import android.hardware.SensorEventListener;
+import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
-import org.raspilot.up.loop.Loop;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
@@ -22,7 +22,7 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
     private final String refusal;
 
     /** Takes the type of {@link Sensor} and why there is nothing where the phone has none. */
-    HardwareSource(SensorDesk desk, int type, Loop loop, SourceTexts texts, Lack lack,
+    HardwareSource(SensorDesk desk, int type, Executor loop, SourceTexts texts, Lack lack,
             ProblemListener problems) {
         this.desk = desk;
         sensor = desk.find(type);

@@ -10,8 +10,6 @@ public enum Lack {
     LOCATION_OFF,
     /** There is nothing by which the phone knows how it lies. */
     ROTATION,
-    /** There is nothing by which the phone knows where north is. */
-    NORTH,
     /** There is no gyroscope. */
     GYROSCOPE,
     /** There is no barometer. */

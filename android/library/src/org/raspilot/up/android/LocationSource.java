@@ -8,7 +8,7 @@ import android.location.LocationManager;
 import android.os.Bundle;
 import android.os.Looper;
 import android.os.SystemClock;
-import org.raspilot.up.loop.Loop;
+import java.util.concurrent.Executor;
 import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
@@ -31,7 +31,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
     private final Handover<Fix> handover;
     private final FixChoice choice = new FixChoice();
 
-    LocationSource(Context context, Looper looper, Loop loop, SourceTexts texts,
+    LocationSource(Context context, Looper looper, Executor loop, SourceTexts texts,
             ProblemListener problems, FixListener besides) {
         this.context = context;
         this.looper = looper;

@@ -3,21 +3,18 @@ package org.raspilot.up.android;
 import android.hardware.Sensor;
 import android.os.Build;
 import java.util.Arrays;
-import org.raspilot.up.loop.Loop;
+import java.util.concurrent.Executor;
 import org.raspilot.up.providers.Rotation;
 
-/** How the phone lies, by its own fusion of its sensors. */
+/**
+ * How the phone lies and where north is, by its own fusion of its sensors. (The one that is called
+ * the game's knows no north: its yaw would be sent as a heading.)
+ */
 final class VectorSource extends HardwareSource<Rotation> {
-    /** Knows north: {@code Sensor.TYPE_ROTATION_VECTOR}. */
-    static final int WITH_NORTH = Sensor.TYPE_ROTATION_VECTOR;
-    /** Knows no north, no magnet disturbs it: {@code Sensor.TYPE_GAME_ROTATION_VECTOR} (API 18). */
-    static final int WITHOUT_NORTH = 15;
-
     private static final int AXES = 3;
 
-    VectorSource(SensorDesk desk, int type, Loop loop, SourceTexts texts,
-            ProblemListener problems) {
-        super(desk, type, loop, texts, Lack.ROTATION, problems);
+    VectorSource(SensorDesk desk, Executor loop, SourceTexts texts, ProblemListener problems) {
+        super(desk, Sensor.TYPE_ROTATION_VECTOR, loop, texts, Lack.ROTATION, problems);
     }
 
     @Override

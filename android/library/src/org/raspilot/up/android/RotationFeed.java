@@ -1,0 +1,49 @@
+package org.raspilot.up.android;
+
+import android.content.Context;
+import android.os.Handler;
+import android.os.Looper;
+import java.util.concurrent.Executor;
+import org.raspilot.up.providers.Rotation;
+import org.raspilot.up.providers.SensorListener;
+import org.raspilot.up.providers.SensorSource;
+
+/** Shows a screen how the phone lies, whether or not it is sent. All on the main thread. */
+public final class RotationFeed {
+    private final SensorSource<Rotation> source;
+
+    /** Looks what there is to know it by. */
+    public RotationFeed(Context context, SourceTexts texts, ProblemListener problems) {
+        final Handler main = new Handler(Looper.getMainLooper());
+        SensorDesk desk = new SensorDesk(context.getApplicationContext(),
+                Looper.getMainLooper());
+        source = AndroidSources.rotation(desk, new Executor() {
+            @Override
+            public void execute(Runnable call) {
+                main.post(call);
+            }
+        }, texts, problems);
+    }
+
+    /** Says whether this phone knows how it lies. */
+    public boolean isPresent() {
+        return source.isPresent();
+    }
+
+    /** Returns what it knows it by, or a sentence why it does not. */
+    public String name() {
+        return source.name();
+    }
+
+    /** Begins to tell it; where it is not known nothing is told. */
+    public void begin(long periodMs, SensorListener<Rotation> listener) {
+        if (source.isPresent()) {
+            source.subscribe(periodMs, listener);
+        }
+    }
+
+    /** Ends it. */
+    public void end() {
+        source.unsubscribe();
+    }
+}

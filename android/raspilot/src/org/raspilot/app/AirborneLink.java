@@ -1,0 +1,84 @@
+package org.raspilot.app;
+
+import android.content.ComponentName;
+import android.content.Context;
+import android.content.Intent;
+import android.content.ServiceConnection;
+import android.os.IBinder;
+import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.android.BaseUpService;
+import org.raspilot.up.android.UpWatcher;
+
+/**
+ * A screen's view of the airborne service while it is seen: bound without creating the service,
+ * so that looking starts nothing. On the main thread.
+ */
+final class AirborneLink {
+    /** Hears of the service. */
+    interface Watcher {
+        /** Takes the newest status; null: the service does not run, or has said nothing yet. */
+        void onAirborne(AirborneStatus status);
+    }
+
+    private final Context context;
+    private final Watcher watcher;
+    private final UpWatcher statuses = new UpWatcher() {
+        @Override
+        public void onStatus(AirborneStatus status) {
+            watcher.onAirborne(status);
+        }
+    };
+    private final ServiceConnection connection = new ServiceConnection() {
+        @Override
+        public void onServiceConnected(ComponentName name, IBinder binder) {
+            if (isBound) {
+                airside = (BaseUpService.Airside) binder;
+                watcher.onAirborne(null);
+                airside.add(statuses);
+            }
+        }
+
+        @Override
+        public void onServiceDisconnected(ComponentName name) {
+            airside = null;
+            watcher.onAirborne(null);
+        }
+    };
+    private BaseUpService.Airside airside;
+    private boolean isBound;
+
+    AirborneLink(Context context, Watcher watcher) {
+        this.context = context.getApplicationContext();
+        this.watcher = watcher;
+    }
+
+    /** Begins to look; it hears of a service that is started later, too. */
+    void begin() {
+        if (!isBound) {
+            isBound = true;
+            context.bindService(new Intent(context, RaspilotUpService.class), connection, 0);
+        }
+    }
+
+    /** Ends it. */
+    void end() {
+        if (airside != null) {
+            airside.remove(statuses);
+            airside = null;
+        }
+        if (isBound) {
+            isBound = false;
+            context.unbindService(connection);
+        }
+    }
+
+    /** Says whether the service runs. */
+    boolean isRunning() {
+        return airside != null;
+    }
+
+    /** Returns the service's side; null: it does not run. */
+    BaseUpService.Airside airside() {
+        return airside;
+    }
+}

@@ -1,0 +1,164 @@
+package org.raspilot.app;
+
+import android.content.Context;
+import android.content.SharedPreferences;
+import android.preference.PreferenceManager;
+import java.util.Locale;
+import org.raspilot.up.airborne.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings;
+import org.raspilot.up.airborne.OrientationTransport;
+import org.raspilot.up.ground.GroundSettings;
+import org.raspilot.up.providers.Mounting;
+import org.raspilot.up.providers.Side;
+import org.raspilot.up.wire.Seat;
+
+/**
+ * The settings as the user made them. A value that is none (of an older version, of a broken
+ * file) is told in a sentence by an IllegalArgumentException when it is used.
+ */
+final class AppSettings {
+    private final Context context;
+    private final SharedPreferences preferences;
+
+    AppSettings(Context context) {
+        this.context = context.getApplicationContext();
+        preferences = PreferenceManager.getDefaultSharedPreferences(this.context);
+    }
+
+    /** Returns all of the airborne side. */
+    AirborneSettings airborne() {
+        return new AirborneSettings.Builder()
+                .mode(mode())
+                .host(text(R.string.key_host, R.string.default_host))
+                .generalPort(port(R.string.key_general_port, R.string.default_general_port))
+                .orientationPort(port(R.string.key_orientation_port,
+                        R.string.default_orientation_port))
+                .discoveryPort(port(R.string.key_discovery_port, R.string.default_discovery_port))
+                .runnerHost(text(R.string.key_runner_host, R.string.default_runner_host))
+                .runnerPort(port(R.string.key_runner_port, R.string.default_runner_port))
+                .aircraft(text(R.string.key_aircraft, R.string.default_aircraft))
+                .profile(text(R.string.key_profile, R.string.default_profile))
+                .orientation(transport())
+                .redundantOrientation(preferences.getBoolean(
+                        context.getString(R.string.key_redundant_orientation), false))
+                .orientationHz(whole(R.string.key_orientation_hz, R.string.default_orientation_hz,
+                        SettingRule.RATE))
+                .referencePressureHPa(referencePressureHPa())
+                .mounting(mounting())
+                .build();
+    }
+
+    /** Returns all of the ground side. */
+    GroundSettings ground() {
+        boolean isListening = preferences.getBoolean(
+                context.getString(R.string.key_ground_listen), false);
+        boolean isDirect = preferences.getBoolean(
+                context.getString(R.string.key_ground_direct), false);
+        return new GroundSettings(
+                text(R.string.key_ground_host, R.string.default_ground_host),
+                port(R.string.key_ground_port, R.string.default_ground_port),
+                text(R.string.key_ground_aircraft, R.string.default_ground_aircraft),
+                isListening ? Seat.LISTEN : Seat.COMMAND, isDirect);
+    }
+
+    /** Returns who the phone speaks to. */
+    AirborneMode mode() {
+        String wish = text(R.string.key_mode, R.string.default_mode);
+        return context.getString(R.string.mode_black_box).equals(wish)
+                ? AirborneMode.BLACK_BOX : AirborneMode.FLIGHT_CONTROLLER;
+    }
+
+    /** Says whether sockets stay on Wi-Fi in Flight Controller Mode. */
+    boolean isOnWifi() {
+        return preferences.getBoolean(context.getString(R.string.key_on_wifi), true);
+    }
+
+    /** Returns how the phone lies in the aeroplane; flat, where what is kept is none. */
+    Mounting mounting() {
+        String kept = preferences.getString(context.getString(R.string.key_mounting), "");
+        try {
+            return kept.isEmpty() ? Mounting.FLAT : Mounting.fromText(kept);
+        } catch (IllegalArgumentException broken) {
+            RaspilotApplication.of(context).note(
+                    context.getString(R.string.mounting_broken, broken.getMessage()));
+            return Mounting.FLAT;
+        }
+    }
+
+    /** Keeps how the phone lies in the aeroplane. */
+    void setMounting(Mounting mounting) {
+        preferences.edit().putString(context.getString(R.string.key_mounting), mounting.toText())
+                .apply();
+    }
+
+    /** Returns which side of the phone is at the nose. */
+    Side nose() {
+        String kept = preferences.getString(context.getString(R.string.key_nose), "");
+        for (Side side : Side.values()) {
+            if (side.name().equals(kept)) {
+                return side;
+            }
+        }
+        return Side.TOP;
+    }
+
+    /** Keeps which side of the phone is at the nose. */
+    void setNose(Side nose) {
+        preferences.edit().putString(context.getString(R.string.key_nose), nose.name()).apply();
+    }
+
+    /** Returns the pressure at altitude zero, hPa. */
+    double referencePressureHPa() {
+        String value = text(R.string.key_reference_pressure, R.string.default_reference_pressure);
+        check(SettingRule.PRESSURE, value);
+        return Double.parseDouble(value);
+    }
+
+    /** Keeps the pressure at altitude zero, hPa. */
+    void setReferencePressureHPa(double hPa) {
+        preferences.edit().putString(context.getString(R.string.key_reference_pressure),
+                String.format(Locale.ROOT, "%.2f", hPa)).apply();
+    }
+
+    /** Says whether the screen stays on while the airborne screen is seen. */
+    boolean isScreenKept() {
+        return preferences.getBoolean(context.getString(R.string.key_keep_screen), false);
+    }
+
+    /** Keeps whether the screen stays on. */
+    void setScreenKept(boolean isKept) {
+        preferences.edit().putBoolean(context.getString(R.string.key_keep_screen), isKept)
+                .apply();
+    }
+
+    private OrientationTransport transport() {
+        String wish = text(R.string.key_orientation, R.string.default_orientation);
+        for (OrientationTransport transport : OrientationTransport.values()) {
+            if (transport.name().equals(wish)) {
+                return transport;
+            }
+        }
+        return OrientationTransport.TCP;
+    }
+
+    private String text(int key, int usual) {
+        return preferences.getString(context.getString(key), context.getString(usual)).trim();
+    }
+
+    private int port(int key, int usual) {
+        return whole(key, usual, SettingRule.PORT);
+    }
+
+    private int whole(int key, int usual, SettingRule rule) {
+        String value = text(key, usual);
+        check(rule, value);
+        return Integer.parseInt(value);
+    }
+
+    private void check(SettingRule rule, String value) {
+        if (!rule.holds(value)) {
+            throw new IllegalArgumentException(context.getString(R.string.setting_broken,
+                    value, context.getString(rule.sentence())));
+        }
+    }
+}

@@ -1,0 +1,96 @@
+package org.raspilot.app;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+
+/** What happened since the application began, the newest last, bounded. On the main thread. */
+public final class EventBook {
+    /** So many lines are kept. */
+    public static final int KEPT = 500;
+
+    /** Hears of new lines. */
+    public interface Watcher {
+        /** Hears that the book has changed. */
+        void onEvents();
+    }
+
+    /** One line. Immutable. */
+    public static final class Entry {
+        private final long timeMs;
+        private final String text;
+        private final int times;
+
+        Entry(long timeMs, String text, int times) {
+            this.timeMs = timeMs;
+            this.text = text;
+            this.times = times;
+        }
+
+        /** Returns when it happened last, ms since 1970. */
+        public long timeMs() {
+            return timeMs;
+        }
+
+        /** Returns what happened. */
+        public String text() {
+            return text;
+        }
+
+        /** Returns how often in a row. */
+        public int times() {
+            return times;
+        }
+    }
+
+    private final List<Entry> entries = new ArrayList<Entry>();
+    private final List<Watcher> watchers = new ArrayList<Watcher>();
+
+    /** Writes a line; the same one again in a row is counted. */
+    public void add(long timeMs, String text) {
+        int last = entries.size() - 1;
+        if (last >= 0 && entries.get(last).text.equals(text)) {
+            entries.set(last, new Entry(timeMs, text, entries.get(last).times + 1));
+        } else {
+            entries.add(new Entry(timeMs, text, 1));
+        }
+        if (entries.size() > KEPT) {
+            entries.remove(0);
+        }
+        tell();
+    }
+
+    /** Empties the book. */
+    public void clear() {
+        entries.clear();
+        tell();
+    }
+
+    /** Returns the lines, from the oldest to the newest. */
+    public List<Entry> entries() {
+        return Collections.unmodifiableList(new ArrayList<Entry>(entries));
+    }
+
+    /** Returns the newest line; null: there is none. */
+    public Entry newest() {
+        return entries.isEmpty() ? null : entries.get(entries.size() - 1);
+    }
+
+    /** Adds a watcher. */
+    public void watch(Watcher watcher) {
+        if (!watchers.contains(watcher)) {
+            watchers.add(watcher);
+        }
+    }
+
+    /** Takes a watcher away. */
+    public void unwatch(Watcher watcher) {
+        watchers.remove(watcher);
+    }
+
+    private void tell() {
+        for (Watcher watcher : new ArrayList<Watcher>(watchers)) {
+            watcher.onEvents();
+        }
+    }
+}

@@ -1,0 +1,115 @@
+package org.raspilot.app;
+
+import android.content.Context;
+import android.view.View;
+import android.widget.AdapterView;
+import android.widget.Spinner;
+import android.widget.TextView;
+import org.raspilot.up.android.ProblemListener;
+import org.raspilot.up.android.RotationFeed;
+import org.raspilot.up.providers.Attitude;
+import org.raspilot.up.providers.Mounting;
+import org.raspilot.up.providers.Rotation;
+import org.raspilot.up.providers.SensorListener;
+import org.raspilot.up.providers.Side;
+
+/**
+ * How the phone lies in the aeroplane: the aeroplane's attitude by the phone now, and the press
+ * that makes it level. Works whether or not anything is sent. On the main thread.
+ */
+final class MountingPanel implements SensorListener<Rotation> {
+    /** Hears of a new mounting. */
+    interface Listener {
+        /** Takes the mounting, which is kept already. */
+        void onMounting(Mounting mounting);
+    }
+
+    private static final long PERIOD_MS = 100;
+
+    private final Context context;
+    private final AppSettings settings;
+    private final Listener listener;
+    private final RotationFeed feed;
+    private final TextView roll;
+    private final TextView pitch;
+    private final TextView yaw;
+    private final TextView said;
+    private final Spinner nose;
+    private Mounting mounting;
+    private Rotation newest;
+
+    MountingPanel(View root, AppSettings settings, Listener listener,
+            final ProblemListener problems) {
+        context = root.getContext();
+        this.settings = settings;
+        this.listener = listener;
+        feed = new RotationFeed(context, new AppSourceTexts(context), problems);
+        roll = (TextView) root.findViewById(R.id.mounting_roll);
+        pitch = (TextView) root.findViewById(R.id.mounting_pitch);
+        yaw = (TextView) root.findViewById(R.id.mounting_yaw);
+        said = (TextView) root.findViewById(R.id.mounting_said);
+        nose = (Spinner) root.findViewById(R.id.mounting_nose);
+        mounting = settings.mounting();
+        TextView absent = (TextView) root.findViewById(R.id.mounting_absent);
+        View level = root.findViewById(R.id.mounting_level);
+        absent.setVisibility(feed.isPresent() ? View.GONE : View.VISIBLE);
+        absent.setText(feed.name());
+        level.setEnabled(feed.isPresent());
+        level.setOnClickListener(new View.OnClickListener() {
+            @Override
+            public void onClick(View pressed) {
+                calibrate();
+            }
+        });
+        nose.setSelection(settings.nose().ordinal());
+        nose.setOnItemSelectedListener(new NoseListener());
+    }
+
+    /** Begins to read. */
+    void begin() {
+        feed.begin(PERIOD_MS, this);
+    }
+
+    /** Ends it. */
+    void end() {
+        feed.end();
+        newest = null;
+    }
+
+    @Override
+    public void onReading(Rotation reading) {
+        newest = reading;
+        // The declination is the service's; here north is the compass's.
+        Attitude attitude = mounting.attitude(reading, 0);
+        roll.setText(context.getString(R.string.live_degrees, attitude.rollDeg()));
+        pitch.setText(context.getString(R.string.live_degrees, attitude.pitchDeg()));
+        yaw.setText(context.getString(R.string.live_yaw_degrees, attitude.yawDeg()));
+    }
+
+    private void calibrate() {
+        if (newest == null) {
+            said.setText(R.string.mounting_no_reading);
+            return;
+        }
+        try {
+            mounting = Mounting.level(newest, Side.values()[nose.getSelectedItemPosition()]);
+        } catch (IllegalArgumentException refusal) {
+            said.setText(refusal.getMessage());
+            return;
+        }
+        settings.setMounting(mounting);
+        listener.onMounting(mounting);
+        said.setText(R.string.mounting_done);
+    }
+
+    private final class NoseListener implements AdapterView.OnItemSelectedListener {
+        @Override
+        public void onItemSelected(AdapterView<?> parent, View item, int position, long id) {
+            settings.setNose(Side.values()[position]);
+        }
+
+        @Override
+        public void onNothingSelected(AdapterView<?> parent) {
+        }
+    }
+}

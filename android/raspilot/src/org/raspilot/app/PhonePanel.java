@@ -1,0 +1,116 @@
+package org.raspilot.app;
+
+import android.Manifest;
+import android.app.Activity;
+import android.content.ActivityNotFoundException;
+import android.content.Intent;
+import android.net.Uri;
+import android.os.Build;
+import android.provider.Settings;
+import android.view.View;
+import android.widget.CheckBox;
+import android.widget.CompoundButton;
+import java.util.ArrayList;
+import java.util.List;
+import org.raspilot.up.android.Permissions;
+import org.raspilot.up.android.api23.Asking;
+
+/** What the phone's own settings must permit, with the way there, and whether the screen stays. */
+final class PhonePanel {
+    private static final int REQUEST = 1;
+    /** Android 6; the API 16 stubs do not know it. */
+    private static final String BATTERY_SCREEN =
+            "android.settings.IGNORE_BATTERY_OPTIMIZATION_SETTINGS";
+    private static final int TIRAMISU = 33;
+
+    private final Activity activity;
+    private final View location;
+    private final View battery;
+
+    PhonePanel(Activity activity, final View root, final AppSettings settings) {
+        this.activity = activity;
+        location = root.findViewById(R.id.phone_location);
+        battery = root.findViewById(R.id.phone_battery);
+        root.findViewById(R.id.phone_location_permit).setOnClickListener(
+                new View.OnClickListener() {
+                    @Override
+                    public void onClick(View pressed) {
+                        permit();
+                    }
+                });
+        root.findViewById(R.id.phone_battery_settings).setOnClickListener(
+                new View.OnClickListener() {
+                    @Override
+                    public void onClick(View pressed) {
+                        open(new Intent(BATTERY_SCREEN));
+                    }
+                });
+        CheckBox keep = (CheckBox) root.findViewById(R.id.phone_keep_screen);
+        keep.setChecked(settings.isScreenKept());
+        root.setKeepScreenOn(settings.isScreenKept());
+        keep.setOnCheckedChangeListener(new CompoundButton.OnCheckedChangeListener() {
+            @Override
+            public void onCheckedChanged(CompoundButton box, boolean isChecked) {
+                settings.setScreenKept(isChecked);
+                root.setKeepScreenOn(isChecked);
+            }
+        });
+    }
+
+    /** Shows what is missing now. */
+    void show() {
+        location.setVisibility(isLocationPermitted() ? View.GONE : View.VISIBLE);
+        boolean isSpared = Build.VERSION.SDK_INT < 23 || Asking.isSpared(activity);
+        battery.setVisibility(isSpared ? View.GONE : View.VISIBLE);
+    }
+
+    /** Says whether the location may be read as precisely as an aeroplane needs it. */
+    boolean isLocationPermitted() {
+        return Permissions.has(activity, Manifest.permission.ACCESS_FINE_LOCATION);
+    }
+
+    /** Asks the user for what is not permitted yet; false: there is nothing to ask. */
+    boolean ask() {
+        List<String> missing = missing();
+        if (Build.VERSION.SDK_INT < 23 || missing.isEmpty()) {
+            return false;
+        }
+        Asking.forPermissions(activity, missing.toArray(new String[0]), REQUEST);
+        return true;
+    }
+
+    private List<String> missing() {
+        List<String> missing = new ArrayList<String>();
+        if (!isLocationPermitted()) {
+            missing.add(Manifest.permission.ACCESS_FINE_LOCATION);
+            missing.add(Manifest.permission.ACCESS_COARSE_LOCATION);
+        }
+        // For applications of an older target the system asks by itself.
+        boolean isOurs = Build.VERSION.SDK_INT >= TIRAMISU
+                && activity.getApplicationInfo().targetSdkVersion >= TIRAMISU;
+        if (isOurs && !Permissions.has(activity, Permissions.POST_NOTIFICATIONS)) {
+            missing.add(Permissions.POST_NOTIFICATIONS);
+        }
+        return missing;
+    }
+
+    /** Asks again, or, where the system does not ask any more, opens its page of permissions. */
+    private void permit() {
+        boolean isAskable = Build.VERSION.SDK_INT >= 23
+                && Asking.isReasonDue(activity, Manifest.permission.ACCESS_FINE_LOCATION);
+        if (isAskable) {
+            ask();
+        } else {
+            open(new Intent(Settings.ACTION_APPLICATION_DETAILS_SETTINGS,
+                    Uri.fromParts("package", activity.getPackageName(), null)));
+        }
+    }
+
+    private void open(Intent screen) {
+        try {
+            activity.startActivity(screen);
+        } catch (ActivityNotFoundException missing) {
+            RaspilotApplication.of(activity).note(activity.getString(R.string.not_openable));
+        }
+    }
+}

@@ -1,0 +1,47 @@
+package org.raspilot.app;
+
+import android.app.Application;
+import android.content.Context;
+import android.content.pm.ApplicationInfo;
+import android.os.StrictMode;
+
+/** What lives as long as the process: the log and the spawn requests. */
+public final class RaspilotApplication extends Application {
+    private final EventBook events = new EventBook();
+    private SpawnDesk spawning;
+
+    /** Returns the application that a context belongs to. */
+    public static RaspilotApplication of(Context context) {
+        return (RaspilotApplication) context.getApplicationContext();
+    }
+
+    @Override
+    public void onCreate() {
+        super.onCreate();
+        spawning = new SpawnDesk(this);
+        boolean isDebug = (getApplicationInfo().flags & ApplicationInfo.FLAG_DEBUGGABLE) != 0;
+        if (isDebug) {
+            // Whoever speaks to the network on the main thread shall notice at once.
+            StrictMode.setThreadPolicy(new StrictMode.ThreadPolicy.Builder()
+                    .detectNetwork()
+                    .penaltyLog()
+                    .penaltyDeathOnNetwork()
+                    .build());
+        }
+    }
+
+    /** Returns the log. On the main thread. */
+    public EventBook events() {
+        return events;
+    }
+
+    /** Writes a line into the log, of now. On the main thread. */
+    public void note(String sentence) {
+        events.add(System.currentTimeMillis(), sentence);
+    }
+
+    /** Returns who asks runners. On the main thread. */
+    SpawnDesk spawning() {
+        return spawning;
+    }
+}

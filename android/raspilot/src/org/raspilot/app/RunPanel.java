@@ -1,0 +1,116 @@
+package org.raspilot.app;
+
+import android.content.Context;
+import android.content.res.TypedArray;
+import android.graphics.PorterDuff;
+import android.view.View;
+import android.widget.Button;
+import android.widget.TextView;
+import org.raspilot.up.airborne.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings;
+import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.airborne.OrientationTransport;
+
+/** The upper part of the airborne screen: the link, start and stop, what is configured. */
+final class RunPanel {
+    private final Context context;
+    private final TextView panic;
+    private final TextView link;
+    private final Button onOff;
+    private final TextView mode;
+    private final TextView where;
+    private final TextView orientation;
+
+    RunPanel(View root, View.OnClickListener pressed) {
+        context = root.getContext();
+        panic = (TextView) root.findViewById(R.id.run_panic);
+        link = (TextView) root.findViewById(R.id.run_link);
+        onOff = (Button) root.findViewById(R.id.run_switch);
+        mode = (TextView) root.findViewById(R.id.run_mode);
+        where = (TextView) root.findViewById(R.id.run_where);
+        orientation = (TextView) root.findViewById(R.id.run_orientation);
+        onOff.setOnClickListener(pressed);
+    }
+
+    /** Shows what is configured. */
+    void showSettings(AirborneSettings settings) {
+        mode.setText(settings.mode() == AirborneMode.BLACK_BOX
+                ? R.string.mode_name_black_box : R.string.mode_name_flight_controller);
+        where.setText(where(settings));
+        orientation.setText(orientation(settings));
+    }
+
+    /** Shows that what is configured cannot be used, and why. */
+    void showFault(String sentence) {
+        mode.setText(sentence);
+        where.setText("");
+        orientation.setText("");
+    }
+
+    /** Shows that nothing runs, and the newest line of the log, which may say why. */
+    void showStopped(boolean isSpawning, String newest) {
+        panic.setVisibility(View.GONE);
+        String state = context.getString(isSpawning ? R.string.link_spawning : R.string.link_off);
+        setText(link, newest == null ? state : state + "\n" + newest);
+        paint(isSpawning ? R.string.cancel : R.string.start,
+                isSpawning ? R.attr.upAlarm : R.attr.upAccent,
+                isSpawning ? R.attr.upOnAlarm : R.attr.upOnAccent);
+    }
+
+    /** Shows what runs; null: nothing is known of it yet. */
+    void showRunning(AirborneStatus status) {
+        boolean isPanic = status != null && status.panicDelayMs() > 0;
+        panic.setVisibility(isPanic ? View.VISIBLE : View.GONE);
+        if (isPanic) {
+            setText(panic, context.getString(R.string.panic, status.panicDelayMs()));
+        }
+        setText(link, status == null ? context.getString(R.string.link_begins)
+                : status.linkText());
+        paint(R.string.stop_big, R.attr.upAlarm, R.attr.upOnAlarm);
+    }
+
+    private String where(AirborneSettings settings) {
+        if (settings.isByRunner()) {
+            return context.getString(R.string.where_runner, settings.runnerHost(),
+                    settings.runnerPort(), settings.aircraft());
+        }
+        if (settings.host().isEmpty()) {
+            return context.getString(R.string.where_discovery, settings.discoveryPort());
+        }
+        return context.getString(R.string.where_host, settings.host(), settings.generalPort(),
+                settings.orientationPort());
+    }
+
+    private String orientation(AirborneSettings settings) {
+        OrientationTransport transport = settings.orientationTransport();
+        if (transport != OrientationTransport.OFF) {
+            return context.getString(R.string.orientation_on, transport.name(),
+                    settings.orientationHz());
+        }
+        boolean isByMode = settings.orientation() != OrientationTransport.OFF;
+        return context.getString(isByMode ? R.string.orientation_off_mode
+                : R.string.orientation_off);
+    }
+
+    private void paint(int text, int ground, int ink) {
+        onOff.setText(text);
+        onOff.setTextColor(colour(ink));
+        onOff.getBackground().mutate().setColorFilter(colour(ground), PorterDuff.Mode.MULTIPLY);
+    }
+
+    private int colour(int attribute) {
+        TypedArray found = context.obtainStyledAttributes(new int[] {attribute});
+        try {
+            return found.getColor(0, 0);
+        } finally {
+            found.recycle();
+        }
+    }
+
+    /** Sets a text only when it is another one: what reads aloud would say it again. */
+    private static void setText(TextView view, String text) {
+        if (!text.contentEquals(view.getText())) {
+            view.setText(text);
+        }
+    }
+}

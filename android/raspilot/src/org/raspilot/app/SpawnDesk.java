@@ -1,0 +1,100 @@
+package org.raspilot.app;
+
+import android.os.Handler;
+import android.os.Looper;
+import android.os.Message;
+import android.os.Messenger;
+import org.raspilot.up.airborne.AirborneSettings;
+import org.raspilot.up.android.BaseUpService;
+import org.raspilot.up.android.SpawnResult;
+import org.raspilot.up.android.SpawnService;
+
+/**
+ * Has an instance spawned and starts the service that connects to it; every answer is a line of
+ * the log, whichever screen is seen then. Lives with the process, on the main thread.
+ */
+final class SpawnDesk {
+    /** Hears when a request begins and ends. */
+    interface Watcher {
+        /** Hears that {@link SpawnDesk#isAsking} has changed. */
+        void onSpawning();
+    }
+
+    private final RaspilotApplication application;
+    private final Messenger answers;
+    private Watcher watcher;
+    private boolean isAsking;
+
+    SpawnDesk(RaspilotApplication application) {
+        this.application = application;
+        answers = new Messenger(new Handler(Looper.getMainLooper()) {
+            @Override
+            public void handleMessage(Message message) {
+                take(SpawnService.result(message));
+            }
+        });
+    }
+
+    /** Says whether an answer is awaited. */
+    boolean isAsking() {
+        return isAsking;
+    }
+
+    /** Names who watches; null: nobody. */
+    void watch(Watcher now) {
+        watcher = now;
+    }
+
+    /** Asks; while an answer is awaited without effect. */
+    void ask(AirborneSettings settings) {
+        if (isAsking) {
+            return;
+        }
+        SpawnService.ask(application, settings.runnerHost(), settings.runnerPort(),
+                settings.aircraft(), settings.profile(), answers);
+        setAsking(true);
+    }
+
+    /** Gives up: whatever the answer, nothing is started. */
+    void cancel() {
+        setAsking(false);
+    }
+
+    private void take(SpawnResult result) {
+        if (result.isRunning()) {
+            application.note(application.getString(R.string.spawn_runs, result.sentence(),
+                    result.place()));
+            noteProxy(result);
+        } else {
+            application.note(application.getString(R.string.spawn_failed, result.sentence()));
+        }
+        boolean isStillWanted = isAsking;
+        setAsking(false);
+        if (result.isRunning() && isStillWanted) {
+            start();
+        }
+    }
+
+    private void noteProxy(SpawnResult result) {
+        if (result.proxyHost() != null && result.proxyPort() > 0) {
+            application.note(application.getString(R.string.spawn_proxy, result.proxyHost(),
+                    result.proxyPort()));
+        }
+    }
+
+    private void start() {
+        try {
+            BaseUpService.start(application, RaspilotUpService.class);
+        } catch (IllegalStateException refusal) {
+            // The user went elsewhere meanwhile, and this system lets nobody start from there.
+            application.note(application.getString(R.string.start_refused));
+        }
+    }
+
+    private void setAsking(boolean now) {
+        isAsking = now;
+        if (watcher != null) {
+            watcher.onSpawning();
+        }
+    }
+}

@@ -1,0 +1,28 @@
+package org.raspilot.app;
+
+import android.app.AlertDialog;
+import android.app.Dialog;
+import android.app.DialogFragment;
+import android.content.DialogInterface;
+import android.os.Bundle;
+import org.raspilot.up.android.BaseUpService;
+
+/** Asks before an aeroplane in the air loses its phone. */
+public final class StopQuestion extends DialogFragment {
+    /** Its tag. */
+    static final String TAG = "stop question";
+
+    @Override
+    public Dialog onCreateDialog(Bundle saved) {
+        return new AlertDialog.Builder(getActivity())
+                .setMessage(R.string.stop_question)
+                .setPositiveButton(R.string.stop_big, new DialogInterface.OnClickListener() {
+                    @Override
+                    public void onClick(DialogInterface dialog, int button) {
+                        BaseUpService.stop(getActivity(), RaspilotUpService.class);
+                    }
+                })
+                .setNegativeButton(R.string.cancel, null)
+                .create();
+    }
+}

@@ -1,0 +1,163 @@
+package org.raspilot.app;
+
+import android.app.Activity;
+import android.app.Fragment;
+import android.app.FragmentManager;
+import android.content.ComponentName;
+import android.content.Context;
+import android.content.Intent;
+import android.content.ServiceConnection;
+import android.os.Bundle;
+import android.os.Handler;
+import android.os.IBinder;
+import android.os.Looper;
+import java.util.ArrayList;
+import java.util.List;
+import org.raspilot.up.android.TelemetryService;
+
+/**
+ * The one binding to the telemetry service for all fragments of the window, without a view. It
+ * begins with the first who watches, outlives a rotation, and ends when the window has not been
+ * seen for {@link #LINGER_MS}: a look at another application does not cost the seat.
+ */
+public final class TelemetryLink extends Fragment {
+    /** Is told on the main thread. */
+    public interface Watcher {
+        /** Takes the service's ground; at once, where it is bound already. */
+        void onGround(TelemetryService.Ground ground);
+
+        /** Hears that it is gone; it may come again. */
+        void onGroundGone();
+    }
+
+    /** So long after the window was seen last the link ends, ms. */
+    static final long LINGER_MS = 30000;
+
+    private static final String TAG = "telemetry link";
+
+    private final Handler main = new Handler(Looper.getMainLooper());
+    private final List<Watcher> watchers = new ArrayList<Watcher>();
+    private final Runnable unbinding = new Runnable() {
+        @Override
+        public void run() {
+            unbind();
+        }
+    };
+    private final ServiceConnection connection = new ServiceConnection() {
+        @Override
+        public void onServiceConnected(ComponentName name, IBinder binder) {
+            if (isBound) {
+                tell((TelemetryService.Ground) binder);
+            }
+        }
+
+        @Override
+        public void onServiceDisconnected(ComponentName name) {
+            tell(null);
+        }
+    };
+    private Context lasting;
+    private TelemetryService.Ground ground;
+    private boolean isBound;
+    private boolean isSeen;
+    private boolean isWanted;
+
+    /** Makes the link of a window that is being created, before its other fragments look. */
+    static void prepare(Activity activity) {
+        of(activity);
+        activity.getFragmentManager().executePendingTransactions();
+    }
+
+    /** Returns the link of a window, made where there is none yet. */
+    public static TelemetryLink of(Activity activity) {
+        FragmentManager manager = activity.getFragmentManager();
+        TelemetryLink link = (TelemetryLink) manager.findFragmentByTag(TAG);
+        if (link == null) {
+            link = new TelemetryLink();
+            manager.beginTransaction().add(link, TAG).commitAllowingStateLoss();
+        }
+        return link;
+    }
+
+    @Override
+    public void onCreate(Bundle saved) {
+        super.onCreate(saved);
+        setRetainInstance(true);
+        lasting = getActivity().getApplicationContext();
+        bindIfDue();
+    }
+
+    @Override
+    public void onStart() {
+        super.onStart();
+        isSeen = true;
+        main.removeCallbacks(unbinding);
+        bindIfDue();
+    }
+
+    @Override
+    public void onStop() {
+        isSeen = false;
+        if (!getActivity().isChangingConfigurations()) {
+            main.postDelayed(unbinding, LINGER_MS);
+        }
+        super.onStop();
+    }
+
+    @Override
+    public void onDestroy() {
+        main.removeCallbacks(unbinding);
+        unbind();
+        super.onDestroy();
+    }
+
+    /** Adds a watcher; the service is bound from the first one on. */
+    public void watch(Watcher watcher) {
+        if (!watchers.contains(watcher)) {
+            watchers.add(watcher);
+        }
+        isWanted = true;
+        if (ground != null) {
+            watcher.onGround(ground);
+        }
+        bindIfDue();
+    }
+
+    /** Takes a watcher away; it is told nothing any more. */
+    public void unwatch(Watcher watcher) {
+        watchers.remove(watcher);
+    }
+
+    /** Lets the service take the settings of now, where it runs. */
+    void reload() {
+        if (ground != null) {
+            ground.reload();
+        }
+    }
+
+    private void bindIfDue() {
+        if (lasting != null && isWanted && isSeen && !isBound) {
+            isBound = lasting.bindService(new Intent(lasting, RaspilotTelemetryService.class),
+                    connection, Context.BIND_AUTO_CREATE);
+        }
+    }
+
+    private void unbind() {
+        if (isBound) {
+            isBound = false;
+            lasting.unbindService(connection);
+            tell(null);
+        }
+    }
+
+    private void tell(TelemetryService.Ground now) {
+        ground = now;
+        for (Watcher watcher : new ArrayList<Watcher>(watchers)) {
+            if (now == null) {
+                watcher.onGroundGone();
+            } else {
+                watcher.onGround(now);
+            }
+        }
+    }
+}
