@@ -42,7 +42,7 @@ public final class Airborne {
             AirborneListener listener, Random random) {
         this.settings = settings;
         this.listener = listener;
-        up = new Up(loop, new ProvidersController(loop), new Faults());
+        up = new Up(loop, new Faults());
         link = new AirborneLink(loop, settings, random, new LinkOwner());
         handlers = new AirborneHandlers(providers().panic(), speaker, new SentAnswers());
         handlers.register(up.commandExecutor());

@@ -5,6 +5,9 @@ public final class Cadence {
     /** A reading that is older than so many periods is not sent any more. */
     private static final int WORTH_PERIODS = 2;
 
+    /** How much of a period a message may leave sooner or later than it is due. */
+    private static final double SLACK_PERIODS = 0.25;
+
     private final double periodMs;
     private final long repeatMs;
     private final long worthMs;
@@ -46,6 +49,11 @@ public final class Cadence {
     /** Returns the shortest time between two messages. */
     double periodMs() {
         return periodMs;
+    }
+
+    /** Returns how much sooner or later than it is due a message may leave to be fresh. */
+    double slackMs() {
+        return isLevel() ? 0 : SLACK_PERIODS * periodMs;
     }
 
     /** Returns whether the value holds until it changes. */

@@ -3,7 +3,12 @@ package org.raspilot.up.providers;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 
-/** Decides when a provider sends: its newest reading, once, as its cadence and Panic allow. */
+/**
+ * Decides when a provider sends: its newest reading, once, as its cadence and Panic allow.
+ *
+ * <p>A reading leaves when it comes, a little before or after it is due, so that what leaves is
+ * fresh; one that came too early leaves late only when no newer one took its place.
+ */
 final class Stream implements Panic.Listener {
     private static final double NEVER = Double.POSITIVE_INFINITY;
 
@@ -15,7 +20,7 @@ final class Stream implements Panic.Listener {
     private final Runnable pumping = new Runnable() {
         @Override
         public void run() {
-            pump();
+            pump(false);
         }
     };
     private Cancellable timer;
@@ -63,19 +68,19 @@ final class Stream implements Panic.Listener {
     void offer(boolean isNews) {
         newestMs = loop.nowMs();
         isUnsent |= isNews;
-        pump();
+        pump(true);
     }
 
     /** Takes that a new link is there: what is known and still true leaves at once. */
     void reopen() {
         isFirst = true;
         isUnsent = newestMs >= 0;
-        pump();
+        pump(true);
     }
 
     @Override
     public void onPanic(Panic now) {
-        pump();
+        pump(true);
     }
 
     /** Returns when the newest reading came; -1: none since the beginning. */
@@ -93,14 +98,15 @@ final class Stream implements Panic.Listener {
         return rate.hz(loop.nowMs());
     }
 
-    private void pump() {
+    /** Sends what may leave; what came just now may a little early. */
+    private void pump(boolean isPrompt) {
         cancel();
         long nowMs = loop.nowMs();
         double wantedMs = wantedMs();
         if (wantedMs == NEVER || !sender.isOpen()) {
             return;
         }
-        if (nowMs >= wantedMs) {
+        if (nowMs >= (isPrompt ? promptMs(wantedMs) : wantedMs)) {
             emit(nowMs);
             wantedMs = wantedMs();
         }
@@ -109,17 +115,27 @@ final class Stream implements Panic.Listener {
         }
     }
 
+    /** Returns when the newest reading leaves if no newer one comes. */
     private double wantedMs() {
         if (!isRunning || newestMs < 0) {
             return NEVER;
         }
         if (isUnsent) {
-            if (isFirst) {
-                return 0;
-            }
-            return panic.isOn() ? Math.max(dueMs, lastMs + panic.delayMs()) : dueMs;
+            return isFirst ? 0 : Math.max(dueMs, calmMs()) + cadence.slackMs();
         }
         return cadence.isLevel() ? lastMs + panic.periodMs(cadence.repeatMs()) : NEVER;
+    }
+
+    /** Returns from when on a reading that comes is sent at once. */
+    private double promptMs(double wantedMs) {
+        return isUnsent && !isFirst
+                ? Math.max(dueMs - cadence.slackMs(), calmMs())
+                : wantedMs;
+    }
+
+    /** Returns before when Panic lets nothing leave. */
+    private double calmMs() {
+        return panic.isOn() ? lastMs + panic.delayMs() : 0;
     }
 
     private void emit(long nowMs) {

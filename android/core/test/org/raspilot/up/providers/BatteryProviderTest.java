@@ -1,0 +1,79 @@
+package org.raspilot.up.providers;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertTrue;
+
+import org.junit.Test;
+
+/** The battery's level: on change, and again and again. */
+public final class BatteryProviderTest {
+    private final ProvidersBench bench = new ProvidersBench();
+    private final TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
+    private final BatteryProvider provider = new BatteryProvider(battery);
+
+    @Test
+    public void theLevelLeavesInWholePercents() {
+        bench.run(provider);
+        battery.give(new BatteryLevel(83.4));
+        assertEquals("android.battery {level=83}", bench.outlet.last());
+    }
+
+    @Test
+    public void itIsRepeatedEachTenSecondsAlthoughTheSensorIsQuiet() {
+        bench.run(provider);
+        battery.give(new BatteryLevel(83));
+        bench.loop.advance(35000);
+        assertEquals("[0, 10000, 20000, 30000]", bench.outlet.timesMs.toString());
+        assertEquals(ProviderState.SENDING, provider.state());
+    }
+
+    @Test
+    public void aChangeLeavesAtOnceAndTheSameLevelDoesNot() {
+        bench.run(provider);
+        battery.give(new BatteryLevel(83));
+        bench.loop.advance(4000);
+        battery.give(new BatteryLevel(83));
+        bench.loop.advance(1000);
+        battery.give(new BatteryLevel(82));
+        bench.loop.advance(10000);
+        assertEquals("[0, 5000, 15000]", bench.outlet.timesMs.toString());
+    }
+
+    @Test
+    public void aLevelThatFluttersIsSentOnceASecond() {
+        bench.run(provider);
+        for (int at = 0; at < 50; at++) {
+            battery.give(new BatteryLevel(50 + at % 2));
+            bench.loop.advance(100);
+        }
+        assertEquals(1000, bench.shortestGapMs());
+    }
+
+    @Test
+    public void onANewLinkTheLevelIsToldHoweverOldItIs() {
+        bench.run(provider);
+        battery.give(new BatteryLevel(60));
+        bench.outlet.isOpen = false;
+        bench.loop.advance(300000);
+        bench.outlet.isOpen = true;
+        bench.controller.linkOpened();
+        assertEquals("[0, 300000]", bench.outlet.timesMs.toString());
+    }
+
+    @Test
+    public void aLevelThatIsNoneIsNotSent() {
+        bench.run(provider);
+        for (double bad : new double[] {-1, 100.6, Double.NaN}) {
+            battery.give(new BatteryLevel(bad));
+            assertTrue(bench.status().problem(), bench.status().problem().contains("percent"));
+        }
+        assertEquals(0, bench.outlet.commands.size());
+    }
+
+    @Test
+    public void aBatteryThatNeverSpokeIsSilentAfterTenSeconds() {
+        bench.run(provider);
+        bench.loop.advance(10001);
+        assertEquals(ProviderState.SILENT, provider.state());
+    }
+}

@@ -1,0 +1,145 @@
+package org.raspilot.up.providers;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertTrue;
+
+import org.junit.Test;
+
+/** What leaves of a fix, when, and what the screen says about it. */
+public final class LocationProviderTest {
+    private final ProvidersBench bench = new ProvidersBench();
+    private final TestSource<Fix> gps = new TestSource<Fix>("GPS");
+    private final LocationProvider provider = new LocationProvider(gps, 500);
+
+    @Test
+    public void aFixLeavesAsALocationUpdate() {
+        bench.run(provider);
+        gps.give(new Fix(48.14859123456, 17.10774987654, 151.26, 3.14, 12.346, 271.27));
+        assertEquals("up.location.update {latitude=48.1485912, longitude=17.1077499, "
+                + "altitude=151.3, accuracy=3.1, speed=12.35, bearing=271.3}", bench.outlet.last());
+    }
+
+    @Test
+    public void whatGpsDoesNotKnowIsLeftOut() {
+        bench.run(provider);
+        gps.give(new Fix(1, 2, null, Double.NaN, Double.POSITIVE_INFINITY, null));
+        assertEquals("up.location.update {latitude=1.0, longitude=2.0}", bench.outlet.last());
+    }
+
+    @Test
+    public void theBearingIsWithin0To360() {
+        bench.run(provider);
+        gps.give(new Fix(1, 2, null, null, null, 359.97));
+        assertEquals("up.location.update {latitude=1.0, longitude=2.0, bearing=0.0}",
+                bench.outlet.last());
+    }
+
+    @Test
+    public void aPlaceThatIsNoneIsToldAndNotSent() {
+        bench.run(provider);
+        gps.give(new Fix(90.5, 2, null, null, null, null));
+        gps.give(new Fix(Double.NaN, 2, null, null, null, null));
+        assertEquals(0, bench.outlet.commands.size());
+        assertEquals(2, bench.told.size());
+        assertTrue(bench.told.get(0), bench.told.get(0).startsWith(
+                "location: its reading cannot be used: latitude must be a number between -90"));
+        gps.give(new Fix(1, 2, null, null, null, null));
+        assertEquals("", bench.status().problem());
+        assertEquals(1, bench.outlet.commands.size());
+    }
+
+    @Test
+    public void aQuickerGpsIsThinnedToThePeriodAndTheNewestFixLeaves() {
+        bench.run(provider);
+        for (int at = 0; at <= 20; at++) {
+            gps.give(new Fix(at, 0, null, null, null, null));
+            bench.loop.advance(100);
+        }
+        assertEquals("[0, 400, 900, 1400, 1900]", bench.outlet.timesMs.toString());
+        assertEquals(14.0, bench.outlet.commands.get(3).data().get("latitude"));
+    }
+
+    @Test
+    public void aFixThatCameTooEarlyLeavesLateWhenNoNewerOneComes() {
+        bench.run(provider);
+        gps.give(new Fix(1, 0, null, null, null, null));
+        bench.loop.advance(200);
+        gps.give(new Fix(2, 0, null, null, null, null));
+        bench.loop.advance(5000);
+        assertEquals("[0, 625]", bench.outlet.timesMs.toString());
+        assertEquals(2.0, bench.outlet.commands.get(1).data().get("latitude"));
+    }
+
+    @Test
+    public void aGpsThatJittersAboutThePeriodLosesNoFix() {
+        bench.run(provider);
+        for (int at = 0; at < 40; at++) {
+            gps.give(new Fix(at, 0, null, null, null, null));
+            bench.loop.advance(at % 2 == 0 ? 420 : 580);
+        }
+        assertEquals(40, bench.outlet.commands.size());
+    }
+
+    @Test
+    public void aFixIsSentOnceHoweverLongTheNextOneTakes() {
+        bench.run(provider);
+        gps.give(new Fix(1, 2, null, null, null, null));
+        bench.loop.advance(60000);
+        assertEquals(1, bench.outlet.commands.size());
+    }
+
+    @Test
+    public void theScreenIsToldTheRateAndTheAge() {
+        bench.run(provider);
+        bench.feed(gps, new Fix(1, 2, null, null, null, null), 500, 5000);
+        ProviderStatus status = bench.status();
+        assertEquals(ProviderState.SENDING, status.state());
+        assertEquals(2, status.rateHz(), 0);
+        assertEquals(0, status.ageMs());
+        assertEquals(10, status.sent());
+        assertEquals("GPS", status.sensor());
+        assertEquals("latitude 1.0, longitude 2.0", status.lastText());
+        bench.loop.advance(700);
+        assertEquals(700, bench.status().ageMs());
+        assertEquals(1, bench.status().rateHz(), 0);
+    }
+
+    @Test
+    public void aGpsThatSaysNothingForTenSecondsIsSilent() {
+        bench.run(provider);
+        assertEquals(ProviderState.WAITING, provider.state());
+        assertEquals(-1, bench.status().ageMs());
+        bench.loop.advance(10000);
+        assertEquals(ProviderState.WAITING, provider.state());
+        bench.loop.advance(1);
+        assertEquals(ProviderState.SILENT, provider.state());
+        gps.give(new Fix(1, 2, null, null, null, null));
+        assertEquals(ProviderState.SENDING, provider.state());
+        bench.loop.advance(10001);
+        assertEquals(ProviderState.SILENT, provider.state());
+    }
+
+    @Test
+    public void withoutALinkItWaitsAndKeepsNothingOld() {
+        bench.run(provider);
+        bench.outlet.isOpen = false;
+        bench.feed(gps, new Fix(1, 2, null, null, null, null), 500, 5000);
+        assertEquals(ProviderState.WAITING, provider.state());
+        bench.loop.advance(3000);
+        bench.outlet.isOpen = true;
+        bench.controller.linkOpened();
+        bench.loop.advance(3000);
+        assertEquals("a fix of three seconds ago", 0, bench.outlet.commands.size());
+        gps.give(new Fix(3, 4, null, null, null, null));
+        assertEquals(1, bench.outlet.commands.size());
+    }
+
+    @Test
+    public void onANewLinkAFreshFixLeavesAtOnce() {
+        bench.run(provider);
+        gps.give(new Fix(1, 2, null, null, null, null));
+        bench.loop.advance(300);
+        bench.controller.linkOpened();
+        assertEquals("[0, 300]", bench.outlet.timesMs.toString());
+    }
+}

@@ -1,0 +1,54 @@
+package org.raspilot.up.providers;
+
+import static org.junit.Assert.assertEquals;
+
+import java.util.Collections;
+import org.junit.Test;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.RecordCommand;
+
+/**
+ * How to add a sensor of your own: one class and one registration.
+ *
+ * <p>The light on the aeroplane, say, shall be in the flight log. The provider says which sensor it
+ * reads, how often it sends, and which Command a reading becomes; that the sensor may be absent,
+ * Panic Mode, lost links, rates for the screen and faults are not its concern.
+ */
+public final class OwnProviderExampleTest {
+
+    /** Sends how bright it is on board, once a second, into the flight log. */
+    static final class LightProvider extends SensorProvider<Light> {
+        LightProvider(SensorSource<Light> source) {
+            super("light", source, Cadence.stream(1000, 5000));
+        }
+
+        @Override
+        protected BaseCommand read(Light light) {
+            return new RecordCommand(
+                    "phone.light", Collections.<String, Object>singletonMap("lux", light.lux));
+        }
+    }
+
+    /** What the sensor reads. */
+    static final class Light {
+        final double lux;
+
+        Light(double lux) {
+            this.lux = lux;
+        }
+    }
+
+    @Test
+    public void aProviderIsOneClassAndOneRegistration() {
+        ProvidersBench bench = new ProvidersBench();
+        TestSource<Light> sensor = new TestSource<Light>("light sensor");
+
+        bench.controller.register(new LightProvider(sensor));
+
+        bench.controller.start(bench.outlet);
+        sensor.give(new Light(740));
+        assertEquals("black_box.record {topic=phone.light, content={lux=740.0}}",
+                bench.outlet.last());
+        assertEquals(ProviderState.SENDING, bench.status().state());
+    }
+}

@@ -1,0 +1,52 @@
+package org.raspilot.up.providers;
+
+import java.util.ArrayList;
+import java.util.List;
+import org.raspilot.up.loop.Faults;
+import org.raspilot.up.loop.ManualLoop;
+
+/** A loop, a controller and a link that is open, for the tests of providers. */
+final class ProvidersBench {
+    final Faults faults = new Faults();
+    final ManualLoop loop = new ManualLoop(null, faults);
+    final ProvidersController controller = new ProvidersController(loop);
+    final TestOutlet outlet = new TestOutlet(loop);
+    final List<String> told = new ArrayList<String>();
+
+    ProvidersBench() {
+        controller.addListener(new ProvidersListener() {
+            @Override
+            public void onProvider(String name, String sentence) {
+                told.add(name + ": " + sentence);
+            }
+        });
+    }
+
+    /** Registers a provider and starts. */
+    void run(UpProvider provider) {
+        controller.register(provider);
+        controller.start(outlet);
+    }
+
+    /** Returns the status of the only provider. */
+    ProviderStatus status() {
+        return controller.statuses().get(0);
+    }
+
+    /** Gives a reading each periodMs for so many ms; the first after one period. */
+    <R> void feed(TestSource<R> source, R reading, long periodMs, long forMs) {
+        for (long passed = 0; passed < forMs; passed += periodMs) {
+            loop.advance(periodMs);
+            source.give(reading);
+        }
+    }
+
+    /** Returns the shortest time between two that were sent. */
+    long shortestGapMs() {
+        long shortest = Long.MAX_VALUE;
+        for (int at = 1; at < outlet.timesMs.size(); at++) {
+            shortest = Math.min(shortest, outlet.timesMs.get(at) - outlet.timesMs.get(at - 1));
+        }
+        return shortest;
+    }
+}

@@ -1,0 +1,173 @@
+package org.raspilot.up.providers;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertTrue;
+import static org.junit.Assert.fail;
+
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.Test;
+import org.raspilot.up.commands.BaseCommand;
+
+/** Registering, starting and stopping, and that one provider's fault stays its own. */
+public final class ProvidersControllerTest {
+    private final ProvidersBench bench = new ProvidersBench();
+    private final List<String> calls = new ArrayList<String>();
+
+    @Test
+    public void allStartInTheirOrderAndStopInTheReverse() {
+        for (String name : new String[] {"one", "two", "three"}) {
+            bench.controller.register(new Named(name, new Noted(name)));
+        }
+        bench.controller.start(bench.outlet);
+        bench.controller.stop();
+        assertEquals("[+one, +two, +three, -three, -two, -one]", calls.toString());
+    }
+
+    @Test
+    public void oneThatIsRegisteredLaterStartsAtOnceAndOneUnregisteredStops() {
+        bench.controller.start(bench.outlet);
+        bench.controller.register(new Named("late", new Noted("late")));
+        assertTrue(bench.controller.unregister("late"));
+        assertFalse(bench.controller.unregister("late"));
+        assertEquals("[+late, -late]", calls.toString());
+        assertEquals(null, bench.controller.provider("late"));
+    }
+
+    @Test
+    public void aNameIsGivenOnce() {
+        bench.controller.register(new Named("one", new Noted("one")));
+        try {
+            bench.controller.register(new Named("one", new Noted("other")));
+            fail("two of one name");
+        } catch (IllegalArgumentException error) {
+            assertEquals("a provider 'one' is registered already", error.getMessage());
+        }
+    }
+
+    @Test
+    public void anAbsentSensorIsToldAndIsNoError() {
+        TestSource<Fix> absent = new TestSource<Fix>("this phone has no GPS");
+        absent.isPresent = false;
+        bench.run(new LocationProvider(absent, 500));
+        assertEquals("[location: this phone has no GPS]", bench.told.toString());
+        assertEquals(ProviderState.ABSENT, bench.status().state());
+        assertEquals("", bench.status().problem());
+        assertEquals(0, absent.periodsMs.size());
+        bench.loop.advance(60000);
+        assertEquals(ProviderState.ABSENT, bench.status().state());
+        assertEquals(1, bench.told.size());
+        bench.controller.stop();
+        bench.faults.mustBeNone();
+    }
+
+    @Test
+    public void aSourceThatIsNotThereNeverReads() {
+        SensorSource<Fix> absent = new AbsentSource<Fix>("no GPS");
+        bench.run(new LocationProvider(absent, 500));
+        assertEquals(ProviderState.ABSENT, bench.status().state());
+        assertEquals("no GPS", bench.status().sensor());
+    }
+
+    @Test
+    public void aSensorThatRefusesHarmsNoOther() {
+        TestSource<Fix> gps = new TestSource<Fix>("GPS");
+        gps.fault = new SecurityException("no permission");
+        bench.controller.register(new LocationProvider(gps, 500));
+        TestSource<Pressure> barometer = new TestSource<Pressure>("barometer");
+        bench.controller.register(new AltitudeProvider(barometer, 200));
+        bench.controller.start(bench.outlet);
+        barometer.give(new Pressure(1000));
+        assertEquals(1, bench.outlet.commands.size());
+        assertEquals(ProviderState.STOPPED, bench.status().state());
+        assertEquals("the sensor cannot be read: no permission", bench.status().problem());
+        gps.fault = null;
+        assertTrue(bench.controller.restart("location"));
+        gps.give(new Fix(1, 2, null, null, null, null));
+        assertEquals(2, bench.outlet.commands.size());
+        assertEquals("", bench.status().problem());
+    }
+
+    @Test
+    public void aSensorThatCannotBeLeftDoesNotKeepTheOthersRunning() {
+        bench.controller.register(new Named("first", new Noted("first")));
+        bench.controller.register(new Named("bad", new Noted("bad") {
+            @Override
+            public void unsubscribe() {
+                throw new IllegalStateException("stuck");
+            }
+        }));
+        bench.controller.start(bench.outlet);
+        bench.controller.stop();
+        assertEquals("[+first, +bad, -first]", calls.toString());
+        assertEquals("[bad: the sensor cannot be left: stuck]", bench.told.toString());
+    }
+
+    @Test
+    public void aProviderThatThrowsAtAReadingHarmsNobodyAndIsTold() {
+        TestSource<Fix> gps = new TestSource<Fix>("GPS");
+        bench.run(new SensorProvider<Fix>("broken", gps, Cadence.stream(100, 1000)) {
+            @Override
+            protected BaseCommand read(Fix reading) {
+                throw new IllegalStateException("a mistake");
+            }
+        });
+        gps.give(new Fix(1, 2, null, null, null, null));
+        gps.give(new Fix(1, 2, null, null, null, null));
+        assertEquals("[broken: its reading cannot be used: a mistake]", bench.told.toString());
+    }
+
+    @Test
+    public void afterTheStopNothingLeaves() {
+        TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
+        bench.run(new BatteryProvider(battery));
+        battery.give(new BatteryLevel(50));
+        SensorListener<BatteryLevel> late = battery.listener;
+        bench.controller.stop();
+        late.onReading(new BatteryLevel(40));
+        bench.loop.advance(60000);
+        assertEquals(1, bench.outlet.commands.size());
+        assertEquals(ProviderState.STOPPED, bench.status().state());
+        assertEquals(0, bench.loop.pendingTimers());
+    }
+
+    private final class Named extends SensorProvider<String> {
+        Named(String name, SensorSource<String> source) {
+            super(name, source, Cadence.stream(100, 1000));
+        }
+
+        @Override
+        protected BaseCommand read(String reading) {
+            return new BaseCommand(reading, null);
+        }
+    }
+
+    private class Noted implements SensorSource<String> {
+        private final String name;
+
+        Noted(String name) {
+            this.name = name;
+        }
+
+        @Override
+        public boolean isPresent() {
+            return true;
+        }
+
+        @Override
+        public String name() {
+            return name;
+        }
+
+        @Override
+        public void subscribe(long periodMs, SensorListener<String> listener) {
+            calls.add("+" + name);
+        }
+
+        @Override
+        public void unsubscribe() {
+            calls.add("-" + name);
+        }
+    }
+}

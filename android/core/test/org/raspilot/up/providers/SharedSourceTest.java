@@ -1,0 +1,71 @@
+package org.raspilot.up.providers;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.fail;
+
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.Test;
+
+/** One sensor for several readers: the quickest decides, each comes and goes on its own. */
+public final class SharedSourceTest {
+    private final TestSource<String> sensor = new TestSource<String>("sensor");
+    private final SharedSource<String> shared = new SharedSource<String>(sensor);
+    private final SensorSource<String> slow = shared.branch();
+    private final SensorSource<String> quick = shared.branch();
+    private final List<String> heard = new ArrayList<String>();
+
+    @Test
+    public void bothHearEachReadingAtTheQuickersPeriod() {
+        slow.subscribe(200, listener("slow"));
+        quick.subscribe(20, listener("quick"));
+        sensor.give("a");
+        assertEquals("[slow a, quick a]", heard.toString());
+        assertEquals("[200, 20]", sensor.periodsMs.toString());
+    }
+
+    @Test
+    public void theSensorIsLeftWithTheLastReader() {
+        slow.subscribe(200, listener("slow"));
+        quick.subscribe(20, listener("quick"));
+        quick.unsubscribe();
+        assertEquals("[200, 20, 200]", sensor.periodsMs.toString());
+        sensor.give("a");
+        assertEquals("[slow a]", heard.toString());
+        slow.unsubscribe();
+        slow.unsubscribe();
+        assertEquals(null, sensor.listener);
+    }
+
+    @Test
+    public void aSensorThatRefusedIsAskedAgain() {
+        sensor.fault = new SecurityException("no permission");
+        try {
+            slow.subscribe(200, listener("slow"));
+            fail("subscribed");
+        } catch (SecurityException error) {
+            slow.unsubscribe();
+        }
+        sensor.fault = null;
+        slow.subscribe(200, listener("slow"));
+        sensor.give("a");
+        assertEquals("[slow a]", heard.toString());
+    }
+
+    @Test
+    public void itIsThereWhenTheSensorIs() {
+        assertEquals(true, slow.isPresent());
+        assertEquals("sensor", slow.name());
+        sensor.isPresent = false;
+        assertEquals(false, slow.isPresent());
+    }
+
+    private SensorListener<String> listener(final String name) {
+        return new SensorListener<String>() {
+            @Override
+            public void onReading(String reading) {
+                heard.add(name + " " + reading);
+            }
+        };
+    }
+}
