@@ -108,11 +108,11 @@ public final class JsonTest {
     public void whatIsWrittenIsReadBack() throws Exception {
         System.out.println("seed " + SEED);
         Random random = new Random(SEED);
-        for (int i = 0; i < 20000; i++) {
+        for (int i = 0; i < 5000; i++) {
             Object value = RandomJson.value(random, 4);
             assertEquals(value, Json.parse(Json.write(value)));
         }
-        for (int i = 0; i < 20000; i++) {
+        for (int i = 0; i < 5000; i++) {
             double number = Double.longBitsToDouble(random.nextLong());
             if (!Double.isNaN(number) && !Double.isInfinite(number)) {
                 assertEquals(number, Json.parse(Json.write(number)));

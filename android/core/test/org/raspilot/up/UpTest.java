@@ -1,0 +1,81 @@
+package org.raspilot.up;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertNotSame;
+import static org.junit.Assert.assertSame;
+import static org.junit.Assert.assertTrue;
+import static org.junit.Assert.fail;
+
+import org.junit.After;
+import org.junit.Test;
+import org.raspilot.up.commands.ArmCommand;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.HandlerFaultListener;
+import org.raspilot.up.loop.FaultListener;
+import org.raspilot.up.loop.ManualLoop;
+
+public final class UpTest {
+    private final ManualLoop loop = new ManualLoop(null, new FaultListener() {
+        @Override
+        public void onFault(Throwable fault) {
+            throw new AssertionError(fault);
+        }
+    });
+
+    @After
+    public void takeAway() {
+        Up.setInstance(null);
+    }
+
+    @Test
+    public void aProcessHasOneUp() {
+        Up up = newUp();
+        Up.setInstance(up);
+        assertSame(up, Up.getInstance());
+        Up.setInstance(up);
+        try {
+            Up.setInstance(newUp());
+            fail("a second one was set");
+        } catch (IllegalStateException fault) {
+            assertEquals("this process has an Up already", fault.getMessage());
+        }
+        assertSame(up, Up.getInstance());
+    }
+
+    @Test
+    public void beforeItIsSetUpThereIsNone() {
+        try {
+            Up.getInstance();
+            fail("there is one");
+        } catch (IllegalStateException fault) {
+            assertEquals("no Up was set up in this process", fault.getMessage());
+        }
+    }
+
+    @Test
+    public void twoUpsShareNothing() {
+        Up one = newUp();
+        Up two = newUp();
+        one.commandExecutor().registerCommand(ArmCommand.NAME, new BaseCommandHandler() {
+            @Override
+            public void runAction(BaseCommand command) {
+                fail("delivered to the other");
+            }
+        });
+        assertEquals(0, two.commandExecutor().executeCommand(new ArmCommand()));
+        assertNotSame(one.commandRegistry(), two.commandRegistry());
+        assertNotSame(one.providersController(), two.providersController());
+        assertTrue(one.loop() == loop);
+    }
+
+    private Up newUp() {
+        return new Up(loop, new HandlerFaultListener() {
+            @Override
+            public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
+                    Throwable fault) {
+                throw new AssertionError(fault);
+            }
+        });
+    }
+}

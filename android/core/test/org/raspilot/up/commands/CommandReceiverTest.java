@@ -1,0 +1,213 @@
+package org.raspilot.up.commands;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertTrue;
+
+import java.nio.charset.Charset;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.Collections;
+import java.util.List;
+import org.junit.Test;
+import org.raspilot.up.loop.FaultListener;
+import org.raspilot.up.loop.ManualLoop;
+import org.raspilot.up.wire.GeneralMessage;
+
+public final class CommandReceiverTest {
+    private static final List<String> NOTHING = Collections.emptyList();
+
+    private final List<Throwable> loopFaults = new ArrayList<Throwable>();
+    private final ManualLoop loop = new ManualLoop(null, new FaultListener() {
+        @Override
+        public void onFault(Throwable fault) {
+            loopFaults.add(fault);
+        }
+    });
+    private final HandlerFaults faults = new HandlerFaults();
+    private final CommandRegistry registry = CommandRegistry.builtin();
+    private final CommandExecutor executor = new CommandExecutor(registry, faults);
+    private final CommandReceiver receiver = new CommandReceiver(registry, executor, loop);
+    private final Answers answers = new Answers();
+    private final Recorder speaker = new Recorder();
+
+    public CommandReceiverTest() {
+        executor.registerCommand(SpeakCommand.NAME, speaker);
+    }
+
+    @Test
+    public void aCommandWithAnIdIsCarriedOutAndAcknowledged() {
+        receive(speak("7", "hello"));
+        assertEquals("hello", ((SpeakCommand) speaker.commands.get(0)).text());
+        assertEquals(Arrays.asList("ack 7"), answers.heard());
+    }
+
+    @Test
+    public void aCommandWithoutAnIdIsAnsweredByNothing() {
+        receive("{\"name\": \"android.speak\", \"data\": {\"text\": \"hello\"}}");
+        receive("{\"name\": \"android.speak\", \"data\": {\"text\": \"\"}}");
+        receive("{\"name\": \"nobody.knows\"}");
+        receive("no JSON");
+        assertEquals(1, speaker.commands.size());
+        assertEquals(NOTHING, answers.heard());
+        assertEquals(3, receiver.count("received"));
+        assertEquals(1, receiver.count("invalid"));
+        assertEquals(1, receiver.count("unknown"));
+        assertEquals(1, receiver.count("malformed"));
+    }
+
+    @Test
+    public void refusalsSayWhy() {
+        receive("{\"name\": \"nobody.knows\", \"id\": 1}");
+        receive("{\"name\": \"android.speak\", \"id\": 2}");
+        receive("{\"name\": \"android.speak\", \"id\": 3, \"data\": NaN}");
+        receive("{\"name\": \"load_guard.panic\", \"id\": 4, \"data\": {\"panic\": 1}}");
+        receive("{\"name\": \"up.panic\", \"id\": 5,"
+                + " \"data\": {\"panic\": true, \"delay_ms\": 9}}");
+        assertEquals(Arrays.asList(
+                "nack 1 unknown no Command 'nobody.knows'",
+                "nack 2 invalid android.speak: text is missing",
+                "nack 3 malformed NaN is no JSON number",
+                "nack 4 invalid up.panic: panic must be true or false, not 1",
+                "nack 5 unavailable nobody handles up.panic"), answers.heard());
+        assertEquals(0, speaker.commands.size());
+    }
+
+    @Test
+    public void aHandlersRefusalAndFaultAreAnswered() {
+        speaker.refusal = new CommandRefusedException(NackCode.UNAVAILABLE, "the phone is mute");
+        receive(speak("1", "a"));
+        speaker.refusal = null;
+        speaker.fault = new IllegalStateException("secret");
+        receive(speak("2", "a"));
+        assertEquals(Arrays.asList("nack 1 unavailable the phone is mute",
+                "nack 2 failed carrying it out failed; the log says where"), answers.heard());
+        assertEquals(1, faults.faults.size());
+    }
+
+    @Test
+    public void aRepeatedIdIsAnsweredAgainAndNotCarriedOutAgain() {
+        receive(speak("7", "hello"));
+        receive(speak("7", "hello"));
+        assertEquals(1, speaker.commands.size());
+        assertEquals(Arrays.asList("ack 7", "ack 7"), answers.heard());
+        assertEquals(1, receiver.count("repeated"));
+        receive("{\"name\": \"nobody.knows\", \"id\": 1}");
+        receive("{\"name\": \"nobody.knows\", \"id\": 1}");
+        assertEquals(2, answers.heard().size());
+        assertEquals(1, receiver.count("unknown"));
+    }
+
+    @Test
+    public void anIdWithOtherContentIsAnotherCommand() {
+        receive(speak("7", "hello"));
+        receive(speak("7", "goodbye"));
+        assertEquals(2, speaker.commands.size());
+        receive(speak("7", "hello"));
+        assertEquals(3, speaker.commands.size());
+        receive("{\"name\": \"nobody.knows\", \"data\": {\"text\": \"hello\"}, \"id\": \"7\"}");
+        assertEquals(Arrays.asList("ack 7", "ack 7", "ack 7",
+                "nack 7 unknown no Command 'nobody.knows'"), answers.heard());
+    }
+
+    @Test
+    public void anIdIsRememberedForItsLinkOnly() {
+        receive(speak("7", "hello"));
+        Answers other = new Answers();
+        byte[] line = bytes(speak("7", "hello"));
+        receiver.receiveLine(line, line.length, other);
+        assertEquals(2, speaker.commands.size());
+        assertEquals(Arrays.asList("ack 7"), other.heard());
+    }
+
+    @Test
+    public void anIdIsForgottenAfterAMinute() {
+        receive(speak("7", "hello"));
+        loop.advance(60000);
+        receive(speak("7", "hello"));
+        assertEquals(1, speaker.commands.size());
+        loop.advance(1);
+        receive(speak("7", "hello"));
+        assertEquals(2, speaker.commands.size());
+    }
+
+    @Test
+    public void theNewestTwoHundredAndFiftySixIdsAreRemembered() {
+        for (int i = 0; i <= 256; i++) {
+            receive(speak("i" + i, "hello"));
+        }
+        receive(speak("i1", "hello"));
+        assertEquals(257, speaker.commands.size());
+        receive(speak("i0", "hello"));
+        assertEquals(258, speaker.commands.size());
+    }
+
+    @Test
+    public void aCommandThatComesDuringAnotherIsAnsweredAfterIt() {
+        executor.registerCommand(MarkCommand.NAME, new BaseCommandHandler() {
+            @Override
+            public void runAction(BaseCommand command) {
+                receive(speak("inner", "hello"));
+                receive(speak("inner", "hello"));
+                assertEquals(NOTHING, answers.heard());
+            }
+        });
+        receive("{\"name\": \"black_box.mark\", \"id\": \"outer\", \"data\": {\"text\": \"x\"}}");
+        assertEquals(Arrays.asList("ack outer", "ack inner"), answers.heard());
+        assertEquals(1, speaker.commands.size());
+    }
+
+    @Test
+    public void anOlderNameIsTheCommandItself() {
+        Recorder panic = new Recorder();
+        executor.registerCommand(PanicCommand.NAME, panic);
+        receive("{\"name\": \"load_guard.panic\", \"id\": 1,"
+                + " \"data\": {\"panic\": false, \"delay_ms\": 0.5}}");
+        assertEquals(Arrays.asList("ack 1"), answers.heard());
+        assertEquals("up.panic", panic.commands.get(0).name());
+        assertEquals(1, ((PanicCommand) panic.commands.get(0)).delayMs());
+    }
+
+    @Test
+    public void anApplicationsFaultyCommandCostsItsMessageOnly() {
+        registry.register("app.broken", new CommandReader() {
+            @Override
+            public BaseCommand read(GeneralMessage message) {
+                throw new IllegalStateException("broken");
+            }
+        });
+        receive("{\"name\": \"app.broken\", \"id\": 1}");
+        receive(speak("2", "hello"));
+        assertEquals(Arrays.asList("nack 1 failed carrying it out failed; the log says where",
+                "ack 2"), answers.heard());
+        loop.advance(0);
+        assertEquals("broken", loopFaults.get(0).getMessage());
+    }
+
+    @Test
+    public void aLongReasonIsShortened() {
+        String face = "\ud83d\ude00";
+        StringBuilder reason = new StringBuilder();
+        for (int i = 0; i < 501; i++) {
+            reason.append(face);
+        }
+        speaker.refusal = new CommandRefusedException(reason.toString());
+        receive(speak("1", "a"));
+        String heard = answers.heard().get(0);
+        assertTrue(heard.endsWith(face));
+        assertEquals("nack 1 refused ".length() + 1000, heard.length());
+    }
+
+    private void receive(String line) {
+        byte[] bytes = bytes(line);
+        receiver.receiveLine(bytes, bytes.length, answers);
+    }
+
+    private static String speak(String id, String text) {
+        return "{\"name\": \"android.speak\", \"data\": {\"text\": \"" + text + "\"}, \"id\": \""
+                + id + "\"}";
+    }
+
+    private static byte[] bytes(String text) {
+        return text.getBytes(Charset.forName("UTF-8"));
+    }
+}

@@ -1,0 +1,14 @@
+package org.raspilot.up.commands;
+
+import java.util.ArrayList;
+import java.util.List;
+
+/** Keeps what handlers threw. */
+final class HandlerFaults implements HandlerFaultListener {
+    final List<Throwable> faults = new ArrayList<Throwable>();
+
+    @Override
+    public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command, Throwable fault) {
+        faults.add(fault);
+    }
+}

@@ -1,0 +1,22 @@
+package org.raspilot.up.commands;
+
+import java.util.ArrayList;
+import java.util.List;
+
+/** A handler that keeps what it was asked, and throws what it is told to. */
+final class Recorder extends BaseCommandHandler {
+    final List<BaseCommand> commands = new ArrayList<BaseCommand>();
+    CommandRefusedException refusal;
+    RuntimeException fault;
+
+    @Override
+    public void runAction(BaseCommand command) throws CommandRefusedException {
+        commands.add(command);
+        if (fault != null) {
+            throw fault;
+        }
+        if (refusal != null) {
+            throw refusal;
+        }
+    }
+}
