@@ -39,6 +39,7 @@ public final class GroundSide implements TelemetrySource {
     private Cancellable tick;
     private Cancellable silence;
     private boolean wasSilent = true;
+    private boolean wasLate;
     private long statusMs;
     private long toldVersions;
 
@@ -221,7 +222,7 @@ public final class GroundSide implements TelemetrySource {
         judge.onFrame(frame, status(), nowMs);
         executor.executeCommand(new TelemetryCommand(message));
         listener.onTelemetry(frame);
-        if (wasSilent != frame.isSilent(nowMs)) {
+        if (wasSilent != frame.isSilent(nowMs) || wasLate != frame.age().isLate(nowMs)) {
             tellStatus();
         }
         if (desk.standing() == SeatStanding.OURS && !frame.isSilent(nowMs)) {
@@ -271,6 +272,7 @@ public final class GroundSide implements TelemetrySource {
         statusMs = loop.nowMs();
         final GroundStatus status = status();
         wasSilent = status.isSilent();
+        wasLate = status.isLate();
         listener.onStatus(status);
     }
 

@@ -1,0 +1,291 @@
+package org.raspilot.up.ground;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertNotEquals;
+import static org.junit.Assert.assertNull;
+import static org.junit.Assert.assertTrue;
+
+import java.util.Collections;
+import org.junit.Rule;
+import org.junit.Test;
+import org.raspilot.up.commands.ArmCommand;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.DisarmCommand;
+import org.raspilot.up.commands.FlightModeCommand;
+import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.wire.Seat;
+
+/** When a Command is sent, with which beacon, and what its answer is. */
+public final class GroundCommandsTest {
+    @Rule
+    public final GroundBench bench = new GroundBench();
+
+    private void send(BaseCommand command) {
+        bench.ground.send(command, bench.keeping());
+    }
+
+    private void flySeen(long firstBeacon, int count) {
+        bench.ground.seen(bench.fly(firstBeacon, count));
+        bench.skipGains();
+    }
+
+    private void mustBeRefused(String code) {
+        final Answer answer = bench.answer();
+        assertEquals(Answer.Outcome.REFUSED, answer.outcome());
+        assertEquals(code, answer.code());
+        assertTrue(answer.sentence(), answer.sentence().contains(" was not sent: "));
+        assertTrue("something was sent", bench.sent().isEmpty());
+    }
+
+    @Test
+    public void itGoesOutOnceWithAnIdAndTheBeaconThatThePilotHasSeen() {
+        bench.open(Seat.COMMAND);
+        flySeen(40, 3);
+        bench.loop.advance(100);
+        bench.frame(43, "{}");
+        send(new FlightModeCommand("FBW"));
+        final GeneralMessage sent = bench.sent(FlightModeCommand.NAME);
+        assertEquals("drawn was 42", Long.valueOf(42), sent.beacon());
+        assertEquals("FBW", sent.data().get("mode"));
+        bench.loop.advance(120);
+        bench.ack(sent.id());
+        final Answer answer = bench.answer();
+        assertEquals(Answer.Outcome.ACK, answer.outcome());
+        assertEquals(Long.valueOf(120), answer.roundTripMs());
+        assertEquals("up.flight_mode.set carried out after 120 ms", answer.sentence());
+        assertTrue(bench.events().contains("flight mode FBW: carried out"));
+        bench.loop.advance(5000);
+        assertTrue("never sent again", bench.sent().isEmpty());
+    }
+
+    @Test
+    public void aBeaconThatWasSeenTooLongAgoIsNotEchoed() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 1);
+        bench.fly(2, 20);
+        send(new DisarmCommand());
+        assertEquals("2 s are no too long", Long.valueOf(1),
+                bench.sent(DisarmCommand.NAME).beacon());
+        bench.fly(22, 1);
+        send(new DisarmCommand());
+        mustBeRefused("stale");
+    }
+
+    @Test
+    public void theHoldUpOnTheWayCountsForTheBeaconToo() {
+        bench.open(Seat.COMMAND);
+        bench.frame(1, "{\"system\": {\"clock_ms\": 0}}");
+        bench.loop.advance(1600);
+        bench.frame(2, "{\"system\": {\"clock_ms\": 100}}");
+        bench.ground.seen(2L);
+        bench.loop.advance(499);
+        send(new DisarmCommand());
+        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon());
+        bench.loop.advance(3);
+        send(new DisarmCommand());
+        mustBeRefused("stale");
+    }
+
+    @Test
+    public void nobodyCommandsWhatTheyHaveNotSeen() {
+        bench.open(Seat.COMMAND);
+        bench.fly(1, 3);
+        bench.skipGains();
+        send(new DisarmCommand());
+        mustBeRefused("no_beacon");
+        bench.ground.seen(77L);
+        bench.ground.seen(null);
+        send(new DisarmCommand());
+        mustBeRefused("no_beacon");
+        bench.ground.send(new DisarmCommand(), 78L, bench.keeping());
+        mustBeRefused("stale");
+        bench.ground.send(new DisarmCommand(), 2L, bench.keeping());
+        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon());
+    }
+
+    @Test
+    public void anOlderFrameDrawnLaterChangesNothing() {
+        bench.open(Seat.COMMAND);
+        bench.fly(1, 5);
+        bench.ground.seen(5L);
+        bench.ground.seen(3L);
+        send(new DisarmCommand());
+        assertEquals(Long.valueOf(5), bench.sent(DisarmCommand.NAME).beacon());
+    }
+
+    @Test
+    public void withoutTheSeatNothingIsSent() {
+        bench.open(Seat.LISTEN);
+        flySeen(1, 3);
+        send(new DisarmCommand());
+        mustBeRefused("no_seat");
+        bench.say("UP1 seat command token=" + GroundBench.TOKEN);
+        send(new DisarmCommand());
+        bench.sent(DisarmCommand.NAME);
+        bench.say("UP1 seat listen");
+        send(new DisarmCommand());
+        mustBeRefused("no_seat");
+    }
+
+    @Test
+    public void withoutALinkOrAnAircraftNothingIsSentNorKeptForLater() {
+        bench.start(GroundBench.settings(Seat.COMMAND, false));
+        send(new DisarmCommand());
+        assertEquals("no_link", bench.answer().code());
+        bench.accept(Seat.COMMAND);
+        bench.say("UP1 aircraft offline");
+        flySeen(1, 3);
+        send(new DisarmCommand());
+        mustBeRefused("no_aircraft");
+        bench.peer().end("gone");
+        send(new DisarmCommand());
+        assertEquals("there is no link: gone", bench.answer().reason());
+        bench.loop.advance(700);
+        bench.accept(Seat.COMMAND);
+        flySeen(4, 3);
+        assertFalse(bench.peer().written().contains("disarm"));
+    }
+
+    @Test
+    public void whatWasSeenOnTheLastConnectionCountsForNothing() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 3);
+        bench.peer().end("lost");
+        bench.loop.advance(700);
+        bench.accept(Seat.COMMAND);
+        send(new ArmCommand());
+        mustBeRefused("no_beacon");
+    }
+
+    @Test
+    public void armingNeedsABeaconEvenWhereTheAircraftHasNone() {
+        bench.open(Seat.COMMAND);
+        bench.say("{\"name\": \"up.telemetry.update\", \"data\": {}}");
+        send(new DisarmCommand());
+        assertNull("a thesis aircraft tells no beacons", bench.sent(DisarmCommand.NAME).beacon());
+        send(new ArmCommand());
+        mustBeRefused("no_beacon");
+    }
+
+    @Test
+    public void theAnswerOfAnotherIdIsNotTaken() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 3);
+        send(new DisarmCommand());
+        final String id = bench.sent(DisarmCommand.NAME).id();
+        bench.ack("another");
+        bench.say("{\"name\": \"up.ack\", \"data\": {\"id\": 5}}");
+        bench.say("{\"name\": \"up.ack\", \"data\": {}}");
+        assertTrue(bench.answers.isEmpty());
+        assertEquals(3, bench.ground.status().counters().strangeAnswers());
+        bench.nack(id, "refused", "armed by the transmitter\\u0007");
+        final Answer answer = bench.answer();
+        assertEquals(Answer.Outcome.NACK, answer.outcome());
+        assertEquals("the aircraft refused up.disarm: armed by the transmitter",
+                answer.sentence());
+        bench.ack(id);
+        assertTrue("it ended once", bench.answers.isEmpty());
+    }
+
+    @Test
+    public void idsAreDifferentAndAnswersFindTheirs() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 3);
+        send(new DisarmCommand());
+        final String first = bench.sent(DisarmCommand.NAME).id();
+        send(new FlightModeCommand("RATE"));
+        final String second = bench.sent(FlightModeCommand.NAME).id();
+        assertNotEquals(first, second);
+        bench.ack(second);
+        assertEquals(FlightModeCommand.NAME, bench.answer().name());
+        bench.ack(first);
+        assertEquals(DisarmCommand.NAME, bench.answer().name());
+    }
+
+    @Test
+    public void noAnswerForThreeSecondsIsATimeoutAndIsNotRepaired() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 3);
+        send(new DisarmCommand());
+        final String id = bench.sent(DisarmCommand.NAME).id();
+        bench.loop.advance(2999);
+        assertTrue(bench.answers.isEmpty());
+        bench.loop.advance(1);
+        final Answer answer = bench.answer();
+        assertEquals(Answer.Outcome.TIMEOUT, answer.outcome());
+        assertEquals("up.disarm: no answer within 3 s; it is not known whether it was carried out",
+                answer.sentence());
+        bench.ack(id);
+        assertTrue(bench.answers.isEmpty());
+        assertTrue(bench.sent().isEmpty());
+    }
+
+    @Test
+    public void aLostLinkEndsTheWaiting() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 3);
+        send(new DisarmCommand());
+        bench.peer().end("lost");
+        assertEquals(Answer.Outcome.LOST, bench.answer().outcome());
+        bench.loop.advance(700);
+        bench.accept(Seat.COMMAND);
+        bench.loop.advance(5000);
+        assertTrue(bench.sent().isEmpty());
+        assertTrue(bench.answers.isEmpty());
+    }
+
+    @Test
+    public void stoppingEndsTheWaitingToo() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 3);
+        send(new DisarmCommand());
+        bench.ground.stop();
+        assertEquals(Answer.Outcome.LOST, bench.answer().outcome());
+    }
+
+    @Test
+    public void tooManyThatWaitAreRefused() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 3);
+        for (int each = 0; each < Answers.MOST; each++) {
+            send(new DisarmCommand());
+        }
+        assertTrue(bench.answers.isEmpty());
+        bench.sent();
+        send(new DisarmCommand());
+        mustBeRefused("busy");
+    }
+
+    @Test
+    public void whatNoLineCanHoldIsRefused() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 3);
+        send(new BaseCommand("x.y", Collections.singletonMap("v", Double.NaN)));
+        mustBeRefused("invalid");
+        send(new BaseCommand("x.y", Collections.singletonMap("v",
+                new String(new char[20000]).replace('\0', 'v'))));
+        mustBeRefused("invalid");
+    }
+
+    @Test
+    public void anyCommandOfTheCatalogueCanBeSentByItsName() {
+        bench.open(Seat.COMMAND);
+        flySeen(1, 3);
+        send(new BaseCommand("new.cog.command", Collections.singletonMap("v", 5L)));
+        assertEquals(5L, bench.sent("new.cog.command").data().get("v"));
+    }
+
+    @Test
+    public void whatTheProfileRequestAsksForIsItsAnswersData() {
+        bench.open(Seat.COMMAND);
+        bench.fly(1, 1);
+        bench.sent();
+        send(new BaseCommand("arduino.profile.request", null));
+        final String id = bench.sent("arduino.profile.request").id();
+        bench.ack(id);
+        assertTrue("the profile has yet to come", bench.answers.isEmpty());
+        bench.say("{\"name\": \"arduino.profile.values\", \"data\": {\"mix\": \"elevon\"}}");
+        assertEquals("elevon", bench.answer().data().get("mix"));
+    }
+}

@@ -1,0 +1,163 @@
+package org.raspilot.up.ground;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertNull;
+import static org.junit.Assert.assertTrue;
+
+import java.util.List;
+import java.util.Random;
+import org.junit.Test;
+
+/** The way that the aircraft has come. */
+public final class TrackTest {
+    private static final double DEGREE_M = 111195;
+
+    private final Track track = new Track();
+    private long nowMs = 100000;
+
+    private void fly(double northM, double eastM, Home home) {
+        nowMs += 100;
+        track.take(GroundBench.telemetry("{\"location\": {\"latitude\": "
+                + (60 + northM / DEGREE_M) + ", \"longitude\": "
+                + (15 + eastM / DEGREE_M / 0.5) + ", \"altitude\": 30}}", nowMs), home, nowMs);
+    }
+
+    private List<TrackPoint> points() {
+        return track.snapshot().points();
+    }
+
+    @Test
+    public void pointsAreMetresFromTheFirstPlaceAndLaterFromHome() {
+        assertNull(track.snapshot().origin());
+        fly(0, 0, null);
+        fly(100, 50, null);
+        assertEquals(100, points().get(1).northM(), 0.1);
+        assertEquals(50, points().get(1).eastM(), 0.1);
+        assertEquals(30, points().get(1).altitudeM(), 0);
+        assertFalse(track.snapshot().isOriginHome());
+        final Home home = new Home(60 - 10 / DEGREE_M, 15);
+        fly(200, 50, home);
+        assertTrue(track.snapshot().isOriginHome());
+        assertEquals(110, points().get(1).northM(), 0.1);
+        assertEquals(3, points().size());
+    }
+
+    @Test
+    public void pointsAreTwoMetresApartAndTheNewestPlaceIsTheLast() {
+        for (int each = 0; each <= 10; each++) {
+            fly(each * 0.5, 0, null);
+        }
+        assertEquals(4, points().size());
+        assertEquals(5, points().get(3).northM(), 0.01);
+        final long version = track.version();
+        fly(5, 0, null);
+        assertTrue(track.version() > version);
+        assertEquals(4, points().size());
+    }
+
+    @Test
+    public void noLineLeadsOverASilence() {
+        for (int each = 0; each < 10; each++) {
+            fly(each * 10, 0, null);
+        }
+        nowMs += 5000;
+        fly(500, 0, null);
+        fly(510, 0, null);
+        final List<TrackPoint> points = points();
+        assertFalse(points.get(9).isAfterSilence());
+        assertTrue(points.get(10).isAfterSilence());
+        assertFalse(points.get(11).isAfterSilence());
+    }
+
+    @Test
+    public void thereAreNeverMoreThanSomeThousandAndASilenceIsNotThinnedAway() {
+        for (int each = 0; each < 1001; each++) {
+            fly(each * 3, 0, null);
+        }
+        nowMs += 5000;
+        for (int each = 1001; each < 20000; each++) {
+            fly(each * 3, 0, null);
+        }
+        final List<TrackPoint> points = points();
+        assertTrue("" + points.size(), points.size() <= Track.MOST_POINTS + 1);
+        assertTrue("" + points.size(), points.size() >= Track.MOST_POINTS / 2 - 1);
+        assertEquals("the oldest is kept", 0, points.get(0).northM(), 0.01);
+        assertEquals(19999 * 3, points.get(points.size() - 1).northM(), 0.1);
+        int silences = 0;
+        for (TrackPoint each : points) {
+            silences += each.isAfterSilence() ? 1 : 0;
+        }
+        assertEquals(1, silences);
+    }
+
+    @Test
+    public void whatIsNoPlaceIsNoPoint() {
+        for (String place : new String[] {"{}", "{\"location\": null}",
+            "{\"location\": {\"latitude\": 91, \"longitude\": 0}}",
+            "{\"location\": {\"latitude\": 0, \"longitude\": 181}}",
+            "{\"location\": {\"latitude\": \"49\", \"longitude\": 15}}",
+            "{\"location\": {\"latitude\": 49}}"}) {
+            track.take(GroundBench.telemetry(place, nowMs), null, nowMs);
+        }
+        assertTrue(points().isEmpty());
+    }
+
+    @Test
+    public void overTheDateLineItIsNotAroundTheWorld() {
+        track.take(GroundBench.telemetry(
+                "{\"location\": {\"latitude\": 0, \"longitude\": 179.9999}}", 1), null, 1);
+        track.take(GroundBench.telemetry(
+                "{\"location\": {\"latitude\": 0, \"longitude\": -179.9999}}", 2), null, 2);
+        assertEquals(0.0002 * DEGREE_M, points().get(1).eastM(), 0.01);
+    }
+
+    @Test
+    public void clearedItBeginsAnew() {
+        fly(0, 0, null);
+        fly(100, 0, null);
+        track.clear();
+        assertTrue(points().isEmpty());
+        fly(100, 0, null);
+        assertEquals(0, points().get(0).northM(), 0.01);
+        assertFalse(points().get(0).isAfterSilence());
+    }
+
+    @Test
+    public void anySnapshotStaysWhatItWas() {
+        fly(0, 0, null);
+        final List<TrackPoint> before = points();
+        fly(100, 0, null);
+        assertEquals(1, before.size());
+    }
+
+    @Test
+    public void homeIsFoundFromPlaceDistanceAndBearingAndOnlyAMoveReplacesIt() {
+        final long seed = new Random().nextLong();
+        final Random random = new Random(seed);
+        for (int each = 0; each < 500; each++) {
+            final Home home = new Home(random.nextDouble() * 160 - 80,
+                    random.nextDouble() * 358 - 179);
+            final double bearing = random.nextDouble() * 360;
+            final double distance = random.nextDouble() * 5000;
+            final Home found = HomeSearch.destination(home.latitudeDeg(), home.longitudeDeg(),
+                    bearing, distance);
+            assertEquals("seed " + seed, distance, HomeSearch.distanceM(home, found), 0.01);
+        }
+        final HomeSearch search = new HomeSearch();
+        search.take(home(100));
+        final Home first = search.home();
+        search.take(home(110));
+        assertEquals(first, search.home());
+        search.take(home(150));
+        assertEquals(50, HomeSearch.distanceM(first, search.home()), 0.1);
+        search.take(home(-5));
+        search.take(home(1e9));
+        assertEquals(50, HomeSearch.distanceM(first, search.home()), 0.1);
+    }
+
+    private static Telemetry home(double distance) {
+        return GroundBench.telemetry("{\"location\": {\"latitude\": 49, \"longitude\": 15},"
+                + " \"home\": {\"bearing\": 90, \"distance\": " + distance + "}}", 0);
+    }
+}
