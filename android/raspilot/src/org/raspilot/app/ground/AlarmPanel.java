@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
 import org.raspilot.app.view.Inks;
+import org.raspilot.app.view.Texts;
 import org.raspilot.up.ground.Alarm;
 import org.raspilot.up.ground.EventLevel;
 
@@ -42,11 +43,9 @@ final class AlarmPanel implements View.OnClickListener {
         }
         element.setVisibility(active.isEmpty() ? View.GONE : View.VISIBLE);
         String words = words(active);
-        if (!words.contentEquals(text.getText())) {
-            // A live region: a screen reader says it when it changes.
-            text.setText(words);
-        }
-        text.setTextColor(hasAlarm(active) ? inks.alarm : inks.warning);
+        // A live region: a screen reader says it when it changes.
+        Texts.show(text, words);
+        Texts.colour(text, hasAlarm(active) ? inks.alarm : inks.warning);
         silence.setVisibility(bell.isRinging() ? View.VISIBLE : View.GONE);
     }
 

@@ -4,6 +4,7 @@ import android.view.View;
 import android.widget.TextView;
 import java.util.List;
 import org.raspilot.app.R;
+import org.raspilot.app.view.Texts;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Event;
 
@@ -37,9 +38,7 @@ final class EventPanel {
         }
         String text = all.length() == 0
                 ? view.getResources().getString(R.string.ground_no_events) : all.toString();
-        if (!text.contentEquals(view.getText())) {
-            view.setText(text);
-        }
+        Texts.show(view, text);
     }
 
     /** Whole seconds: a hundredth that runs says nothing here. */

@@ -5,6 +5,7 @@ import android.content.res.Resources;
 import org.raspilot.app.R;
 import org.raspilot.app.view.FrameText;
 import org.raspilot.app.view.Inks;
+import org.raspilot.app.view.Texts;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
@@ -65,9 +66,7 @@ public final class FrameLine implements FrameText.DrawnListener {
     }
 
     private void show(String text, int colour, Long beacon) {
-        if (view.getCurrentTextColor() != colour) {
-            view.setTextColor(colour);
-        }
+        Texts.colour(view, colour);
         view.setFrame(text, beacon);
     }
 

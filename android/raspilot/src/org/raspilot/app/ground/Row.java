@@ -9,6 +9,7 @@ import org.raspilot.app.R;
 import org.raspilot.app.view.Hatch;
 import org.raspilot.app.view.Inks;
 import org.raspilot.app.view.Instrument;
+import org.raspilot.app.view.Texts;
 import org.raspilot.up.ground.Freshness;
 
 /** A line with a word and a value that looks old when it is old. */
@@ -53,7 +54,7 @@ final class Row {
 
     /** Says what the value is. */
     void label(String text) {
-        show(label, text);
+        Texts.show(label, text);
     }
 
     /**
@@ -69,11 +70,8 @@ final class Row {
         if (isStale) {
             shown = element.getResources().getString(R.string.ground_old, text, age);
         }
-        show(value, shown);
-        int colour = freshness == Freshness.LIVE ? colourOf(look) : inks.dim;
-        if (value.getCurrentTextColor() != colour) {
-            value.setTextColor(colour);
-        }
+        Texts.show(value, shown);
+        Texts.colour(value, freshness == Freshness.LIVE ? colourOf(look) : inks.dim);
         if (wasStale == null || wasStale != isStale) {
             wasStale = isStale;
             hatch.setActive(isStale);
@@ -102,12 +100,6 @@ final class Row {
                 return inks.alarm;
             default:
                 return inks.ink;
-        }
-    }
-
-    private static void show(TextView view, String text) {
-        if (!text.contentEquals(view.getText())) {
-            view.setText(text);
         }
     }
 }

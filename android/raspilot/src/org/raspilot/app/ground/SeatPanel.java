@@ -5,6 +5,7 @@ import android.widget.Button;
 import android.widget.TextView;
 
 import org.raspilot.app.R;
+import org.raspilot.app.view.Texts;
 import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.SeatStanding;
@@ -38,14 +39,14 @@ public final class SeatPanel implements View.OnClickListener {
     public void update(Picture picture) {
         GroundStatus status = picture.status;
         if (status == null) {
-            show(link, link.getResources().getString(R.string.seat_no_service));
-            show(seat, "");
+            Texts.show(link, link.getResources().getString(R.string.seat_no_service));
+            Texts.show(seat, "");
             take.setEnabled(false);
             give.setVisibility(View.GONE);
             return;
         }
-        show(link, linkText(status));
-        show(seat, sentence(status.seatSentence()));
+        Texts.show(link, linkText(status));
+        Texts.show(seat, sentence(status.seatSentence()));
         SeatStanding standing = status.standing();
         isOurs = standing == SeatStanding.OURS;
         asker = isOurs ? status.askedBy() : null;
@@ -53,10 +54,10 @@ public final class SeatPanel implements View.OnClickListener {
         take.setVisibility(status.isDirect() ? View.GONE : View.VISIBLE);
         String text = take.getResources().getString(
                 isOurs ? R.string.seat_release : R.string.seat_request);
-        show(take, text);
+        Texts.show(take, text);
         give.setVisibility(asker == null ? View.GONE : View.VISIBLE);
         if (asker != null) {
-            show(give, give.getResources().getString(R.string.seat_give, asker));
+            Texts.show(give, give.getResources().getString(R.string.seat_give, asker));
         }
     }
 
@@ -96,11 +97,5 @@ public final class SeatPanel implements View.OnClickListener {
         String text = words.substring(0, 1).toUpperCase(java.util.Locale.ROOT)
                 + words.substring(1);
         return text.endsWith(".") ? text : text + ".";
-    }
-
-    private static void show(TextView view, String text) {
-        if (!text.contentEquals(view.getText())) {
-            view.setText(text);
-        }
     }
 }

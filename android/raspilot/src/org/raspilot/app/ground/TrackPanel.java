@@ -9,6 +9,7 @@ import android.widget.TextView;
 import android.widget.Toast;
 import java.util.List;
 import org.raspilot.app.R;
+import org.raspilot.app.view.Texts;
 import org.raspilot.app.view.TrackView;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
@@ -104,13 +105,13 @@ final class TrackPanel implements View.OnClickListener {
         }
         map.setEnabled(latitudeDeg != null);
         if (latitudeDeg == null) {
-            place.setText(R.string.ground_place_unknown);
+            Texts.show(place, activity.getString(R.string.ground_place_unknown));
             return;
         }
         boolean isLive = telemetry.freshness("location.latitude", picture.nowMs)
                 == Freshness.LIVE;
         int text = isLive ? R.string.ground_place : R.string.ground_place_old;
-        place.setText(activity.getString(text, latitudeDeg, longitudeDeg, age));
+        Texts.show(place, activity.getString(text, latitudeDeg, longitudeDeg, age));
     }
 
     private void openMap() {

@@ -1,0 +1,134 @@
+package org.raspilot.app.commands;
+
+import android.content.Context;
+import android.content.res.Resources;
+import android.view.LayoutInflater;
+import android.view.View;
+import android.widget.TextView;
+import java.util.Collections;
+import java.util.List;
+import java.util.Map;
+import org.raspilot.app.R;
+import org.raspilot.app.ground.Picture;
+import org.raspilot.app.view.HoldButton;
+import org.raspilot.app.view.Texts;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.ground.Freshness;
+
+/** Arm and disarm, each by a press that is held: nothing happens by a slip of the hand. */
+final class ArmPage implements Page, HoldButton.HoldListener {
+    private static final Map<String, Object> NOTHING = Collections.<String, Object>emptyMap();
+
+    private final CommandForm arm;
+    private final CommandForm disarm;
+    private final Desk desk;
+    private final View element;
+    private final HoldButton armButton;
+    private final HoldButton disarmButton;
+    private final TextView state;
+    private final TextView vetoes;
+    private final TextView armWhy;
+    private final TextView disarmWhy;
+    private final TextView note;
+
+    /** Makes the page; a form that the catalogue does not have is null. */
+    ArmPage(CommandForm arm, CommandForm disarm, Desk desk) {
+        this.arm = arm;
+        this.disarm = disarm;
+        this.desk = desk;
+        element = LayoutInflater.from(desk.context()).inflate(R.layout.page_arm, null);
+        armButton = (HoldButton) element.findViewById(R.id.arm_button);
+        disarmButton = (HoldButton) element.findViewById(R.id.disarm_button);
+        state = (TextView) element.findViewById(R.id.arm_state);
+        vetoes = (TextView) element.findViewById(R.id.arm_vetoes);
+        armWhy = (TextView) element.findViewById(R.id.arm_why);
+        disarmWhy = (TextView) element.findViewById(R.id.disarm_why);
+        note = (TextView) element.findViewById(R.id.arm_note);
+        armButton.setHoldListener(this);
+        disarmButton.setHoldListener(this);
+        update();
+    }
+
+    @Override
+    public View element() {
+        return element;
+    }
+
+    @Override
+    public void update() {
+        Resources words = desk.context().getResources();
+        Picture picture = desk.picture();
+        boolean isLive = picture.telemetry.freshness("armed", picture.nowMs) == Freshness.LIVE;
+        Boolean isArmed = isLive ? picture.telemetry.flag("armed") : null;
+        Texts.showOrHide(state, words.getString(isArmed == null ? R.string.arm_state_unknown
+                : isArmed ? R.string.arm_state_armed : R.string.arm_state_disarmed));
+        Texts.showOrHide(vetoes, vetoes(words, picture, isArmed));
+        offer(armButton, armWhy, arm);
+        offer(disarmButton, disarmWhy, disarm);
+    }
+
+    @Override
+    public void onHeld(View button) {
+        Texts.showOrHide(note, "");
+        carryOut(formOf(button));
+    }
+
+    @Override
+    public void onClickedOnly(View button) {
+        final CommandForm form = formOf(button);
+        if (form == null || desk.objection(form, NOTHING) != Objection.NONE) {
+            return;
+        }
+        Context context = desk.context();
+        String title = CommandWords.title(context.getResources(), form.name());
+        desk.confirm(context.getString(R.string.arm_question, title), form.text(), title,
+                new Runnable() {
+                    @Override
+                    public void run() {
+                        carryOut(form);
+                    }
+                });
+    }
+
+    @Override
+    public void onTooShort(View button) {
+        Texts.showOrHide(note, desk.context().getString(R.string.arm_too_short));
+    }
+
+    private void carryOut(CommandForm form) {
+        // Between the press and now the seat or the link may be gone.
+        if (form != null && desk.objection(form, NOTHING) == Objection.NONE) {
+            desk.send(new BaseCommand(form.name(), NOTHING),
+                    CommandWords.title(desk.context().getResources(), form.name()));
+        }
+    }
+
+    private void offer(HoldButton button, TextView why, CommandForm form) {
+        String objection = form == null ? desk.context().getString(R.string.why_unknown)
+                : desk.objectionText(form, NOTHING);
+        Texts.showOrHide(why, objection);
+        if (button.isEnabled() != objection.isEmpty()) {
+            button.setEnabled(objection.isEmpty());
+        }
+    }
+
+    private CommandForm formOf(View button) {
+        return button == armButton ? arm : disarm;
+    }
+
+    private static String vetoes(Resources words, Picture picture, Boolean isArmed) {
+        List<String> all = picture.telemetry.texts("vetoes");
+        if (Boolean.TRUE.equals(isArmed)) {
+            return words.getString(R.string.arm_disarms_when);
+        }
+        if (isArmed == null || all == null || all.isEmpty()) {
+            return "";
+        }
+        StringBuilder text = new StringBuilder();
+        for (String each : all) {
+            text.append(text.length() == 0 ? "" : "; ").append(each);
+        }
+        return words.getString(R.string.arm_will_refuse, text.toString());
+    }
+}

@@ -1,0 +1,45 @@
+package org.raspilot.app.commands;
+
+import java.util.Locale;
+
+/** What belongs together in the list of Commands. */
+enum CommandGroup {
+    /** How and where it flies. */
+    FLIGHT,
+    /** The flight controller's board. */
+    BOARD,
+    /** What is told and written. */
+    DATA,
+    /** The airborne phone. */
+    PHONE,
+    /** Commands of modules that nobody here knows. */
+    OTHER;
+
+    /** Returns the group of a Command by its name. */
+    static CommandGroup of(String name) {
+        if (name.startsWith("up.telemetry.") || name.startsWith("black_box.")) {
+            return DATA;
+        }
+        if (name.startsWith("up.")) {
+            return FLIGHT;
+        }
+        if (name.startsWith("arduino.")) {
+            return BOARD;
+        }
+        return name.startsWith("android.") ? PHONE : OTHER;
+    }
+
+    /** Says whether each of the words stands in one of the texts, whatever its case. */
+    static boolean matches(String words, String... texts) {
+        for (String word : words.trim().toLowerCase(Locale.ROOT).split("\\s+")) {
+            boolean isFound = false;
+            for (String text : texts) {
+                isFound |= text.toLowerCase(Locale.ROOT).contains(word);
+            }
+            if (!isFound) {
+                return false;
+            }
+        }
+        return true;
+    }
+}

@@ -1,0 +1,80 @@
+package org.raspilot.app.commands;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.LinkedList;
+import java.util.List;
+
+/** What was sent, and what became of it; the newest first. Main thread only. */
+final class CommandHistory {
+    /** So many are remembered. */
+    static final int KEPT = 50;
+
+    /** What became of a Command. */
+    enum Outcome {
+        /** The answer is waited for. */
+        WAITING,
+        /** It was carried out. */
+        GOOD,
+        /** It was refused, or not sent. */
+        BAD,
+        /** Nobody knows whether it was carried out. */
+        UNKNOWN
+    }
+
+    /** One Command that was sent. Immutable. */
+    static final class Entry {
+        /** Counts up from 1. */
+        final int number;
+        /** What was asked for, in words. */
+        final String words;
+        /** When, by a monotonic clock, ms. */
+        final long atMs;
+        /** What became of it. */
+        final Outcome outcome;
+        /** The same in a sentence; empty while it is waited for. */
+        final String sentence;
+
+        private Entry(int number, String words, long atMs, Outcome outcome, String sentence) {
+            this.number = number;
+            this.words = words;
+            this.atMs = atMs;
+            this.outcome = outcome;
+            this.sentence = sentence;
+        }
+    }
+
+    private final LinkedList<Entry> entries = new LinkedList<Entry>();
+    private int numbers;
+
+    /** Notes that something is sent; returns the number under which its answer is told. */
+    int sent(String words, long nowMs) {
+        numbers++;
+        entries.addFirst(new Entry(numbers, words, nowMs, Outcome.WAITING, ""));
+        if (entries.size() > KEPT) {
+            entries.removeLast();
+        }
+        return numbers;
+    }
+
+    /** Notes what became of it; one that is forgotten already stays so. */
+    void answered(int number, Outcome outcome, String sentence) {
+        for (int place = 0; place < entries.size(); place++) {
+            Entry entry = entries.get(place);
+            if (entry.number == number) {
+                entries.set(place,
+                        new Entry(number, entry.words, entry.atMs, outcome, sentence));
+            }
+        }
+    }
+
+    /** Returns all, the newest first; a copy. */
+    List<Entry> entries() {
+        return Collections.unmodifiableList(new ArrayList<Entry>(entries));
+    }
+
+    /** Returns the newest; null: nothing was sent. */
+    Entry newest() {
+        return entries.peekFirst();
+    }
+}

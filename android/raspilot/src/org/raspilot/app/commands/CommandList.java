@@ -1,0 +1,127 @@
+package org.raspilot.app.commands;
+
+import android.content.res.Resources;
+import android.view.LayoutInflater;
+import android.view.View;
+import android.view.ViewGroup;
+import android.widget.BaseAdapter;
+import android.widget.TextView;
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import org.raspilot.app.R;
+import org.raspilot.app.view.Inks;
+import org.raspilot.app.view.Texts;
+import org.raspilot.up.commands.CommandForm;
+
+/** Every Command of the catalogue in groups; those that the searched words name. */
+final class CommandList extends BaseAdapter {
+    private static final int HEADING = 0;
+    private static final int COMMAND = 1;
+
+    private final LayoutInflater inflater;
+    private final Resources words;
+    private final Desk desk;
+    private final Inks inks;
+    private final List<CommandForm> forms;
+    /** Groups and forms as they stand below each other. */
+    private final List<Object> lines = new ArrayList<Object>();
+
+    /** Makes a list of all forms. */
+    CommandList(Desk desk, List<CommandForm> forms) {
+        this.desk = desk;
+        this.forms = forms;
+        inflater = LayoutInflater.from(desk.context());
+        words = desk.context().getResources();
+        inks = Inks.of(desk.context());
+        search("");
+    }
+
+    /** Shows the Commands in whose title, name or text each of the words stands. */
+    void search(String wanted) {
+        lines.clear();
+        for (CommandGroup group : CommandGroup.values()) {
+            boolean isBegun = false;
+            for (CommandForm form : forms) {
+                if (CommandGroup.of(form.name()) == group && matches(form, wanted)) {
+                    if (!isBegun) {
+                        lines.add(group);
+                        isBegun = true;
+                    }
+                    lines.add(form);
+                }
+            }
+        }
+        notifyDataSetChanged();
+    }
+
+    /** Returns the form at a place; null: a heading stands there. */
+    CommandForm form(int place) {
+        Object line = lines.get(place);
+        return line instanceof CommandForm ? (CommandForm) line : null;
+    }
+
+    @Override
+    public int getCount() {
+        return lines.size();
+    }
+
+    @Override
+    public Object getItem(int place) {
+        return lines.get(place);
+    }
+
+    @Override
+    public long getItemId(int place) {
+        return place;
+    }
+
+    @Override
+    public int getViewTypeCount() {
+        return 2;
+    }
+
+    @Override
+    public int getItemViewType(int place) {
+        return form(place) == null ? HEADING : COMMAND;
+    }
+
+    @Override
+    public boolean areAllItemsEnabled() {
+        return false;
+    }
+
+    @Override
+    public boolean isEnabled(int place) {
+        return form(place) != null;
+    }
+
+    @Override
+    public View getView(int place, View used, ViewGroup list) {
+        CommandForm form = form(place);
+        if (form == null) {
+            View heading = used == null
+                    ? inflater.inflate(R.layout.heading_commands, list, false) : used;
+            ((TextView) heading).setText(CommandWords.group((CommandGroup) lines.get(place)));
+            return heading;
+        }
+        View row = used == null ? inflater.inflate(R.layout.row_command, list, false) : used;
+        TextView title = (TextView) row.findViewById(R.id.command_title);
+        title.setText(CommandWords.title(words, form.name()));
+        ((TextView) row.findViewById(R.id.command_name)).setText(form.name());
+        // It opens all the same: its page says why it is not offered.
+        boolean isOffered = desk.objection(form, Collections.<String, Object>emptyMap())
+                == Objection.NONE;
+        Texts.colour(title, isOffered ? inks.ink : inks.dim);
+        return row;
+    }
+
+    private boolean matches(CommandForm form, String wanted) {
+        StringBuilder aliases = new StringBuilder();
+        for (String alias : form.aliases()) {
+            aliases.append(alias).append(' ');
+        }
+        return CommandGroup.matches(wanted, form.name(), form.text(), aliases.toString(),
+                CommandWords.title(words, form.name()));
+    }
+}

@@ -1,0 +1,150 @@
+package org.raspilot.app.commands;
+
+import android.content.res.Resources;
+import java.util.Locale;
+import java.util.Map;
+import org.raspilot.app.R;
+import org.raspilot.app.ground.Picture;
+import org.raspilot.up.ground.Freshness;
+
+/** The English of the Commands: titles, groups, objections, and what they ask for. */
+final class CommandWords {
+    private CommandWords() {
+    }
+
+    /** Returns what a Command is called on the screen; its name where nobody here knows it. */
+    static String title(Resources words, String name) {
+        int title = titleOf(name);
+        return title == 0 ? name : words.getString(title);
+    }
+
+    /** Returns the heading of a group. */
+    static int group(CommandGroup group) {
+        switch (group) {
+            case FLIGHT:
+                return R.string.commands_flight;
+            case BOARD:
+                return R.string.commands_board;
+            case DATA:
+                return R.string.commands_data;
+            case PHONE:
+                return R.string.commands_phone;
+            default:
+                return R.string.commands_other;
+        }
+    }
+
+    /** Returns a Command with its data, as a question and as a line of the history has it. */
+    static String asked(Resources words, String name, Map<String, ?> data) {
+        StringBuilder all = new StringBuilder(title(words, name));
+        for (Map.Entry<String, ?> field : data.entrySet()) {
+            all.append(all.indexOf(":") < 0 ? ": " : ", ");
+            all.append(field.getKey()).append(' ').append(field.getValue());
+        }
+        return all.toString();
+    }
+
+    /** Returns an objection as a sentence; empty: there is none. */
+    static String objection(Resources words, Objection objection, Picture picture) {
+        switch (objection) {
+            case NONE:
+                return "";
+            case NO_LINK:
+                return words.getString(R.string.why_no_link);
+            case NO_AIRCRAFT:
+                return words.getString(R.string.why_no_aircraft);
+            case SEAT_FREE:
+                return words.getString(R.string.why_seat_free);
+            case SEAT_HELD:
+                return words.getString(R.string.why_seat_held);
+            case LISTENING:
+                return words.getString(R.string.why_listening);
+            case ROLE:
+                String role = picture.status == null ? "" : picture.status.role();
+                return words.getString(R.string.why_role, role);
+            case SILENT:
+                return words.getString(R.string.why_silent);
+            case ARMED:
+                return words.getString(R.string.why_armed);
+            case ARMED_ALREADY:
+                return words.getString(R.string.why_armed_already);
+            default:
+                return words.getString(R.string.why_disarmed_already);
+        }
+    }
+
+    /** Returns what is to be known of now beside the form of a Command; empty: nothing. */
+    static String now(Resources words, String name, Picture picture) {
+        if (name.equals("up.heading.change")) {
+            return now(words, picture, "heading.actual", "heading.required", "\u00b0");
+        }
+        if (name.equals("up.altitude.change")) {
+            return now(words, picture, "altitude", "altitude_required", " m");
+        }
+        if (name.equals("up.flight_mode.set")) {
+            return words.getString(R.string.commands_now, mode(words, picture));
+        }
+        if (name.equals("up.telemetry.frequency") && picture.status != null
+                && picture.status.rateHz() != null) {
+            double rateHz = picture.status.rateHz();
+            return words.getString(R.string.commands_period_now, Math.round(1000 / rateHz),
+                    rateHz);
+        }
+        if (name.equals("android.speak")) {
+            Boolean isThere = picture.telemetry.flag("android.connected");
+            return Boolean.FALSE.equals(isThere)
+                    ? words.getString(R.string.commands_no_phone) : "";
+        }
+        return "";
+    }
+
+    private static String now(Resources words, Picture picture, String actual, String required,
+            String unit) {
+        Double value = picture.telemetry.number(actual);
+        Double asked = picture.telemetry.number(required);
+        boolean isLive = picture.telemetry.freshness(actual, picture.nowMs) == Freshness.LIVE;
+        // What is not of now never reads as if it were.
+        String text = value == null || !isLive ? words.getString(R.string.commands_not_known)
+                : number(value) + unit;
+        return asked == null ? words.getString(R.string.commands_now, text)
+                : words.getString(R.string.commands_now_asked, text, number(asked) + unit);
+    }
+
+    private static String mode(Resources words, Picture picture) {
+        String mode = picture.telemetry.text("flight_mode");
+        boolean isLive = picture.telemetry.freshness("flight_mode", picture.nowMs)
+                == Freshness.LIVE;
+        return isLive && mode != null ? mode : words.getString(R.string.commands_not_known);
+    }
+
+    private static String number(double value) {
+        return String.format(Locale.ROOT, "%.0f", value);
+    }
+
+    private static int titleOf(String name) {
+        if (name.equals("up.arm")) {
+            return R.string.title_arm;
+        } else if (name.equals("up.disarm")) {
+            return R.string.title_disarm;
+        } else if (name.equals("up.flight_mode.set")) {
+            return R.string.title_mode;
+        } else if (name.equals("up.heading.change")) {
+            return R.string.title_heading;
+        } else if (name.equals("up.altitude.change")) {
+            return R.string.title_altitude;
+        } else if (name.equals("up.telemetry.frequency")) {
+            return R.string.title_period;
+        } else if (name.equals("arduino.pids.tunings")) {
+            return R.string.title_gains;
+        } else if (name.equals("arduino.calibrate")) {
+            return R.string.title_calibrate;
+        } else if (name.equals("arduino.profile.request")) {
+            return R.string.title_profile;
+        } else if (name.equals("android.speak")) {
+            return R.string.title_speak;
+        } else if (name.equals("black_box.mark")) {
+            return R.string.title_mark;
+        }
+        return 0;
+    }
+}

@@ -1,0 +1,169 @@
+package org.raspilot.app.commands;
+
+import android.app.Fragment;
+import android.app.FragmentManager;
+import android.os.Bundle;
+import android.os.SystemClock;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.up.ground.Answer;
+import org.raspilot.up.ground.AnswerListener;
+
+/**
+ * What the commands screen knows beyond its views: what was typed, what was sent, what is open.
+ *
+ * <p>A retained fragment without views: a rotation makes a new screen, and an answer that comes
+ * meanwhile finds its place all the same. Main thread only.
+ */
+public final class CommandsMemory extends Fragment {
+    private static final String TAG = "commands.memory";
+    private static final String DRAFTS = "commands.drafts";
+    private static final String OPEN = "commands.open";
+    private static final String SEARCH = "commands.search";
+
+    /** Hears that an answer came; main thread. */
+    interface Listener {
+        /** Looks at the history anew. */
+        void onHistory();
+    }
+
+    private final Map<String, Map<String, String>> drafts =
+            new HashMap<String, Map<String, String>>();
+    private final CommandHistory history = new CommandHistory();
+    private final GainsEditor gains = new GainsEditor();
+    private Listener listener;
+    private String open = "";
+    private String search = "";
+
+    /** Returns the memory of an activity's fragments; makes it where there is none. */
+    static CommandsMemory of(FragmentManager manager) {
+        Fragment kept = manager.findFragmentByTag(TAG);
+        if (kept instanceof CommandsMemory) {
+            return (CommandsMemory) kept;
+        }
+        CommandsMemory memory = new CommandsMemory();
+        manager.beginTransaction().add(memory, TAG).commitAllowingStateLoss();
+        return memory;
+    }
+
+    @Override
+    public void onCreate(Bundle saved) {
+        super.onCreate(saved);
+        setRetainInstance(true);
+        if (saved != null) {
+            open = saved.getString(OPEN, "");
+            search = saved.getString(SEARCH, "");
+            restore(saved.getBundle(DRAFTS));
+        }
+    }
+
+    @Override
+    public void onSaveInstanceState(Bundle state) {
+        super.onSaveInstanceState(state);
+        Bundle all = new Bundle();
+        for (Map.Entry<String, Map<String, String>> draft : drafts.entrySet()) {
+            Bundle fields = new Bundle();
+            for (Map.Entry<String, String> field : draft.getValue().entrySet()) {
+                fields.putString(field.getKey(), field.getValue());
+            }
+            all.putBundle(draft.getKey(), fields);
+        }
+        state.putBundle(DRAFTS, all);
+        state.putString(OPEN, open);
+        state.putString(SEARCH, search);
+    }
+
+    /** Returns what was typed into the form of a Command, by field; written to by its form. */
+    Map<String, String> draft(String name) {
+        Map<String, String> draft = drafts.get(name);
+        if (draft == null) {
+            draft = new LinkedHashMap<String, String>();
+            drafts.put(name, draft);
+        }
+        return draft;
+    }
+
+    /** Returns what was sent. */
+    CommandHistory history() {
+        return history;
+    }
+
+    /** Returns the gains that are being written. */
+    GainsEditor gains() {
+        return gains;
+    }
+
+    /** Returns the name of the Command whose form is open; empty: none is. */
+    String open() {
+        return open;
+    }
+
+    /** Says whose form is open; empty: none is. */
+    void setOpen(String name) {
+        open = name;
+    }
+
+    /** Returns the words that are looked for. */
+    String search() {
+        return search;
+    }
+
+    /** Says which words are looked for. */
+    void setSearch(String words) {
+        search = words;
+    }
+
+    /** Tells this screen of answers from now on; null: none. */
+    void setListener(Listener newListener) {
+        listener = newListener;
+    }
+
+    /**
+     * Notes that something is sent and returns who takes its answer.
+     *
+     * @param words what is asked for
+     */
+    AnswerListener sent(String words) {
+        final int number = history.sent(words, SystemClock.elapsedRealtime());
+        tell();
+        return new AnswerListener() {
+            @Override
+            public void onAnswer(Answer answer) {
+                history.answered(number, outcome(answer), answer.sentence());
+                tell();
+            }
+        };
+    }
+
+    private void tell() {
+        if (listener != null) {
+            listener.onHistory();
+        }
+    }
+
+    private void restore(Bundle all) {
+        if (all == null) {
+            return;
+        }
+        for (String name : all.keySet()) {
+            Bundle fields = all.getBundle(name);
+            Map<String, String> draft = draft(name);
+            for (String field : fields.keySet()) {
+                draft.put(field, fields.getString(field));
+            }
+        }
+    }
+
+    private static CommandHistory.Outcome outcome(Answer answer) {
+        switch (answer.outcome()) {
+            case ACK:
+                return CommandHistory.Outcome.GOOD;
+            case NACK:
+            case REFUSED:
+                return CommandHistory.Outcome.BAD;
+            default:
+                return CommandHistory.Outcome.UNKNOWN;
+        }
+    }
+}

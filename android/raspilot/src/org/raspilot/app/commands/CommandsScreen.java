@@ -1,0 +1,246 @@
+package org.raspilot.app.commands;
+
+import android.app.Activity;
+import android.content.Context;
+import android.text.Editable;
+import android.text.TextWatcher;
+import android.view.View;
+import android.view.ViewGroup;
+import android.widget.AdapterView;
+import android.widget.EditText;
+import android.widget.ListView;
+import android.widget.TextView;
+import java.util.List;
+import java.util.Map;
+import org.raspilot.app.R;
+import org.raspilot.app.ground.FrameLine;
+import org.raspilot.app.ground.Picture;
+import org.raspilot.app.ground.SeatPanel;
+import org.raspilot.app.view.FrameText;
+import org.raspilot.app.view.Texts;
+import org.raspilot.up.android.TelemetryService;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.ground.GainsDesk;
+
+/** The list of Commands and the page of the one that is open, while their views live. */
+final class CommandsScreen
+        implements Desk, AdapterView.OnItemClickListener, TextWatcher, View.OnClickListener {
+    private final Activity activity;
+    private final CommandsMemory memory;
+    private final List<CommandForm> forms;
+    private final FrameLine frame;
+    private final SeatPanel seat;
+    private final HistoryPanel history;
+    private final Confirmation confirmation;
+    private final CommandList list;
+    private final View listBox;
+    private final View pageBox;
+    private final ViewGroup pagePlace;
+    private final View back;
+    private TelemetryService.Ground ground;
+    private Page page;
+
+    /** Finds all views and opens what was open; {@code fault}: why there is no catalogue. */
+    CommandsScreen(Activity activity, View root, CommandsMemory memory, List<CommandForm> forms,
+            String fault) {
+        this.activity = activity;
+        this.memory = memory;
+        this.forms = forms;
+        frame = new FrameLine((FrameText) root.findViewById(R.id.ground_frame));
+        // Where the ground screen stands beside this one, the seat is there.
+        seat = root.findViewById(R.id.seat_line) == null ? null : new SeatPanel(root);
+        history = new HistoryPanel(root, memory.history());
+        confirmation = new Confirmation(activity);
+        Texts.showOrHide((TextView) root.findViewById(R.id.commands_fault), fault);
+        listBox = root.findViewById(R.id.commands_list_box);
+        pageBox = root.findViewById(R.id.commands_page_box);
+        pagePlace = (ViewGroup) root.findViewById(R.id.commands_page);
+        back = root.findViewById(R.id.commands_back);
+        if (back != null) {
+            back.setOnClickListener(this);
+        }
+        list = new CommandList(this, forms);
+        ListView view = (ListView) root.findViewById(R.id.commands_list);
+        view.setAdapter(list);
+        view.setOnItemClickListener(this);
+        EditText search = (EditText) root.findViewById(R.id.commands_search);
+        search.setText(memory.search());
+        list.search(memory.search());
+        search.addTextChangedListener(this);
+        open(memory.open());
+    }
+
+    /** Asks this ground from now on; null: none. What another one's screen showed is not seen. */
+    void setGround(TelemetryService.Ground newGround) {
+        ground = newGround;
+        frame.forget();
+        if (seat != null) {
+            seat.setGround(newGround);
+        }
+    }
+
+    /** Shows what each frame changes. */
+    void showFrame() {
+        frame.update(picture());
+    }
+
+    /** Shows the moment. */
+    void show() {
+        showFrame();
+        if (seat != null) {
+            seat.update(picture());
+        }
+        if (page != null) {
+            page.update();
+        }
+        if (listBox.isShown()) {
+            list.notifyDataSetChanged();
+        }
+        history.update();
+    }
+
+    /** Takes a question back that is asked. */
+    void dismiss() {
+        confirmation.dismiss();
+    }
+
+    /** Lets go of the views. */
+    void close() {
+        dismiss();
+        setGround(null);
+        frame.close();
+        page = null;
+        pagePlace.removeAllViews();
+    }
+
+    @Override
+    public void onItemClick(AdapterView<?> parent, View row, int place, long id) {
+        CommandForm form = list.form(place);
+        if (form != null) {
+            open(form.name());
+        }
+    }
+
+    @Override
+    public void onClick(View button) {
+        open("");
+    }
+
+    @Override
+    public void afterTextChanged(Editable text) {
+        memory.setSearch(text.toString());
+        list.search(text.toString());
+    }
+
+    @Override
+    public void beforeTextChanged(CharSequence text, int start, int count, int after) {
+    }
+
+    @Override
+    public void onTextChanged(CharSequence text, int start, int before, int count) {
+    }
+
+    @Override
+    public Context context() {
+        return activity;
+    }
+
+    @Override
+    public Picture picture() {
+        return Picture.of(ground);
+    }
+
+    @Override
+    public GainsDesk.Snapshot gains() {
+        return ground == null ? null : ground.gains();
+    }
+
+    @Override
+    public CommandsMemory memory() {
+        return memory;
+    }
+
+    @Override
+    public Objection objection(CommandForm form, Map<String, ?> data) {
+        Picture picture = picture();
+        return Permission.objection(form.name(), form.role(), data, picture.status,
+                picture.telemetry, picture.nowMs);
+    }
+
+    @Override
+    public String objectionText(CommandForm form, Map<String, ?> data) {
+        return CommandWords.objection(activity.getResources(), objection(form, data), picture());
+    }
+
+    @Override
+    public void send(BaseCommand command, String words) {
+        if (ground != null) {
+            ground.send(command, frame.shownBeacon(), memory.sent(words));
+        }
+    }
+
+    @Override
+    public void askGains() {
+        if (ground != null) {
+            ground.askGains(memory.sent(activity.getString(R.string.gains_ask_words)));
+        }
+    }
+
+    @Override
+    public void setGains(GainSet set) {
+        if (ground != null) {
+            ground.setGains(set, frame.shownBeacon(),
+                    memory.sent(activity.getString(R.string.gains_send_words)));
+        }
+    }
+
+    @Override
+    public void undoGains() {
+        if (ground != null) {
+            ground.undoGains(frame.shownBeacon(),
+                    memory.sent(activity.getString(R.string.gains_undo_words)));
+        }
+    }
+
+    @Override
+    public void confirm(String title, String text, String yes, Runnable then) {
+        confirmation.ask(title, text, yes, then);
+    }
+
+    /** Opens the form of a Command; empty or unknown: none. */
+    private void open(String name) {
+        CommandForm form = formOf(name);
+        dismiss();
+        memory.setOpen(form == null ? "" : name);
+        pagePlace.removeAllViews();
+        page = form == null ? null : pageOf(form);
+        if (page != null) {
+            pagePlace.addView(page.element());
+        }
+        if (back != null) {
+            listBox.setVisibility(page == null ? View.VISIBLE : View.GONE);
+            pageBox.setVisibility(page == null ? View.GONE : View.VISIBLE);
+        }
+    }
+
+    private Page pageOf(CommandForm form) {
+        if (form.name().equals("up.arm") || form.name().equals("up.disarm")) {
+            return new ArmPage(formOf("up.arm"), formOf("up.disarm"), this);
+        }
+        if (form.name().equals("arduino.pids.tunings")) {
+            return new GainsPage(form, this);
+        }
+        return ChoicePage.fits(form) ? new ChoicePage(form, this) : new FormPage(form, this);
+    }
+
+    private CommandForm formOf(String name) {
+        for (CommandForm form : forms) {
+            if (form.name().equals(name)) {
+                return form;
+            }
+        }
+        return null;
+    }
+}

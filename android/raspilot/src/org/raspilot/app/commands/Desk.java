@@ -1,0 +1,45 @@
+package org.raspilot.app.commands;
+
+import android.content.Context;
+import java.util.Map;
+import org.raspilot.app.ground.Picture;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.ground.GainsDesk;
+
+/** What the page of a Command asks of the screen that it is on. Main thread only. */
+interface Desk {
+    /** Returns where views and words come from. */
+    Context context();
+
+    /** Returns what is known now. */
+    Picture picture();
+
+    /** Returns the gains that are known now; null: none. */
+    GainsDesk.Snapshot gains();
+
+    /** Returns what remembers texts, history and gains. */
+    CommandsMemory memory();
+
+    /** Returns why a Command is not offered now. */
+    Objection objection(CommandForm form, Map<String, ?> data);
+
+    /** Returns the same as a sentence; empty: it is offered. */
+    String objectionText(CommandForm form, Map<String, ?> data);
+
+    /** Sends a Command at once, with the beacon of the frame that was drawn last. */
+    void send(BaseCommand command, String words);
+
+    /** Asks the aircraft which gains fly. */
+    void askGains();
+
+    /** Sends a set of gains. */
+    void setGains(GainSet set);
+
+    /** Sends the set of gains before. */
+    void undoGains();
+
+    /** Asks whether to go on; does nothing when the answer is no or the screen goes away. */
+    void confirm(String title, String text, String yes, Runnable then);
+}

@@ -1,0 +1,197 @@
+package org.raspilot.app.commands;
+
+import android.content.Context;
+import android.text.Editable;
+import android.text.InputFilter;
+import android.text.InputType;
+import android.text.TextWatcher;
+import android.view.View;
+import android.widget.AdapterView;
+import android.widget.ArrayAdapter;
+import android.widget.CompoundButton;
+import android.widget.EditText;
+import android.widget.Spinner;
+import android.widget.Switch;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+import org.raspilot.app.R;
+import org.raspilot.up.commands.CommandField;
+import org.raspilot.up.commands.FieldType;
+
+/** Where a person says the value of a field: a text, a choice or a switch. */
+abstract class FieldInput {
+    private static final int LONGEST = 4096;
+
+    /** Hears that something was typed or chosen. */
+    interface ChangeListener {
+        /** Looks at the text anew. */
+        void onChange();
+    }
+
+    /** Returns the input that a field needs. */
+    static FieldInput of(Context context, CommandField field, ChangeListener listener) {
+        List<Object> choices = field.choices();
+        if (choices == null && field.type() == FieldType.BOOLEAN) {
+            if (field.isRequired()) {
+                return new SwitchInput(context, listener);
+            }
+            choices = Arrays.<Object>asList("true", "false");
+        }
+        return choices == null ? new TextInput(context, field, listener)
+                : new ChoiceInput(context, choices, listener);
+    }
+
+    /** Returns the view. */
+    abstract View view();
+
+    /** Returns what is written or chosen; empty: nothing. */
+    abstract String text();
+
+    /** Writes or chooses; what cannot be chosen chooses nothing. */
+    abstract void setText(String text);
+
+    private static final class TextInput extends FieldInput implements TextWatcher {
+        private final EditText view;
+        private final ChangeListener listener;
+
+        private TextInput(Context context, CommandField field, ChangeListener listener) {
+            this.listener = listener;
+            view = new EditText(context);
+            view.setInputType(inputType(field));
+            // The aircraft counts characters, this counts halves of some: never cut in between.
+            view.setFilters(new InputFilter[] {new InputFilter.LengthFilter(LONGEST)});
+            view.addTextChangedListener(this);
+        }
+
+        @Override
+        View view() {
+            return view;
+        }
+
+        @Override
+        String text() {
+            return view.getText().toString();
+        }
+
+        @Override
+        void setText(String text) {
+            view.setText(text);
+            view.setSelection(view.length());
+        }
+
+        @Override
+        public void afterTextChanged(Editable text) {
+            listener.onChange();
+        }
+
+        @Override
+        public void beforeTextChanged(CharSequence text, int start, int count, int after) {
+        }
+
+        @Override
+        public void onTextChanged(CharSequence text, int start, int before, int count) {
+        }
+
+        private static int inputType(CommandField field) {
+            boolean isSigned = field.minimum() == null || field.minimum() < 0;
+            int sign = isSigned ? InputType.TYPE_NUMBER_FLAG_SIGNED : 0;
+            switch (field.type()) {
+                case INTEGER:
+                    return InputType.TYPE_CLASS_NUMBER | sign;
+                case NUMBER:
+                    return InputType.TYPE_CLASS_NUMBER | InputType.TYPE_NUMBER_FLAG_DECIMAL
+                            | sign;
+                case TEXT:
+                    return InputType.TYPE_CLASS_TEXT | InputType.TYPE_TEXT_FLAG_CAP_SENTENCES;
+                default:
+                    return InputType.TYPE_CLASS_TEXT | InputType.TYPE_TEXT_FLAG_MULTI_LINE
+                            | InputType.TYPE_TEXT_FLAG_NO_SUGGESTIONS;
+            }
+        }
+    }
+
+    private static final class ChoiceInput extends FieldInput
+            implements AdapterView.OnItemSelectedListener {
+        private final Spinner view;
+        private final List<String> texts = new ArrayList<String>();
+        private final ChangeListener listener;
+
+        private ChoiceInput(Context context, List<Object> choices, ChangeListener listener) {
+            this.listener = listener;
+            List<String> shown = new ArrayList<String>();
+            shown.add(context.getString(R.string.commands_choose));
+            texts.add("");
+            for (Object choice : choices) {
+                texts.add(String.valueOf(choice));
+                shown.add(String.valueOf(choice));
+            }
+            view = new Spinner(context);
+            ArrayAdapter<String> adapter = new ArrayAdapter<String>(context,
+                    android.R.layout.simple_spinner_item, shown);
+            adapter.setDropDownViewResource(android.R.layout.simple_spinner_dropdown_item);
+            view.setAdapter(adapter);
+            view.setOnItemSelectedListener(this);
+        }
+
+        @Override
+        View view() {
+            return view;
+        }
+
+        @Override
+        String text() {
+            int place = view.getSelectedItemPosition();
+            return place < 0 ? "" : texts.get(place);
+        }
+
+        @Override
+        void setText(String text) {
+            view.setSelection(Math.max(0, texts.indexOf(text)));
+        }
+
+        @Override
+        public void onItemSelected(AdapterView<?> parent, View item, int place, long id) {
+            listener.onChange();
+        }
+
+        @Override
+        public void onNothingSelected(AdapterView<?> parent) {
+            listener.onChange();
+        }
+    }
+
+    private static final class SwitchInput extends FieldInput
+            implements CompoundButton.OnCheckedChangeListener {
+        private final Switch view;
+        private final ChangeListener listener;
+
+        private SwitchInput(Context context, ChangeListener listener) {
+            this.listener = listener;
+            view = new Switch(context);
+            view.setTextOn(context.getString(R.string.commands_yes));
+            view.setTextOff(context.getString(R.string.commands_no));
+            view.setOnCheckedChangeListener(this);
+        }
+
+        @Override
+        View view() {
+            return view;
+        }
+
+        @Override
+        String text() {
+            return Boolean.toString(view.isChecked());
+        }
+
+        @Override
+        void setText(String text) {
+            view.setChecked(Boolean.parseBoolean(text));
+        }
+
+        @Override
+        public void onCheckedChanged(CompoundButton button, boolean isChecked) {
+            listener.onChange();
+        }
+    }
+}

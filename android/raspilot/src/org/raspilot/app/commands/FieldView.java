@@ -1,0 +1,107 @@
+package org.raspilot.app.commands;
+
+import android.content.Context;
+import android.content.res.Resources;
+import android.view.LayoutInflater;
+import android.view.View;
+import android.view.ViewGroup;
+import android.widget.TextView;
+import java.util.Map;
+import org.raspilot.app.R;
+import org.raspilot.app.view.Texts;
+import org.raspilot.up.commands.CommandField;
+import org.raspilot.up.commands.FieldType;
+import org.raspilot.up.commands.InvalidCommandException;
+
+/** One field of a form: what it is, where its value is said, what it must be, what is wrong. */
+final class FieldView implements FieldInput.ChangeListener {
+    private final CommandField field;
+    private final Map<String, String> draft;
+    private final View element;
+    private final FieldInput input;
+    private final TextView problem;
+    private boolean isReady;
+
+    /** Adds the field at the end of a form; {@code draft} keeps what is said. */
+    FieldView(ViewGroup form, CommandField field, Map<String, String> draft) {
+        this.field = field;
+        this.draft = draft;
+        Context context = form.getContext();
+        element = LayoutInflater.from(context).inflate(R.layout.row_field, form, false);
+        form.addView(element);
+        problem = (TextView) element.findViewById(R.id.field_problem);
+        input = FieldInput.of(context, field, this);
+        View view = input.view();
+        view.setMinimumHeight(context.getResources().getDimensionPixelSize(R.dimen.touch_least));
+        view.setContentDescription(label(context.getResources()));
+        ((ViewGroup) element.findViewById(R.id.field_input)).addView(view);
+        ((TextView) element.findViewById(R.id.field_label)).setText(label(context.getResources()));
+        ((TextView) element.findViewById(R.id.field_hint)).setText(field.text());
+        String kept = draft.get(field.name());
+        if (kept != null) {
+            input.setText(kept);
+        }
+        if (!input.text().isEmpty()) {
+            // A switch says something from the beginning.
+            draft.put(field.name(), input.text());
+        }
+        isReady = true;
+    }
+
+    /** Writes a value, as a preset does. */
+    void setText(String text) {
+        input.setText(text);
+    }
+
+    /** Says whether anything can be said here now. */
+    void setEnabled(boolean isEnabled) {
+        input.view().setEnabled(isEnabled);
+    }
+
+    /** Says what is wrong with what stands there; true: nothing. */
+    boolean judge() {
+        String sentence = sentence(input.text());
+        show(sentence);
+        return sentence.isEmpty();
+    }
+
+    /** Brings the reader to this field. */
+    void focus() {
+        input.view().requestFocus();
+    }
+
+    @Override
+    public void onChange() {
+        String text = input.text();
+        draft.put(field.name(), text);
+        if (isReady) {
+            // Nothing is wrong yet with what nobody has begun to write.
+            show(text.trim().isEmpty() ? "" : sentence(text));
+        }
+    }
+
+    private String sentence(String text) {
+        if (text.trim().isEmpty()) {
+            return field.isRequired()
+                    ? element.getResources().getString(R.string.field_missing) : "";
+        }
+        try {
+            field.parse(text);
+            return "";
+        } catch (InvalidCommandException wrong) {
+            return wrong.getMessage();
+        }
+    }
+
+    private void show(String sentence) {
+        Texts.showOrHide(problem, sentence);
+    }
+
+    private String label(Resources words) {
+        String name = field.unit().isEmpty() ? field.name()
+                : words.getString(R.string.field_unit, field.name(), field.unit());
+        boolean isSwitch = field.type() == FieldType.BOOLEAN && field.isRequired();
+        return field.isRequired() || isSwitch ? name
+                : words.getString(R.string.field_optional, name);
+    }
+}

@@ -1,0 +1,158 @@
+package org.raspilot.app.commands;
+
+import android.content.Context;
+import android.content.res.Resources;
+import android.view.LayoutInflater;
+import android.view.View;
+import android.view.ViewGroup;
+import android.widget.Button;
+import android.widget.TextView;
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import org.raspilot.app.R;
+import org.raspilot.app.view.Texts;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.CommandField;
+import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.commands.InvalidCommandException;
+
+/** The form of any Command, made from its description. */
+final class FormPage implements Page, View.OnClickListener {
+    private static final String MODE = "mode";
+    private static final String REQUIRED = "required";
+    private static final int[] PERIODS_MS = {50, 100, 200, 500, 1000, 2000};
+
+    private final CommandForm form;
+    private final Desk desk;
+    private final Map<String, String> draft;
+    private final Map<String, String> fixed;
+    private final View element;
+    private final List<FieldView> fields = new ArrayList<FieldView>();
+    private final List<View> presets = new ArrayList<View>();
+    private final TextView why;
+    private final TextView now;
+    private final TextView problem;
+    private final Button send;
+
+    /** Makes the form; what was typed before stands in it. */
+    FormPage(CommandForm form, Desk desk) {
+        this.form = form;
+        this.desk = desk;
+        draft = desk.memory().draft(form.name());
+        fixed = fixed(form);
+        LayoutInflater inflater = LayoutInflater.from(desk.context());
+        element = inflater.inflate(R.layout.page_form, null);
+        Resources words = desk.context().getResources();
+        ((TextView) element.findViewById(R.id.page_title))
+                .setText(CommandWords.title(words, form.name()));
+        ((TextView) element.findViewById(R.id.page_name)).setText(form.name());
+        ((TextView) element.findViewById(R.id.page_text)).setText(form.text());
+        why = (TextView) element.findViewById(R.id.page_why);
+        now = (TextView) element.findViewById(R.id.page_now);
+        problem = (TextView) element.findViewById(R.id.page_problem);
+        send = (Button) element.findViewById(R.id.page_send);
+        send.setOnClickListener(this);
+        ViewGroup list = (ViewGroup) element.findViewById(R.id.page_fields);
+        for (CommandField field : form.fields()) {
+            if (!fixed.containsKey(field.name())) {
+                fields.add(new FieldView(list, field, draft));
+            }
+        }
+        if (form.name().equals("up.telemetry.frequency") && fields.size() == 1) {
+            addPresets((ViewGroup) element.findViewById(R.id.page_presets));
+        }
+        update();
+    }
+
+    @Override
+    public View element() {
+        return element;
+    }
+
+    @Override
+    public void update() {
+        Resources words = desk.context().getResources();
+        String objection = desk.objectionText(form, fixed);
+        Texts.showOrHide(why, objection);
+        Texts.showOrHide(now, CommandWords.now(words, form.name(), desk.picture()));
+        boolean isOffered = objection.isEmpty();
+        send.setEnabled(isOffered);
+        for (View preset : presets) {
+            preset.setEnabled(isOffered);
+        }
+    }
+
+    @Override
+    public void onClick(View button) {
+        Texts.showOrHide(problem, "");
+        boolean isRight = true;
+        for (FieldView field : fields) {
+            boolean isFieldRight = field.judge();
+            if (isRight && !isFieldRight) {
+                field.focus();
+            }
+            isRight &= isFieldRight;
+        }
+        if (isRight) {
+            ask();
+        }
+    }
+
+    private void ask() {
+        Map<String, String> inputs = new LinkedHashMap<String, String>(draft);
+        inputs.putAll(fixed);
+        final BaseCommand command;
+        try {
+            command = form.command(inputs);
+        } catch (InvalidCommandException wrong) {
+            Texts.showOrHide(problem, wrong.getMessage());
+            return;
+        }
+        final String words = CommandWords.asked(desk.context().getResources(), form.name(),
+                command.data());
+        if (!Caution.isConfirmed(form.name(), command.data())) {
+            desk.send(command, words);
+            return;
+        }
+        Context context = desk.context();
+        desk.confirm(context.getString(R.string.commands_send_question), words,
+                context.getString(R.string.commands_send), new Runnable() {
+                    @Override
+                    public void run() {
+                        desk.send(command, words);
+                    }
+                });
+    }
+
+    private void addPresets(ViewGroup row) {
+        LayoutInflater inflater = LayoutInflater.from(desk.context());
+        for (final int periodMs : PERIODS_MS) {
+            Button preset = (Button) inflater.inflate(R.layout.button_preset, row, false);
+            preset.setText(desk.context().getString(R.string.commands_preset, periodMs));
+            preset.setOnClickListener(new View.OnClickListener() {
+                @Override
+                public void onClick(View button) {
+                    fields.get(0).setText(Integer.toString(periodMs));
+                }
+            });
+            row.addView(preset);
+            presets.add(preset);
+        }
+        row.setVisibility(View.VISIBLE);
+    }
+
+    /** What a ground always says of these two: it asks, it does not measure. */
+    private static Map<String, String> fixed(CommandForm form) {
+        boolean isWish = form.name().equals("up.heading.change")
+                || form.name().equals("up.altitude.change");
+        CommandField mode = form.field(MODE);
+        if (isWish && mode != null && mode.choices() != null
+                && mode.choices().contains(REQUIRED)) {
+            return Collections.singletonMap(MODE, REQUIRED);
+        }
+        return Collections.emptyMap();
+    }
+}

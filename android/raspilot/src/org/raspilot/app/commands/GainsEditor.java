@@ -1,0 +1,172 @@
+package org.raspilot.app.commands;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.commands.Gains;
+import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.ground.GainChange;
+import org.raspilot.up.ground.GainKey;
+import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GainsForm;
+
+/**
+ * What is being written into the gains, beside what flies.
+ *
+ * <p>A cell that was written remembers the flying value that its writer saw. When another value
+ * flies from then on, the cell keeps what was written and the two are a conflict. Main thread only.
+ */
+final class GainsEditor {
+    private static final class Edit {
+        private final String written;
+        private final Double seen;
+
+        private Edit(String written, Double seen) {
+            this.written = written;
+            this.seen = seen;
+        }
+    }
+
+    private final Map<GainKey, Edit> edits = new LinkedHashMap<GainKey, Edit>();
+    private GainSet flying;
+
+    /** Returns what flies; null: not known. */
+    GainSet flying() {
+        return flying;
+    }
+
+    /** Takes what flies now; a value that was written and flies now is no edit any more. */
+    void takeFlying(GainSet set) {
+        flying = set;
+        if (set == null) {
+            // Asked anew: what is being written waits for the answer.
+            return;
+        }
+        for (GainKey key : new ArrayList<GainKey>(edits.keySet())) {
+            if (isAsFlying(key, edits.get(key).written)) {
+                edits.remove(key);
+            }
+        }
+    }
+
+    /** Writes a cell; what flies already, or the empty text of a gain without one, is no edit. */
+    void write(GainKey key, String written) {
+        Edit before = edits.get(key);
+        if (isAsFlying(key, written)) {
+            edits.remove(key);
+        } else {
+            edits.put(key, new Edit(written, before == null ? key.of(flying) : before.seen));
+        }
+    }
+
+    /** Takes back everything that was written. */
+    void discard() {
+        edits.clear();
+    }
+
+    /** Says that conflicts have been seen: what flies now is what the writer starts from. */
+    void accept() {
+        for (Map.Entry<GainKey, Edit> each : edits.entrySet()) {
+            each.setValue(new Edit(each.getValue().written, each.getKey().of(flying)));
+        }
+    }
+
+    /** Says whether anything is written that does not fly. */
+    boolean hasEdits() {
+        return !edits.isEmpty();
+    }
+
+    /** Says whether a cell holds something else than what flies. */
+    boolean isEdited(GainKey key) {
+        return edits.containsKey(key);
+    }
+
+    /** Returns what stands in a cell. */
+    String textOf(GainKey key) {
+        Edit edit = edits.get(key);
+        return edit == null ? text(key.of(flying)) : edit.written;
+    }
+
+    /** Says whether what is written in a cell is no gain. */
+    boolean isWrong(GainKey key) {
+        Edit edit = edits.get(key);
+        return edit != null && !edit.written.trim().isEmpty() && number(edit.written) == null;
+    }
+
+    /** Returns the gains that fly otherwise than their writer saw; unmodifiable. */
+    List<GainKey> conflicts() {
+        List<GainKey> found = new ArrayList<GainKey>();
+        for (Map.Entry<GainKey, Edit> each : edits.entrySet()) {
+            Double now = each.getKey().of(flying);
+            if (flying != null && !text(now).equals(text(each.getValue().seen))) {
+                found.add(each.getKey());
+            }
+        }
+        return Collections.unmodifiableList(found);
+    }
+
+    /** Returns the flying value that the writer of a cell saw, as text; empty: none. */
+    String seenText(GainKey key) {
+        Edit edit = edits.get(key);
+        return edit == null ? "" : text(edit.seen);
+    }
+
+    /**
+     * Returns the whole set to send. What was not touched goes back exactly as it came.
+     *
+     * @throws InvalidCommandException with one sentence that names the gain
+     */
+    GainSet wanted() {
+        Map<String, String> cells = new LinkedHashMap<String, String>();
+        for (GainKey key : GainKey.ALL) {
+            Edit edit = edits.get(key);
+            Double now = key.of(flying);
+            cells.put(key.path(), edit != null ? edit.written.trim()
+                    : now == null ? "" : Double.toString(now));
+        }
+        return GainsForm.read(cells);
+    }
+
+    /** Returns what sending would change; empty while a cell holds no gain. */
+    List<GainChange> changes() {
+        try {
+            return GainsDesk.difference(flying, wanted());
+        } catch (InvalidCommandException notYet) {
+            // The sentence stands beside the form already.
+            return Collections.emptyList();
+        }
+    }
+
+    /** Returns a gain with six figures at most; empty: there is none. */
+    static String text(Double gain) {
+        if (gain == null) {
+            return "";
+        }
+        String text = String.format(Locale.ROOT, "%.4f", gain);
+        return text.replaceFirst("0{1,3}$", "");
+    }
+
+    private boolean isAsFlying(GainKey key, String written) {
+        Double now = key.of(flying);
+        if (written.trim().isEmpty()) {
+            return now == null;
+        }
+        Double value = number(written);
+        return now != null && value != null && text(value).equals(text(now));
+    }
+
+    private static Double number(String written) {
+        try {
+            double value = Double.parseDouble(written.trim());
+            boolean isGain = value >= 0 && value <= Gains.GREATEST;
+            return isGain ? Double.valueOf(value) : null;
+        } catch (NumberFormatException notOne) {
+            // Not a number is an answer: the cell says so.
+            return null;
+        }
+    }
+}

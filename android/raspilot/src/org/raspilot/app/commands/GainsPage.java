@@ -1,0 +1,224 @@
+package org.raspilot.app.commands;
+
+import android.content.Context;
+import android.view.LayoutInflater;
+import android.view.View;
+import android.widget.Button;
+import android.widget.TextView;
+import java.util.Collections;
+import java.util.List;
+import java.util.Map;
+import org.raspilot.app.R;
+import org.raspilot.app.ground.Picture;
+import org.raspilot.app.ground.SeatPanel;
+import org.raspilot.app.view.Texts;
+import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.ground.Age;
+import org.raspilot.up.ground.Freshness;
+import org.raspilot.up.ground.GainChange;
+import org.raspilot.up.ground.GainKey;
+import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GainsEntry;
+
+/** The gains of every axis: what flies, what is being written, what that changes, and undo. */
+final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeListener {
+    private static final Map<String, Object> SET = Collections.emptyMap();
+    private static final Map<String, Object> REQUEST =
+            Collections.<String, Object>singletonMap("request", true);
+
+    private final CommandForm form;
+    private final Desk desk;
+    private final GainsEditor editor;
+    private final View element;
+    private final GainsTable table;
+    private final TextView why;
+    private final TextView state;
+    private final TextView problem;
+    private final TextView difference;
+    private final TextView past;
+    private final Button ask;
+    private final Button undo;
+    private final Button discard;
+    private final Button send;
+    private GainsDesk.Snapshot shown;
+
+    /** Makes the page; what was written before stands in it. */
+    GainsPage(CommandForm form, Desk desk) {
+        this.form = form;
+        this.desk = desk;
+        editor = desk.memory().gains();
+        element = LayoutInflater.from(desk.context()).inflate(R.layout.page_gains, null);
+        why = (TextView) element.findViewById(R.id.gains_why);
+        state = (TextView) element.findViewById(R.id.gains_state);
+        problem = (TextView) element.findViewById(R.id.gains_problem);
+        difference = (TextView) element.findViewById(R.id.gains_difference);
+        past = (TextView) element.findViewById(R.id.gains_past);
+        ask = button(R.id.gains_ask);
+        undo = button(R.id.gains_undo);
+        discard = button(R.id.gains_discard);
+        send = button(R.id.gains_send);
+        takeFlying();
+        table = new GainsTable(element, editor, this);
+        update();
+    }
+
+    @Override
+    public View element() {
+        return element;
+    }
+
+    @Override
+    public void update() {
+        takeFlying();
+        String objection = desk.objectionText(form, SET);
+        boolean isOffered = objection.isEmpty();
+        Texts.showOrHide(why, isOffered ? warning() : objection);
+        Texts.show(state, stateText());
+        table.update(isOffered && editor.flying() != null);
+        String wrong = wrong();
+        Texts.showOrHide(problem, editor.hasEdits() ? wrong : "");
+        Texts.showOrHide(difference, differenceText());
+        ask.setEnabled(desk.objectionText(form, REQUEST).isEmpty());
+        send.setEnabled(isOffered && editor.hasEdits() && wrong.isEmpty());
+        discard.setEnabled(editor.hasEdits());
+        undo.setEnabled(isOffered && shown != null && shown.undo() != null);
+        Texts.showOrHide(past, pastText());
+    }
+
+    @Override
+    public void onWritten() {
+        update();
+    }
+
+    @Override
+    public void onClick(View button) {
+        if (button == ask) {
+            desk.askGains();
+        } else if (button == discard) {
+            editor.discard();
+            table.refill();
+            update();
+        } else if (button == undo) {
+            askUndo();
+        } else {
+            askSend();
+        }
+    }
+
+    private void takeFlying() {
+        GainsDesk.Snapshot newest = desk.gains();
+        if (newest != shown) {
+            shown = newest;
+            editor.takeFlying(newest == null ? null : newest.flying());
+            if (table != null) {
+                table.refill();
+            }
+        }
+    }
+
+    private void askSend() {
+        final GainSet wanted;
+        try {
+            wanted = editor.wanted();
+        } catch (InvalidCommandException wrong) {
+            Texts.showOrHide(problem, SeatPanel.sentence(wrong.getMessage()));
+            return;
+        }
+        Context context = desk.context();
+        String text = joined(differenceText(), warning());
+        desk.confirm(context.getString(R.string.gains_question), text,
+                context.getString(R.string.commands_send), new Runnable() {
+                    @Override
+                    public void run() {
+                        editor.accept();
+                        desk.setGains(wanted);
+                    }
+                });
+    }
+
+    private void askUndo() {
+        if (shown == null || shown.undo() == null) {
+            return;
+        }
+        Context context = desk.context();
+        String changes = lines(GainsDesk.difference(shown.flying(), shown.undo()));
+        desk.confirm(context.getString(R.string.gains_undo_question), joined(changes, warning()),
+                context.getString(R.string.gains_undo), new Runnable() {
+                    @Override
+                    public void run() {
+                        desk.undoGains();
+                    }
+                });
+    }
+
+    private String stateText() {
+        Context context = desk.context();
+        if (shown == null || shown.flying() == null || shown.toldMs() == null) {
+            return context.getString(R.string.gains_unknown);
+        }
+        long agoMs = Math.max(0, desk.picture().nowMs - shown.toldMs()) / 1000 * 1000;
+        return context.getString(R.string.gains_told,
+                agoMs < 100000 ? agoMs / 1000 + " s" : Age.text(agoMs));
+    }
+
+    private String warning() {
+        Picture picture = desk.picture();
+        boolean isLive = picture.telemetry.freshness("armed", picture.nowMs) == Freshness.LIVE;
+        boolean isArmed = isLive && Boolean.TRUE.equals(picture.telemetry.flag("armed"));
+        return isArmed ? desk.context().getString(R.string.gains_armed) : "";
+    }
+
+    private String wrong() {
+        try {
+            editor.wanted();
+            return "";
+        } catch (InvalidCommandException wrong) {
+            return SeatPanel.sentence(wrong.getMessage());
+        }
+    }
+
+    private String differenceText() {
+        StringBuilder all = new StringBuilder(lines(editor.changes()));
+        for (GainKey key : editor.conflicts()) {
+            all.append(all.length() == 0 ? "" : "\n");
+            all.append(desk.context().getString(R.string.gains_conflict, key.words(),
+                    GainsEditor.text(key.of(editor.flying())), editor.seenText(key)));
+        }
+        return all.toString();
+    }
+
+    private String pastText() {
+        if (shown == null) {
+            return "";
+        }
+        StringBuilder all = new StringBuilder();
+        List<GainsEntry> history = shown.history();
+        for (int each = history.size() - 1; each >= 0; each--) {
+            GainsEntry entry = history.get(each);
+            all.append(all.length() == 0 ? "" : "\n");
+            all.append(desk.context().getString(R.string.gains_entry, entry.number(),
+                    entry.answer().sentence(), lines(entry.changes()).replace("\n", "; ")));
+        }
+        return all.toString();
+    }
+
+    private Button button(int id) {
+        Button found = (Button) element.findViewById(id);
+        found.setOnClickListener(this);
+        return found;
+    }
+
+    private static String lines(List<GainChange> changes) {
+        StringBuilder all = new StringBuilder();
+        for (GainChange each : changes) {
+            all.append(all.length() == 0 ? "" : "\n").append(each);
+        }
+        return all.toString();
+    }
+
+    private static String joined(String one, String other) {
+        return other.isEmpty() ? one : one + "\n" + other;
+    }
+}

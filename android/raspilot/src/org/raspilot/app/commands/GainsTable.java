@@ -1,0 +1,134 @@
+package org.raspilot.app.commands;
+
+import android.text.Editable;
+import android.text.TextWatcher;
+import android.view.LayoutInflater;
+import android.view.View;
+import android.view.ViewGroup;
+import android.widget.EditText;
+import android.widget.TextView;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import org.raspilot.app.R;
+import org.raspilot.app.view.Inks;
+import org.raspilot.app.view.Texts;
+import org.raspilot.up.ground.GainKey;
+
+/** The cells of a set of gains: a heading for each loop, a row for each axis, P, I and D in it. */
+final class GainsTable {
+    private static final int[] LOOPS = {
+        R.string.gains_rate, R.string.gains_stabilize, R.string.gains_navigation
+    };
+    private static final int[] AXES = {
+        R.string.gains_roll, R.string.gains_pitch, R.string.gains_yaw
+    };
+    private static final int[] CELLS = {R.id.gain_p, R.id.gain_i, R.id.gain_d};
+    private static final int[] FLYING = {R.id.flying_p, R.id.flying_i, R.id.flying_d};
+
+    /** Hears that something was written. */
+    interface ChangeListener {
+        /** Looks at the editor anew. */
+        void onWritten();
+    }
+
+    private final GainsEditor editor;
+    private final ChangeListener listener;
+    private final Inks inks;
+    private final List<Cell> cells = new ArrayList<Cell>();
+    private boolean isFilling;
+
+    /** Makes the cells in the list that the page has for them. */
+    GainsTable(View page, GainsEditor editor, ChangeListener listener) {
+        this.editor = editor;
+        this.listener = listener;
+        inks = Inks.of(page.getContext());
+        ViewGroup list = (ViewGroup) page.findViewById(R.id.gains_table);
+        LayoutInflater inflater = LayoutInflater.from(page.getContext());
+        for (int loop = 0; loop < LOOPS.length; loop++) {
+            TextView heading = (TextView) inflater.inflate(R.layout.heading_gains, list, false);
+            heading.setText(LOOPS[loop]);
+            list.addView(heading);
+            for (int axis = 0; axis < AXES.length; axis++) {
+                addRow(inflater, list, loop, axis);
+            }
+        }
+        refill();
+    }
+
+    /** Writes what the editor holds into every cell. */
+    void refill() {
+        isFilling = true;
+        try {
+            for (Cell cell : cells) {
+                String text = editor.textOf(cell.key);
+                if (!text.contentEquals(cell.input.getText())) {
+                    cell.input.setText(text);
+                }
+            }
+        } finally {
+            isFilling = false;
+        }
+    }
+
+    /** Shows which cells differ from what flies, and whether anything may be written. */
+    void update(boolean isOffered) {
+        for (Cell cell : cells) {
+            if (cell.input.isEnabled() != isOffered) {
+                cell.input.setEnabled(isOffered);
+            }
+            boolean isEdited = editor.isEdited(cell.key);
+            Double now = cell.key.of(editor.flying());
+            String flies = now == null ? "" : cell.input.getResources()
+                    .getString(R.string.gains_flies, GainsEditor.text(now));
+            Texts.show(cell.flying, isEdited ? flies : "");
+            Texts.colour(cell.input, editor.isWrong(cell.key) ? inks.alarm
+                    : isEdited ? inks.accent : inks.ink);
+        }
+    }
+
+    private void addRow(LayoutInflater inflater, ViewGroup list, int loop, int axis) {
+        View row = inflater.inflate(R.layout.row_gains, list, false);
+        ((TextView) row.findViewById(R.id.gain_axis)).setText(AXES[axis]);
+        for (int term = 0; term < CELLS.length; term++) {
+            GainKey key = GainKey.ALL.get(9 * loop + 3 * axis + term);
+            EditText input = (EditText) row.findViewById(CELLS[term]);
+            input.setContentDescription(key.words());
+            input.setHint(key.term().toUpperCase(Locale.ROOT));
+            // Each row has the same ids: what stands here is kept by the editor alone.
+            input.setSaveEnabled(false);
+            Cell cell = new Cell(key, input, (TextView) row.findViewById(FLYING[term]));
+            input.addTextChangedListener(cell);
+            cells.add(cell);
+        }
+        list.addView(row);
+    }
+
+    private final class Cell implements TextWatcher {
+        private final GainKey key;
+        private final EditText input;
+        private final TextView flying;
+
+        private Cell(GainKey key, EditText input, TextView flying) {
+            this.key = key;
+            this.input = input;
+            this.flying = flying;
+        }
+
+        @Override
+        public void afterTextChanged(Editable text) {
+            if (!isFilling) {
+                editor.write(key, text.toString());
+                listener.onWritten();
+            }
+        }
+
+        @Override
+        public void beforeTextChanged(CharSequence text, int start, int count, int after) {
+        }
+
+        @Override
+        public void onTextChanged(CharSequence text, int start, int before, int count) {
+        }
+    }
+}

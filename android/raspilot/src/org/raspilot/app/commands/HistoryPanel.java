@@ -1,0 +1,97 @@
+package org.raspilot.app.commands;
+
+import android.content.res.Resources;
+import android.os.SystemClock;
+import android.view.View;
+import android.widget.TextView;
+import java.util.List;
+import org.raspilot.app.R;
+import org.raspilot.app.ground.SeatPanel;
+import org.raspilot.app.view.Inks;
+import org.raspilot.app.view.Texts;
+
+/** The newest answer, and on a touch of it all that was sent with what became of it. */
+final class HistoryPanel implements View.OnClickListener {
+    private final CommandHistory history;
+    private final TextView newest;
+    private final View box;
+    private final TextView all;
+    private final Inks inks;
+
+    /** Finds its views. */
+    HistoryPanel(View root, CommandHistory history) {
+        this.history = history;
+        inks = Inks.of(root.getContext());
+        newest = (TextView) root.findViewById(R.id.commands_newest);
+        box = root.findViewById(R.id.commands_history_box);
+        all = (TextView) root.findViewById(R.id.commands_history);
+        newest.setOnClickListener(this);
+    }
+
+    /** Says whether all is open. */
+    boolean isOpen() {
+        return box.getVisibility() == View.VISIBLE;
+    }
+
+    /** Opens all, or closes it. */
+    void setOpen(boolean isOpen) {
+        box.setVisibility(isOpen ? View.VISIBLE : View.GONE);
+        update();
+    }
+
+    @Override
+    public void onClick(View view) {
+        setOpen(!isOpen());
+    }
+
+    /** Shows the moment. */
+    void update() {
+        Resources words = newest.getResources();
+        CommandHistory.Entry entry = history.newest();
+        if (entry == null) {
+            Texts.show(newest, words.getString(R.string.commands_nothing_sent));
+            Texts.colour(newest, inks.dim);
+        } else {
+            Texts.show(newest, line(words, entry));
+            Texts.colour(newest, colour(entry.outcome));
+        }
+        if (isOpen()) {
+            Texts.show(all, allText(words));
+        }
+    }
+
+    private String allText(Resources words) {
+        List<CommandHistory.Entry> entries = history.entries();
+        long nowMs = SystemClock.elapsedRealtime();
+        StringBuilder text = new StringBuilder();
+        for (CommandHistory.Entry each : entries) {
+            long agoS = Math.max(0, nowMs - each.atMs) / 1000;
+            String ago = agoS < 100 ? agoS + " s" : agoS / 60 + " min";
+            text.append(text.length() == 0 ? "" : "\n\n");
+            text.append(words.getString(R.string.commands_entry, ago, line(words, each)));
+        }
+        return text.length() == 0 ? words.getString(R.string.commands_nothing_sent)
+                : text.toString();
+    }
+
+    private static String line(Resources words, CommandHistory.Entry entry) {
+        if (entry.outcome == CommandHistory.Outcome.WAITING) {
+            return words.getString(R.string.commands_waiting, entry.words);
+        }
+        return words.getString(R.string.commands_answered, entry.words,
+                SeatPanel.sentence(entry.sentence));
+    }
+
+    private int colour(CommandHistory.Outcome outcome) {
+        switch (outcome) {
+            case GOOD:
+                return inks.good;
+            case BAD:
+                return inks.alarm;
+            case UNKNOWN:
+                return inks.warning;
+            default:
+                return inks.ink;
+        }
+    }
+}

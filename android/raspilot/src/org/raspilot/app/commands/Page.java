@@ -1,0 +1,12 @@
+package org.raspilot.app.commands;
+
+import android.view.View;
+
+/** The form of one Command, while it is open. Main thread only. */
+interface Page {
+    /** Returns its view. */
+    View element();
+
+    /** Shows the moment: what is offered, what flies now. */
+    void update();
+}

@@ -1,0 +1,121 @@
+package org.raspilot.app.commands;
+
+import java.util.Arrays;
+import java.util.List;
+import java.util.Map;
+import org.raspilot.up.commands.ArmCommand;
+import org.raspilot.up.commands.DisarmCommand;
+import org.raspilot.up.commands.PidTuningsCommand;
+import org.raspilot.up.ground.Freshness;
+import org.raspilot.up.ground.GroundStatus;
+import org.raspilot.up.ground.Telemetry;
+
+/**
+ * Decides whether a Command may be offered, as far as that is known before it is tried.
+ *
+ * <p>What is not known is no objection: the aircraft decides in the end (docs/protocols.md 4).
+ */
+final class Permission {
+    private static final String PROFILE = "arduino.profile.request";
+    private static final String OBSERVER = "observer";
+    private static final String OPERATOR = "operator";
+    private static final String PILOT = "pilot";
+    private static final List<String> ROLES =
+            Arrays.asList(OBSERVER, OPERATOR, PILOT, "admin");
+
+    private Permission() {
+    }
+
+    /** Says whether a Command with such data only asks for something. */
+    static boolean isOnlyRequest(String name, Map<String, ?> data) {
+        return name.equals(PROFILE) || name.equals(PidTuningsCommand.NAME)
+                && Boolean.TRUE.equals(data.get("request"));
+    }
+
+    /**
+     * Returns the least role that a Command needs.
+     *
+     * @param told what the catalogue says; {@code depends}: a field decides
+     */
+    static String neededRole(String name, String told, Map<String, ?> data) {
+        if (ROLES.contains(told)) {
+            return told;
+        }
+        if (isOnlyRequest(name, data)) {
+            return OBSERVER;
+        }
+        return name.equals(PidTuningsCommand.NAME) ? PILOT : OPERATOR;
+    }
+
+    /** Says whether a role allows what another one is needed for; one not known is no objection. */
+    static boolean allows(String role, String needed) {
+        return !ROLES.contains(role) || ROLES.indexOf(role) >= ROLES.indexOf(needed);
+    }
+
+    /**
+     * Returns why a Command is not offered.
+     *
+     * @param name of the Command
+     * @param told the role that the catalogue says
+     * @param data as far as it is known already
+     * @param status null: there is no service yet
+     */
+    static Objection objection(String name, String told, Map<String, ?> data,
+            GroundStatus status, Telemetry telemetry, long nowMs) {
+        Objection ofLink = ofLink(status);
+        if (ofLink != Objection.NONE) {
+            return ofLink;
+        }
+        if (!allows(status.role(), neededRole(name, told, data))) {
+            return Objection.ROLE;
+        }
+        if (isOnlyRequest(name, data)) {
+            return Objection.NONE;
+        }
+        if (telemetry.isSilent(nowMs)) {
+            return Objection.SILENT;
+        }
+        boolean isLive = telemetry.freshness("armed", nowMs) == Freshness.LIVE;
+        return ofMotor(name, isLive ? telemetry.flag("armed") : null, status.tuneInFlight());
+    }
+
+    /** Returns why nothing can be sent at all. */
+    static Objection ofLink(GroundStatus status) {
+        if (status == null || !status.isOpen()) {
+            return Objection.NO_LINK;
+        }
+        if (Boolean.FALSE.equals(status.isAircraftOnline())) {
+            return Objection.NO_AIRCRAFT;
+        }
+        switch (status.standing()) {
+            case OURS:
+                return Objection.NONE;
+            case FREE:
+                return Objection.SEAT_FREE;
+            case HELD:
+                return Objection.SEAT_HELD;
+            case LATER:
+                return Objection.LISTENING;
+            default:
+                return Objection.NO_LINK;
+        }
+    }
+
+    /** Returns what stands against a Command in the motor's state; null: that is not known. */
+    static Objection ofMotor(String name, Boolean isArmed, Boolean tuneInFlight) {
+        if (isArmed == null) {
+            return Objection.NONE;
+        }
+        if (name.equals(PidTuningsCommand.NAME)) {
+            boolean isForbidden = isArmed && Boolean.FALSE.equals(tuneInFlight);
+            return isForbidden ? Objection.ARMED : Objection.NONE;
+        }
+        if (name.equals(ArmCommand.NAME)) {
+            return isArmed ? Objection.ARMED_ALREADY : Objection.NONE;
+        }
+        if (name.equals(DisarmCommand.NAME)) {
+            return isArmed ? Objection.NONE : Objection.DISARMED_ALREADY;
+        }
+        return Objection.NONE;
+    }
+}
