@@ -41,10 +41,15 @@ public final class Json {
             if (Character.isHighSurrogate(c) && i + 1 < text.length()
                     && Character.isLowSurrogate(text.charAt(i + 1))) {
                 i++;
-            } else if (Character.isSurrogate(c)) {
+            } else if (isSurrogate(c)) {
                 return i;
             }
         }
         return -1;
+    }
+
+    /** Says whether it is one half of a character; Android 4.1 has no Character.isSurrogate. */
+    static boolean isSurrogate(char c) {
+        return c >= Character.MIN_SURROGATE && c <= Character.MAX_SURROGATE;
     }
 }

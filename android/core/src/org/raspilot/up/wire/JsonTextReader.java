@@ -75,7 +75,7 @@ final class JsonTextReader {
             code = code << 4 | digit;
             at++;
         }
-        hasSurrogateEscape |= Character.isSurrogate((char) code);
+        hasSurrogateEscape |= Json.isSurrogate((char) code);
         return (char) code;
     }
 
