@@ -1,0 +1,134 @@
+package org.raspilot.up.airborne;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertTrue;
+
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.After;
+import org.junit.Before;
+import org.junit.Test;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.BaseCommandHandler;
+
+/** What the phone does with the Commands that come, and what it answers. */
+public final class AirborneCommandsTest {
+    private final AirborneBench bench = new AirborneBench();
+    private Airborne airborne;
+
+    @Before
+    public void connect() {
+        airborne = bench.connected(AirborneBench.fixed().build());
+    }
+
+    @After
+    public void nothingThrew() {
+        bench.faults.mustBeNone();
+    }
+
+    @Test
+    public void aTextIsSaidAndAcknowledged() {
+        bench.hear("{\"name\": \"android.speak\", \"data\": {\"text\": \"land now\"}, "
+                + "\"id\": \"7\"}");
+        assertEquals("[land now]", bench.said.toString());
+        assertEquals("[{\"name\": \"up.ack\", \"data\": {\"id\": \"7\"}, \"id\": null}]",
+                bench.lines().toString());
+    }
+
+    @Test
+    public void theSameTextUnderTheSameIdIsSaidOnce() {
+        String line = "{\"name\": \"android.speak\", \"data\": {\"text\": \"hm\"}, \"id\": \"7\"}";
+        bench.hear(line);
+        bench.hear(line);
+        assertEquals("[hm]", bench.said.toString());
+        assertEquals(2, AirborneBench.count(bench.lines(), "up.ack"));
+    }
+
+    @Test
+    public void aTextHas1To200Characters() {
+        StringBuilder longest = new StringBuilder();
+        for (int at = 0; at < 200; at++) {
+            longest.append('x');
+        }
+        for (String text : new String[] {"", longest + "x"}) {
+            bench.hear("{\"name\": \"android.speak\", \"data\": {\"text\": \"" + text
+                    + "\"}, \"id\": \"" + text.length() + "\"}");
+            String answer = bench.lines().toString();
+            assertTrue(answer, answer.contains("\"code\": \"invalid\""));
+        }
+        assertEquals("[]", bench.said.toString());
+        bench.hear("{\"name\": \"android.speak\", \"data\": {\"text\": \"" + longest + "\"}}");
+        assertEquals(1, bench.said.size());
+    }
+
+    @Test
+    public void whatThePhoneDoesNotKnowIsRefused() {
+        bench.hear("{\"name\": \"up.loop.the.loop\", \"data\": {}, \"id\": \"9\"}");
+        String answer = bench.lines().toString();
+        assertTrue(answer, answer.contains("\"up.nack\""));
+        assertTrue(answer, answer.contains("\"code\": \"unknown\""));
+    }
+
+    @Test
+    public void telemetryIsCountedAndGoesToWhoRegisters() {
+        final List<BaseCommand> frames = new ArrayList<BaseCommand>();
+        airborne.up().commandExecutor().registerCommand("up.telemetry.update",
+                new BaseCommandHandler() {
+                    @Override
+                    public void runAction(BaseCommand command) {
+                        frames.add(command);
+                    }
+                });
+        bench.hear("{\"name\": \"up.telemetry.update\", \"data\": {\"altitude\": 5.0}, "
+                + "\"beacon\": 12}");
+        assertEquals(1, airborne.status().telemetry());
+        assertEquals(5.0, frames.get(0).data().get("altitude"));
+        assertEquals("[]", bench.lines().toString());
+    }
+
+    @Test
+    public void aHandlerThatFailsIsToldAndRefusesOnlyItsOwn() {
+        airborne.up().commandExecutor().registerCommand("my.own", new BaseCommandHandler() {
+            @Override
+            public void runAction(BaseCommand command) {
+                throw new IllegalStateException("a mistake");
+            }
+        });
+        bench.hear("{\"name\": \"my.own\", \"data\": {}, \"id\": \"1\"}");
+        bench.hear("{\"name\": \"android.speak\", \"data\": {\"text\": \"hi\"}}");
+        assertTrue(bench.lines().toString().contains("\"code\": \"failed\""));
+        assertTrue(bench.events.toString(),
+                bench.events.toString().contains("the handler of my.own failed"));
+        assertEquals("[hi]", bench.said.toString());
+    }
+
+    @Test
+    public void panicComesUnderBothNamesAndIsAcknowledged() {
+        for (String name : new String[] {"up.panic", "load_guard.panic"}) {
+            bench.hear("{\"name\": \"" + name + "\", \"data\": {\"panic\": true, "
+                    + "\"delay_ms\": 150}, \"id\": \"" + name + "\"}");
+            assertEquals(150, airborne.status().panicDelayMs());
+            assertEquals(1, AirborneBench.count(bench.lines(), "up.ack"));
+            bench.hear("{\"name\": \"up.panic\", \"data\": {\"panic\": false, "
+                    + "\"delay_ms\": 150}}");
+            assertEquals(0, airborne.status().panicDelayMs());
+        }
+        assertEquals("[connected 10.0.0.1:50001:50000, panic 150, panic 0, panic 150, panic 0]",
+                bench.events.toString());
+    }
+
+    @Test
+    public void aPanicThatIsNoneIsRefused() {
+        String[] datas = {"{}", "{\"panic\": true}", "{\"panic\": 1, \"delay_ms\": 150}",
+            "{\"panic\": true, \"delay_ms\": -1}", "{\"panic\": true, \"delay_ms\": 10001}",
+            "{\"panic\": true, \"delay_ms\": \"150\"}", "{\"panic\": true, \"delay_ms\": true}"};
+        for (int at = 0; at < datas.length; at++) {
+            bench.hear("{\"name\": \"up.panic\", \"data\": " + datas[at] + ", \"id\": \"" + at
+                    + "\"}");
+            String answer = bench.lines().toString();
+            assertTrue(datas[at] + answer, answer.contains("\"code\": \"invalid\""));
+        }
+        assertEquals(0, airborne.status().panicDelayMs());
+        assertEquals(datas.length, airborne.status().refused());
+    }
+}
