@@ -99,7 +99,10 @@ public final class OrientationFrameTest {
         byte[] wire = new OrientationFrame(1, 2, 3, 4, 5, 6).toBytes();
         assertEquals(0, decoder.feed(wire, 23).size());
         decoder.reset();
-        assertEquals(1, decoder.feed(wire, 24).size());
+        List<OrientationFrame> frames =
+                decoder.feed(new OrientationFrame(7, 8, 9, 10, 11, 12).toBytes(), 24);
+        assertEquals(1, frames.size());
+        assertArrayEquals(new float[] {7, 8, 9, 10, 11, 12}, values(frames.get(0)), 0f);
     }
 
     private static float[] values(OrientationFrame frame) {
