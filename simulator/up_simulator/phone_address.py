@@ -63,6 +63,15 @@ async def spawn(reactor: Any, runner: Runner) -> RaspberryPi:
 
     Raises ``NotFoundError`` with the runner's own sentence when nothing runs.
     """
+    request = json.dumps({"aircraft": runner.aircraft}).encode("ascii")
+    return read_spawn_answer(await ask_runner(reactor, runner, request), runner.host)
+
+
+async def ask_runner(reactor: Any, runner: Runner, request: bytes) -> bytes:
+    """Return a runner's answer to a request, both a line without its LF.
+
+    Raises ``NotFoundError`` when there is none.
+    """
     endpoint = TCP4ClientEndpoint(reactor, runner.host, runner.port, timeout=ANSWER_S)
     try:
         factory: Any = Factory.forProtocol(_Request)
@@ -70,15 +79,15 @@ async def spawn(reactor: Any, runner: Runner) -> RaspberryPi:
         protocol: Any = await endpoint.connect(factory)
     except ConnectError as error:
         raise NotFoundError(f"no runner at {runner.host}:{runner.port}: {error}") from error
-    protocol.sendLine(json.dumps({"aircraft": runner.aircraft}).encode("ascii"))
+    protocol.sendLine(request)
     limit = reactor.callLater(SPAWN_S, protocol.transport.abortConnection)
     try:
-        answer = await protocol.answer
+        answer: bytes = await protocol.answer
     finally:
         if limit.active():
             limit.cancel()
         protocol.transport.loseConnection()
-    return read_spawn_answer(answer, runner.host)
+    return answer
 
 
 def read_spawn_answer(line: bytes, host: str) -> RaspberryPi:

@@ -1,4 +1,4 @@
-"""What a phone on board measures: GPS, barometer, compass and battery, with their noise."""
+"""What a phone on board measures: its raw sensors, or what it makes of them, with their noise."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import random
 from typing import Any
 
 from up_simulator.flight import FlightState
+from up_simulator.phone_mounting import MOUNTING, Quaternion, body_to_world
 
 METRES_PER_DEG = 111_320.0
 GPS_WANDER_M = 1.5
@@ -15,8 +16,14 @@ GPS_ALTITUDE_M = 3.0
 GPS_MEMORY = 0.95
 BAROMETER_M = 0.3
 COMPASS_DEG = 1.5
+COMPASS_S = 0.2
+"""How long an error of the compass lasts: so often the heading is sent."""
 BATTERY_FULL = 95.0
 BATTERY_PERCENT_PER_S = 0.01
+SEA_LEVEL_HPA, SEA_LEVEL_K, LAPSE_K_M = 1013.25, 288.15, 0.0065
+PRESSURE_POWER = 9.80665 * 0.0289644 / (8.31446 * LAPSE_K_M)
+"""Of the standard atmosphere (ISO 2533) up to 11 km."""
+_TINY_S = 1e-6
 
 
 class PhoneSensors:
@@ -24,12 +31,16 @@ class PhoneSensors:
 
     GPS errors wander slowly about the truth (some metres) and jitter a little, as real ones do;
     a seed makes them repeatable. The battery falls from ``battery_percent``, which it had at
-    ``battery_time_s`` of the flight.
+    ``battery_time_s`` of the flight. What a phone's software makes Commands of is there raw, too:
+    pressure, rotation and rate, of a phone that lies as ``mounting`` says (aircraft to device).
     """
 
-    def __init__(self, seed: int = 1) -> None:
+    def __init__(self, seed: int = 1, mounting: Quaternion = MOUNTING) -> None:
         self._noise = random.Random(seed)
+        self._mounting = mounting
         self._wander_m = [0.0, 0.0, 0.0]
+        self._compass_deg = 0.0
+        self._compass_s = -math.inf
         self.battery_percent = BATTERY_FULL
         self.battery_time_s = 0.0
 
@@ -68,3 +79,27 @@ class PhoneSensors:
         used_s = state.time_s - self.battery_time_s
         level = self.battery_percent - BATTERY_PERCENT_PER_S * used_s
         return {"level": max(0, round(level))}
+
+    def pressure_hpa(self, state: FlightState) -> float:
+        """Return what the barometer has, by the standard atmosphere."""
+        altitude_m = state.altitude_m + self._noise.gauss(0.0, BAROMETER_M)
+        part = 1 - LAPSE_K_M * altitude_m / SEA_LEVEL_K
+        return round(SEA_LEVEL_HPA * math.pow(part, PRESSURE_POWER), 4)
+
+    def rotation(self, state: FlightState) -> list[float]:
+        """Return w, x, y, z of the device's axes in the world (east, north, up).
+
+        North is the compass's: its error lasts for 0.2 s and turns everything.
+        """
+        if not 0 <= state.time_s - self._compass_s < COMPASS_S - _TINY_S:
+            self._compass_s = state.time_s
+            self._compass_deg = self._noise.gauss(0.0, COMPASS_DEG)
+        yaw_deg = state.yaw_deg + self._compass_deg
+        body = body_to_world(state.roll_deg, state.pitch_deg, yaw_deg)
+        return [round(each, 9) for each in body.times(self._mounting.conjugate())]
+
+    def rate_rad_s(self, state: FlightState) -> list[float]:
+        """Return what the gyroscope has about the device's axes, rad/s."""
+        rates_deg_s = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)
+        turned = self._mounting.turn(*map(math.radians, rates_deg_s))
+        return [round(each, 9) for each in turned]

@@ -19,6 +19,7 @@ from up_simulator.aircraft import AirframeError, airframe_names
 from up_simulator.crew.option_parser import WRONG_INPUT, OptionParser
 from up_simulator.crew.protocols import CrewError
 from up_simulator.crew.start_options import BOARDS, TURBULENCE, link_settings, wind_m_s
+from up_simulator.phone_choice import KINDS
 from up_simulator.showcase_flight import ShowcaseFlight
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -120,6 +121,12 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
         type=_text_of(link_settings),
         default="",
         help="a bad link from aircraft to proxy: 'delay=80 jitter=20 loss=1 rate=20000'",
+    )
+    parser.add_argument(
+        "--phone",
+        choices=KINDS,
+        default="auto",
+        help="what the phone is: java, the app's own Up Library; python, a stand-in; default auto",
     )
     parser.add_argument("--folder", type=Path, help="for configuration and logs (run/showcase)")
     parser.add_argument("--seconds", type=float, help="end after so long; default: Ctrl-C")

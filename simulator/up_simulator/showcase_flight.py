@@ -180,7 +180,7 @@ class ShowcaseFlight:
             "--turbulence", options.turbulence, "--board", options.board, "--radio", who,
             "--radio-socket", folder / "radio", "--gains", folder / "config" / "pids.yml",
             "--pty-link", folder / "board", "--general-port", str(ports.general),
-            "--orientation-port", str(ports.orientation), "--truth",
+            "--orientation-port", str(ports.orientation), "--phone", options.phone, "--truth",
         ]  # fmt: skip
         if options.link:
             words += ["--link", options.link, "--link-port", str(ports.uplink)]

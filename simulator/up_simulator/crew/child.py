@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import IO
 
 from up_simulator.crew.protocols import CrewError
 
@@ -26,6 +27,8 @@ class Child:
 
     Its words are appended to ``<name>.log`` in ``folder``. On Linux it is told to end, by ``wish``,
     when we die without a word. ``in_foreground`` leaves it the terminal; its words are not kept.
+    With ``talks`` its standard input and output are ``input`` and ``output``, and only what it
+    writes to its error output is kept.
     """
 
     def __init__(
@@ -35,6 +38,7 @@ class Child:
         folder: Path,
         *,
         in_foreground: bool = False,
+        talks: bool = False,
         wish: int = signal.SIGTERM,
     ) -> None:
         self.name = name
@@ -48,9 +52,9 @@ class Child:
         try:
             self._process = subprocess.Popen(
                 command,
-                stdin=None if in_foreground else subprocess.DEVNULL,
-                stdout=output,
-                stderr=subprocess.STDOUT if output else None,
+                stdin=_input_of(in_foreground, talks),
+                stdout=subprocess.PIPE if talks else output,
+                stderr=output if talks else subprocess.STDOUT if output else None,
                 env={**os.environ, "PYTHONUNBUFFERED": "1"},
                 start_new_session=not in_foreground,
                 preexec_fn=dying_wish(wish),
@@ -58,6 +62,18 @@ class Child:
         finally:
             if output is not None:
                 output.close()
+
+    @property
+    def input(self) -> IO[bytes]:
+        """Return where one that talks is spoken to."""
+        assert self._process.stdin is not None
+        return self._process.stdin
+
+    @property
+    def output(self) -> IO[bytes]:
+        """Return where one that talks is heard."""
+        assert self._process.stdout is not None
+        return self._process.stdout
 
     @property
     def pid(self) -> int:
@@ -140,6 +156,12 @@ class Child:
         """Ask it to end and wait until it has; returns its status."""
         self.terminate()
         return self.wait()
+
+
+def _input_of(in_foreground: bool, talks: bool) -> int | None:
+    if talks:
+        return subprocess.PIPE
+    return None if in_foreground else subprocess.DEVNULL
 
 
 def dying_wish(

@@ -14,6 +14,7 @@ from twisted.internet.defer import Deferred
 from up_rig.pty_line import PtyLineError
 from up_simulator.aircraft import AirframeError
 from up_simulator.crew.option_parser import WRONG_INPUT
+from up_simulator.crew.protocols import CrewError
 from up_simulator.crew.start_options import read_options
 from up_simulator.crew.virtual_aircraft import VirtualAircraft
 from up_simulator.firmware.board import BoardCrashedError
@@ -27,6 +28,7 @@ FOR_THE_USER = (
     AirframeError,
     BoardCrashedError,
     BoardUnavailableError,
+    CrewError,
     FlightUnavailableError,
     LinkRelayError,
     OSError,

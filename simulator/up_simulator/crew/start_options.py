@@ -11,13 +11,14 @@ from up_rig.sticks import StickMove, SticksError, read_sticks
 from up_simulator.crew.option_parser import OptionParser
 from up_simulator.crew.uplink import UplinkError, read_link
 from up_simulator.link.settings import LinkSettings
+from up_simulator.phone_choice import KINDS
 from up_simulator.radio.axis_map import AxisMap, read_axis_map
 from up_simulator.radio.sticks import RadioError
 
 DESCRIPTION = """\
 A virtual aircraft in real time, until Ctrl-C: a flight dynamics model (JSBSim) in wind and
-turbulence, the real firmware on a simulated chip with its serial line on a pty, and a stand-in for
-the airborne phone on sockets."""
+turbulence, the real firmware on a simulated chip with its serial line on a pty, and the airborne
+phone on sockets."""
 
 EPILOG = """\
 The firmware is the one in arduino/, compiled for the Arduino and run instruction by instruction;
@@ -157,7 +158,14 @@ def _add_pilot(group: argparse._ArgumentGroup) -> None:
 
 
 def _add_phone(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--no-phone", action="store_true", help="no stand-in for the phone")
+    group.add_argument("--no-phone", action="store_true", help="no phone aboard")
+    group.add_argument(
+        "--phone",
+        choices=KINDS,
+        default="auto",
+        help="what it is: java, the app's own Up Library on a Java virtual machine; python, a"
+        " stand-in; auto (default): java where there is one",
+    )
     group.add_argument(
         "--phone-host",
         default="127.0.0.1",

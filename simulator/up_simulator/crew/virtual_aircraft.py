@@ -18,11 +18,12 @@ from up_simulator.crew.replayed import ReplayedFlight
 from up_simulator.crew.stand_in import StandInAircraft
 from up_simulator.crew.uplink import make_uplink
 from up_simulator.firmware.tap import BoardTap
+from up_simulator.java_phone import JavaHandset
 from up_simulator.link.relay import LinkRelay
 from up_simulator.pace import Pace
-from up_simulator.phone import Phone
 from up_simulator.phone_address import RaspberryPi, Runner, discover, spawn
-from up_simulator.phone_link import PhoneLink
+from up_simulator.phone_choice import choose_phone
+from up_simulator.phone_handset import Handset, PythonHandset
 from up_simulator.radio.choice import choose_radio
 from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.sticks import Radio
@@ -49,7 +50,8 @@ class VirtualAircraft:
     ``reactor`` gives time and sockets; its clock must be monotonic. ``say`` takes one line for the
     user, ``on_leave`` is called when the pilot at the keyboard leaves. Raises
     ``FlightUnavailableError``, ``AirframeError``, ``BoardUnavailableError``, ``PtyLineError``,
-    ``RadioError``, ``LinkRelayError`` and ``OSError`` (the state log) with messages for the user.
+    ``RadioError``, ``LinkRelayError``, ``CrewError`` (no phone of the kind asked for) and
+    ``OSError`` (the state log) with messages for the user.
     """
 
     def __init__(
@@ -59,7 +61,7 @@ class VirtualAircraft:
         self._say = say
         self._line: PtyLine | None = None
         self._radio: Radio | None = None
-        self._link: PhoneLink | None = None
+        self._phone: Handset | None = None
         self._log: StateLog | None = None
         self._uplink: LinkRelay | None = None
         self._ticks: list[Callable[[], None]] = []
@@ -77,8 +79,8 @@ class VirtualAircraft:
         """Begin to fly; ``on_failure`` gets the failure of a tick, which ends the flight."""
         if self._line is not None:
             self._say(f"board on {self._line.path}")
-        if self._link is not None:
-            self._link.start()
+        if self._phone is not None:
+            self._phone.start()
         self._loop.start(TICK_S).addErrback(on_failure)
 
     async def stop(self) -> None:
@@ -86,8 +88,8 @@ class VirtualAircraft:
         if self._loop.running:
             self._loop.stop()
         self._give_back()
-        if self._link is not None:
-            await self._link.stop()
+        if self._phone is not None:
+            await self._phone.stop()
         if self._uplink is not None:
             await self._uplink.stop()
 
@@ -96,6 +98,8 @@ class VirtualAircraft:
     ) -> None:
         if options.state_log:
             self._log = StateLog(options.state_log)
+        if not options.no_phone:
+            self._phone = self._carry_phone(options)
         if options.no_board:
             self._ticks.append(Pace(self.flight, self._reactor, self._say).keep)
         else:
@@ -105,8 +109,8 @@ class VirtualAircraft:
                 self._reactor, options.link_port, options.link_to, options.link, options.seed
             )
             self._uplink.start()
-        if not options.no_phone:
-            self._ticks.append(self._carry_phone(options).tick)
+        if self._phone is not None:
+            self._ticks.append(self._phone.tick)
 
     def _board_it(
         self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
@@ -166,16 +170,35 @@ class VirtualAircraft:
         aircraft.real_time.heard = hear
         return aircraft.keep
 
-    def _carry_phone(self, options: argparse.Namespace) -> Phone:
+    def _carry_phone(self, options: argparse.Namespace) -> Handset:
         def say(text: str) -> None:
             self._say(f"phone: {text}")
 
         names = RECORDED_NAMES if isinstance(self.flight, ReplayedFlight) else NAMES
         record = partial(record_of, names=names) if options.truth else None
-        phone = Phone(self.flight, self._reactor, seed=options.seed, say=say, record=record)
+        choice = choose_phone(options.phone, say)
+        self._say(f"the phone is {choice.title}")
+        if choice.java is not None:
+            return JavaHandset(
+                choice.java,
+                self._reactor,
+                self.flight,
+                partial(_place_options, options),
+                options.orientation,
+                say,
+                seed=options.seed,
+                record=record,
+            )
         find = _make_find(self._reactor, options)
-        self._link = PhoneLink(self._reactor, phone, find, options.orientation, say)
-        return phone
+        return PythonHandset(
+            self._reactor,
+            self.flight,
+            find,
+            options.orientation,
+            say,
+            seed=options.seed,
+            record=record,
+        )
 
     def _tick(self) -> None:
         for tick in self._ticks:
@@ -206,3 +229,16 @@ def _make_find(reactor: Any, options: argparse.Namespace) -> Callable[[], Awaita
         return RaspberryPi(host, options.general_port, options.orientation_port)
 
     return find
+
+
+def _place_options(options: argparse.Namespace) -> list[str]:
+    """Return where a phone with links of its own finds Raspilot, as its options."""
+    if options.runner:
+        host, port = options.runner
+        return ["--runner", f"{host}:{port}", "--aircraft", options.aircraft_name]
+    ports = f"{options.general_port}:{options.orientation_port}"
+    place = ["--raspberry", f"{options.phone_host}:{ports}"]
+    if options.discover:
+        host, port = options.discover
+        place += ["--discover", f"{host}:{port}"]
+    return place

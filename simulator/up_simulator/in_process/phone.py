@@ -1,16 +1,23 @@
-"""The phone aboard in this process, with the links of the stand-in."""
+"""The phone aboard: a handset at the daemon's ports by a cable."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
 
 from twisted.internet.defer import Deferred
 
 from up_simulator.flight import Flight
+from up_simulator.in_process.java_phone import SteppedJavaHandset
+from up_simulator.in_process.machine import Machine
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
+from up_simulator.java_phone import JavaHandset
+from up_simulator.java_phone_program import JavaProgram
 from up_simulator.link.model import LinkModel, LinkSettings
-from up_simulator.phone import Phone
 from up_simulator.phone_address import RaspberryPi
-from up_simulator.phone_link import OrientationBy, PhoneLink
+from up_simulator.phone_handset import Handset, PythonHandset
+from up_simulator.phone_link import OrientationBy
 
 GENERAL_PORT, ORIENTATION_PORT = 50001, 50000
 TICK_S = 0.01
@@ -23,7 +30,8 @@ class InProcessPhone:
 
     ``plug`` and ``unplug`` move the cable: a connection without it hangs, as one by USB
     tethering does, until its own timeouts end it. With ``is_told`` both ends are reset at once,
-    as by ``adb``. ``said`` has what the phone speaks and notes.
+    as by ``adb``. ``said`` has what the phone speaks and notes. With ``java`` it is the Java
+    phone: in steps where the reactor is a simulated one, in real time with its own sockets else.
     """
 
     def __init__(
@@ -36,6 +44,7 @@ class InProcessPhone:
         general_port: int = GENERAL_PORT,
         orientation_port: int = ORIENTATION_PORT,
         cable: LinkSettings = CABLE,
+        java: JavaProgram | None = None,
     ) -> None:
         self.said: list[str] = []
         self.up = LinkModel(cable, seed)
@@ -46,8 +55,8 @@ class InProcessPhone:
         for port in self._ports:
             reactor.link(port, self.up, self.down)
         self._machine = reactor.machine("phone")
-        self._phone = Phone(flight, self._machine, seed=seed, say=self._say)
-        self._link = PhoneLink(self._machine, self._phone, self._find, orientation, self._say)
+        make = self._in_python if java is None else self._in_java(java)
+        self.handset: Handset = make(flight, orientation, seed)
         self._is_started = False
 
     @property
@@ -61,7 +70,7 @@ class InProcessPhone:
         self.down.restore()
         if not self._is_started:
             self._is_started = True
-            self._link.start()
+            self.handset.start()
             self._tick()
 
     def unplug(self, is_told: bool = False) -> None:
@@ -74,20 +83,43 @@ class InProcessPhone:
 
     def set_battery(self, percent: float) -> None:
         """Let its battery have this level from now on."""
-        self._phone.set_battery(percent)
+        self.handset.set_battery(percent)
 
     def stop(self) -> None:
         """Switch it off."""
         self._is_started = False
-        Deferred.fromCoroutine(self._link.stop()).addErrback(lambda _: None)
+        Deferred.fromCoroutine(self.handset.stop()).addErrback(lambda _: None)
 
-    async def _find(self) -> RaspberryPi:
+    async def find(self) -> RaspberryPi:
+        """Return where the phone in Python connects to."""
         return self._place
+
+    def place_options(self) -> list[str]:
+        """Return the same for the phone in Java, as its options."""
+        ports = ":".join(map(str, self._ports))
+        return ["--raspberry", f"{ADDRESS}:{ports}"]
+
+    def _in_python(self, flight: Flight, orientation: OrientationBy, seed: int) -> Handset:
+        return PythonHandset(self._machine, flight, self.find, orientation, self._say, seed=seed)
+
+    def _in_java(self, java: JavaProgram) -> Callable[[Flight, OrientationBy, int], Handset]:
+        def make(flight: Flight, orientation: OrientationBy, seed: int) -> Handset:
+            machine: Any = self._machine
+            if isinstance(machine, Machine):
+                place = self.place_options()
+                return SteppedJavaHandset(
+                    java, machine, flight, place, orientation, self._say, seed=seed
+                )
+            return JavaHandset(
+                java, machine, flight, self.place_options, orientation, self._say, seed=seed
+            )
+
+        return make
 
     def _tick(self) -> None:
         if self._is_started:
             self._machine.callLater(TICK_S, self._tick)
-            self._phone.tick()
+            self.handset.tick()
 
     def _say(self, text: str) -> None:
         if len(self.said) < SAID_KEPT:

@@ -34,7 +34,7 @@ def build_flight(scenario: Scenario, say: Say = lambda _text: None) -> ScenarioF
     )
     board = _board(scenario, airframe, say)
     world = World(dynamics, board)
-    companions = _companions(scenario, airframe, dynamics, board)
+    companions = _companions(scenario, airframe, dynamics, board, say)
     demand = DemandModel(profile_of(scenario, airframe.profile))
     flight = ScenarioFlight(scenario, world, board, companions, demand, airframe.imu)
     flight.record.settings = _settings(scenario, airframe)
@@ -66,7 +66,7 @@ def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
 
 
 def _companions(
-    scenario: Scenario, airframe: Airframe, dynamics: FlightDynamics, board: LineBoard
+    scenario: Scenario, airframe: Airframe, dynamics: FlightDynamics, board: LineBoard, say: Say
 ) -> Companions:
     if not scenario.has_raspilot:
         return Nobody(board)
@@ -77,10 +77,10 @@ def _companions(
     if scenario.is_real:
         from up_simulator.scenario.real_companions import RealCompanions
 
-        return RealCompanions(scenario, dynamics, board, settings)
+        return RealCompanions(scenario, dynamics, board, settings, say)
     from up_simulator.scenario.in_process_companions import InProcessCompanions
 
-    return InProcessCompanions(scenario, dynamics, board, settings)
+    return InProcessCompanions(scenario, dynamics, board, settings, say)
 
 
 def _start(scenario: Scenario) -> Start:

@@ -29,6 +29,10 @@ class Companions(Protocol):
         """Return the phone aboard."""
 
     @property
+    def phone_title(self) -> str:
+        """Return what the phone is, and why, for the report; empty: there is none."""
+
+    @property
     def black_boxes(self) -> Mapping[str, bytes]:
         """Return the files, by name, that a real daemon has recorded; there once all have ended."""
 
@@ -57,6 +61,7 @@ class Nobody:
     raspilot: Raspilot | None = None
     ground: Ground | None = None
     phone: Phone | None = None
+    phone_title = ""
     black_boxes: Mapping[str, bytes] = MappingProxyType({})
 
     def __init__(self, board: LineBoard) -> None:

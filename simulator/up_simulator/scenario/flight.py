@@ -53,6 +53,7 @@ class FlightRecord:
     failure_log: Sequence[str] = ()
     is_interrupted: bool = False
     board_title: str = ""
+    phone_title: str = ""
     notes: list[str] = field(default_factory=list)
     settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     black_boxes: Mapping[str, bytes] = field(default_factory=dict)
@@ -98,6 +99,7 @@ class ScenarioFlight:
         self._total_steps = round(scenario.duration_s / STEP_S)
         self.record = FlightRecord(scenario, FlightLog(columns_of(scenario)))
         self.record.board_title = board.title
+        self.record.phone_title = companions.phone_title
         self._sampler = Sampler(
             world,
             board,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from up_rig.pty_line import PtyLine, PtyLineError
@@ -13,6 +14,7 @@ from up_simulator.flight import Flight
 from up_simulator.in_process.config_folder import write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
+from up_simulator.phone_choice import choose_phone
 from up_simulator.scenario.crew_companions import CrewCompanions
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
@@ -40,6 +42,7 @@ class RealCompanions(CrewCompanions):
         flight: Flight,
         board: LineBoard,
         settings: dict[str, dict[str, Any]],
+        say: Callable[[str], None] = lambda _text: None,
     ) -> None:
         super().__init__(scenario, board)
         self._reactor = RealReactor()
@@ -51,7 +54,7 @@ class RealCompanions(CrewCompanions):
         self._real = self._make_daemon(merge(self._files(), settings))
         self.raspilot = self._real
         self._make_ground()
-        self._make_phone(flight)
+        self._make_phone(flight, say)
 
     @property
     def _through(self) -> str:
@@ -213,10 +216,12 @@ class RealCompanions(CrewCompanions):
             self._reactor.link(before.ground, up=self.down, down=self.up)
             self.ground = InProcessGround(reactor, before.ground, seed=seed)
 
-    def _make_phone(self, flight: Flight) -> None:
+    def _make_phone(self, flight: Flight, say: Callable[[str], None]) -> None:
         part = self.scenario.phone
         if part is None:
             return
+        choice = choose_phone(part.program, say)
+        self.phone_title = choice.title
         ports, before = self._ports, self._before
         if isinstance(self._real, RunnerDaemon):
             self.phone = RunnerPhone(
@@ -226,6 +231,7 @@ class RealCompanions(CrewCompanions):
                 lambda port: self._reactor.relay(0, port, self.up, self.down),
                 orientation=part.orientation,
                 seed=self.scenario.seed,
+                java=choice.java,
             )
             return
         self._reactor.targets[before.general] = ports.general
@@ -238,4 +244,5 @@ class RealCompanions(CrewCompanions):
             seed=self.scenario.seed,
             general_port=before.general,
             orientation_port=before.orientation,
+            java=choice.java,
         )

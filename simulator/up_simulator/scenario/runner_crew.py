@@ -15,8 +15,10 @@ import yaml
 from up_simulator.crew.protocols import CrewError
 from up_simulator.crew.real_servers import RealRunner
 from up_simulator.in_process.phone import InProcessPhone
+from up_simulator.java_phone_program import JavaProgram
 from up_simulator.phone_address import RaspberryPi, Runner, spawn
 from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
+from up_simulator.scenario.runner_door import RunnerDoor
 
 AIRCRAFT = "default"
 LOG_TAIL_BYTES = 16_384
@@ -105,11 +107,13 @@ class RunnerPhone(InProcessPhone):
         *,
         orientation: Any,
         seed: int,
+        java: JavaProgram | None = None,
     ) -> None:
         self._runner_port = port
         self._relay = relay
         self._relayed: dict[int, int] = {}
         self._real = reactor
+        self._door: RunnerDoor | None = None
         simulated: Any = reactor
         super().__init__(
             simulated,
@@ -118,9 +122,23 @@ class RunnerPhone(InProcessPhone):
             seed=seed,
             general_port=0,
             orientation_port=0,
+            java=java,
         )
 
-    async def _find(self) -> RaspberryPi:
+    def stop(self) -> None:
+        """Switch it off."""
+        super().stop()
+        if self._door is not None:
+            self._door.stop()
+
+    def place_options(self) -> list[str]:
+        """Return where the phone in Java asks for a runner: its sockets are its own."""
+        if self._door is None:
+            self._door = RunnerDoor(self._real.machine(), self._runner_port, self._by_link)
+        return ["--runner", f"{LOOPBACK}:{self._door.start()}", "--aircraft", AIRCRAFT]
+
+    async def find(self) -> RaspberryPi:
+        """Ask the runner for an instance; return where the link to it begins."""
         runner = Runner(LOOPBACK, self._runner_port(), AIRCRAFT)
         place = await spawn(self._real.machine(), runner)
         return RaspberryPi(

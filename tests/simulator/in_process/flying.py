@@ -57,7 +57,16 @@ class Flying:
     """
 
     def __init__(
-        self, folder, files=None, *, seed=1, start=None, link=None, arms=False, orientation="tcp"
+        self,
+        folder,
+        files=None,
+        *,
+        seed=1,
+        start=None,
+        link=None,
+        arms=False,
+        orientation="tcp",
+        java=None,
     ):
         airframe = load_airframe("glider")
         eeprom = prepared_eeprom("firmware", airframe.profile, airframe.gains)
@@ -73,7 +82,9 @@ class Flying:
             self.up, self.down = LinkModel(link, seed), LinkModel(link, seed + 1)
             self.reactor.link(GROUND_PORT, self.up, self.down)
         self.ground = InProcessGround(self.reactor, seed=seed)
-        self.phone = InProcessPhone(self.reactor, dynamics, orientation=orientation, seed=seed)
+        self.phone = InProcessPhone(
+            self.reactor, dynamics, orientation=orientation, seed=seed, java=java
+        )
         self.board.set_stick("aux1", FBW_US)
         self.world.boot(arms=arms)
 

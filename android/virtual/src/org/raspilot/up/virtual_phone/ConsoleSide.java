@@ -101,7 +101,10 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
 
     private void send(Map<?, ?> line, Answers answers) throws OptionException {
         Object name = line.get("send");
-        Object data = line.containsKey("data") ? line.get("data") : new LinkedHashMap<String, Object>();
+        Object data = line.get("data");
+        if (data == null) {
+            data = new LinkedHashMap<String, Object>();
+        }
         if (!(name instanceof String) || !(data instanceof Map)) {
             throw new OptionException("send is a Command's name, data an object");
         }

@@ -10,8 +10,8 @@ import java.io.IOException;
  * <p><b>Lines in.</b>
  *
  * <pre>
- * {"send": NAME, "data": {...}, "tag": "1"}   a Command; its answer has the tag again. It echoes the
- *                                             newest frame's beacon, as a screen that shows all
+ * {"send": NAME, "data": {...}, "tag": "1"}   a Command; its answer has the tag again. It echoes
+ *                                    the newest frame's beacon, as a screen that shows all
  * {"gains": "ask" | "undo" | {"ratePIDs", "stabPIDs", "navPIDs"?}, "tag"?}
  * {"seat": "request" | "release" | {"give": 2}}
  * </pre>

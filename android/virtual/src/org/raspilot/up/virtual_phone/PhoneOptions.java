@@ -27,8 +27,9 @@ final class PhoneOptions {
             + "  --orientation off|tcp|udp              its attitude besides; default off\n"
             + "  --orientation-hz N                     50 to 200 a second; default 50\n"
             + "  --mounting 'W X Y Z'                   how it lies: a rotation from nose, right\n"
-            + "                                         wing, down to right edge, top edge, out of\n"
-            + "                                         the screen; default flat, top edge ahead\n"
+            + "                                         wing, down to right edge, top edge, out\n"
+            + "                                         of the screen; default flat, top ahead\n"
+            + "  --record                               it passes on what the black box is to write\n"
             + "  --seed N                               of what it does at random; default 1\n"
             + "  --stepped                              time and network are the simulator's\n"
             + "  --help                                 this text\n"
@@ -43,12 +44,15 @@ final class PhoneOptions {
     final long seed;
     /** Whether time and network are the simulator's. */
     final boolean isStepped;
+    /** Whether there is something that the black box is to write. */
+    final boolean isRecording;
     /** Whether the user only wants to read. */
     final boolean wantsHelp;
 
     private PhoneOptions(Reader reader) throws OptionException {
         seed = reader.seed;
         isStepped = reader.isStepped;
+        isRecording = reader.isRecording;
         wantsHelp = reader.wantsHelp;
         try {
             settings = reader.settings.build();
@@ -72,6 +76,7 @@ final class PhoneOptions {
         private String way = "";
         private long seed = 1;
         private boolean isStepped;
+        private boolean isRecording;
         private boolean wantsHelp;
 
         Reader() {
@@ -84,6 +89,10 @@ final class PhoneOptions {
         int take(String name, String value) throws OptionException {
             if ("--stepped".equals(name)) {
                 isStepped = true;
+                return 0;
+            }
+            if ("--record".equals(name)) {
+                isRecording = true;
                 return 0;
             }
             if ("--help".equals(name) || "-h".equals(name)) {

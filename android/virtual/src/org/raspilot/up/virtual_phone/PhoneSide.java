@@ -25,24 +25,28 @@ final class PhoneSide implements LoopProgram.Part {
     @Override
     public void start(Loop loop) {
         sensors = new SimulatedSensors(loop, words);
-        record = new SimulatedSource<Map<?, ?>>("record", words);
         airborne = new Airborne(
                 loop, options.settings, sensors, events, events, new Random(options.seed));
-        airborne.providers().register(new RecordProvider(record));
+        if (options.isRecording) {
+            record = new SimulatedSource<Map<?, ?>>("record", words);
+            airborne.providers().register(new RecordProvider(record));
+        }
         airborne.start();
     }
 
     @Override
     public void stop() {
-        events.counters(airborne.status());
         airborne.stop();
+        events.counters(airborne.status());
     }
 
     @Override
     public void take(Map<?, ?> fields) throws OptionException {
         sensors.take(fields);
         Object content = fields.get("record");
-        if (content instanceof Map) {
+        if (content != null && record == null) {
+            throw new OptionException("record: only with --record");
+        } else if (content instanceof Map) {
             record.take((Map<?, ?>) content);
         } else if (content != null) {
             throw new OptionException("record is no object");

@@ -16,8 +16,9 @@ import java.io.IOException;
  * "rotation": [w, x, y, z]        the device's axes to east, north, up
  * "rate": [x, y, z]               rad/s about the device's axes
  * "battery": 87                   percent
- * "record": {"topic", "content"}  goes out as black_box.record, slowed by Panic Mode as the rest
- * "level": "TOP"                  calibrate: so it lies level, that side of it to the nose (see Side)
+ * "record": {"topic", "content"}  goes out as black_box.record, slowed by Panic Mode as the
+ *                                 rest; with --record only
+ * "level": "TOP"                  calibrate: so it lies level, that Side to the nose
  * </pre>
  *
  * <p><b>Lines out.</b>

@@ -69,6 +69,7 @@ final class Words {
         try {
             out.flush();
         } catch (IOException error) {
+            // As above.
             return;
         }
     }

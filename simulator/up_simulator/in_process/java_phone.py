@@ -1,0 +1,114 @@
+"""The Up Library as the phone aboard, in simulated time: a JVM that is moved step by step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from up_simulator.flight import Flight
+from up_simulator.in_process.machine import Machine
+from up_simulator.in_process.piped_sockets import PipedSockets
+from up_simulator.java_phone import GONE, options_of
+from up_simulator.java_phone_feed import SensorFeed
+from up_simulator.java_phone_process import JavaPhoneProcess
+from up_simulator.java_phone_program import JavaProgram
+from up_simulator.java_phone_words import sentence_of
+
+THINKS_S = 0.002
+"""How long the phone takes for everything: meanwhile its JVM works beside the simulation."""
+_TINY_S = 1e-6
+
+
+class SteppedJavaHandset:
+    """A JVM in lock-step: it is asked only when a timer, a reading or its network wants it.
+
+    Its sockets are opened on ``machine``, so that the same seed gives the same flight. The JVM is
+    started at once: it is there when the firmware has booted.
+    """
+
+    def __init__(
+        self,
+        program: JavaProgram,
+        machine: Machine,
+        flight: Flight,
+        place: Sequence[str],
+        orientation: str,
+        say: Callable[[str], None],
+        *,
+        seed: int = 1,
+    ) -> None:
+        self._machine = machine
+        self._say = say
+        self._feed = SensorFeed(flight, seed=seed)
+        self._sockets = PipedSockets(machine)
+        self._due_s = math.inf
+        self._is_asked = False
+        self.steps = 0
+        options = [*options_of(orientation, seed), *place, "--stepped"]
+        self._process: JavaPhoneProcess | None = JavaPhoneProcess(program, *options)
+
+    @property
+    def pid(self) -> int | None:
+        """Return the JVM's process number while it runs."""
+        return None if self._process is None else self._process.pid
+
+    def start(self) -> None:
+        """Let the phone's time begin."""
+        self._due_s = self._machine.seconds()
+
+    def tick(self) -> None:
+        """Move the phone on until now, if anything is due."""
+        process, now_s = self._process, self._machine.seconds()
+        if process is None or self._is_asked:
+            return
+        is_due = min(self._due_s, self._feed.next_s) <= now_s + _TINY_S
+        if not is_due and not self._sockets.is_urgent:
+            return
+        self.steps += 1
+        line: dict[str, Any] = {"t": round(now_s * 1000), **self._feed.readings(now_s)}
+        if brought := self._sockets.take():
+            line["net"] = brought
+        self._is_asked = True
+        process.ask(line)
+        self._machine.callLater(THINKS_S, self._take_answer)
+
+    def set_battery(self, percent: float) -> None:
+        """Let its battery have this level from now on."""
+        self._feed.set_battery(percent, self._machine.seconds())
+
+    async def stop(self) -> None:
+        """End it, and close its sockets."""
+        self._sockets.close()
+        process, self._process = self._process, None
+        if process is not None:
+            process.end()
+
+    def _take_answer(self) -> None:
+        process, now_s = self._process, self._machine.seconds()
+        self._is_asked = False
+        if process is None:
+            return
+        events, answer = process.answer()
+        for event in events:
+            self._take(event, now_s)
+        if not answer:
+            self._lose(process)
+            return
+        due_ms = answer["due"]
+        self._due_s = math.inf if due_ms is None else due_ms / 1000
+        for words in answer["net"]:
+            self._sockets.do(words)
+
+    def _take(self, event: dict[str, Any], now_s: float) -> None:
+        if event.get("event") == "wants":
+            self._feed.want(str(event["sensor"]), event["period_ms"] / 1000, now_s)
+        elif (sentence := sentence_of(event)) is not None:
+            self._say(sentence)
+
+    def _lose(self, process: JavaPhoneProcess) -> None:
+        self._process = None
+        process.end()
+        # As by the system of a program that has died.
+        self._sockets.close()
+        self._say(f"{process.last_words}; {GONE}")

@@ -1,0 +1,100 @@
+"""The Up Library as the phone aboard, in real time: a JVM with sockets of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from up_simulator.clock import Clock
+from up_simulator.flight import Flight
+from up_simulator.java_phone_feed import SensorFeed
+from up_simulator.java_phone_process import JavaPhoneProcess
+from up_simulator.java_phone_program import JavaProgram
+from up_simulator.java_phone_words import sentence_of
+from up_simulator.phone_handset import Record
+from up_simulator.phone_mounting import MOUNTING
+
+GONE = "the phone is gone, and all else flies on"
+
+
+def options_of(orientation: str, seed: int) -> list[str]:
+    """Return what every virtual phone of a flight is told."""
+    mounting = " ".join(map(str, MOUNTING))
+    return ["--orientation", orientation, "--seed", str(seed), "--mounting", mounting]
+
+
+class JavaHandset:
+    """A phone whose sensors are fed by ``tick``; it finds and keeps its links by itself.
+
+    ``place`` are the virtual phone's options that say where Raspilot is. A JVM that ends by
+    itself is told in a sentence, once, and costs the flight nothing but its phone.
+    """
+
+    def __init__(
+        self,
+        program: JavaProgram,
+        clock: Clock,
+        flight: Flight,
+        place: Callable[[], Sequence[str]],
+        orientation: str,
+        say: Callable[[str], None],
+        *,
+        seed: int = 1,
+        record: Record | None = None,
+    ) -> None:
+        self._program = program
+        self._clock = clock
+        self._place = place
+        self._options = options_of(orientation, seed)
+        if record is not None:
+            self._options.append("--record")
+        self._say = say
+        self._feed = SensorFeed(flight, seed=seed, record=record)
+        self._process: JavaPhoneProcess | None = None
+
+    @property
+    def pid(self) -> int | None:
+        """Return the JVM's process number while it runs."""
+        return None if self._process is None else self._process.pid
+
+    def start(self) -> None:
+        """Start the JVM; it connects as soon as it is there."""
+        if self._process is None:
+            self._process = JavaPhoneProcess(self._program, *self._options, *self._place())
+
+    def tick(self) -> None:
+        """Hear what it says, and tell it what its sensors have."""
+        process = self._process
+        if process is None:
+            return
+        now_s = self._clock.seconds()
+        for event in process.hear():
+            self._take(event, now_s)
+        if not process.is_running:
+            self._lose(process)
+            return
+        readings = self._feed.readings(now_s)
+        if readings:
+            process.say(readings)
+
+    def set_battery(self, percent: float) -> None:
+        """Let its battery have this level from now on."""
+        self._feed.set_battery(percent, self._clock.seconds())
+
+    async def stop(self) -> None:
+        """End it."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.end()
+
+    def _take(self, event: dict[str, Any], now_s: float) -> None:
+        if event.get("event") == "wants":
+            self._feed.want(str(event["sensor"]), event["period_ms"] / 1000, now_s)
+        elif (sentence := sentence_of(event)) is not None:
+            self._say(sentence)
+
+    def _lose(self, process: JavaPhoneProcess) -> None:
+        self._process = None
+        self._feed.forget()
+        process.end()
+        self._say(f"{process.last_words}; {GONE}")

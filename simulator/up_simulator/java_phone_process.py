@@ -1,0 +1,150 @@
+"""The virtual phone's JVM: JSON lines to it and from it."""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import signal
+import time
+from collections.abc import Mapping
+from typing import Any
+
+from up_simulator.crew.child import Child
+from up_simulator.java_phone_program import JavaProgram
+from up_simulator.scenario.workspace import Workspace
+
+ANSWER_S = 30.0
+"""How long a step may take, on a machine that is very busy: there is no sense in it beyond."""
+END_S = 2.0
+CHUNK = 65_536
+MOST_UNREAD = 1 << 20
+
+
+class JavaPhoneProcess:
+    """One JVM, started at once, ended with us; its error output is kept in a folder of its own.
+
+    ``ask`` and ``answer`` are for one that answers every line, ``say`` and ``hear`` for one that
+    goes on by itself. Once it has ended, all of them do nothing, and ``last_words`` says how that
+    came.
+    """
+
+    def __init__(self, program: JavaProgram, *options: str) -> None:
+        self._workspace = Workspace()
+        command = program.command(*options)
+        folder = self._workspace.path
+        self._child = Child("phone", command, folder, talks=True, wish=signal.SIGKILL)
+        self._unread = b""
+        self._is_heard = True
+        self._is_ended = False
+        self.last_words = ""
+        self.dropped = 0
+        os.set_blocking(self._child.output.fileno(), False)
+        self._poll = select.poll()
+        self._poll.register(self._child.output.fileno(), select.POLLIN)
+
+    @property
+    def pid(self) -> int:
+        """Return its process number."""
+        return self._child.pid
+
+    @property
+    def is_running(self) -> bool:
+        """Return whether it can still be spoken with."""
+        return self._is_heard
+
+    def step(self, line: Mapping[str, Any]) -> tuple[list[dict[str, Any]], dict[str, Any]]:
+        """Say a line and wait for its answer."""
+        self.ask(line)
+        return self.answer()
+
+    def ask(self, line: Mapping[str, Any]) -> None:
+        """Say a line; its answer is to be taken before the next one."""
+        if self._is_heard:
+            self._write(line)
+
+    def answer(self) -> tuple[list[dict[str, Any]], dict[str, Any]]:
+        """Wait for the answer to a line: the events before it, and the answer itself.
+
+        An empty answer: it has ended.
+        """
+        deadline_s = time.monotonic() + ANSWER_S
+        events: list[dict[str, Any]] = []
+        while self._is_heard:
+            left_s = deadline_s - time.monotonic()
+            if left_s <= 0 or not self._poll.poll(left_s * 1000):
+                self._give_up(f"it has not answered for {ANSWER_S:g} s")
+                break
+            for found in self._read_lines():
+                if "due" in found:
+                    return events, found
+                events.append(found)
+        return events, {}
+
+    def say(self, line: Mapping[str, Any]) -> None:
+        """Say a line; one that it does not take now is lost, and counted."""
+        if self._is_heard:
+            os.set_blocking(self._child.input.fileno(), False)
+            self._write(line)
+
+    def hear(self) -> list[dict[str, Any]]:
+        """Return the events since the last call."""
+        return list(self._read_lines()) if self._is_heard else []
+
+    def end(self) -> None:
+        """End it: it is asked to by the end of its input."""
+        self._is_heard = False
+        if self._is_ended:
+            return
+        self._is_ended = True
+        for stream in (self._child.input, self._child.output):
+            try:
+                stream.close()
+            except OSError:
+                continue
+        self._child.wait(END_S)
+        self._workspace.close()
+
+    def _write(self, line: Mapping[str, Any]) -> None:
+        data = json.dumps(line, allow_nan=False).encode("ascii") + b"\n"
+        try:
+            # Straight to the pipe: what a buffer kept would be tried again at the end.
+            while data:
+                data = data[os.write(self._child.input.fileno(), data) :]
+        except BlockingIOError:
+            self.dropped += 1
+        except OSError:
+            # It has ended: what it said before is read first.
+            return
+
+    def _read_lines(self) -> list[dict[str, Any]]:
+        try:
+            data = os.read(self._child.output.fileno(), CHUNK)
+        except BlockingIOError:
+            data = None
+        if data == b"":
+            self._note_end()
+        *lines, self._unread = (self._unread + (data or b"")).split(b"\n")
+        if len(self._unread) > MOST_UNREAD:
+            self._give_up("it says a line without an end")
+        return [_read(line) for line in lines]
+
+    def _note_end(self) -> None:
+        self._is_heard = False
+        self.last_words = self._child.last_words(self._child.wait(END_S))
+
+    def _give_up(self, why: str) -> None:
+        self._child.signal(signal.SIGKILL)
+        self._note_end()
+        self.last_words = f"the phone's JVM was ended: {why}"
+
+
+def _read(line: bytes) -> dict[str, Any]:
+    """Return a line's object; what else a JVM prints is a notice."""
+    try:
+        found = json.loads(line)
+    except ValueError:
+        found = None
+    if isinstance(found, dict):
+        return found
+    return {"event": "notice", "text": line[:200].decode("utf-8", "replace")}

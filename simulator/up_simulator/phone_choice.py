@@ -1,0 +1,41 @@
+"""Chooses what the phone aboard is: the Up Library on a JVM, or the stand-in in Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from up_simulator.crew.protocols import CrewError
+from up_simulator.java_phone_program import JavaProgram, JavaUnavailableError, find_java_program
+
+PhoneKind = Literal["auto", "java", "python"]
+KINDS = ("auto", "java", "python")
+IN_JAVA = "the app's own Up Library, on a Java virtual machine"
+IN_PYTHON = "a stand-in in Python"
+
+
+@dataclass(frozen=True, slots=True)
+class PhoneChoice:
+    """What flies as the phone; ``title`` says it, and why, to the user."""
+
+    title: str
+    java: JavaProgram | None = None
+
+
+def choose_phone(
+    kind: PhoneKind = "auto", say: Callable[[str], None] = lambda _text: None
+) -> PhoneChoice:
+    """Return the phone of that kind; auto is the Java one wherever it can be had.
+
+    ``say`` is told of a Java phone that is older than its sources. Raises CrewError where Java is
+    asked for and cannot be had.
+    """
+    if kind == "python":
+        return PhoneChoice(IN_PYTHON)
+    try:
+        return PhoneChoice(IN_JAVA, find_java_program(say))
+    except JavaUnavailableError as error:
+        if kind == "java":
+            raise CrewError(f"the phone cannot be the Java one: {error}") from error
+        return PhoneChoice(f"{IN_PYTHON}: {error}")

@@ -1,0 +1,58 @@
+"""What a phone aboard is to those who carry it, whatever it is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from typing import Any, Protocol
+
+from up_simulator.flight import Flight, FlightState
+from up_simulator.phone import Phone
+from up_simulator.phone_address import RaspberryPi
+from up_simulator.phone_link import OrientationBy, PhoneLink
+
+Record = Callable[[FlightState], dict[str, Any]]
+"""What the phone has the black box write: the data of ``black_box.record``."""
+
+
+class Handset(Protocol):
+    """A phone with its links; ``tick`` is to be called every few milliseconds once it began."""
+
+    def start(self) -> None:
+        """Switch it on: it connects, and connects again after every loss."""
+
+    def tick(self) -> None:
+        """Do what is due."""
+
+    def set_battery(self, percent: float) -> None:
+        """Let its battery have this level from now on."""
+
+    async def stop(self) -> None:
+        """Switch it off for good."""
+
+
+class PythonHandset:
+    """The stand-in in Python: for machines without Java."""
+
+    def __init__(
+        self,
+        reactor: Any,
+        flight: Flight,
+        find: Callable[[], Awaitable[RaspberryPi]],
+        orientation: OrientationBy,
+        say: Callable[[str], None],
+        *,
+        seed: int = 1,
+        record: Record | None = None,
+    ) -> None:
+        self._phone = Phone(flight, reactor, seed=seed, say=say, record=record)
+        self._link = PhoneLink(reactor, self._phone, find, orientation, say)
+        self.tick = self._phone.tick
+        self.set_battery = self._phone.set_battery
+
+    def start(self) -> None:
+        """Begin to connect."""
+        self._link.start()
+
+    async def stop(self) -> None:
+        """Close every link."""
+        await self._link.stop()
