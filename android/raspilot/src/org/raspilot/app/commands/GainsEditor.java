@@ -1,5 +1,7 @@
 package org.raspilot.app.commands;
 
+import java.math.BigDecimal;
+import java.math.RoundingMode;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.LinkedHashMap;
@@ -9,6 +11,7 @@ import java.util.Map;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.Gains;
 import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.commands.LoopGains;
 import org.raspilot.up.ground.GainChange;
 import org.raspilot.up.ground.GainKey;
 import org.raspilot.up.ground.GainsDesk;
@@ -125,10 +128,25 @@ final class GainsEditor {
         for (GainKey key : GainKey.ALL) {
             Edit edit = edits.get(key);
             Double now = key.of(flying);
-            cells.put(key.path(), edit != null ? edit.written.trim()
-                    : now == null ? "" : Double.toString(now));
+            cells.put(key.path(), edit != null ? edit.written.trim() : now == null ? ""
+                    : new BigDecimal(now).setScale(6, RoundingMode.HALF_EVEN).toPlainString());
         }
-        return GainsForm.read(cells);
+        // The form judges the set as a person would write it; what was not touched is not rounded.
+        GainSet written = GainsForm.read(cells);
+        return new GainSet(exact(0, written), exact(1, written), exact(2, written));
+    }
+
+    private LoopGains exact(int loop, GainSet written) {
+        Gains[] axes = new Gains[GainKey.AXES.size()];
+        for (int axis = 0; axis < axes.length; axis++) {
+            Double[] terms = new Double[GainKey.TERMS.size()];
+            for (int term = 0; term < terms.length; term++) {
+                GainKey key = GainKey.ALL.get(9 * loop + 3 * axis + term);
+                terms[term] = key.of(edits.containsKey(key) ? written : flying);
+            }
+            axes[axis] = terms[0] == null ? null : new Gains(terms[0], terms[1], terms[2]);
+        }
+        return axes[0] == null ? null : new LoopGains(axes[0], axes[1], axes[2]);
     }
 
     /** Returns what sending would change; empty while a cell holds no gain. */
@@ -161,7 +179,8 @@ final class GainsEditor {
 
     private static Double number(String written) {
         try {
-            double value = Double.parseDouble(written.trim());
+            // As the form reads it: many keyboards have a comma only.
+            double value = Double.parseDouble(written.trim().replace(',', '.'));
             boolean isGain = value >= 0 && value <= Gains.GREATEST;
             return isGain ? Double.valueOf(value) : null;
         } catch (NumberFormatException notOne) {

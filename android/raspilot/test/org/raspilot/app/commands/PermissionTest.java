@@ -1,0 +1,100 @@
+package org.raspilot.app.commands;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertTrue;
+
+import java.util.Collections;
+import java.util.Map;
+import org.junit.Test;
+
+public final class PermissionTest {
+    private static final Map<String, Object> NOTHING = Collections.emptyMap();
+    private static final Map<String, Object> REQUEST =
+            Collections.<String, Object>singletonMap("request", true);
+
+    @Test
+    public void aRoleMayWhatTheOnesBeforeMay() {
+        assertTrue(Permission.allows("pilot", "operator"));
+        assertTrue(Permission.allows("operator", "operator"));
+        assertFalse(Permission.allows("operator", "pilot"));
+        assertFalse(Permission.allows("observer", "operator"));
+    }
+
+    @Test
+    public void aRoleThatNobodyKnowsIsNoObjection() {
+        assertTrue(Permission.allows(null, "pilot"));
+        assertTrue(Permission.allows("captain", "pilot"));
+    }
+
+    @Test
+    public void whatDependsIsDecidedByItsFields() {
+        assertEquals("observer",
+                Permission.neededRole("arduino.pids.tunings", "depends", REQUEST));
+        assertEquals("pilot", Permission.neededRole("arduino.pids.tunings", "depends", NOTHING));
+        assertEquals("operator",
+                Permission.neededRole("up.heading.change", "depends", NOTHING));
+        assertEquals("pilot", Permission.neededRole("up.arm", "pilot", NOTHING));
+    }
+
+    @Test
+    public void onlyARequestAsksForNothingElse() {
+        assertTrue(Permission.isOnlyRequest("arduino.profile.request", NOTHING));
+        assertTrue(Permission.isOnlyRequest("arduino.pids.tunings", REQUEST));
+        assertFalse(Permission.isOnlyRequest("arduino.pids.tunings", NOTHING));
+        assertFalse(Permission.isOnlyRequest("up.arm", REQUEST));
+    }
+
+    @Test
+    public void withoutAServiceNothingIsOffered() {
+        assertEquals(Objection.NO_LINK, Permission.ofLink(null));
+    }
+
+    @Test
+    public void theMotorsStateDecidesWhatIsLeftToAsk() {
+        assertEquals(Objection.ARMED_ALREADY, Permission.ofMotor("up.arm", true, null));
+        assertEquals(Objection.NONE, Permission.ofMotor("up.arm", false, null));
+        assertEquals(Objection.DISARMED_ALREADY, Permission.ofMotor("up.disarm", false, null));
+        assertEquals(Objection.NONE, Permission.ofMotor("up.disarm", true, null));
+        assertEquals(Objection.NONE, Permission.ofMotor("up.arm", null, null));
+    }
+
+    @Test
+    public void gainsAreRefusedInFlightWhereTheAircraftSaysSo() {
+        String name = "arduino.pids.tunings";
+        assertEquals(Objection.ARMED, Permission.ofMotor(name, true, false));
+        assertEquals(Objection.NONE, Permission.ofMotor(name, true, true));
+        assertEquals(Objection.NONE, Permission.ofMotor(name, true, null));
+        assertEquals(Objection.NONE, Permission.ofMotor(name, false, false));
+    }
+
+    @Test
+    public void whatChangesTheFlightIsConfirmedAndWhatNobodyKnowsToo() {
+        assertTrue(Caution.isConfirmed("up.heading.change", NOTHING));
+        assertTrue(Caution.isConfirmed("up.flight_mode.set", NOTHING));
+        assertTrue(Caution.isConfirmed("arduino.calibrate", NOTHING));
+        assertTrue(Caution.isConfirmed("chute.open", NOTHING));
+        assertTrue(Caution.isConfirmed("android.reboot", NOTHING));
+        assertFalse(Caution.isConfirmed("android.speak", NOTHING));
+        assertFalse(Caution.isConfirmed("up.telemetry.frequency", NOTHING));
+        assertFalse(Caution.isConfirmed("black_box.mark", NOTHING));
+        assertFalse(Caution.isConfirmed("arduino.profile.request", NOTHING));
+    }
+
+    @Test
+    public void commandsAreFoundByWordsInAnyOrder() {
+        assertTrue(CommandGroup.matches("mode FLIGHT", "up.flight_mode.set", "A flight mode"));
+        assertTrue(CommandGroup.matches("", "anything"));
+        assertTrue(CommandGroup.matches("  arm ", "up.arm"));
+        assertFalse(CommandGroup.matches("arm glider", "up.arm", "Arms the motor"));
+    }
+
+    @Test
+    public void everyNameHasAGroup() {
+        assertEquals(CommandGroup.FLIGHT, CommandGroup.of("up.arm"));
+        assertEquals(CommandGroup.DATA, CommandGroup.of("up.telemetry.frequency"));
+        assertEquals(CommandGroup.BOARD, CommandGroup.of("arduino.calibrate"));
+        assertEquals(CommandGroup.PHONE, CommandGroup.of("android.speak"));
+        assertEquals(CommandGroup.OTHER, CommandGroup.of("chute.open"));
+    }
+}
