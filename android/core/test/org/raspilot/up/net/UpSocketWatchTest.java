@@ -50,6 +50,9 @@ public final class UpSocketWatchTest {
         network.newest().room = 2;
         socket.send(new byte[] {'a', 'b', 'c'});
         loop.advance(5000);
+        // There is room already, but the loop has not come to say so.
+        network.newest().room = 100;
+        loop.advance(1000);
         network.newest().makeRoom(100);
         assertEquals("abc\n", network.newest().written());
         loop.advance(1000);
