@@ -218,7 +218,7 @@ public final class AirborneSettings {
 
         /** Sets where Discovery asks; empty: 255.255.255.255 and every interface's own. */
         public Builder discoveryHosts(List<String> value) {
-            discoveryHosts = value;
+            discoveryHosts = new ArrayList<String>(value);
             return this;
         }
 

@@ -32,28 +32,27 @@ public final class Quaternion {
      * @param a where the first axis goes, of length one; b and c are square to it and each other
      */
     static Quaternion ofAxes(double[] a, double[] b, double[] c) {
-        // One of the four is at least a half: dividing by it is exact enough (Shepperd, 1978).
+        // The greatest of the four is at least one: the rest is taken from it (Shepperd, 1978).
         double fourW = 1 + a[0] + b[1] + c[2];
         double fourX = 1 + a[0] - b[1] - c[2];
         double fourY = 1 - a[0] + b[1] - c[2];
         double fourZ = 1 - a[0] - b[1] + c[2];
-        double most = Math.max(Math.max(fourW, fourX), Math.max(fourY, fourZ));
         double wx = b[2] - c[1];
         double wy = c[0] - a[2];
         double wz = a[1] - b[0];
         double xy = a[1] + b[0];
         double xz = a[2] + c[0];
         double yz = b[2] + c[1];
-        if (most == fourW) {
-            return new Quaternion(most, wx, wy, wz).unit();
+        if (fourW >= Math.max(fourX, Math.max(fourY, fourZ))) {
+            return new Quaternion(fourW, wx, wy, wz).unit();
         }
-        if (most == fourX) {
-            return new Quaternion(wx, most, xy, xz).unit();
+        if (fourX >= Math.max(fourY, fourZ)) {
+            return new Quaternion(wx, fourX, xy, xz).unit();
         }
-        if (most == fourY) {
-            return new Quaternion(wy, xy, most, yz).unit();
+        if (fourY >= fourZ) {
+            return new Quaternion(wy, xy, fourY, yz).unit();
         }
-        return new Quaternion(wz, xz, yz, most).unit();
+        return new Quaternion(wz, xz, yz, fourZ).unit();
     }
 
     /** Returns this times that: as rotations, that one first. */
