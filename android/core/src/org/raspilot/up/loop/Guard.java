@@ -1,9 +1,11 @@
 package org.raspilot.up.loop;
 
+import java.util.concurrent.atomic.AtomicLong;
+
 /** Runs calls so that what one throws is told and counted, and harms no other. */
 final class Guard {
     private final FaultListener listener;
-    private volatile long faults;
+    private final AtomicLong faults = new AtomicLong();
 
     Guard(FaultListener listener) {
         this.listener = listener;
@@ -23,16 +25,16 @@ final class Guard {
 
     /** Counts and tells a fault; an exception of the listener itself is a fault that is counted. */
     void tell(Throwable fault) {
-        faults++;
+        faults.incrementAndGet();
         try {
             listener.onFault(fault);
         } catch (RuntimeException another) {
-            faults++;
+            faults.incrementAndGet();
         }
     }
 
     /** Returns how many there were; may be asked on any thread. */
     long faults() {
-        return faults;
+        return faults.get();
     }
 }

@@ -7,6 +7,7 @@ import java.nio.channels.SelectionKey;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicLong;
 import java.util.concurrent.locks.LockSupport;
 
 /**
@@ -30,7 +31,7 @@ public final class SelectorLoop implements Loop, Network {
     private List<Runnable> posted = new ArrayList<Runnable>();
     private volatile Thread thread;
     private volatile boolean isStopped;
-    private volatile long rounds;
+    private final AtomicLong rounds = new AtomicLong();
 
     /**
      * Makes a loop that is not started yet.
@@ -103,7 +104,7 @@ public final class SelectorLoop implements Loop, Network {
 
     /** Returns how often the loop woke; may be asked on any thread. */
     public long rounds() {
-        return rounds;
+        return rounds.get();
     }
 
     @Override
@@ -187,7 +188,7 @@ public final class SelectorLoop implements Loop, Network {
     private void work() {
         try {
             while (!isStopped) {
-                rounds++;
+                rounds.incrementAndGet();
                 runPosted();
                 runTimers();
                 select();
