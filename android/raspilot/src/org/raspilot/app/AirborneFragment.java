@@ -9,7 +9,6 @@ import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService;
 import org.raspilot.up.android.ProblemListener;
-import org.raspilot.up.providers.Mounting;
 
 /** The airborne screen: what is sent, at which rate, whereto, and how the phone is mounted. */
 public final class AirborneFragment extends Fragment
@@ -17,6 +16,7 @@ public final class AirborneFragment extends Fragment
     private static final String IS_STARTING = "starting";
     private static final String WAS_ASKED = "asked";
 
+    private RaspilotApplication application;
     private AirborneLink link;
     private RunPanel run;
     private ProvidersPanel providers;
@@ -29,6 +29,7 @@ public final class AirborneFragment extends Fragment
     @Override
     public void onCreate(Bundle saved) {
         super.onCreate(saved);
+        application = RaspilotApplication.of(getActivity());
         isStarting = saved != null && saved.getBoolean(IS_STARTING);
         wasAsked = saved != null && saved.getBoolean(WAS_ASKED);
         link = new AirborneLink(getActivity(), this);
@@ -51,15 +52,10 @@ public final class AirborneFragment extends Fragment
             }
         });
         phone = new PhonePanel(getActivity(), root, settings);
-        mounting = new MountingPanel(root, settings, new MountingPanel.Listener() {
-            @Override
-            public void onMounting(Mounting newMounting) {
-                take(newMounting);
-            }
-        }, new ProblemListener() {
+        mounting = new MountingPanel(root, settings, new ProblemListener() {
             @Override
             public void onProblem(String sentence) {
-                application().note(sentence);
+                application.note(sentence);
             }
         });
         return root;
@@ -68,8 +64,8 @@ public final class AirborneFragment extends Fragment
     @Override
     public void onStart() {
         super.onStart();
-        application().events().watch(this);
-        application().spawning().watch(this);
+        application.events().watch(this);
+        application.spawning().watch(this);
         mounting.begin();
         link.begin();
         showAll();
@@ -85,8 +81,8 @@ public final class AirborneFragment extends Fragment
     public void onStop() {
         link.end();
         mounting.end();
-        application().spawning().watch(null);
-        application().events().unwatch(this);
+        application.spawning().watch(null);
+        application.events().unwatch(this);
         status = null;
         super.onStop();
     }
@@ -125,10 +121,13 @@ public final class AirborneFragment extends Fragment
 
     /** Goes on where the user has answered; what was refused is a sensor that is absent. */
     void permissionsAnswered() {
-        if (phone != null) {
-            phone.show();
+        if (getActivity() == null) {
+            return;
         }
-        if (link != null && link.isRunning()) {
+        if (phone != null) {
+            phone.answered();
+        }
+        if (link.isRunning()) {
             link.airside().permissionsChanged();
         }
         if (isStarting) {
@@ -138,10 +137,10 @@ public final class AirborneFragment extends Fragment
     }
 
     private void press() {
-        if (application().spawning().isAsking()) {
-            application().spawning().cancel();
+        if (application.spawning().isAsking()) {
+            application.spawning().cancel();
         } else if (link.isRunning()) {
-            new StopQuestion().show(getFragmentManager(), StopQuestion.TAG);
+            stop();
         } else if (!wasAsked && phone.ask()) {
             wasAsked = true;
             isStarting = true;
@@ -150,22 +149,22 @@ public final class AirborneFragment extends Fragment
         }
     }
 
+    private void stop() {
+        if (getFragmentManager().findFragmentByTag(StopQuestion.TAG) == null) {
+            new StopQuestion().show(getFragmentManager(), StopQuestion.TAG);
+        }
+    }
+
     private void start() {
         try {
             AirborneSettings settings = new AppSettings(getActivity()).airborne();
             if (settings.isByRunner()) {
-                application().spawning().ask(settings);
+                application.spawning().ask(settings);
             } else {
                 BaseUpService.start(getActivity(), RaspilotUpService.class);
             }
         } catch (IllegalArgumentException wrong) {
-            application().note(wrong.getMessage());
-        }
-    }
-
-    private void take(Mounting newMounting) {
-        if (link.isRunning()) {
-            link.airside().setMounting(newMounting);
+            application.note(wrong.getMessage());
         }
     }
 
@@ -193,13 +192,9 @@ public final class AirborneFragment extends Fragment
         if (link.isRunning()) {
             run.showRunning(status);
         } else {
-            EventBook.Entry newest = application().events().newest();
-            run.showStopped(application().spawning().isAsking(),
+            EventBook.Entry newest = application.events().newest();
+            run.showStopped(application.spawning().isAsking(),
                     newest == null ? null : newest.text());
         }
-    }
-
-    private RaspilotApplication application() {
-        return RaspilotApplication.of(getActivity());
     }
 }

@@ -41,6 +41,7 @@ final class AirborneLink {
         @Override
         public void onServiceDisconnected(ComponentName name) {
             airside = null;
+            bindAnew();
             watcher.onAirborne(null);
         }
     };
@@ -56,7 +57,7 @@ final class AirborneLink {
     void begin() {
         if (!isBound) {
             isBound = true;
-            context.bindService(new Intent(context, RaspilotUpService.class), connection, 0);
+            bind();
         }
     }
 
@@ -69,6 +70,18 @@ final class AirborneLink {
         if (isBound) {
             isBound = false;
             context.unbindService(connection);
+        }
+    }
+
+    private void bind() {
+        context.bindService(new Intent(context, RaspilotUpService.class), connection, 0);
+    }
+
+    /** A binding ends with the service that was stopped: the next one needs another. */
+    private void bindAnew() {
+        if (isBound) {
+            context.unbindService(connection);
+            bind();
         }
     }
 

@@ -15,20 +15,14 @@ import org.raspilot.up.providers.Side;
 
 /**
  * How the phone lies in the aeroplane: the aeroplane's attitude by the phone now, and the press
- * that makes it level. Works whether or not anything is sent. On the main thread.
+ * that makes it level. Works whether or not anything is sent; a service that sends hears of the
+ * new mounting by the settings. On the main thread.
  */
 final class MountingPanel implements SensorListener<Rotation> {
-    /** Hears of a new mounting. */
-    interface Listener {
-        /** Takes the mounting, which is kept already. */
-        void onMounting(Mounting mounting);
-    }
-
     private static final long PERIOD_MS = 100;
 
     private final Context context;
     private final AppSettings settings;
-    private final Listener listener;
     private final RotationFeed feed;
     private final TextView roll;
     private final TextView pitch;
@@ -38,11 +32,9 @@ final class MountingPanel implements SensorListener<Rotation> {
     private Mounting mounting;
     private Rotation newest;
 
-    MountingPanel(View root, AppSettings settings, Listener listener,
-            final ProblemListener problems) {
+    MountingPanel(View root, AppSettings settings, ProblemListener problems) {
         context = root.getContext();
         this.settings = settings;
-        this.listener = listener;
         feed = new RotationFeed(context, new AppSourceTexts(context), problems);
         roll = (TextView) root.findViewById(R.id.mounting_roll);
         pitch = (TextView) root.findViewById(R.id.mounting_pitch);
@@ -98,7 +90,6 @@ final class MountingPanel implements SensorListener<Rotation> {
             return;
         }
         settings.setMounting(mounting);
-        listener.onMounting(mounting);
         said.setText(R.string.mounting_done);
     }
 

@@ -26,6 +26,7 @@ final class PhonePanel {
     private final Activity activity;
     private final View location;
     private final View battery;
+    private boolean isPermitting;
 
     PhonePanel(Activity activity, final View root, final AppSettings settings) {
         this.activity = activity;
@@ -94,16 +95,21 @@ final class PhonePanel {
         return missing;
     }
 
-    /** Asks again, or, where the system does not ask any more, opens its page of permissions. */
-    private void permit() {
-        boolean isAskable = Build.VERSION.SDK_INT >= 23
-                && Asking.isReasonDue(activity, Manifest.permission.ACCESS_FINE_LOCATION);
-        if (isAskable) {
-            ask();
-        } else {
+    /** Hears that the user, or the system without asking, has answered. */
+    void answered() {
+        show();
+        boolean isRefusedForGood = Build.VERSION.SDK_INT >= 23 && !isLocationPermitted()
+                && !Asking.isReasonDue(activity, Manifest.permission.ACCESS_FINE_LOCATION);
+        if (isPermitting && isRefusedForGood) {
             open(new Intent(Settings.ACTION_APPLICATION_DETAILS_SETTINGS,
                     Uri.fromParts("package", activity.getPackageName(), null)));
         }
+        isPermitting = false;
+    }
+
+    /** Asks; where the system does not ask any more, its page of permissions follows. */
+    private void permit() {
+        isPermitting = ask();
     }
 
     private void open(Intent screen) {

@@ -9,4 +9,10 @@ public final class RaspilotTelemetryService extends TelemetryService {
     protected GroundSettings readSettings() {
         return new AppSettings(this).ground();
     }
+
+    @Override
+    protected boolean isOnWifi() {
+        AppSettings settings = new AppSettings(this);
+        return settings.isOnWifi() && settings.ground().isDirect();
+    }
 }

@@ -1,6 +1,8 @@
 package org.raspilot.app;
 
 import android.app.Activity;
+import android.content.SharedPreferences;
+import android.preference.PreferenceManager;
 import org.raspilot.up.airborne.AirborneMode;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
@@ -11,6 +13,29 @@ import org.raspilot.up.android.SourceTexts;
 /** The airborne end, by the settings of this application. */
 public final class RaspilotUpService extends BaseUpService {
     private static final String CHANNEL = "airborne";
+
+    /** The system keeps no listener that nobody else keeps. */
+    private final SharedPreferences.OnSharedPreferenceChangeListener changes =
+            new SharedPreferences.OnSharedPreferenceChangeListener() {
+                @Override
+                public void onSharedPreferenceChanged(SharedPreferences preferences, String key) {
+                    takeChange(key);
+                }
+            };
+
+    @Override
+    public void onCreate() {
+        super.onCreate();
+        PreferenceManager.getDefaultSharedPreferences(this)
+                .registerOnSharedPreferenceChangeListener(changes);
+    }
+
+    @Override
+    public void onDestroy() {
+        PreferenceManager.getDefaultSharedPreferences(this)
+                .unregisterOnSharedPreferenceChangeListener(changes);
+        super.onDestroy();
+    }
 
     @Override
     protected AirborneSettings readSettings() {
@@ -44,17 +69,26 @@ public final class RaspilotUpService extends BaseUpService {
         RaspilotApplication.of(this).note(getString(R.string.altitude_zeroed, hPa));
     }
 
+    /** Takes what holds at once; everything else holds from the next start on. */
+    private void takeChange(String key) {
+        if (getString(R.string.key_mounting).equals(key)) {
+            setMounting(new AppSettings(this).mounting());
+        } else if (getString(R.string.key_reference_pressure).equals(key)) {
+            setReferencePressureHPa(new AppSettings(this).referencePressureHPa());
+        }
+    }
+
     @Override
     protected NoticeTexts noticeTexts() {
         return new NoticeTexts() {
             @Override
             public int icon() {
-                return R.drawable.ic_notice;
+                return R.drawable.ic_notification;
             }
 
             @Override
             public int stopIcon() {
-                return R.drawable.ic_stop;
+                return android.R.drawable.ic_menu_close_clear_cancel;
             }
 
             @Override

@@ -17,6 +17,8 @@ import java.util.Map;
 public final class SettingsFragment extends PreferenceFragment
         implements SharedPreferences.OnSharedPreferenceChangeListener,
         Preference.OnPreferenceChangeListener {
+    private static final String GROUND = "ground_";
+
     private final Map<String, SettingRule> rules = new LinkedHashMap<String, SettingRule>();
 
     @Override
@@ -69,6 +71,8 @@ public final class SettingsFragment extends PreferenceFragment
         showAll();
         if (getString(R.string.key_theme).equals(key)) {
             getActivity().recreate();
+        } else if (key != null && key.startsWith(GROUND)) {
+            TelemetryLink.of(getActivity()).reload();
         }
     }
 

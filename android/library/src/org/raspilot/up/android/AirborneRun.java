@@ -232,11 +232,13 @@ final class AirborneRun {
         @Override
         public void onConnected(Place place) {
             tellStatus();
+            tellEvent(airborne.status().linkText());
         }
 
         @Override
         public void onDisconnected(String reason) {
             tellStatus();
+            tellEvent(reason);
         }
 
         @Override

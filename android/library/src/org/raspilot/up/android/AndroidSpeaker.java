@@ -65,6 +65,7 @@ final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
         }
         isReady = isSuccess;
         if (!isSuccess) {
+            speech.shutdown();
             speech = null;
             problems.onProblem(absence);
         }

@@ -80,6 +80,20 @@ public abstract class BaseUpService extends Service {
     protected void onUp(Up up) {
     }
 
+    /** Takes another mounting at once; without effect where nothing runs. */
+    protected final void setMounting(Mounting mounting) {
+        if (run != null) {
+            run.setMounting(mounting);
+        }
+    }
+
+    /** Takes the pressure at altitude zero, hPa, at once; without effect where nothing runs. */
+    protected final void setReferencePressureHPa(double hPa) {
+        if (run != null) {
+            run.setReferencePressureHPa(hPa);
+        }
+    }
+
     @Override
     public void onCreate() {
         super.onCreate();
@@ -182,20 +196,6 @@ public abstract class BaseUpService extends Service {
             if (run != null) {
                 notice.begin(noticeText(newest), usesLocation());
                 run.restart(LocationProvider.NAME);
-            }
-        }
-
-        /** Takes another mounting at once. */
-        public void setMounting(Mounting mounting) {
-            if (run != null) {
-                run.setMounting(mounting);
-            }
-        }
-
-        /** Takes the pressure at altitude zero, hPa, at once. */
-        public void setReferencePressureHPa(double hPa) {
-            if (run != null) {
-                run.setReferencePressureHPa(hPa);
             }
         }
 

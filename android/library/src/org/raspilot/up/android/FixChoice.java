@@ -2,7 +2,7 @@ package org.raspilot.up.android;
 
 /**
  * Chooses between the GPS and the network's location: the GPS always; the network's only while
- * the GPS has been silent for {@link #GPS_SILENT_MS}. On one thread.
+ * the GPS has been silent for {@link #GPS_SILENT_MS}. On any thread.
  */
 final class FixChoice {
     /** A GPS that said nothing for so long, ms, is replaced. */
@@ -12,7 +12,7 @@ final class FixChoice {
     private long gpsMs;
 
     /** Says whether a fix that comes now is the one to send. */
-    boolean takes(boolean isGps, long nowMs) {
+    synchronized boolean takes(boolean isGps, long nowMs) {
         if (isGps) {
             hasGps = true;
             gpsMs = nowMs;
@@ -22,7 +22,7 @@ final class FixChoice {
     }
 
     /** Forgets what was heard. */
-    void forget() {
+    synchronized void forget() {
         hasGps = false;
     }
 }

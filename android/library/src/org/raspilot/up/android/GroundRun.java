@@ -46,16 +46,16 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     private final Up up;
     private volatile boolean isEnded;
 
-    /** Begins to connect, on Wi-Fi or whatever there is; the view is told. */
-    GroundRun(Context context, GroundSettings settings, GroundView view, final Setup setup)
-            throws IOException {
+    /** Begins to connect; the view is told. */
+    GroundRun(Context context, GroundSettings settings, boolean isOnWifi, GroundView view,
+            final Setup setup) throws IOException {
         this.view = view;
         loop = new SelectorLoop("up ground", new Faults("up ground"));
         loop.start();
         up = new Up(loop, this);
         side = new GroundSide(loop, settings, new PreferencesTokenStore(context),
                 up.commandExecutor(), this, new Random());
-        network = new NetworkWatch(context, false, new Runnable() {
+        network = new NetworkWatch(context, isOnWifi, new Runnable() {
             @Override
             public void run() {
                 comeBack();

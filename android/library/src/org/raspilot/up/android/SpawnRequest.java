@@ -52,18 +52,18 @@ final class SpawnRequest {
             client = new RunnerClient(loop, host, port,
                     new RunnerRequest(aircraft, chosen, null));
         } catch (IllegalArgumentException wrong) {
-            results.offer(SpawnResult.refused(wrong.getMessage()));
+            results.add(SpawnResult.refused(wrong.getMessage()));
             return;
         }
         client.find(new FindListener() {
             @Override
             public void onFound(Place place) {
-                results.offer(result(client.lastAnswer(), place));
+                results.add(result(client.lastAnswer(), place));
             }
 
             @Override
             public void onNotFound(String reason) {
-                results.offer(SpawnResult.refused(reason));
+                results.add(SpawnResult.refused(reason));
             }
         });
     }

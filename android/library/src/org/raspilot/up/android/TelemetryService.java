@@ -38,6 +38,14 @@ public abstract class TelemetryService extends Service {
      */
     protected abstract GroundSettings readSettings();
 
+    /**
+     * Returns whether sockets are to stay on Wi-Fi while there is one, from Android 6 on, as for
+     * an aircraft's own access point without internet.
+     */
+    protected boolean isOnWifi() {
+        return false;
+    }
+
     /** Registers the application's own handlers, telemetry's too; on the loop. */
     protected void onUp(Up up) {
     }
@@ -62,7 +70,7 @@ public abstract class TelemetryService extends Service {
     private void begin() {
         fault = "";
         try {
-            run = new GroundRun(this, readSettings(), view, new GroundRun.Setup() {
+            run = new GroundRun(this, readSettings(), isOnWifi(), view, new GroundRun.Setup() {
                 @Override
                 public void onUp(Up up) {
                     TelemetryService.this.onUp(up);
