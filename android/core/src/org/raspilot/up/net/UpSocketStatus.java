@@ -1,6 +1,6 @@
 package org.raspilot.up.net;
 
-/** Where an {@link UpSocket} stands: what it does, with which place, and why it is not connected. */
+/** Where an {@link UpSocket} stands: what it does, with which place, why it is not connected. */
 public final class UpSocketStatus {
     /** What a socket does. */
     public enum State {

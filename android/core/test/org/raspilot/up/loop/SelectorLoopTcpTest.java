@@ -70,6 +70,7 @@ public final class SelectorLoopTcpTest {
         new DataInputStream(peer.getInputStream()).readFully(got);
         assertArrayEquals(Arrays.copyOf(sent, taken), got);
         running.await("room", heard.has("writable"));
+        assertAsleep();
         peer.close();
         running.faults.mustBeNone();
     }
@@ -213,11 +214,7 @@ public final class SelectorLoopTcpTest {
                 peer.close();
             }
         }
-        running.pass(1);
-        final long before = loop.rounds();
-        running.pass(300);
-        final long rounds = loop.rounds() - before;
-        assertTrue("woke " + rounds + " times", rounds <= 6);
+        assertAsleep();
         running.faults.mustBeNone();
     }
 
@@ -259,6 +256,14 @@ public final class SelectorLoopTcpTest {
         peer.getOutputStream().write(8);
         running.await("bytes", heard.hasBytes(1));
         assertEquals(Arrays.asList("connected"), heard.told);
+    }
+
+    private void assertAsleep() {
+        running.pass(1);
+        final long before = loop.rounds();
+        running.pass(300);
+        final long rounds = loop.rounds() - before;
+        assertTrue("woke " + rounds + " times", rounds <= 6);
     }
 
     private TcpConnection connect(final String host, final int port, final TcpListener listener) {

@@ -14,7 +14,8 @@ import org.junit.Test;
 public final class RunnerAnswerTest {
     private static final String ANSWER = "{\"message\": \"Raspilot spawned\", \"spawned\": true,"
             + " \"error\": null, \"myAddress\": \"203.0.113.9\", \"running\": true, \"pid\": 4242,"
-            + " \"instance\": \"glider-1\", \"ports\": {\"general\": 50001, \"orientation\": 50000},"
+            + " \"instance\": \"glider-1\","
+            + " \"ports\": {\"general\": 50001, \"orientation\": 50000},"
             + " \"proxy\": {\"host\": \"proxy.example\", \"airborne\": 3003, \"ground\": 3004}}";
 
     @Test
