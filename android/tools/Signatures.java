@@ -19,10 +19,11 @@ import org.codehaus.mojo.animal_sniffer.logging.Logger;
  * Checks by Animal Sniffer that classes call nothing which an Android level does not have.
  *
  * <p>{@code build SIGNATURE JAR...} notes what the jars offer; {@code check SIGNATURE IGNORED
- * ALLOWED JAR...} checks the jars against it. IGNORED are packages, with commas, that are not
+ * ALLOWED JAR...} checks the jars against it; {@code --} begins another check. IGNORED are packages, with commas, that are not
  * looked at; ALLOWED is a file with the references (one a line, as this program says them, # for
  * a comment) that are right although the signature lacks them, or {@code -}. A reference that is
- * allowed and never met is told too: the list stays true. Exits with 1 where something is told.
+ * allowed and never met is told too: the list stays true. Exits with 1 where something is
+ * told.
  */
 public final class Signatures {
     private static final String SAID = "Undefined reference: ";
@@ -30,10 +31,19 @@ public final class Signatures {
     private Signatures() {}
 
     public static void main(String[] arguments) throws IOException {
-        List<String> jars = Arrays.asList(arguments);
+        List<String> words = Arrays.asList(arguments);
         if (arguments[0].equals("build")) {
-            build(arguments[1], jars.subList(2, jars.size()));
-        } else if (!check(arguments[1], arguments[2], arguments[3], jars.subList(4, jars.size()))) {
+            build(arguments[1], words.subList(2, words.size()));
+            return;
+        }
+        boolean clean = true;
+        List<String> rest = words.subList(1, words.size());
+        while (!rest.isEmpty()) {
+            int end = rest.contains("--") ? rest.indexOf("--") : rest.size();
+            clean &= check(rest.get(0), rest.get(1), rest.get(2), rest.subList(3, end));
+            rest = rest.subList(Math.min(end + 1, rest.size()), rest.size());
+        }
+        if (!clean) {
             System.exit(1);
         }
     }

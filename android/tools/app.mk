@@ -63,19 +63,21 @@ $(APP_JAR): $(APP_CODE) $(CORE_JAR) $(NEWER_JARS) $(BOOT) $(BUILD)/APP_CODE.list
 # Before anything is packed: no call may be newer than its guard.
 $(DEX): $(APP_JAR) $(NEWER_JARS) $(CORE_JAR) $(BUILD)/.guarded $(JARS)/.dx
 	@echo 'translate to dex'
-	@java -cp $(JARS)/dalvik-dx-16.0.1.jar com.android.dx.command.Main --dex \
+	@$(JVM) -cp $(JARS)/dalvik-dx-16.0.1.jar com.android.dx.command.Main --dex \
 		--min-sdk-version=$(LEAST) --no-locals --output=$@ $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
 
 $(BUILD)/unsigned.apk: $(RESOURCES) $(DEX) tools/assemble.py | $(BUILD)/debian-tools
 	@$(PYTHON) tools/assemble.py $(RESOURCES) $(DEX) $@.loose
 	@rm -f $@ && zipalign -p 4 $@.loose $@ && rm $@.loose
 
-$(APK): $(BUILD)/unsigned.apk tools/sign
+# Another key decides, too.
+SIGNER := $(ANDROID_KEYSTORE) $(ANDROID_KEY_ALIAS)
+$(APK): $(BUILD)/unsigned.apk $(BUILD)/SIGNER.list tools/sign
 	@tools/sign $< $@ $(BUILD)/debug.keystore
 
 apk: $(APK)
 	@zipalign -c -p 4 $(APK) || { echo '$(APK) is not aligned' >&2; exit 1; }
-	@said=$$(apksigner verify --verbose --min-sdk-version $(LEAST) -Werr $(APK)) && \
+	@said=$$(apksigner -JXX:TieredStopAtLevel=1 verify --verbose --min-sdk-version $(LEAST) -Werr $(APK)) && \
 		echo "$$said" | grep -E '^(Verifies|Verified using v[123] )' || \
 		{ echo "$$said" >&2; exit 1; }
 	@$(PYTHON) tools/verify.py $(APK) $(MANIFEST) $(VERSION) $(LIMIT)

@@ -4,8 +4,9 @@ PUBLIC_26 := $(JARS)/gummy-bears-api-26-0.12.0.signature
 # No signature of API 29 can be had: what it has and API 26 has not stands in a list.
 PUBLIC_29 := $(PUBLIC_26)
 SNIFFER := $(JARS)/animal-sniffer-1.24.jar:$(JARS)/asm-9.7.jar
-SNIFF := java -cp $(BUILD)/signatures.jar:$(SNIFFER) Signatures
+SNIFF := $(JVM) -cp $(BUILD)/signatures.jar:$(SNIFFER) Signatures
 OURS := org.raspilot
+comma := ,
 
 $(BUILD)/signatures.jar: tools/Signatures.java $(JARS)/.sniffer
 	$(call compile,$@,tools/Signatures.java,$(SNIFFER))
@@ -18,24 +19,24 @@ $(BUILD)/api-$(LEAST).signature: $(STUBS:$(JARS)/%=$(JARS)/.stubs) $(BOOT) $(BUI
 $(BUILD)/.guarded: $(CORE_JAR) $(APP_JAR) $(NEWER_JARS) $(MANIFEST) $(BUILD)/api-$(LEAST).signature \
 		tools/guards.py $(LEVELS:%=$(JARS)/.level-%) $(wildcard tools/newer-*.list)
 	@echo 'check that no call is newer than its guard'
-	@$(SNIFF) check $(BUILD)/api-$(LEAST).signature $(OURS) - $(CORE_JAR) $(APP_JAR)
-	@$(foreach each,$(LEVELS),$(SNIFF) check $(BUILD)/api-$(LEAST).signature $(OURS),android - \
-		$(BUILD)/newer-$(each).jar && $(SNIFF) check $(PUBLIC_$(each)) $(OURS) \
-		$(or $(wildcard tools/newer-$(each).list),-) $(BUILD)/newer-$(each).jar &&) true
+	@$(SNIFF) check $(BUILD)/api-$(LEAST).signature $(OURS) - $(CORE_JAR) $(APP_JAR) \
+		$(if $(LEVELS),-- $(BUILD)/api-$(LEAST).signature $(OURS)$(comma)android - $(NEWER_JARS)) \
+		$(foreach each,$(LEVELS),-- $(PUBLIC_$(each)) $(OURS) \
+		$(or $(wildcard tools/newer-$(each).list),-) $(BUILD)/newer-$(each).jar)
 	@$(PYTHON) tools/guards.py $(MANIFEST) $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
 	@touch $@
 
 SPOTBUGS_PATH = $(subst $(empty) $(empty),:,$(patsubst %,$(JARS)/%,$(shell \
 	$(PYTHON) tools/fetch.py --list $(JARS) spotbugs)))
+SPOTBUGS_KNOWN = $(subst $(empty) $(empty),:,$(STUBS) $(BOOT) $(foreach each,$(LEVELS),$(FRAMEWORK_$(each))))
 SPOTTED := $(CORE_JAR) $(VIRTUAL_JAR) $(APP_JAR) $(NEWER_JARS)
 
 check: $(BUILD)/.guarded $(BUILD)/.spotted
 
 $(BUILD)/.spotted: $(SPOTTED) tools/spotbugs.xml $(JARS)/.spotbugs
 	@echo 'look for bugs'
-	@java -Dslf4j.internal.verbosity=ERROR -cp "$(SPOTBUGS_PATH)" edu.umd.cs.findbugs.FindBugs2 -effort:max -medium \
-		-exitcode -longBugCodes -exclude tools/spotbugs.xml \
-		-auxclasspath $(STUBS):$(BOOT):$(subst $(empty) $(empty),:,$(foreach each,$(LEVELS),$(FRAMEWORK_$(each)))) \
-		$(SPOTTED)
+	@java -XX:+UseSerialGC -Dslf4j.internal.verbosity=ERROR -cp '$(SPOTBUGS_PATH)' \
+		edu.umd.cs.findbugs.FindBugs2 -effort:max -medium -longBugCodes -exitcode \
+		-exclude tools/spotbugs.xml -auxclasspath '$(SPOTBUGS_KNOWN)' $(SPOTTED)
 	@echo 'SpotBugs finds nothing'
 	@touch $@

@@ -26,6 +26,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 NEWER = re.compile(r"[\w/.]*[/.]api(\d+)[/.]\w[\w$]*")
+MENTIONED = re.compile(rb"[/.]api\d+[/.]")
 CLASS = re.compile(r"^(?:\w+ )*(?:class|interface|enum) ([\w.$]+)")
 INSTRUCTION = re.compile(r"^\s+(\d+): (\w+)\s*(.*)$")
 CASE = re.compile(r"^\s+(-?\d+|default): (\d+)$")
@@ -214,13 +215,14 @@ def faults(listing: Listing) -> Iterator[str]:
 
 
 def listed(jar: Path) -> str:
-    """Return what ``javap`` says of every class in ``jar``."""
+    """Return what ``javap`` says of every class in ``jar`` that names one for a newer Android."""
     with zipfile.ZipFile(jar) as opened:
         names = [each for each in opened.namelist() if each.endswith(".class")]
-    classes = [each.removesuffix(".class").replace("/", ".") for each in names]
+        telling = [each for each in names if MENTIONED.search(opened.read(each))]
+    classes = [each.removesuffix(".class").replace("/", ".") for each in telling]
     if not classes:
         return ""
-    command = ["javap", "-c", "-p", "-cp", str(jar), *classes]
+    command = ["javap", "-J-XX:TieredStopAtLevel=1", "-c", "-p", "-cp", str(jar), *classes]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 

@@ -1,0 +1,137 @@
+"""Jars are fetched once, and only as they are listed; what is missing is told in a sentence."""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+import sys
+
+import pytest
+
+from tests.support.android import ANDROID, JARS, AndroidBuildError, make, need_jars, need_jdk
+from tests.support.java import path_without
+
+sys.path.insert(0, str(ANDROID / "tools"))
+import fetch
+
+JUNIT = "junit-4.13.2.jar"
+HAMCREST = "hamcrest-core-1.3.jar"
+
+
+@pytest.fixture
+def copy(tmp_path):
+    """The build without its sources, and the jars of JUnit as they were fetched."""
+    need_jars("junit")
+    made = tmp_path / "android"
+    shutil.copytree(ANDROID / "tools", made / "tools", ignore=shutil.ignore_patterns("__pycache__"))
+    for name in ("Makefile", "pom.xml", "jars.sha256"):
+        shutil.copy(ANDROID / name, made)
+    jars = made / "build" / "jars"
+    jars.mkdir(parents=True)
+    for name in (JUNIT, HAMCREST):
+        shutil.copy(JARS / name, jars)
+    return made
+
+
+def said_by(folder, *arguments, env=None):
+    with pytest.raises(AndroidBuildError) as failure:
+        make(*arguments, folder=folder, env=env)
+    return str(failure.value)
+
+
+def test_every_jar_of_the_list_is_in_the_pom_and_the_other_way_round():
+    named = {name for names in fetch.groups(fetch.POM).values() for name in names}
+    assert named == set(fetch.sums(fetch.SUMS))
+
+
+def test_no_host_is_named():
+    for name in ("pom.xml", "Makefile", "jars.sha256", "tools/fetch.py"):
+        text = (ANDROID / name).read_text().replace("http://maven.apache.org/xsd", "")
+        text = text.replace("http://maven.apache.org/POM", "").replace("http://www.w3.org", "")
+        assert "://" not in text and "<repositor" not in text
+
+
+def test_what_is_there_is_not_fetched_again(copy, tmp_path):
+    without_maven = {"PATH": path_without(tmp_path / "bin", "mvn")}
+    assert "fetch" not in make("build/jars/.junit", folder=copy, env=without_maven)
+
+
+def test_what_is_missing_is_fetched_and_told(copy):
+    (copy / "build" / "jars" / HAMCREST).unlink()
+    assert "fetch junit: 1 jars by Maven" in make("build/jars/.junit", folder=copy)
+    assert (copy / "build" / "jars" / HAMCREST).read_bytes() == (JARS / HAMCREST).read_bytes()
+
+
+def test_another_sum_in_the_list_fails_and_leaves_no_jar(copy):
+    listed = copy / "jars.sha256"
+    other = hashlib.sha256(b"other").hexdigest()
+    lines = listed.read_text().splitlines()
+    listed.write_text("\n".join(f"{other}  {JUNIT}" if JUNIT in each else each for each in lines))
+    said = said_by(copy, "build/jars/.junit")
+    assert f"{JUNIT} is not what it should be: its SHA-256 is " in said
+    assert f"jars.sha256 says {other}; it was removed" in said
+    assert not (copy / "build" / "jars" / JUNIT).exists()
+
+
+def test_a_jar_that_was_changed_fails(copy):
+    with (copy / "build" / "jars" / JUNIT).open("ab") as jar:
+        jar.write(b"!")
+    assert f"{JUNIT} is not what it should be" in said_by(copy, "build/jars/.junit")
+
+
+def test_a_jar_without_a_sum_fails(copy):
+    listed = copy / "jars.sha256"
+    kept = [each for each in listed.read_text().splitlines() if JUNIT not in each]
+    listed.write_text("\n".join(kept))
+    assert f"jars.sha256 has no SHA-256 of {JUNIT}" in said_by(copy, "build/jars/.junit")
+
+
+def test_without_maven_a_missing_jar_is_a_sentence(copy, tmp_path):
+    (copy / "build" / "jars" / HAMCREST).unlink()
+    without_maven = {"PATH": path_without(tmp_path / "bin", "mvn")}
+    said = said_by(copy, "build/jars/.junit", env=without_maven)
+    assert "fetching jars needs mvn (Debian packages maven default-jdk-headless)" in said
+
+
+@pytest.mark.parametrize(
+    ("target", "tool", "sentence"),
+    [
+        ("build/up-core.jar", "javac", "needs javac: apt-get install default-jdk-headless"),
+        ("build/debian-tools", "aapt", "needs aapt: apt-get install aapt android-framework-res"),
+        ("build/debian-tools", "dexdump", "needs dexdump: apt-get install aapt"),
+    ],
+)
+def test_a_missing_tool_is_a_sentence(copy, tmp_path, target, tool, sentence):
+    path = {"PATH": path_without(tmp_path / "bin", tool)}
+    assert sentence in said_by(copy, target, env=path)
+
+
+def test_core_and_virtual_need_a_jdk_alone(copy, tmp_path):
+    need_jdk()
+    shutil.rmtree(copy / "build")
+    for name in ("core", "virtual"):
+        source = copy / name / "src" / "Nothing.java"
+        source.parent.mkdir(parents=True)
+        source.write_text(f"/** Nothing. */ public final class Nothing {{ int {name}; }}\n")
+    alone = path_without(tmp_path / "bin", "mvn", "aapt", "zipalign", "apksigner", "dexdump")
+    make("core", "virtual", folder=copy, env={"PATH": alone})
+    assert sorted(each.name for each in (copy / "build").glob("*.jar")) == [
+        "up-core.jar",
+        "virtual-phone.jar",
+    ]
+    assert "compile" not in make("core", "virtual", folder=copy, env={"PATH": alone})
+
+
+def test_no_source_is_a_sentence(copy):
+    assert "There are no sources for build/up-core.jar" in said_by(copy, "core")
+
+
+def test_what_is_not_ready_is_said_and_skipped_unless_nothing_may_be(tmp_path):
+    path = {"PATH": path_without(tmp_path / "bin", "aapt", "javac")}
+    where_ready = ANDROID / "tools" / "where_ready"
+    makefile = tmp_path / "Makefile"
+    makefile.write_text(f"all:\n\t@{where_ready} check\n")
+    said = make(folder=tmp_path, env=path | {"UP_REQUIRE_TOOLS": ""})
+    assert "android: skipped (needs the Debian packages default-jdk-headless aapt" in said
+    said = said_by(tmp_path, env=path | {"UP_REQUIRE_TOOLS": "1"})
+    assert "nothing may be skipped here" in said
