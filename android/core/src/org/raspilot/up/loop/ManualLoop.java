@@ -6,8 +6,8 @@ import java.util.ArrayDeque;
  * A loop whose time stands still until it is told to pass: for tests and for a stepped program.
  *
  * <p>Calls run inside {@link #advance}, on the thread that called it. {@link #post} may be called
- * on any thread, everything else only on the one that advances. The network is handed in; when it is
- * a {@link SelectorLoop}, advance on that loop, so that its listeners run there too.
+ * on any thread, everything else only on the one that advances. The network is handed in; when it
+ * is a {@link SelectorLoop}, advance on that loop, so that its listeners run there too.
  */
 public final class ManualLoop implements Loop {
     private final Network network;

@@ -201,7 +201,7 @@ public final class SelectorLoop implements Loop, Network {
     private void run(Runnable call) {
         if (!isStopped) {
             guard.run(call);
-            // Left standing, the mark would close the next socket that is written to.
+            // Left standing, the mark would let the selector return at once, again and again.
             Thread.interrupted();
         }
     }

@@ -241,7 +241,7 @@ public final class SelectorLoopTcpTest {
     }
 
     @Test
-    public void aCallThatLeavesItsThreadInterruptedClosesNoSocket() throws Exception {
+    public void aCallThatLeavesItsThreadInterruptedKeepsNobodyAwake() throws Exception {
         final TcpConnection connection = connect("127.0.0.1", server.getLocalPort(), heard);
         final Socket peer = accept();
         running.await("connected", heard.has("connected"));
@@ -251,6 +251,7 @@ public final class SelectorLoopTcpTest {
                 Thread.currentThread().interrupt();
             }
         });
+        assertAsleep();
         assertEquals(1, write(connection, new byte[] {7}));
         assertEquals(7, peer.getInputStream().read());
         peer.getOutputStream().write(8);
