@@ -50,10 +50,10 @@ public final class Telemetry {
         final Map<String, Double> ages = new LinkedHashMap<String, Double>();
         final Map<String, Object> told = bare.object("age_ms");
         if (told != null) {
-            for (String reading : told.keySet()) {
-                final Double ageMs = number(told.get(reading));
+            for (Map.Entry<String, Object> each : told.entrySet()) {
+                final Double ageMs = number(each.getValue());
                 if (ageMs != null) {
-                    ages.put(reading, ageMs);
+                    ages.put(each.getKey(), ageMs);
                 }
             }
         }
