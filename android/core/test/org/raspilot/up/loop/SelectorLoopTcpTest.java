@@ -150,29 +150,34 @@ public final class SelectorLoopTcpTest {
         final Socket peer = accept();
         running.await("connected", heard.has("connected"));
         final String words = "UP1 error code=taken";
-        final int writes = running.call(new Callable<Integer>() {
+        final int[] writes = new int[1];
+        // While another socket is handled, so that the writes fail before the loop reads again.
+        connect("127.0.0.1", server.getLocalPort(), new Heard() {
             @Override
-            public Integer call() throws IOException {
-                // All in one call of the loop, so that the writes fail before it can read.
-                peer.getOutputStream().write(words.getBytes("US-ASCII"));
-                peer.setSoLinger(true, 0);
-                peer.close();
-                int count = 0;
-                while (connection.write(new byte[1], 0, 1) == 1) {
-                    count++;
+            public void onBytes(byte[] read, int length) {
+                try {
+                    peer.getOutputStream().write(words.getBytes("US-ASCII"));
+                    peer.setSoLinger(true, 0);
+                    peer.close();
+                } catch (IOException error) {
+                    throw new IllegalStateException(error);
                 }
-                return count;
+                while (writes[0] < 1000 && connection.write(new byte[1], 0, 1) == 1) {
+                    writes[0]++;
+                }
             }
         });
-        assertTrue("wrote " + writes, writes < 1000);
+        accept().getOutputStream().write(1);
         running.await("the end", new Callable<Boolean>() {
             @Override
             public Boolean call() {
                 return heard.told.size() > 1;
             }
         });
+        assertTrue("wrote " + writes[0], writes[0] < 1000);
         assertEquals(words, heard.bytes.toString("US-ASCII"));
         assertEquals(2, heard.told.size());
+        running.faults.mustBeNone();
     }
 
     @Test

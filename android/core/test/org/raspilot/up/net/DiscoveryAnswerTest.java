@@ -42,7 +42,7 @@ public final class DiscoveryAnswerTest {
         final long seed = System.nanoTime();
         final Random random = new Random(seed);
         final byte[] letters = "0123456789.. \n".getBytes(Charset.forName("US-ASCII"));
-        for (int i = 0; i < 100000; i++) {
+        for (int i = 0; i < 20000; i++) {
             final byte[] bytes = new byte[random.nextInt(20)];
             random.nextBytes(bytes);
             for (int j = 0; i % 2 == 0 && j < bytes.length; j++) {

@@ -91,7 +91,7 @@ public final class RunnerAnswerTest {
     public void noBytesBreakIt() {
         final long seed = System.nanoTime();
         final Random random = new Random(seed);
-        for (int i = 0; i < 50000; i++) {
+        for (int i = 0; i < 10000; i++) {
             final StringBuilder line = new StringBuilder(ANSWER);
             for (int j = random.nextInt(4); j >= 0; j--) {
                 final int at = random.nextInt(line.length());
