@@ -19,12 +19,6 @@ final class AnswerWatch {
     private final Loop loop;
     private final Runnable onDead;
     private final String prefix;
-    private final Runnable ending = new Runnable() {
-        @Override
-        public void run() {
-            onDead.run();
-        }
-    };
     private Cancellable timer;
     private long asked;
     private long heardMs;
@@ -79,7 +73,7 @@ final class AnswerWatch {
         isFirst = false;
         isAsking = true;
         if (isAnswering) {
-            timer = loop.schedule(ANSWER_MS, ending);
+            timer = loop.schedule(ANSWER_MS, onDead);
         }
         asked++;
         return prefix + asked;
