@@ -120,7 +120,8 @@ public final class HorizonGeometry {
     private static float[] rungs() {
         float[] found = new float[2 * (8 + 14)];
         int count = 0;
-        for (float pitch = -90; pitch <= 90; pitch += 2.5f) {
+        for (int step = -36; step <= 36; step++) {
+            float pitch = step * 2.5f;
             boolean isFine = pitch % 5 != 0;
             if (pitch != 0 && !(isFine && Math.abs(pitch) >= 20)) {
                 found[count++] = pitch;
