@@ -33,12 +33,13 @@ $(BUILD)/debian-tools: tools/app.mk
 $(BOOT): tools/boot.py tools/pack.py $(JARS)/.stubs
 	@$(PYTHON) tools/boot.py $(JARS)/android-all-4.1.2_r1-robolectric-0.jar $@
 
-# The manifest's package is that of R; the application's name is shorter.
+# The manifest's package is that of R; the application's name is shorter. Our PNGs are small
+# already (tools/icons.py): aapt's own packing makes them larger. Nine-patches it would have to.
 $(RESOURCES) $(R_JAVA) &: $(RES) $(MANIFEST) $(BUILD)/RES.list ../up/version.py tools/aapt \
 		| $(BUILD)/debian-tools
 	@echo 'compile the resources'
 	@mkdir -p $(BUILD)/gen
-	@tools/aapt package -f -M $(MANIFEST) -S $(RASPILOT)/res \
+	@tools/aapt package -f --no-crunch -M $(MANIFEST) -S $(RASPILOT)/res \
 		$(if $(wildcard $(RASPILOT)/assets),-A $(RASPILOT)/assets) -I $(FRAMEWORK_RES) \
 		-F $(RESOURCES) -J $(BUILD)/gen --rename-manifest-package $(PACKAGE) \
 		--min-sdk-version $(LEAST) --target-sdk-version $(TARGET) --replace-version \

@@ -28,7 +28,8 @@ $(BUILD)/.guarded: $(CORE_JAR) $(APP_JAR) $(NEWER_JARS) $(MANIFEST) $(BUILD)/api
 
 SPOTBUGS_PATH = $(subst $(empty) $(empty),:,$(patsubst %,$(JARS)/%,$(shell \
 	$(PYTHON) tools/fetch.py --list $(JARS) spotbugs)))
-SPOTBUGS_KNOWN = $(subst $(empty) $(empty),:,$(STUBS) $(BOOT) $(foreach each,$(LEVELS),$(FRAMEWORK_$(each))))
+SPOTBUGS_KNOWN = $(subst $(empty) $(empty),:,$(STUBS) $(foreach each,$(LEVELS),\
+	$(FRAMEWORK_$(each))))
 SPOTTED := $(CORE_JAR) $(VIRTUAL_JAR) $(APP_JAR) $(NEWER_JARS)
 
 check: $(BUILD)/.guarded $(BUILD)/.spotted
