@@ -31,7 +31,7 @@ final class AirborneLink {
     private final ServiceConnection connection = new ServiceConnection() {
         @Override
         public void onServiceConnected(ComponentName name, IBinder binder) {
-            if (isBound) {
+            if (isBound && binder instanceof BaseUpService.Airside) {
                 airside = (BaseUpService.Airside) binder;
                 watcher.onAirborne(null);
                 airside.add(statuses);

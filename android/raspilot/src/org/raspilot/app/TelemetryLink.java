@@ -46,7 +46,7 @@ public final class TelemetryLink extends Fragment {
     private final ServiceConnection connection = new ServiceConnection() {
         @Override
         public void onServiceConnected(ComponentName name, IBinder binder) {
-            if (isBound) {
+            if (isBound && binder instanceof TelemetryService.Ground) {
                 tell((TelemetryService.Ground) binder);
             }
         }

@@ -201,6 +201,16 @@ public abstract class TelemetryService extends Service {
             });
         }
 
+        /** Hears that the user keeps the seat that another ground asked for. */
+        public void dismissSeatAsk() {
+            post(new GroundRun.Call() {
+                @Override
+                public void with(GroundSide side) {
+                    side.dismissSeatAsk();
+                }
+            });
+        }
+
         /** Hands the seat to the ground of a number. */
         public void giveSeat(final int to) {
             post(new GroundRun.Call() {
