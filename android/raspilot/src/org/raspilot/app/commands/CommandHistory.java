@@ -16,8 +16,10 @@ final class CommandHistory {
         WAITING,
         /** It was carried out. */
         GOOD,
-        /** It was refused, or not sent. */
-        BAD,
+        /** The aircraft refused it. */
+        REFUSED,
+        /** It was not sent. */
+        UNSENT,
         /** Nobody knows whether it was carried out. */
         UNKNOWN
     }
@@ -32,15 +34,19 @@ final class CommandHistory {
         final long atMs;
         /** What became of it. */
         final Outcome outcome;
-        /** The same in a sentence; empty while it is waited for. */
-        final String sentence;
+        /** Why, without a full stop; empty where there is nothing to say. */
+        final String reason;
+        /** How long the answer took, ms; null: there was none, or nobody knows. */
+        final Long roundTripMs;
 
-        private Entry(int number, String words, long atMs, Outcome outcome, String sentence) {
+        private Entry(int number, String words, long atMs, Outcome outcome, String reason,
+                Long roundTripMs) {
             this.number = number;
             this.words = words;
             this.atMs = atMs;
             this.outcome = outcome;
-            this.sentence = sentence;
+            this.reason = reason;
+            this.roundTripMs = roundTripMs;
         }
     }
 
@@ -50,7 +56,7 @@ final class CommandHistory {
     /** Notes that something is sent; returns the number under which its answer is told. */
     int sent(String words, long nowMs) {
         numbers++;
-        entries.addFirst(new Entry(numbers, words, nowMs, Outcome.WAITING, ""));
+        entries.addFirst(new Entry(numbers, words, nowMs, Outcome.WAITING, "", null));
         if (entries.size() > KEPT) {
             entries.removeLast();
         }
@@ -58,12 +64,12 @@ final class CommandHistory {
     }
 
     /** Notes what became of it; one that is forgotten already stays so. */
-    void answered(int number, Outcome outcome, String sentence) {
+    void answered(int number, Outcome outcome, String reason, Long roundTripMs) {
         for (int place = 0; place < entries.size(); place++) {
             Entry entry = entries.get(place);
             if (entry.number == number) {
-                entries.set(place,
-                        new Entry(number, entry.words, entry.atMs, outcome, sentence));
+                entries.set(place, new Entry(number, entry.words, entry.atMs, outcome, reason,
+                        roundTripMs));
             }
         }
     }

@@ -7,6 +7,7 @@ import android.view.ViewGroup;
 import android.widget.BaseAdapter;
 import android.widget.TextView;
 import java.util.ArrayList;
+import java.util.BitSet;
 import java.util.Collections;
 import java.util.List;
 import org.raspilot.app.R;
@@ -26,6 +27,7 @@ final class CommandList extends BaseAdapter {
     private final List<CommandForm> forms;
     /** Groups and forms as they stand below each other. */
     private final List<Object> lines = new ArrayList<Object>();
+    private BitSet offered = new BitSet();
 
     /** Makes a list of all forms. */
     CommandList(Desk desk, List<CommandForm> forms) {
@@ -53,6 +55,19 @@ final class CommandList extends BaseAdapter {
             }
         }
         notifyDataSetChanged();
+    }
+
+    /** Looks at what is offered now; a list that stays as it is is left alone under a finger. */
+    void refresh() {
+        BitSet now = new BitSet();
+        for (int place = 0; place < lines.size(); place++) {
+            CommandForm form = form(place);
+            now.set(place, form != null && isOffered(form));
+        }
+        if (!now.equals(offered)) {
+            offered = now;
+            notifyDataSetChanged();
+        }
     }
 
     /** Returns the form at a place; null: a heading stands there. */
@@ -110,10 +125,12 @@ final class CommandList extends BaseAdapter {
         title.setText(CommandWords.title(words, form.name()));
         ((TextView) row.findViewById(R.id.command_name)).setText(form.name());
         // It opens all the same: its page says why it is not offered.
-        boolean isOffered = desk.objection(form, Collections.<String, Object>emptyMap())
-                == Objection.NONE;
-        Texts.colour(title, isOffered ? inks.ink : inks.dim);
+        Texts.colour(title, isOffered(form) ? inks.ink : inks.dim);
         return row;
+    }
+
+    private boolean isOffered(CommandForm form) {
+        return desk.objection(form, Collections.<String, Object>emptyMap()) == Objection.NONE;
     }
 
     private boolean matches(CommandForm form, String wanted) {

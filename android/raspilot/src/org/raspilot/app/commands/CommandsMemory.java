@@ -130,10 +130,18 @@ public final class CommandsMemory extends Fragment {
         return new AnswerListener() {
             @Override
             public void onAnswer(Answer answer) {
-                history.answered(number, outcome(answer), answer.sentence());
+                String why = answer.reason().isEmpty() ? answer.code() : answer.reason();
+                history.answered(number, outcome(answer), why, answer.roundTripMs());
                 tell();
             }
         };
+    }
+
+    /** Notes that something could not be sent. */
+    void unsent(String words, String reason) {
+        int number = history.sent(words, SystemClock.elapsedRealtime());
+        history.answered(number, CommandHistory.Outcome.UNSENT, reason, null);
+        tell();
     }
 
     private void tell() {
@@ -160,8 +168,9 @@ public final class CommandsMemory extends Fragment {
             case ACK:
                 return CommandHistory.Outcome.GOOD;
             case NACK:
+                return CommandHistory.Outcome.REFUSED;
             case REFUSED:
-                return CommandHistory.Outcome.BAD;
+                return CommandHistory.Outcome.UNSENT;
             default:
                 return CommandHistory.Outcome.UNKNOWN;
         }

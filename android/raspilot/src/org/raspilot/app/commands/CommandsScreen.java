@@ -96,7 +96,7 @@ final class CommandsScreen
             page.update();
         }
         if (listBox.isShown()) {
-            list.notifyDataSetChanged();
+            list.refresh();
         }
         history.update();
     }
@@ -176,31 +176,32 @@ final class CommandsScreen
 
     @Override
     public void send(BaseCommand command, String words) {
-        if (ground != null) {
+        if (isThere(words)) {
             ground.send(command, frame.shownBeacon(), memory.sent(words));
         }
     }
 
     @Override
     public void askGains() {
-        if (ground != null) {
-            ground.askGains(memory.sent(activity.getString(R.string.gains_ask_words)));
+        String words = activity.getString(R.string.gains_ask_words);
+        if (isThere(words)) {
+            ground.askGains(memory.sent(words));
         }
     }
 
     @Override
     public void setGains(GainSet set) {
-        if (ground != null) {
-            ground.setGains(set, frame.shownBeacon(),
-                    memory.sent(activity.getString(R.string.gains_send_words)));
+        String words = activity.getString(R.string.gains_send_words);
+        if (isThere(words)) {
+            ground.setGains(set, frame.shownBeacon(), memory.sent(words));
         }
     }
 
     @Override
     public void undoGains() {
-        if (ground != null) {
-            ground.undoGains(frame.shownBeacon(),
-                    memory.sent(activity.getString(R.string.gains_undo_words)));
+        String words = activity.getString(R.string.gains_undo_words);
+        if (isThere(words)) {
+            ground.undoGains(frame.shownBeacon(), memory.sent(words));
         }
     }
 
@@ -223,6 +224,14 @@ final class CommandsScreen
             listBox.setVisibility(page == null ? View.VISIBLE : View.GONE);
             pageBox.setVisibility(page == null ? View.GONE : View.VISIBLE);
         }
+    }
+
+    /** Says whether there is a service to send by; where there is none, the history says so. */
+    private boolean isThere(String words) {
+        if (ground == null) {
+            memory.unsent(words, activity.getString(R.string.commands_no_service));
+        }
+        return ground != null;
     }
 
     private Page pageOf(CommandForm form) {

@@ -81,7 +81,7 @@ final class GainsTable {
             Double now = cell.key.of(editor.flying());
             String flies = now == null ? "" : cell.input.getResources()
                     .getString(R.string.gains_flies, GainsEditor.text(now));
-            Texts.show(cell.flying, isEdited ? flies : "");
+            Texts.showOrHide(cell.flying, isEdited ? flies : "");
             Texts.colour(cell.input, editor.isWrong(cell.key) ? inks.alarm
                     : isEdited ? inks.accent : inks.ink);
         }

@@ -6,7 +6,6 @@ import android.view.View;
 import android.widget.TextView;
 import java.util.List;
 import org.raspilot.app.R;
-import org.raspilot.app.ground.SeatPanel;
 import org.raspilot.app.view.Inks;
 import org.raspilot.app.view.Texts;
 
@@ -75,18 +74,29 @@ final class HistoryPanel implements View.OnClickListener {
     }
 
     private static String line(Resources words, CommandHistory.Entry entry) {
-        if (entry.outcome == CommandHistory.Outcome.WAITING) {
-            return words.getString(R.string.commands_waiting, entry.words);
+        switch (entry.outcome) {
+            case WAITING:
+                return words.getString(R.string.commands_waiting, entry.words);
+            case GOOD:
+                return entry.roundTripMs == null
+                        ? words.getString(R.string.commands_done, entry.words)
+                        : words.getString(R.string.commands_done_after, entry.words,
+                                entry.roundTripMs);
+            case REFUSED:
+                return words.getString(R.string.commands_refused, entry.words, entry.reason);
+            case UNSENT:
+                return words.getString(R.string.commands_unsent, entry.words, entry.reason);
+            default:
+                return words.getString(R.string.commands_unclear, entry.words, entry.reason);
         }
-        return words.getString(R.string.commands_answered, entry.words,
-                SeatPanel.sentence(entry.sentence));
     }
 
     private int colour(CommandHistory.Outcome outcome) {
         switch (outcome) {
             case GOOD:
                 return inks.good;
-            case BAD:
+            case REFUSED:
+            case UNSENT:
                 return inks.alarm;
             case UNKNOWN:
                 return inks.warning;

@@ -80,7 +80,7 @@ final class AlarmPanel implements View.OnClickListener {
     private static String words(List<Alarm> active) {
         StringBuilder all = new StringBuilder();
         for (Alarm each : active) {
-            all.append(all.length() == 0 ? "" : "\n").append(SeatPanel.sentence(each.text()));
+            all.append(all.length() == 0 ? "" : " ").append(SeatPanel.sentence(each.text()));
         }
         return all.toString();
     }

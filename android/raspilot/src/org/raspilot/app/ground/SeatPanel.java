@@ -79,7 +79,7 @@ public final class SeatPanel implements View.OnClickListener {
 
     private String linkText(GroundStatus status) {
         String text = sentence(status.linkSentence());
-        if (!status.isOpen() || status.rateHz() == null) {
+        if (!status.isOpen() || status.isSilent() || status.rateHz() == null) {
             return text;
         }
         Double wayMs = status.roundTripMs();

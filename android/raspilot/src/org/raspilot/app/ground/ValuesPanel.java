@@ -22,6 +22,7 @@ import org.raspilot.up.ground.TelemetryText;
 final class ValuesPanel extends BaseAdapter implements TextWatcher {
     private final View element;
     private final EditText filter;
+    private final ListView list;
     private final LayoutInflater inflater;
     private final Inks inks;
     private List<TelemetryRow> all = Collections.emptyList();
@@ -36,7 +37,7 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
         element = root.findViewById(R.id.ground_values_box);
         filter = (EditText) root.findViewById(R.id.ground_filter);
         filter.addTextChangedListener(this);
-        ListView list = (ListView) root.findViewById(R.id.ground_values);
+        list = (ListView) root.findViewById(R.id.ground_values);
         list.setAdapter(this);
     }
 
@@ -49,9 +50,21 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
         if (shown != now.telemetry) {
             shown = now.telemetry;
             all = TelemetryText.rows(now.telemetry);
-            rows = chosen(all, filter.getText().toString());
+            List<TelemetryRow> newest = chosen(all, filter.getText().toString());
+            boolean isSameList = newest.size() == rows.size();
+            rows = newest;
+            if (!isSameList) {
+                notifyDataSetChanged();
+                return;
+            }
         }
-        notifyDataSetChanged();
+        // Rows that stay where they are change in place: nothing is laid out under a finger.
+        for (int child = 0; child < list.getChildCount(); child++) {
+            int position = list.getFirstVisiblePosition() + child;
+            if (position < rows.size()) {
+                getView(position, list.getChildAt(child), list);
+            }
+        }
     }
 
     /** Returns the rows in whose path each of the words stands, whatever its case. */

@@ -89,6 +89,11 @@ public final class CompassView extends Instrument {
     }
 
     @Override
+    protected float ageAcross() {
+        return 0.2f;
+    }
+
+    @Override
     protected String describe() {
         String point = CompassGeometry.point(headingDeg);
         if (Float.isNaN(requiredDeg)) {

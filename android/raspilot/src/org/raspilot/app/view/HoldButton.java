@@ -113,6 +113,16 @@ public final class HoldButton extends Button {
     }
 
     @Override
+    public boolean onFilterTouchEventForSecurity(MotionEvent event) {
+        boolean isTaken = super.onFilterTouchEventForSecurity(event);
+        if (!isTaken) {
+            // The finger may have gone unheard.
+            cancel();
+        }
+        return isTaken;
+    }
+
+    @Override
     public boolean onKeyDown(int keyCode, KeyEvent event) {
         if (!isConfirmKey(keyCode) || !isEnabled()) {
             return super.onKeyDown(keyCode, event);

@@ -152,6 +152,16 @@ public abstract class Instrument extends View {
         event.getText().add(getContentDescription());
     }
 
+    /** Returns where the age stands, as a share of the width, where readings leave room. */
+    protected float ageAcross() {
+        return 0.5f;
+    }
+
+    /** Says whether the age stands at the upper edge, not at the lower one. */
+    protected boolean isAgeAbove() {
+        return false;
+    }
+
     /** Draws letters around a point; the size in sp. */
     protected final void centred(Canvas canvas, String text, float x, float y, float sizeSp,
             int colour) {
@@ -199,8 +209,8 @@ public abstract class Instrument extends View {
         canvas.drawLines(hatching, line(liveInks.hatch, 1.5f));
         float size = sp(13);
         float wide = Math.min(getWidth(), letterWidth(age, 13) + dp(8));
-        float x = getWidth() / 2f;
-        float y = getHeight() - size;
+        float x = Math.max(wide / 2, getWidth() * ageAcross());
+        float y = isAgeAbove() ? size : getHeight() - size;
         canvas.drawRect(x - wide / 2, y - size * 0.8f, x + wide / 2, y + size * 0.8f,
                 area(liveInks.ground));
         centred(canvas, age, x, y, 13, liveInks.warning);

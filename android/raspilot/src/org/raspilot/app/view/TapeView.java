@@ -133,7 +133,9 @@ public final class TapeView extends Instrument {
             return;
         }
         float y = geometry.y(place);
-        boolean isLabelled = labels[place].length() > 0;
+        // Whole or not at all: the caps at both ends cut no number in two.
+        boolean isWhole = Math.abs(y) < getHeight() / 2f - capHeight() - sp(6);
+        boolean isLabelled = labels[place].length() > 0 && isWhole;
         float length = dp(isLabelled ? 8 : 4);
         float edge = isLeft ? getWidth() : 0;
         float inner = isLeft ? edge - length : length;
@@ -162,7 +164,7 @@ public final class TapeView extends Instrument {
     }
 
     private void drawCaps(Canvas canvas) {
-        float high = sp(11) * 1.5f;
+        float high = capHeight();
         float middle = getWidth() / 2f;
         canvas.drawRect(0, 0, getWidth(), high, area(inks().ground));
         centred(canvas, title, middle, high / 2, 11, inks().dim);
@@ -176,6 +178,10 @@ public final class TapeView extends Instrument {
         } else {
             centred(canvas, unit, middle, foot + high / 2, 11, inks().dim);
         }
+    }
+
+    private float capHeight() {
+        return sp(11) * 1.5f;
     }
 
     /** Makes the labels anew when the tape has moved by a whole mark. */

@@ -31,6 +31,7 @@ public final class TrackView extends Instrument {
     private final GestureDetector drag;
     private final Path arrow = new Path();
     private final String homeLetter;
+    private final String northLetter = CompassGeometry.point(0);
     private float[] northM = new float[0];
     private float[] eastM = new float[0];
     private boolean[] isBreak = new boolean[0];
@@ -114,7 +115,8 @@ public final class TrackView extends Instrument {
     @Override
     protected void onSizeChanged(int width, int height, int oldWidth, int oldHeight) {
         super.onSizeChanged(width, height, oldWidth, oldHeight);
-        geometry.resize(width, height);
+        // The scale below is not drawn upon.
+        geometry.resize(width, Math.max(1, height - dp(26)));
         refit();
     }
 
@@ -135,6 +137,12 @@ public final class TrackView extends Instrument {
         drawHome(canvas);
         drawAircraft(canvas);
         drawScale(canvas);
+        drawNorth(canvas);
+    }
+
+    @Override
+    protected boolean isAgeAbove() {
+        return true;
     }
 
     @Override
@@ -274,6 +282,14 @@ public final class TrackView extends Instrument {
         canvas.drawLine(left, y - dp(5), left, y, pen);
         canvas.drawLine(right, y - dp(5), right, y, pen);
         centred(canvas, stepText, (left + right) / 2, y - sp(9), 12, inks().ink);
+    }
+
+    private void drawNorth(Canvas canvas) {
+        float x = getWidth() - dp(14);
+        canvas.drawLine(x, dp(8), x, dp(24), line(inks().ink, 2));
+        canvas.drawLine(x, dp(8), x - dp(4), dp(14), pen);
+        canvas.drawLine(x, dp(8), x + dp(4), dp(14), pen);
+        centred(canvas, northLetter, x, dp(24) + sp(8), 12, inks().ink);
     }
 
     private final class Pinch extends ScaleGestureDetector.SimpleOnScaleGestureListener {

@@ -13,9 +13,9 @@ public final class CommandHistoryTest {
         assertNull(history.newest());
         int number = history.sent("Arm", 100);
         assertEquals(CommandHistory.Outcome.WAITING, history.newest().outcome);
-        history.answered(number, CommandHistory.Outcome.BAD, "no");
-        assertEquals(CommandHistory.Outcome.BAD, history.newest().outcome);
-        assertEquals("no", history.newest().sentence);
+        history.answered(number, CommandHistory.Outcome.REFUSED, "no", 40L);
+        assertEquals(CommandHistory.Outcome.REFUSED, history.newest().outcome);
+        assertEquals("no", history.newest().reason);
         assertEquals("Arm", history.newest().words);
         assertEquals(100, history.newest().atMs);
     }
@@ -24,7 +24,7 @@ public final class CommandHistoryTest {
     public void anAnswerFindsItsOwnCommand() {
         int first = history.sent("one", 1);
         history.sent("two", 2);
-        history.answered(first, CommandHistory.Outcome.GOOD, "done");
+        history.answered(first, CommandHistory.Outcome.GOOD, "", 40L);
         assertEquals(CommandHistory.Outcome.WAITING, history.entries().get(0).outcome);
         assertEquals(CommandHistory.Outcome.GOOD, history.entries().get(1).outcome);
     }
@@ -36,7 +36,7 @@ public final class CommandHistoryTest {
             history.sent("another", each);
         }
         assertEquals(CommandHistory.KEPT, history.entries().size());
-        history.answered(first, CommandHistory.Outcome.GOOD, "late");
+        history.answered(first, CommandHistory.Outcome.GOOD, "", null);
         for (CommandHistory.Entry entry : history.entries()) {
             assertEquals(CommandHistory.Outcome.WAITING, entry.outcome);
         }

@@ -90,6 +90,13 @@ public final class AlarmBellTest {
     }
 
     @Test
+    public void aClockThatBeginsAnewSilencesNothing() {
+        wrong("SILENT", AlarmBell.Ring.ALARM);
+        assertEquals(AlarmBell.Ring.ALARM, bell.look(1000000));
+        assertEquals(AlarmBell.Ring.ALARM, bell.look(5));
+    }
+
+    @Test
     public void aSilenceOutlivesARotation() {
         wrong("SILENT", AlarmBell.Ring.ALARM);
         bell.silence();
