@@ -11,7 +11,7 @@ comma := ,
 $(BUILD)/signatures.jar: tools/Signatures.java $(JARS)/.sniffer
 	$(call compile,$@,tools/Signatures.java,$(SNIFFER))
 
-$(BUILD)/api-$(LEAST).signature: $(STUBS:$(JARS)/%=$(JARS)/.stubs) $(BOOT) $(BUILD)/signatures.jar
+$(BUILD)/api-$(LEAST).signature: $(JARS)/.stubs $(BOOT) $(BUILD)/signatures.jar
 	@$(SNIFF) build $@ $(STUBS) $(BOOT)
 
 # Everything keeps to the java.* of API 16; android.* too, but for the classes of newer levels,
