@@ -61,16 +61,16 @@ final class ArmPage implements Page, HoldButton.HoldListener {
         Picture picture = desk.picture();
         boolean isLive = picture.telemetry.freshness("armed", picture.nowMs) == Freshness.LIVE;
         Boolean isArmed = isLive ? picture.telemetry.flag("armed") : null;
-        Texts.showOrHide(state, words.getString(isArmed == null ? R.string.arm_state_unknown
+        Texts.show(state, words.getString(isArmed == null ? R.string.arm_state_unknown
                 : isArmed ? R.string.arm_state_armed : R.string.arm_state_disarmed));
-        Texts.showOrHide(vetoes, vetoes(words, picture, isArmed));
+        Texts.show(vetoes, vetoes(words, picture, isArmed));
         offer(armButton, armWhy, arm);
         offer(disarmButton, disarmWhy, disarm);
     }
 
     @Override
     public void onHeld(View button) {
-        Texts.showOrHide(note, "");
+        Texts.show(note, "");
         carryOut(formOf(button));
     }
 
@@ -93,7 +93,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
 
     @Override
     public void onTooShort(View button) {
-        Texts.showOrHide(note, desk.context().getString(R.string.arm_too_short));
+        Texts.show(note, desk.context().getString(R.string.arm_too_short));
     }
 
     private void carryOut(CommandForm form) {
@@ -107,7 +107,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
     private void offer(HoldButton button, TextView why, CommandForm form) {
         String objection = form == null ? desk.context().getString(R.string.why_unknown)
                 : desk.objectionText(form, NOTHING);
-        Texts.showOrHide(why, objection);
+        Texts.show(why, objection);
         if (button.isEnabled() != objection.isEmpty()) {
             button.setEnabled(objection.isEmpty());
         }

@@ -69,6 +69,12 @@ final class Permission {
         if (!allows(status.role(), neededRole(name, told, data))) {
             return Objection.ROLE;
         }
+        return ofAircraft(name, data, status.tuneInFlight(), telemetry, nowMs);
+    }
+
+    /** Returns what stands against a Command in what the aircraft says, or in its silence. */
+    static Objection ofAircraft(String name, Map<String, ?> data, Boolean tuneInFlight,
+            Telemetry telemetry, long nowMs) {
         if (isOnlyRequest(name, data)) {
             return Objection.NONE;
         }
@@ -76,7 +82,7 @@ final class Permission {
             return Objection.SILENT;
         }
         boolean isLive = telemetry.freshness("armed", nowMs) == Freshness.LIVE;
-        return ofMotor(name, isLive ? telemetry.flag("armed") : null, status.tuneInFlight());
+        return ofMotor(name, isLive ? telemetry.flag("armed") : null, tuneInFlight);
     }
 
     /** Returns why nothing can be sent at all. */

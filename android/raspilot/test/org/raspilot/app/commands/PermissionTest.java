@@ -5,8 +5,10 @@ import static org.junit.Assert.assertFalse;
 import static org.junit.Assert.assertTrue;
 
 import java.util.Collections;
+import java.util.HashMap;
 import java.util.Map;
 import org.junit.Test;
+import org.raspilot.up.ground.Telemetry;
 
 public final class PermissionTest {
     private static final Map<String, Object> NOTHING = Collections.emptyMap();
@@ -57,6 +59,31 @@ public final class PermissionTest {
         assertEquals(Objection.DISARMED_ALREADY, Permission.ofMotor("up.disarm", false, null));
         assertEquals(Objection.NONE, Permission.ofMotor("up.disarm", true, null));
         assertEquals(Objection.NONE, Permission.ofMotor("up.arm", null, null));
+    }
+
+    private static Objection ofAircraft(String name, Boolean isArmed, long flightAgeMs,
+            long nowMs) {
+        Map<String, Object> data = new HashMap<String, Object>();
+        data.put("armed", isArmed);
+        data.put("age_ms", Collections.singletonMap("flight", flightAgeMs));
+        Telemetry frame = Telemetry.of(data, 7L, 10000, 0);
+        return Permission.ofAircraft(name, NOTHING, null, frame, nowMs);
+    }
+
+    @Test
+    public void nobodyCommandsWhatTheyDoNotSee() {
+        assertEquals(Objection.NONE, ofAircraft("up.arm", false, 100, 10500));
+        assertEquals(Objection.SILENT, ofAircraft("up.arm", false, 100, 11000));
+        assertEquals(Objection.SILENT, Permission.ofAircraft("up.heading.change", NOTHING, null,
+                Telemetry.NOTHING, 0));
+        assertEquals(Objection.NONE, Permission.ofAircraft("arduino.pids.tunings", REQUEST, null,
+                Telemetry.NOTHING, 0));
+    }
+
+    @Test
+    public void aMotorsStateThatIsOldIsNoState() {
+        assertEquals(Objection.ARMED_ALREADY, ofAircraft("up.arm", true, 100, 10500));
+        assertEquals(Objection.NONE, ofAircraft("up.arm", true, 5000, 10500));
     }
 
     @Test
