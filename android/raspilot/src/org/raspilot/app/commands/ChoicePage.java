@@ -72,7 +72,8 @@ final class ChoicePage implements Page {
     public void update() {
         String objection = desk.objectionText(form, Collections.<String, Object>emptyMap());
         Texts.showOrHide(why, objection);
-        Texts.showOrHide(now, CommandWords.now(desk.context().getResources(), form.name(), desk.picture()));
+        Texts.showOrHide(now, CommandWords.now(desk.context().getResources(), form.name(),
+                desk.picture()));
         for (Button button : buttons) {
             button.setEnabled(objection.isEmpty());
         }

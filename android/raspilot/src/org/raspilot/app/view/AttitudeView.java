@@ -61,7 +61,8 @@ public final class AttitudeView extends Instrument {
 
     @Override
     protected String describe() {
-        String bank = getContext().getString(rollDeg < 0 ? R.string.view_left : R.string.view_right);
+        String bank = getContext().getString(
+                rollDeg < 0 ? R.string.view_left : R.string.view_right);
         String nose = getContext().getString(pitchDeg < 0 ? R.string.view_down : R.string.view_up);
         return getContext().getString(R.string.view_attitude, Math.round(Math.abs(rollDeg)), bank,
                 Math.round(Math.abs(pitchDeg)), nose);
