@@ -24,6 +24,7 @@ final class ProvidersPanel {
     private final View idle;
     private final View zero;
     private final ViewGroup rows;
+    private final View counted;
     private final TextView counters;
 
     ProvidersPanel(View root, View.OnClickListener zeroPressed) {
@@ -31,6 +32,7 @@ final class ProvidersPanel {
         idle = root.findViewById(R.id.providers_idle);
         zero = root.findViewById(R.id.providers_zero);
         rows = (ViewGroup) root.findViewById(R.id.providers_rows);
+        counted = root.findViewById(R.id.providers_counted);
         counters = (TextView) root.findViewById(R.id.providers_counters);
         zero.setOnClickListener(zeroPressed);
     }
@@ -51,6 +53,7 @@ final class ProvidersPanel {
                     && provider.ageMs() >= 0;
         }
         zero.setVisibility(isAltitudeRead ? View.VISIBLE : View.GONE);
+        counted.setVisibility(status == null ? View.GONE : View.VISIBLE);
         counters.setText(status == null ? "" : counters(status));
     }
 
