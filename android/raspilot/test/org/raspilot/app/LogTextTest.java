@@ -1,0 +1,27 @@
+package org.raspilot.app;
+
+import static org.junit.Assert.assertEquals;
+
+import java.text.SimpleDateFormat;
+import java.util.Locale;
+import java.util.TimeZone;
+import org.junit.Test;
+
+public final class LogTextTest {
+    @Test
+    public void aLineHasItsTimeAndHowOften() {
+        SimpleDateFormat format = new SimpleDateFormat("HH:mm:ss", Locale.US);
+        format.setTimeZone(TimeZone.getTimeZone("UTC"));
+        LogText text = new LogText(format, new LogText.Times() {
+            @Override
+            public String of(String line, int times) {
+                return line + " x" + times;
+            }
+        });
+        EventBook book = new EventBook();
+        book.add(3723000, "connected");
+        book.add(3724000, "lost");
+        book.add(3725000, "lost");
+        assertEquals("01:02:03  connected\n01:02:05  lost x2\n", text.all(book.entries()));
+    }
+}
