@@ -17,6 +17,7 @@ import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.TelemetrySource;
 import org.raspilot.up.loop.SelectorLoop;
 
 /**
@@ -27,7 +28,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     /** Registers an application's own handlers. */
     interface Setup {
         /** Takes what handlers are registered in; on the loop, before anything begins. */
-        void onUp(Up up);
+        void onUp(Up up, TelemetrySource telemetry);
     }
 
     /** Something to do with the ground side on its loop. */
@@ -64,7 +65,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         loop.post(new Runnable() {
             @Override
             public void run() {
-                setup.onUp(up);
+                setup.onUp(up, side);
                 side.start();
                 onStatus(side.status());
                 onChanged();

@@ -19,6 +19,7 @@ import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.TelemetrySource;
 import org.raspilot.up.ground.Track;
 
 /**
@@ -46,8 +47,12 @@ public abstract class TelemetryService extends Service {
         return false;
     }
 
-    /** Registers the application's own handlers, telemetry's too; on the loop. */
-    protected void onUp(Up up) {
+    /**
+     * Registers the application's own handlers; on the loop.
+     *
+     * @param telemetry for a BaseTelemetryHandler
+     */
+    protected void onUp(Up up, TelemetrySource telemetry) {
     }
 
     @Override
@@ -72,8 +77,8 @@ public abstract class TelemetryService extends Service {
         try {
             run = new GroundRun(this, readSettings(), isOnWifi(), view, new GroundRun.Setup() {
                 @Override
-                public void onUp(Up up) {
-                    TelemetryService.this.onUp(up);
+                public void onUp(Up up, TelemetrySource telemetry) {
+                    TelemetryService.this.onUp(up, telemetry);
                 }
             });
         } catch (IllegalArgumentException wrong) {
