@@ -9,6 +9,8 @@ public final class LocationProvider extends SensorProvider<Fix> {
     public static final String NAME = "location";
 
     private static final long SILENCE_MS = 10000;
+    /** A fix of the mobile network, or a blurred one: home and the way back would be elsewhere. */
+    private static final double WORST_ACCURACY_M = 50;
 
     /** Takes the GPS, and how often a fix leaves at most, ms. */
     public LocationProvider(SensorSource<Fix> source, int periodMs) {
@@ -17,6 +19,10 @@ public final class LocationProvider extends SensorProvider<Fix> {
 
     @Override
     protected BaseCommand read(Fix fix) {
+        if (fix.accuracyM() != null && fix.accuracyM() > WORST_ACCURACY_M) {
+            throw new IllegalArgumentException("a fix that may be off by more than "
+                    + Math.round(WORST_ACCURACY_M) + " m is none to fly by");
+        }
         return new LocationCommand(
                 Rounded.to(7, fix.latitudeDeg()),
                 Rounded.to(7, fix.longitudeDeg()),

@@ -15,6 +15,7 @@ public abstract class UpProvider {
     private Loop loop;
     private ProvidersListener listener;
     private Outlet outlet;
+    private String sensorName = "";
     private boolean isThere;
     private boolean isStarted;
     private long startedMs;
@@ -29,7 +30,7 @@ public abstract class UpProvider {
     /** Returns whether this device has the sensor. */
     protected abstract boolean isPresent();
 
-    /** Returns what the sensor calls itself. */
+    /** Returns what the sensor calls itself; asked at each start, together with isPresent. */
     protected abstract String sensorName();
 
     /** Begins to read the sensor, as often as periodMs says; each reading leads to offer. */
@@ -96,7 +97,7 @@ public abstract class UpProvider {
         outlet = to;
         look();
         if (!isThere) {
-            listener.onProvider(name, sensorName());
+            listener.onProvider(name, sensorName);
             return;
         }
         isStarted = true;
@@ -153,7 +154,7 @@ public abstract class UpProvider {
         long newestMs = stream.newestMs();
         return new ProviderStatus(
                 name,
-                sensorName(),
+                sensorName,
                 state(),
                 stream.hz(),
                 newestMs < 0 ? -1 : loop.nowMs() - newestMs,
@@ -173,7 +174,10 @@ public abstract class UpProvider {
     private void look() {
         isThere = false;
         try {
-            isThere = isPresent();
+            boolean isFound = isPresent();
+            // Kept, as asking may take the system long.
+            sensorName = sensorName();
+            isThere = isFound;
         } catch (RuntimeException fault) {
             // As above; a sensor that cannot be asked for is not there.
             trouble("the sensor cannot be looked for: " + sentence(fault));

@@ -49,6 +49,36 @@ public final class LocationProviderTest {
     }
 
     @Test
+    public void aFixThatMayBeFarOffIsToldAndNotSent() {
+        bench.run(provider);
+        gps.give(new Fix(1, 2, null, 1200.0, null, null));
+        gps.give(new Fix(1, 2, null, 50.1, null, null));
+        gps.give(new Fix(1, 2, null, Double.POSITIVE_INFINITY, null, null));
+        assertEquals(0, bench.outlet.commands.size());
+        assertEquals("told once", "[location: its reading cannot be used: "
+                + "a fix that may be off by more than 50 m is none to fly by]",
+                bench.told.toString());
+        bench.loop.advance(10001);
+        assertEquals(ProviderState.SILENT, provider.state());
+        gps.give(new Fix(1, 2, null, 50.0, null, null));
+        assertEquals("up.location.update {latitude=1.0, longitude=2.0, accuracy=50.0}",
+                bench.outlet.last());
+        assertEquals("", bench.status().problem());
+    }
+
+    @Test
+    public void aSensorsNameIsAskedOnlyWhenItIsLookedFor() {
+        bench.run(provider);
+        int asked = gps.namesAsked;
+        bench.status();
+        bench.status();
+        assertEquals("asking may take the system long", asked, gps.namesAsked);
+        gps.name = "GPS, the permission is missing";
+        bench.controller.restart("location");
+        assertEquals("GPS, the permission is missing", bench.status().sensor());
+    }
+
+    @Test
     public void aQuickerGpsIsThinnedToThePeriodAndTheNewestFixLeaves() {
         bench.run(provider);
         for (int at = 0; at <= 20; at++) {

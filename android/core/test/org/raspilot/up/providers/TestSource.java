@@ -5,7 +5,8 @@ import java.util.List;
 
 /** A sensor whose readings a test gives. */
 public final class TestSource<R> implements SensorSource<R> {
-    public final String name;
+    public String name;
+    public int namesAsked;
     public boolean isPresent = true;
     public RuntimeException fault;
     public final List<Long> periodsMs = new ArrayList<Long>();
@@ -22,6 +23,7 @@ public final class TestSource<R> implements SensorSource<R> {
 
     @Override
     public String name() {
+        namesAsked++;
         return name;
     }
 
