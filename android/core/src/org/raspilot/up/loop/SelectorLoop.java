@@ -237,7 +237,9 @@ public final class SelectorLoop implements Loop, Network {
             for (SelectionKey key : sockets.await(waitMs(System.nanoTime()))) {
                 handle(key);
             }
-        } catch (IOException error) {
+        } catch (IOException | RuntimeException error) {
+            // Android's older selectors throw both (a key cancelled meanwhile), and the thread must
+            // outlive that: it flies.
             tell(error);
             // Whatever ails the system, asking it again at once would only heat the phone.
             LockSupport.parkNanos(TimeUnit.MILLISECONDS.toNanos(10));

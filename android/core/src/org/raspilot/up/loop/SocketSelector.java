@@ -87,12 +87,21 @@ class SocketSelector {
     private void replace() throws IOException {
         final Selector old = selector;
         final Selector fresh = openSelector();
-        for (SelectionKey key : old.keys()) {
-            if (key.isValid()) {
-                final Ready ready = (Ready) key.attachment();
-                final int operations = key.interestOps();
-                key.cancel();
-                ready.onMoved(key.channel().register(fresh, operations, ready));
+        boolean isMoved = false;
+        try {
+            for (SelectionKey key : old.keys()) {
+                if (key.isValid()) {
+                    final Ready ready = (Ready) key.attachment();
+                    final int operations = key.interestOps();
+                    key.cancel();
+                    ready.onMoved(key.channel().register(fresh, operations, ready));
+                }
+            }
+            isMoved = true;
+        } finally {
+            if (!isMoved) {
+                // One left open with each further try would use up the process's files.
+                fresh.close();
             }
         }
         selector = fresh;

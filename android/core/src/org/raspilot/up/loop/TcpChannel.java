@@ -159,7 +159,8 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
                 return;
             }
             final Socket socket = channel.socket();
-            if (socket.getLocalSocketAddress().equals(socket.getRemoteSocketAddress())) {
+            // Some systems do not know the local address yet: it may be null.
+            if (socket.getRemoteSocketAddress().equals(socket.getLocalSocketAddress())) {
                 // On loopback a port that nobody listens on may by chance be met by itself.
                 connectNext("no connection to " + peer + ": nobody listens");
                 return;

@@ -7,6 +7,7 @@ import java.io.IOException;
 import java.net.DatagramPacket;
 import java.net.DatagramSocket;
 import java.net.InetAddress;
+import java.nio.channels.CancelledKeyException;
 import java.nio.channels.SelectableChannel;
 import java.nio.channels.SelectionKey;
 import java.nio.channels.Selector;
@@ -19,6 +20,8 @@ import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
 import java.util.concurrent.Callable;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
 import org.junit.Rule;
 import org.junit.Test;
 
@@ -73,6 +76,42 @@ public final class SocketSelectorTest {
         final long rounds = running.loop.rounds() - before;
         assertTrue("woke " + rounds + " times", rounds <= 6);
         running.faults.mustBeNone();
+    }
+
+    @Test
+    public void aSelectorThatThrowsDoesNotEndTheThread() throws Exception {
+        final int throwing = 3;
+        final int[] waits = new int[1];
+        final Faults faults = new Faults();
+        final SelectorLoop loop = new SelectorLoop("throwing", faults, new SocketSelector() {
+            @Override
+            List<SelectionKey> await(long waitMs) throws IOException {
+                waits[0]++;
+                if (waits[0] <= throwing) {
+                    throw new CancelledKeyException();
+                }
+                return super.await(waitMs);
+            }
+        }, new SystemResolver());
+        final CountDownLatch latch = new CountDownLatch(1);
+        loop.start();
+        try {
+            loop.post(new Runnable() {
+                @Override
+                public void run() {
+                    if (waits[0] > throwing) {
+                        latch.countDown();
+                    } else {
+                        loop.schedule(0, this);
+                    }
+                }
+            });
+            assertTrue("the loop's thread is gone", latch.await(20, TimeUnit.SECONDS));
+            assertEquals(throwing, loop.faults());
+            assertTrue(faults.all().get(0) instanceof CancelledKeyException);
+        } finally {
+            loop.stop();
+        }
     }
 
     /** A selector that never sleeps and never sees anything. */
