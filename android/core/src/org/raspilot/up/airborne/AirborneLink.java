@@ -25,6 +25,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     private final OrientationSender orientation;
     private final AnswerWatch watch;
     private String told = "";
+    private boolean wasLost;
 
     /** Is told what happens on the link for Commands. */
     interface Owner {
@@ -63,6 +64,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     /** Begins to connect. */
     void start() {
         told = "";
+        wasLost = false;
         socket.start();
         if (orientation != null) {
             orientation.start();
@@ -135,10 +137,13 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     public void onConnected(UpSocket connected) {
         told = "";
         watch.opened();
-        if (orientation != null) {
-            // After a gap the other connection may be as dead as this one was.
+        if (orientation != null && wasLost) {
+            // The other connection may be as dead as this one was, and would not show it for long.
+            orientation.replaceConnection("the link for Commands had been lost");
+        } else if (orientation != null) {
             orientation.reconnectNow();
         }
+        wasLost = false;
         owner.onOpened(connected.status().place());
     }
 
@@ -151,6 +156,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     @Override
     public void onLost(UpSocket lost, String reason) {
         watch.closed();
+        wasLost = true;
         told = lost.status().sentence();
         owner.onClosed(reason);
     }

@@ -83,6 +83,17 @@ public final class OrientationSender {
     }
 
     /**
+     * Makes a connection that stands anew at once, as after a gap in the network in which it may
+     * have died unnoticed; without one, as {@link #reconnectNow}.
+     */
+    public void replaceConnection(String reason) {
+        if (isStarted && socket != null && socket.isConnected()) {
+            socket.drop(reason);
+        }
+        reconnectNow();
+    }
+
+    /**
      * Sends a frame of 24 bytes.
      *
      * @return false when it was dropped: not connected, or the place is not known
@@ -178,10 +189,11 @@ public final class OrientationSender {
         final Place place = known.place();
         if (socket != null && place != null && !place.equals(followed)) {
             followed = place;
-            if (socket.isConnected() && !place.equals(socket.status().place())) {
-                socket.drop("the Raspberry Pi is now at " + place.host());
+            if (place.equals(socket.status().place())) {
+                reconnectNow();
+            } else {
+                replaceConnection("the Raspberry Pi is now at " + place.host());
             }
-            socket.reconnectNow();
         }
     }
 

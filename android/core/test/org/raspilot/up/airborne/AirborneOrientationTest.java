@@ -73,6 +73,22 @@ public final class AirborneOrientationTest {
     }
 
     @Test
+    public void afterAGapItsConnectionIsMadeAnewTogetherWithTheOther() {
+        bench.connected(AirborneBench.blackBox().build());
+        ScriptedNetwork.Connection first = bench.accept(50000);
+        // A black hole that still has room: it takes frames which nobody will ever get.
+        bench.fly(20, 1000);
+        bench.general().end("gone");
+        bench.loop.advance(1000);
+        bench.accept(50001);
+        assertTrue("the old one is closed", first.isClosed);
+        ScriptedNetwork.Connection second = bench.accept(50000);
+        assertTrue("there is another one", second != first);
+        bench.fly(20, 1000);
+        assertEquals(50, bench.frames(), 1);
+    }
+
+    @Test
     public void onAStalledConnectionTheNewestFrameWins() {
         bench.connected(AirborneBench.blackBox().build());
         ScriptedNetwork.Connection orientation = bench.accept(50000);

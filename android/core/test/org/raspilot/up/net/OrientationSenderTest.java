@@ -86,6 +86,25 @@ public final class OrientationSenderTest {
     }
 
     @Test
+    public void aConnectionThatMayBeDeadIsReplacedAtOnce() {
+        find();
+        tcp.start();
+        tcp.replaceConnection("may be dead");
+        assertEquals("one that is being made is left alone", 1, network.connections.size());
+        network.newest().accept();
+        tcp.replaceConnection("may be dead");
+        assertTrue(network.connections.get(0).isClosed);
+        assertEquals(2, network.connections.size());
+        network.newest().accept();
+        assertTrue(tcp.send(frame('a')));
+        assertEquals(text('a'), network.newest().written());
+        udp.start();
+        udp.replaceConnection("may be dead");
+        assertTrue(network.ports.get(0).isClosed);
+        assertEquals(2, network.ports.size());
+    }
+
+    @Test
     public void overTcpItFollowsTheRaspberryPiAtOnce() {
         tcp.start();
         assertEquals("the Raspberry Pi is not found yet; trying again", tcp.sentence());
