@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
+import java.util.Locale;
 import java.util.Map;
 import java.util.Random;
 import org.raspilot.up.commands.AckCommand;
@@ -77,7 +78,7 @@ final class Answers {
     /** Returns the id under which to send a Command; the listener hears what becomes of it. */
     String expect(BaseCommand command, AnswerListener listener) {
         // Grounds share the aircraft's link: the number alone would be another one's, too.
-        final String id = String.format("%016x-%d", random.nextLong(), ++number);
+        final String id = String.format(Locale.ROOT, "%016x-%d", random.nextLong(), ++number);
         final boolean asks = isRequest(command);
         final String awaited = asks ? CONTENT_OF.get(command.name()) : null;
         sent.put(id, new Sent(id, command.name(), awaited, listener));

@@ -7,6 +7,7 @@ import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertTrue;
 
 import java.util.Collections;
+import java.util.Locale;
 import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.commands.ArmCommand;
@@ -57,6 +58,21 @@ public final class GroundCommandsTest {
         assertTrue(bench.events().contains("flight mode FBW: carried out"));
         bench.loop.advance(5000);
         assertTrue("never sent again", bench.sent().isEmpty());
+    }
+
+    @Test
+    public void itsIdIsTheSameOnAPhoneThatWritesOtherDigits() {
+        final Locale before = Locale.getDefault();
+        Locale.setDefault(new Locale("ar", "EG"));
+        try {
+            bench.open(Seat.COMMAND);
+            flySeen(1, 1);
+            send(new DisarmCommand());
+            final String id = bench.sent(DisarmCommand.NAME).id();
+            assertTrue(id, id.matches("[0-9a-f]{16}-[0-9]+"));
+        } finally {
+            Locale.setDefault(before);
+        }
     }
 
     @Test
