@@ -66,6 +66,13 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
 
     private void makeTabs() {
         ActionBar bar = getActionBar();
+        // On a phone the tabs say where one is; a title would take a tenth of the screen besides.
+        bar.setDisplayShowHomeEnabled(isTwoPanes);
+        bar.setDisplayShowTitleEnabled(isTwoPanes);
+        if (!isTwoPanes) {
+            // On a phone the tabs need the room of the title.
+            bar.setDisplayOptions(0);
+        }
         bar.setNavigationMode(ActionBar.NAVIGATION_MODE_TABS);
         for (Screen screen : Screen.values()) {
             if (screen.hasTab(isTwoPanes)) {
