@@ -67,7 +67,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
     private void makeTabs() {
         ActionBar bar = getActionBar();
         // On a phone the tabs say where one is; a title would take a tenth of the screen besides.
-        bar.setDisplayShowHomeEnabled(isTwoPanes);
+        bar.setDisplayShowHomeEnabled(false);
         bar.setDisplayShowTitleEnabled(isTwoPanes);
         if (!isTwoPanes) {
             // On a phone the tabs need the room of the title.

@@ -46,8 +46,8 @@ final class GainsTable {
         ViewGroup list = (ViewGroup) page.findViewById(R.id.gains_table);
         LayoutInflater inflater = LayoutInflater.from(page.getContext());
         for (int loop = 0; loop < LOOPS.length; loop++) {
-            TextView heading = (TextView) inflater.inflate(R.layout.heading_gains, list, false);
-            heading.setText(LOOPS[loop]);
+            View heading = inflater.inflate(R.layout.heading_gains, list, false);
+            ((TextView) heading.findViewById(R.id.gains_loop)).setText(LOOPS[loop]);
             list.addView(heading);
             for (int axis = 0; axis < AXES.length; axis++) {
                 addRow(inflater, list, loop, axis);

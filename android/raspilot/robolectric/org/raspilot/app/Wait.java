@@ -1,0 +1,40 @@
+package org.raspilot.app;
+
+import static org.junit.Assert.fail;
+
+import java.time.Duration;
+import org.robolectric.shadows.ShadowLooper;
+
+/** Waits for what other threads and real sockets bring, while the main thread does its work. */
+final class Wait {
+    private static final long LONGEST_NS = 60L * 1000 * 1000 * 1000;
+    private static final long PAUSE_MS = 2;
+
+    private Wait() {
+    }
+
+    /** What is waited for. */
+    interface Condition {
+        /** Says whether it is there. */
+        boolean holds() throws Exception;
+    }
+
+    /** Lets the main thread work until something holds; fails after a long while. */
+    static void until(String what, Condition condition) throws Exception {
+        long endNs = System.nanoTime() + LONGEST_NS;
+        ShadowLooper.idleMainLooper();
+        while (!condition.holds()) {
+            if (System.nanoTime() - endNs > 0) {
+                fail("never came: " + what);
+            }
+            Thread.sleep(PAUSE_MS);
+            ShadowLooper.idleMainLooper();
+        }
+    }
+
+    /** Lets so much of the main thread's time pass, ms: its timers run, the sockets' do not. */
+    static void pass(long ms) {
+        ShadowLooper.idleMainLooper();
+        ShadowLooper.shadowMainLooper().idleFor(Duration.ofMillis(ms));
+    }
+}

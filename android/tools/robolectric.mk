@@ -1,0 +1,63 @@
+# The app on this computer: its own classes in the real framework of Android 4.1 and 10, by
+# Robolectric; its screens drawn by the real graphics library.
+ROBO := $(RASPILOT)/robolectric
+ROBO_TESTS := $(call java,$(ROBO))
+ROBO_JAR := $(BUILD)/app-tests.jar
+ROBO_SET := $(BUILD)/robolectric
+PICTURES ?= $(BUILD)/pictures
+DOCS_PICTURES ?= ../docs/pictures
+
+# All that the two groups bring; two archives keep their classes one level deeper.
+ROBO_LIBS := $(addprefix $(JARS)/,$(filter %.jar,$(shell $(PYTHON) tools/fetch.py --list $(JARS) robolectric)))
+ROBO_AARS := $(addprefix $(JARS)/,$(filter %.aar,$(shell $(PYTHON) tools/fetch.py --list $(JARS) robolectric)))
+ROBO_AAR_JARS := $(ROBO_AARS:$(JARS)/%.aar=$(ROBO_SET)/%.jar)
+
+join := $(empty) $(empty)
+ROBO_PATH = $(subst $(join),:,$(strip $(APP_JAR) $(NEWER_JARS) $(CORE_JAR) $(ROBO_LIBS) \
+	$(ROBO_AAR_JARS))):$(JUNIT):$(FRAMEWORK_29):$(NEWEST)
+
+$(ROBO_SET)/%.jar: $(JARS)/.robolectric
+	@mkdir -p $(@D)
+	@$(PYTHON) -c 'import sys, zipfile; open(sys.argv[2], "wb").write(zipfile.ZipFile(sys.argv[1]).read("classes.jar"))' \
+		$(JARS)/$*.aar $@
+
+# The shadows name classes of the newest framework that they know.
+NEWEST := $(JARS)/android-all-instrumented-13-robolectric-9030017-i4.jar
+
+# Where the framework finds the app's manifest and its compiled resources.
+$(ROBO_SET)/com/android/tools/test_config.properties: tools/robolectric.mk
+	@mkdir -p $(@D)
+	@printf '%s\n' 'android_merged_manifest=$(abspath $(MANIFEST))' \
+		'android_merged_resources=$(abspath $(RASPILOT)/res)' \
+		'android_merged_assets=$(abspath $(RASPILOT)/assets)' \
+		'android_custom_package=org.raspilot.app' \
+		'android_resource_apk=$(abspath $(RESOURCES))' > $@
+
+# Tests run on this computer alone, so their language may be newer than the app's.
+$(ROBO_JAR): $(ROBO_TESTS) $(APP_JAR) $(NEWER_JARS) $(ROBO_AAR_JARS) $(BUILD)/ROBO_TESTS.list \
+		$(JARS)/.junit $(JARS)/.robolectric $(JARS)/.platforms $(JARS)/.level-29
+	@echo 'compile $@'
+	@out=$$(mktemp -d $@.XXXXXX) && trap 'rm -rf "$$out"' EXIT && \
+		javac -J-XX:TieredStopAtLevel=1 -J-XX:+UseSerialGC --release 8 -Werror -proc:none -encoding UTF-8 -g \
+		-Xlint:all,-options,-classfile,-cast,-deprecation \
+		-cp '$(ROBO_PATH)' -d "$$out" $(ROBO_TESTS) && \
+		$(PYTHON) tools/pack.py $@ "$$out"
+
+# $(call robolectric,classes,options)
+robolectric = $(JVM) -ea -Xmx1500m -Drobolectric.offline=true -Drobolectric.dependency.dir=$(abspath $(JARS)) \
+	-Drobolectric.logging.enabled=false $(2) \
+	-cp $(ROBO_JAR):$(ROBO_SET):$(ROBO_PATH) org.junit.runner.JUnitCore $(1)
+robo_ready := $(ROBO_JAR) $(RESOURCES) $(ROBO_SET)/com/android/tools/test_config.properties \
+	$(JARS)/.platforms
+
+ROBO_CHOSEN = $(subst /,.,$(patsubst $(ROBO)/%.java,%,$(if $(TEST),$(filter \
+	$(addprefix %/,$(addsuffix .java,$(TEST))),$(ROBO_TESTS)),$(filter %Test.java,$(ROBO_TESTS)))))
+
+.PHONY: test-app pictures
+test-app: $(robo_ready)
+	@$(if $(ROBO_CHOSEN),,echo 'No test is called $(TEST)' >&2; exit 1)
+	@$(call robolectric,$(ROBO_CHOSEN),-Dpictures=$(abspath $(PICTURES)) $(ROBO_OPTIONS))
+
+pictures: $(robo_ready)
+	@$(call robolectric,org.raspilot.app.PicturesTest,-Dpictures=$(abspath $(PICTURES)) $(ROBO_OPTIONS))
+	@cp $(PICTURES)/android-*.png $(DOCS_PICTURES)/
