@@ -29,7 +29,7 @@ final class PhoneOptions {
             + "  --mounting 'W X Y Z'                   how it lies: a rotation from nose, right\n"
             + "                                         wing, down to right edge, top edge, out\n"
             + "                                         of the screen; default flat, top ahead\n"
-            + "  --record                               it passes on what the black box is to write\n"
+            + "  --record                               it passes \"record\" on to the black box\n"
             + "  --seed N                               of what it does at random; default 1\n"
             + "  --stepped                              time and network are the simulator's\n"
             + "  --help                                 this text\n"
