@@ -22,6 +22,7 @@ public final class SelectorLoop implements Loop, Network {
     private static final int BYTES = 65536;
 
     private final Guard guard;
+    private final Clock clock;
     private final SocketSelector sockets;
     private final NameLookup names;
     private final String name;
@@ -40,12 +41,29 @@ public final class SelectorLoop implements Loop, Network {
      * @param faults hears of exceptions of what runs on the loop
      */
     public SelectorLoop(String name, FaultListener faults) {
-        this(name, faults, new SocketSelector(), new SystemResolver());
+        this(name, faults, new Clock() {
+            @Override
+            public long nowNs() {
+                return System.nanoTime();
+            }
+        });
     }
 
-    SelectorLoop(String name, FaultListener faults, SocketSelector sockets,
+    /**
+     * Makes a loop that is not started yet.
+     *
+     * @param name what its thread is called
+     * @param faults hears of exceptions of what runs on the loop
+     * @param clock by which it lives; on a device that sleeps System.nanoTime() stands still
+     */
+    public SelectorLoop(String name, FaultListener faults, Clock clock) {
+        this(name, faults, clock, new SocketSelector(), new SystemResolver());
+    }
+
+    SelectorLoop(String name, FaultListener faults, Clock clock, SocketSelector sockets,
             NameLookup.Resolver resolver) {
         this.name = name;
+        this.clock = clock;
         this.sockets = sockets;
         guard = new Guard(faults);
         names = new NameLookup(this, resolver, name + " names");
@@ -109,7 +127,7 @@ public final class SelectorLoop implements Loop, Network {
 
     @Override
     public long nowMs() {
-        return TimeUnit.NANOSECONDS.toMillis(System.nanoTime());
+        return TimeUnit.NANOSECONDS.toMillis(clock.nowNs());
     }
 
     @Override
@@ -132,7 +150,7 @@ public final class SelectorLoop implements Loop, Network {
         mustBeInLoop();
         final long delayNs = TimeUnit.MILLISECONDS.toNanos(Math.max(0, delayMs));
         // A delay of centuries must not run over into the past.
-        return timers.add(System.nanoTime() + Math.min(delayNs, Long.MAX_VALUE / 2), call);
+        return timers.add(clock.nowNs() + Math.min(delayNs, Long.MAX_VALUE / 2), call);
     }
 
     @Override
@@ -222,7 +240,7 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     private void runTimers() {
-        final long nowNs = System.nanoTime();
+        final long nowNs = clock.nowNs();
         final long mark = timers.mark();
         TimerQueue.Timer timer = timers.take(nowNs, mark);
         while (timer != null) {
@@ -234,7 +252,7 @@ public final class SelectorLoop implements Loop, Network {
 
     private void select() {
         try {
-            for (SelectionKey key : sockets.await(waitMs(System.nanoTime()))) {
+            for (SelectionKey key : sockets.await(waitMs(clock.nowNs()))) {
                 handle(key);
             }
         } catch (IOException | RuntimeException error) {

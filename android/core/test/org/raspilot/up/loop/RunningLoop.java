@@ -7,6 +7,7 @@ import java.util.concurrent.ExecutionException;
 import java.util.concurrent.FutureTask;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
+import java.util.concurrent.atomic.AtomicLong;
 import org.junit.rules.ExternalResource;
 
 /** A started {@link SelectorLoop} of one test: runs calls on it, and waits for what must come. */
@@ -16,13 +17,20 @@ public final class RunningLoop extends ExternalResource {
 
     public final Faults faults = new Faults();
     public final SelectorLoop loop;
+    private final AtomicLong sleptNs = new AtomicLong();
+    private final Clock clock = new Clock() {
+        @Override
+        public long nowNs() {
+            return System.nanoTime() + sleptNs.get();
+        }
+    };
 
     public RunningLoop() {
-        loop = new SelectorLoop("test loop", faults);
+        loop = new SelectorLoop("test loop", faults, clock);
     }
 
     public RunningLoop(SocketSelector sockets, NameLookup.Resolver resolver) {
-        loop = new SelectorLoop("test loop", faults, sockets, resolver);
+        loop = new SelectorLoop("test loop", faults, clock, sockets, resolver);
     }
 
     @Override
@@ -68,6 +76,16 @@ public final class RunningLoop extends ExternalResource {
             }
         });
         wait(latch, "never came: " + what);
+    }
+
+    /** The device sleeps for so long: its clock goes on, nothing else. */
+    public void sleep(long forMs) {
+        sleptNs.addAndGet(TimeUnit.MILLISECONDS.toNanos(forMs));
+    }
+
+    /** Returns a clock by which another loop may live. */
+    public Clock clock() {
+        return clock;
     }
 
     /** Waits until so much of the loop's own time has passed. */

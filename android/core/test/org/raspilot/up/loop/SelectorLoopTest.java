@@ -158,6 +158,22 @@ public final class SelectorLoopTest {
     }
 
     @Test
+    public void aSleepOfTheDeviceIsTimeThatPassed() {
+        final long[] asked = new long[1];
+        running.call(new Callable<Void>() {
+            @Override
+            public Void call() {
+                asked[0] = loop.nowMs();
+                loop.schedule(600000, note("after ten minutes"));
+                return null;
+            }
+        });
+        running.sleep(600000);
+        running.await("the timer", has("after ten minutes"));
+        assertTrue(loop.nowMs() - asked[0] >= 600000);
+    }
+
+    @Test
     public void timeAndSocketsAreForTheLoopAlone() {
         try {
             loop.schedule(0, note("never"));

@@ -83,7 +83,8 @@ public final class SocketSelectorTest {
         final int throwing = 3;
         final int[] waits = new int[1];
         final Faults faults = new Faults();
-        final SelectorLoop loop = new SelectorLoop("throwing", faults, new SocketSelector() {
+        final SelectorLoop loop = new SelectorLoop("throwing", faults, running.clock(),
+                new SocketSelector() {
             @Override
             List<SelectionKey> await(long waitMs) throws IOException {
                 waits[0]++;
