@@ -12,6 +12,8 @@ import java.util.Map;
 /** One UDP socket of a {@link SelectorLoop}. */
 final class UdpChannel implements UdpPort, Ready {
     private static final long NAME_LIFE_MS = 60000;
+    /** A name that nobody knows now is asked for again by then, not at each datagram. */
+    private static final long NEXT_LOOK_MS = 2000;
     private static final int MOST_NAMES = 64;
     private static final int READS_A_ROUND = 16;
 
@@ -114,10 +116,10 @@ final class UdpChannel implements UdpPort, Ready {
             }
             name = new Name();
             name.address = NameLookup.numeric(host);
-            name.foundMs = loop.nowMs();
+            name.nextLookMs = name.address == null ? loop.nowMs() : Long.MAX_VALUE;
             known.put(host, name);
         }
-        if (!name.isAsked && (name.address == null || loop.nowMs() - name.foundMs > NAME_LIFE_MS)) {
+        if (!name.isAsked && loop.nowMs() >= name.nextLookMs) {
             name.isAsked = true;
             names.look(host, name);
         }
@@ -134,19 +136,20 @@ final class UdpChannel implements UdpPort, Ready {
     /** What is known of one name. */
     private final class Name implements NameLookup.Asker {
         private InetAddress address;
-        private long foundMs;
+        private long nextLookMs;
         private boolean isAsked;
 
         @Override
         public void onAddresses(InetAddress[] addresses) {
             isAsked = false;
             address = addresses[0];
-            foundMs = loop.nowMs();
+            nextLookMs = loop.nowMs() + NAME_LIFE_MS;
         }
 
         @Override
         public void onUnknown(String reason) {
             isAsked = false;
+            nextLookMs = loop.nowMs() + NEXT_LOOK_MS;
         }
     }
 }

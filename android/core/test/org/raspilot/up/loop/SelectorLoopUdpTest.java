@@ -9,10 +9,12 @@ import java.net.DatagramPacket;
 import java.net.DatagramSocket;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
+import java.net.UnknownHostException;
 import java.nio.charset.Charset;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.Callable;
+import java.util.concurrent.atomic.AtomicInteger;
 import org.junit.After;
 import org.junit.Before;
 import org.junit.Rule;
@@ -79,6 +81,51 @@ public final class SelectorLoopUdpTest implements UdpListener {
             }
         });
         assertEquals("where?", text(receive()));
+    }
+
+    @Test
+    public void aNameThatNobodyKnowsIsNotAskedForAtEachDatagram() throws Exception {
+        final AtomicInteger looks = new AtomicInteger();
+        final RunningLoop other = new RunningLoop(new SocketSelector(), new NameLookup.Resolver() {
+            @Override
+            public InetAddress[] resolve(String host) throws UnknownHostException {
+                looks.incrementAndGet();
+                throw new UnknownHostException(host);
+            }
+        });
+        other.before();
+        try {
+            final UdpPort from = other.call(new Callable<UdpPort>() {
+                @Override
+                public UdpPort call() throws IOException {
+                    return other.loop.openUdp(SelectorLoopUdpTest.this);
+                }
+            });
+            final Callable<Boolean> send = new Callable<Boolean>() {
+                @Override
+                public Boolean call() {
+                    return from.send(new byte[1], "pi.example", 1);
+                }
+            };
+            final long beganMs = other.loop.nowMs();
+            for (int each = 0; each < 30; each++) {
+                assertFalse(other.call(send));
+                other.pass(5);
+            }
+            final long most = 1 + (other.loop.nowMs() - beganMs) / 2000;
+            assertTrue(looks + " look-ups", looks.get() >= 1 && looks.get() <= most);
+            other.sleep(2001);
+            final int before = looks.get();
+            other.await("another look-up", new Callable<Boolean>() {
+                @Override
+                public Boolean call() throws Exception {
+                    send.call();
+                    return looks.get() > before;
+                }
+            });
+        } finally {
+            other.after();
+        }
     }
 
     @Test
