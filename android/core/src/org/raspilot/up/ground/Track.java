@@ -27,12 +27,15 @@ public final class Track {
         private final Home origin;
         private final boolean isOriginHome;
         private final List<TrackPoint> points;
+        private final TrackPoint newest;
 
-        Snapshot(long version, Home origin, boolean isOriginHome, List<TrackPoint> points) {
+        Snapshot(long version, Home origin, boolean isOriginHome, List<TrackPoint> points,
+                TrackPoint newest) {
             this.version = version;
             this.origin = origin;
             this.isOriginHome = isOriginHome;
             this.points = points;
+            this.newest = newest;
         }
 
         /** Returns a number that rises with each change. */
@@ -50,9 +53,17 @@ public final class Track {
             return isOriginHome;
         }
 
-        /** Returns the points from the oldest to the newest, which is where it is; unmodifiable. */
+        /**
+         * Returns the points from the oldest on, unmodifiable; the same list until one is added or
+         * the origin moves.
+         */
         public List<TrackPoint> points() {
             return points;
+        }
+
+        /** Returns where it is, which may be no point of the way yet; null: not known. */
+        public TrackPoint newest() {
+            return newest;
         }
     }
 
@@ -79,8 +90,10 @@ public final class Track {
     private int intervals;
     private boolean isAfterSilence;
     private long version;
+    private final List<TrackPoint> points = new ArrayList<TrackPoint>();
+    private Home pointsOrigin;
     private Snapshot snapshot =
-            new Snapshot(0, null, false, Collections.<TrackPoint>emptyList());
+            new Snapshot(0, null, false, Collections.<TrackPoint>emptyList(), null);
 
     Track() {
     }
@@ -94,15 +107,12 @@ public final class Track {
     public Snapshot snapshot() {
         if (snapshot.version() != version) {
             final Home origin = home == null ? firstPlace : home;
-            final List<TrackPoint> points = new ArrayList<TrackPoint>(spots.size() + 1);
-            for (Spot each : spots) {
-                points.add(point(origin, each));
+            final List<TrackPoint> way = way(origin);
+            TrackPoint place = null;
+            if (newest != null) {
+                place = newest == lastSpot() ? way.get(way.size() - 1) : point(origin, newest);
             }
-            if (newest != null && (spots.isEmpty() || spots.get(spots.size() - 1) != newest)) {
-                points.add(point(origin, newest));
-            }
-            snapshot = new Snapshot(version, origin, home != null,
-                    Collections.unmodifiableList(points));
+            snapshot = new Snapshot(version, origin, home != null, way, place);
         }
         return snapshot;
     }
@@ -110,6 +120,7 @@ public final class Track {
     /** Forgets the way that was come. */
     public void clear() {
         spots.clear();
+        pointsOrigin = null;
         newest = null;
         firstPlace = null;
         isAfterSilence = false;
@@ -140,7 +151,7 @@ public final class Track {
         }
         newest = new Spot(latitude, longitude, altitude, isAfterSilence && !spots.isEmpty());
         version++;
-        if (spots.isEmpty() || distanceM(spots.get(spots.size() - 1), newest) >= NEAREST_M) {
+        if (spots.isEmpty() || distanceM(lastSpot(), newest) >= NEAREST_M) {
             isAfterSilence = false;
             spots.add(newest);
             if (spots.size() >= MOST_POINTS) {
@@ -181,6 +192,25 @@ public final class Track {
         }
         newest = kept.get(kept.size() - 1);
         spots = kept;
+        pointsOrigin = null;
+    }
+
+    private Spot lastSpot() {
+        return spots.isEmpty() ? null : spots.get(spots.size() - 1);
+    }
+
+    /** Returns the points of all spots; each is made once as long as the origin stays. */
+    private List<TrackPoint> way(Home origin) {
+        if (pointsOrigin != origin) {
+            pointsOrigin = origin;
+            points.clear();
+        } else if (points.size() == spots.size()) {
+            return snapshot.points();
+        }
+        for (Spot each : spots.subList(points.size(), spots.size())) {
+            points.add(point(origin, each));
+        }
+        return Collections.unmodifiableList(new ArrayList<TrackPoint>(points));
     }
 
     private static TrackPoint point(Home origin, Spot spot) {

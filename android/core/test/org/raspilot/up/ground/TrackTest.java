@@ -2,9 +2,12 @@ package org.raspilot.up.ground;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertNotSame;
 import static org.junit.Assert.assertNull;
+import static org.junit.Assert.assertSame;
 import static org.junit.Assert.assertTrue;
 
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 import org.junit.Test;
@@ -23,8 +26,14 @@ public final class TrackTest {
                 + (15 + eastM / DEGREE_M / 0.5) + ", \"altitude\": 30}}", nowMs), home, nowMs);
     }
 
+    /** Returns the way and, where it is not in it, the place where it is. */
     private List<TrackPoint> points() {
-        return track.snapshot().points();
+        final Track.Snapshot now = track.snapshot();
+        final List<TrackPoint> all = new ArrayList<TrackPoint>(now.points());
+        if (now.newest() != null && !all.contains(now.newest())) {
+            all.add(now.newest());
+        }
+        return all;
     }
 
     @Test
@@ -54,6 +63,25 @@ public final class TrackTest {
         fly(5, 0, null);
         assertTrue(track.version() > version);
         assertEquals(4, points().size());
+    }
+
+    @Test
+    public void aFrameWithoutAPointOfItsOwnCopiesNoPoint() {
+        fly(0, 0, null);
+        fly(100, 0, null);
+        final List<TrackPoint> way = track.snapshot().points();
+        final TrackPoint first = way.get(0);
+        fly(101, 0, null);
+        assertSame(way, track.snapshot().points());
+        assertEquals(101, track.snapshot().newest().northM(), 0.01);
+        fly(103, 0, null);
+        assertEquals(2, way.size());
+        assertEquals(3, track.snapshot().points().size());
+        assertSame("made once", first, track.snapshot().points().get(0));
+        assertSame(track.snapshot().newest(), track.snapshot().points().get(2));
+        fly(103, 0, new Home(60, 15.1));
+        assertNotSame("from another origin", first, track.snapshot().points().get(0));
+        assertEquals(3, track.snapshot().points().size());
     }
 
     @Test

@@ -41,14 +41,15 @@ final class TrackPanel implements View.OnClickListener {
     /** Shows the moment. */
     void update(Picture picture) {
         Track.Snapshot track = picture.track;
-        if (track != shown) {
-            shown = track;
+        // Most frames add no point: the way is long, and copied only when it grew.
+        if (isNew(track)) {
             showTrack(track);
         }
+        shown = track;
         Telemetry telemetry = picture.telemetry;
-        boolean hasTrack = track != null && !track.points().isEmpty();
+        TrackPoint newest = track == null ? null : track.newest();
+        boolean hasTrack = newest != null;
         boolean isThere = telemetry.number("location.latitude") != null;
-        TrackPoint newest = hasTrack ? track.points().get(track.points().size() - 1) : null;
         boolean isHeadingLive = telemetry.freshness("heading.actual", picture.nowMs)
                 == Freshness.LIVE;
         view.setAircraft(newest == null ? null : newest.northM(),
@@ -78,6 +79,12 @@ final class TrackPanel implements View.OnClickListener {
         } else if (id == R.id.ground_map) {
             openMap();
         }
+    }
+
+    private boolean isNew(Track.Snapshot track) {
+        return track == null || shown == null ? track != shown
+                : track.points() != shown.points()
+                || track.isOriginHome() != shown.isOriginHome();
     }
 
     private void showTrack(Track.Snapshot track) {
