@@ -10,7 +10,8 @@ final class TypedValue {
     /** What stands for a text that is no value of the type. */
     static final Object NONE = new Object();
 
-    private static final Pattern NUMBER = Pattern.compile("[+-]?[0-9]+(\\.[0-9]+)?");
+    /** Some phones' keyboards for numbers have a comma only. */
+    private static final Pattern NUMBER = Pattern.compile("[+-]?[0-9]+([.,][0-9]+)?");
 
     private TypedValue() {
     }
@@ -25,7 +26,7 @@ final class TypedValue {
                 return flag(input.toLowerCase(Locale.ROOT));
             case INTEGER:
             case NUMBER:
-                return NUMBER.matcher(input).matches() ? number(input) : NONE;
+                return NUMBER.matcher(input).matches() ? number(input.replace(',', '.')) : NONE;
             case OBJECT:
             case LIST:
                 return json(input);

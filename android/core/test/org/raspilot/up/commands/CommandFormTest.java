@@ -103,7 +103,8 @@ public final class CommandFormTest {
     @Test
     public void eachErrorIsASentenceThatNamesTheField() {
         assertRefused("must is missing");
-        assertRefused("must must be a number (s), not \"1,5\"", "must", "1,5");
+        assertParsed("{must=1.5}", "must", "1,5");
+        assertRefused("must must be a number (s), not \"1,5,5\"", "must", "1,5,5");
         assertRefused("must must be a number (s), not \"NaN\"", "must", "NaN");
         assertRefused("must must be a number (s), not null", "must", "null");
         assertRefused("must must be a number (s), not \"1e999\"", "must", "1e999");
