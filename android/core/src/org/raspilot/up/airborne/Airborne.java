@@ -14,6 +14,7 @@ import org.raspilot.up.providers.ProvidersController;
 import org.raspilot.up.providers.ProvidersListener;
 import org.raspilot.up.providers.Sensors;
 import org.raspilot.up.providers.Side;
+import org.raspilot.up.wire.SafeText;
 
 /**
  * The airborne phone: finds the Raspberry Pi, sends what its sensors read, carries Commands out.
@@ -23,6 +24,8 @@ import org.raspilot.up.providers.Side;
  * thesis 4.5.2, "Base Up Service".
  */
 public final class Airborne {
+    private static final int LONGEST_REASON = 300;
+
     private final AirborneSettings settings;
     private final AirborneListener listener;
     private final Up up;
@@ -183,7 +186,8 @@ public final class Airborne {
         public void onNack(String id, String reason) {
             answers++;
             link.answered(id);
-            listener.onEvent("the Raspberry Pi refuses what was sent: " + reason);
+            listener.onEvent("the Raspberry Pi refuses what was sent: "
+                    + SafeText.of(reason, LONGEST_REASON));
         }
     }
 

@@ -6,6 +6,7 @@ import java.util.WeakHashMap;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.MalformedException;
+import org.raspilot.up.wire.SafeText;
 
 /**
  * The mediator between a link and the bus: reads, validates, executes, answers (thesis 4.1.4).
@@ -53,8 +54,8 @@ public final class CommandReceiver {
         }
         String name = message.name();
         if (!registry.knows(name) && !executor.hasHandlers(name)) {
-            String shown = name.length() <= SHOWN_NAME ? name : name.substring(0, SHOWN_NAME);
-            refuse(message.id(), answers, NackCode.UNKNOWN, "no Command '" + shown + "'");
+            refuse(message.id(), answers, NackCode.UNKNOWN,
+                    "no Command '" + SafeText.of(name, SHOWN_NAME) + "'");
             return;
         }
         BaseCommand command;
@@ -131,11 +132,8 @@ public final class CommandReceiver {
     private void refuse(String id, AnswerSink answers, NackCode code, String reason) {
         addOne(code.word());
         if (id != null) {
-            String said = String.valueOf(reason);
-            int end = Math.min(said.length(),
-                    said.offsetByCodePoints(0, Math.min(LONGEST_REASON,
-                            said.codePointCount(0, said.length()))));
-            answer(id, answers, new NackCommand(id, code.word(), said.substring(0, end)));
+            answer(id, answers, new NackCommand(id, code.word(),
+                    SafeText.of(String.valueOf(reason), LONGEST_REASON)));
         }
     }
 

@@ -5,6 +5,7 @@ import java.util.Collection;
 import java.util.Collections;
 import java.util.List;
 import java.util.Map;
+import org.raspilot.up.wire.SafeText;
 
 /**
  * What the value of a field must be: its type, bounds, choices and length.
@@ -13,6 +14,8 @@ import java.util.Map;
  * objects and lists are not looked into.
  */
 final class FieldRule {
+    private static final int LONGEST_SHOWN = 40;
+
     private final FieldType type;
     private final double minimum;
     private final double maximum;
@@ -131,8 +134,7 @@ final class FieldRule {
     /** Returns any value as a short text for a sentence. */
     static String shown(Object value) {
         if (value instanceof String) {
-            String text = (String) value;
-            return '"' + (text.length() <= 40 ? text : text.substring(0, 40) + "...") + '"';
+            return '"' + SafeText.of((String) value, LONGEST_SHOWN) + '"';
         }
         if (value instanceof Map) {
             return "a map";

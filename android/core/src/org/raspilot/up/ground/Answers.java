@@ -13,6 +13,7 @@ import org.raspilot.up.commands.NackCommand;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.wire.SafeText;
 
 /** Commands that were sent: each ends once, whatever comes twice, late or for another one. */
 final class Answers {

@@ -7,6 +7,7 @@ import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.Gains;
 import org.raspilot.up.commands.InvalidCommandException;
 import org.raspilot.up.commands.LoopGains;
+import org.raspilot.up.wire.SafeText;
 
 /** Reads the gains that a person has typed, and judges sets before they are sent. */
 public final class GainsForm {

@@ -14,6 +14,7 @@ import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.Hello;
 import org.raspilot.up.wire.HelloAnswer;
 import org.raspilot.up.wire.MalformedException;
+import org.raspilot.up.wire.SafeText;
 import org.raspilot.up.wire.Seat;
 
 /**

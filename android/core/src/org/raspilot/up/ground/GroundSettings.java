@@ -1,6 +1,7 @@
 package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Hello;
+import org.raspilot.up.wire.SafeText;
 import org.raspilot.up.wire.Seat;
 
 /** Whom a ground device talks to and as what; immutable and valid. */

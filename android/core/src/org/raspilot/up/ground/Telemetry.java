@@ -5,6 +5,7 @@ import java.util.Collections;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import org.raspilot.up.wire.SafeText;
 
 /**
  * One frame of telemetry, read with suspicion: a field of a wrong type is a field not known.

@@ -7,6 +7,7 @@ import java.util.Collections;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import org.raspilot.up.wire.SafeText;
 
 /** Tells all of a frame as rows for a list, fields of unknown cogs too. */
 public final class TelemetryText {

@@ -3,6 +3,7 @@ package org.raspilot.up.net;
 import java.util.Map;
 import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
+import org.raspilot.up.wire.SafeText;
 
 /** A runner's answer that says where an instance runs (protocols 8). */
 public final class RunnerAnswer {
@@ -105,14 +106,13 @@ public final class RunnerAnswer {
         return value instanceof Map ? (Map<?, ?>) value : null;
     }
 
-    /** Returns a text, cut for the screen; null: there is none. */
+    /** Returns a text, harmless for the screen; null: there is none. */
     private static String text(Map<?, ?> from, String key) {
         final Object value = from.get(key);
         if (!(value instanceof String) || ((String) value).isEmpty()) {
             return null;
         }
-        final String text = (String) value;
-        return text.length() <= LONGEST_WORDS ? text : text.substring(0, LONGEST_WORDS) + "...";
+        return SafeText.of((String) value, LONGEST_WORDS);
     }
 
     /** Returns 1 to 65535; 0: there is none. */

@@ -1,10 +1,14 @@
 package org.raspilot.up.providers;
 
+import org.raspilot.up.wire.SafeText;
+
 /**
  * How the device lies in the aeroplane: the rotation from aircraft axes (nose, right wing, down) to
  * device axes (right edge, top edge, out of the screen). Any orientation will do.
  */
 public final class Mounting {
+    private static final int LONGEST_SHOWN = 80;
+
     /** The screen up and the top edge to the nose. */
     public static final Mounting FLAT = of(Side.TOP, Side.SCREEN);
 
@@ -102,7 +106,7 @@ public final class Mounting {
         String[] parts = text.trim().split("\\s+");
         if (parts.length != 4) {
             throw new IllegalArgumentException(
-                    "the mounting is four numbers, not '" + shown(text) + "'");
+                    "the mounting is four numbers, not '" + SafeText.of(text, LONGEST_SHOWN) + "'");
         }
         try {
             return new Mounting(new Quaternion(
@@ -112,12 +116,8 @@ public final class Mounting {
                     Double.parseDouble(parts[3])));
         } catch (IllegalArgumentException error) {
             throw new IllegalArgumentException(
-                    "the mounting '" + shown(text) + "' is no rotation", error);
+                    "the mounting '" + SafeText.of(text, LONGEST_SHOWN) + "' is no rotation", error);
         }
-    }
-
-    private static String shown(String text) {
-        return text.length() > 80 ? text.substring(0, 80) + "..." : text;
     }
 
     private static double[] cross(double[] a, double[] b) {

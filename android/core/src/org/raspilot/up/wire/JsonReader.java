@@ -12,6 +12,7 @@ import java.util.Map;
 final class JsonReader {
     /** Deep enough for any id that was meant, and shallow enough for the stack. */
     private static final int DEEPEST_LENIENT = 512;
+    private static final int LONGEST_SHOWN = 40;
 
     private final String text;
     private final boolean isStrict;
@@ -190,6 +191,6 @@ final class JsonReader {
     }
 
     private static String shown(String key) {
-        return "'" + (key.length() <= 40 ? key : key.substring(0, 40)) + "'";
+        return "'" + SafeText.of(key, LONGEST_SHOWN) + "'";
     }
 }

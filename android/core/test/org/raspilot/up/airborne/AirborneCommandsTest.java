@@ -103,6 +103,20 @@ public final class AirborneCommandsTest {
     }
 
     @Test
+    public void whatTheRaspberryPiRefusesIsShownWithoutWhatWouldHarmAScreen() {
+        StringBuilder reason = new StringBuilder("no\\u202e way\\u0007");
+        for (int i = 0; i < 400; i++) {
+            reason.append('x');
+        }
+        bench.hear("{\"name\": \"up.nack\", \"data\": {\"id\": \"9\", \"code\": \"refused\","
+                + " \"reason\": \"" + reason + "\"}}");
+        String told = bench.events.get(bench.events.size() - 1);
+        assertTrue(told, told.startsWith("the Raspberry Pi refuses what was sent: no wayxxx"));
+        assertTrue(told, told.endsWith("x\u2026"));
+        assertTrue(told, told.length() < 350);
+    }
+
+    @Test
     public void panicComesUnderBothNamesAndIsAcknowledged() {
         for (String name : new String[] {"up.panic", "load_guard.panic"}) {
             bench.hear("{\"name\": \"" + name + "\", \"data\": {\"panic\": true, "

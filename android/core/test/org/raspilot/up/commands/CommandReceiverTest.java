@@ -193,8 +193,27 @@ public final class CommandReceiverTest {
         speaker.refusal = new CommandRefusedException(reason.toString());
         receive(speak("1", "a"));
         String heard = answers.heard().get(0);
-        assertTrue(heard.endsWith(face));
-        assertEquals("nack 1 refused ".length() + 1000, heard.length());
+        assertTrue(heard, heard.endsWith(face + "\u2026"));
+        assertEquals("nack 1 refused ".length() + 499, heard.length());
+    }
+
+    @Test
+    public void whatARefusalQuotesCanBeSent() {
+        String face = "\ud83d\ude00";
+        String nearlyForty = "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx";
+        String quoted = nearlyForty + face + face;
+        receive("{\"name\": \"android.speak\", \"id\": 1, \"data\": {\"text\": \"" + quoted
+                + "\", \"" + quoted + "\": 1, \"" + quoted + "\": 2}}");
+        receive("{\"name\": \"up.panic\", \"id\": 2, \"data\": {\"panic\": \"" + quoted
+                + "\"}}");
+        receive("{\"name\": \"" + nearlyForty + "xxxxxxxxxxxxxxxxxxxxxxxx" + face
+                + "\", \"id\": 3}");
+        speaker.refusal = new CommandRefusedException("half a letter: \ud83d\nand\u202e more");
+        receive(speak("4", "a"));
+        List<String> heard = answers.heard();
+        assertEquals(4, heard.size());
+        assertTrue(heard.get(1), heard.get(1).contains("\"" + nearlyForty + "\u2026\""));
+        assertEquals("nack 4 refused half a letter:  and more", heard.get(3));
     }
 
     private void receive(String line) {

@@ -57,8 +57,10 @@ public final class RunnerAnswerTest {
         for (int i = 0; i < 1000; i++) {
             words.append("no ");
         }
-        assertEquals("the runner says: ".length() + 203,
+        assertEquals("the runner says: ".length() + 200,
                 refusal("{\"running\": false, \"error\": \"" + words + "\"}").length());
+        assertEquals("the runner says: no way",
+                refusal("{\"running\": false, \"error\": \"no\\u202e way\\u0007\"}"));
     }
 
     @Test

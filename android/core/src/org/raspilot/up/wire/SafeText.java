@@ -1,4 +1,4 @@
-package org.raspilot.up.ground;
+package org.raspilot.up.wire;
 
 /** Makes texts from the air harmless for a screen. */
 public final class SafeText {
