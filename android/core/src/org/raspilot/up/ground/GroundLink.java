@@ -11,7 +11,6 @@ import org.raspilot.up.net.UpSocketSettings;
 import org.raspilot.up.net.UpSocketStatus;
 import org.raspilot.up.wire.ControlLine;
 import org.raspilot.up.wire.GeneralMessage;
-import org.raspilot.up.wire.Hello;
 import org.raspilot.up.wire.HelloAnswer;
 import org.raspilot.up.wire.MalformedException;
 import org.raspilot.up.wire.SafeText;
@@ -35,28 +34,25 @@ final class GroundLink implements UpSocketListener {
 
     private final Loop loop;
     private final GroundSettings settings;
-    private final TokenStore tokens;
     private final LinkListener listener;
     private final UpSocket socket;
     private final LinkFacts facts = new LinkFacts();
-    private final QuietLimit quiet = new QuietLimit();
-    private Seat wanted;
-    private String token;
+    private final SeatClaim claim;
+    private final QuietWatch quiet;
     private boolean isGreeted;
     private long connectingMs;
     private long connectTookMs;
     private long helloMs;
-    private long heardMs;
     private Cancellable helloTimer;
-    private Cancellable quietTimer;
     private UpSocketStatus judged;
 
     GroundLink(Loop loop, GroundSettings settings, TokenStore tokens, LinkListener listener,
             Random random) {
         this.loop = loop;
         this.settings = settings;
-        this.tokens = tokens;
         this.listener = listener;
+        claim = new SeatClaim(settings, tokens, facts);
+        quiet = new QuietWatch(loop, new Quiet());
         final UpSocketSettings lines = UpSocketSettings.lines()
                 .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
                 .withRetryMs(FIRST_RETRY_MS, LAST_RETRY_MS);
@@ -83,12 +79,7 @@ final class GroundLink implements UpSocketListener {
         if (facts.state != LinkState.STOPPED) {
             return;
         }
-        wanted = settings.seat();
-        token = null;
-        if (wanted == Seat.COMMAND && !settings.isDirect()) {
-            final String stored = tokens.load(settings.tokenKey());
-            token = Hello.isToken(stored) ? stored : null;
-        }
+        claim.begin();
         facts.failures = 0;
         facts.rejection = "";
         facts.become(LinkState.CONNECTING, loop.nowMs(), "");
@@ -115,14 +106,14 @@ final class GroundLink implements UpSocketListener {
 
     /** Hears that the period of telemetry may change. */
     void expectAnotherPeriod() {
-        quiet.forget();
+        quiet.expectAnotherPeriod();
     }
 
     boolean requestSeat() {
         if (settings.isDirect() || facts.state == LinkState.STOPPED) {
             return false;
         }
-        wanted = Seat.COMMAND;
+        claim.want(Seat.COMMAND);
         if (!isOpen()) {
             // Nobody can be asked now; the next hello asks for it.
             return false;
@@ -152,9 +143,9 @@ final class GroundLink implements UpSocketListener {
         if (!holds()) {
             return false;
         }
-        wanted = Seat.LISTEN;
+        claim.want(Seat.LISTEN);
         if (!facts.isHolderKnown) {
-            dropToken();
+            claim.dropToken();
             return sayHelloAnew();
         }
         facts.isLeft = send(ControlLine.of(ControlLine.Kind.SEAT_RELEASE).toLine());
@@ -166,9 +157,7 @@ final class GroundLink implements UpSocketListener {
     public void onConnected(UpSocket connected) {
         final long nowMs = loop.nowMs();
         connectTookMs = nowMs - connectingMs;
-        heardMs = nowMs;
-        quiet.forget();
-        watchQuiet();
+        quiet.start();
         isGreeted = settings.isDirect();
         if (isGreeted) {
             opened(connectTookMs);
@@ -183,13 +172,12 @@ final class GroundLink implements UpSocketListener {
                         + " (a direct link says no hello)");
             }
         });
-        final String resume = wanted == Seat.COMMAND ? token : null;
-        socket.send(Hello.ofGround(settings.aircraft(), wanted, resume).toLine());
+        socket.send(claim.hello().toLine());
     }
 
     @Override
     public void onReceived(UpSocket from, byte[] bytes, int length) {
-        heardMs = loop.nowMs();
+        quiet.heard();
         if (ControlLine.isControlLine(bytes, length)) {
             if (settings.isDirect()) {
                 facts.strangeControl++;
@@ -259,53 +247,18 @@ final class GroundLink implements UpSocketListener {
         } else {
             isGreeted = true;
             opened(Math.min(connectTookMs, loop.nowMs() - helloMs));
-            facts.seat = answer.seat();
-            if (answer.seat() == Seat.COMMAND) {
-                keep(answer.token());
-            }
+            claim.onAccepted(answer);
             listener.onOpened();
             listener.onLink();
         }
     }
 
     private void onControl(ControlLine said) {
-        if (said == null) {
+        if (said == null || !claim.onControl(said)) {
             facts.strangeControl++;
-            return;
+        } else {
+            listener.onLink();
         }
-        switch (said.kind()) {
-            case SEAT_COMMAND:
-                facts.seat = Seat.COMMAND;
-                wanted = Seat.COMMAND;
-                facts.isLeft = false;
-                keep(said.token());
-                break;
-            case SEAT_LISTEN:
-                facts.seat = Seat.LISTEN;
-                wanted = Seat.LISTEN;
-                facts.isLeft = false;
-                facts.askedBy = null;
-                dropToken();
-                break;
-            case SEAT_ASKED:
-                facts.askedBy = said.number();
-                break;
-            case SEAT_HOLDER:
-                facts.holder = said.number();
-                facts.isHolderKnown = true;
-                break;
-            case AIRCRAFT_ONLINE:
-                facts.isAircraftOnline = true;
-                break;
-            case AIRCRAFT_OFFLINE:
-                facts.isAircraftOnline = false;
-                break;
-            default:
-                // What only a ground says.
-                facts.strangeControl++;
-                return;
-        }
-        listener.onLink();
     }
 
     private void onLine(byte[] line, int length) {
@@ -316,12 +269,12 @@ final class GroundLink implements UpSocketListener {
             facts.malformed++;
             return;
         }
-        quiet.heard(heardMs);
+        quiet.heardMessage();
         listener.onMessage(message);
     }
 
     private void opened(long roundTripMs) {
-        cancel(helloTimer);
+        endHello();
         facts.become(LinkState.OPEN, loop.nowMs(), "");
         facts.roundTripMs = settings.isDirect() ? null : Double.valueOf(roundTripMs);
         facts.rejection = "";
@@ -333,42 +286,29 @@ final class GroundLink implements UpSocketListener {
         }
     }
 
+    private void endHello() {
+        if (helloTimer != null) {
+            helloTimer.cancel();
+        }
+    }
+
     private void close(LinkState state, String reason) {
-        cancel(helloTimer);
-        cancel(quietTimer);
+        endHello();
+        quiet.stop();
         isGreeted = false;
         facts.roundTripMs = null;
         facts.become(state, loop.nowMs(), reason);
     }
 
-    private void watchQuiet() {
-        final long limitMs = quiet.limitMs(facts.isAircraftOnline);
-        final long restMs = heardMs + limitMs - loop.nowMs();
-        if (restMs <= 0) {
-            socket.drop("nothing came for " + Math.round(limitMs / 1000.0) + " s");
-            return;
+    private final class Quiet implements QuietWatch.Owner {
+        @Override
+        public Boolean isAircraftOnline() {
+            return facts.isAircraftOnline;
         }
-        quietTimer = loop.schedule(Math.min(restMs, QuietLimit.SHORTEST_MS), new Runnable() {
-            @Override
-            public void run() {
-                watchQuiet();
-            }
-        });
-    }
 
-    private void keep(String given) {
-        token = given;
-        tokens.save(settings.tokenKey(), given);
-    }
-
-    private void dropToken() {
-        token = null;
-        tokens.forget(settings.tokenKey());
-    }
-
-    private static void cancel(Cancellable timer) {
-        if (timer != null) {
-            timer.cancel();
+        @Override
+        public void onQuiet(long forMs) {
+            socket.drop("nothing came for " + Math.round(forMs / 1000.0) + " s");
         }
     }
 }

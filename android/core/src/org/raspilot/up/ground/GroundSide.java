@@ -19,7 +19,6 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class GroundSide implements TelemetrySource {
     /** So often, ms, what time alone changes is looked at. */
     private static final long TICK_MS = 250;
-    private static final long STATUS_MS = 1000;
 
     private final Loop loop;
     private final GroundSettings settings;
@@ -36,12 +35,9 @@ public final class GroundSide implements TelemetrySource {
     private final EventLog events = new EventLog();
     private final Alarms alarms = new Alarms();
     private final Judge judge = new Judge(events, alarms);
+    private final Bulletin bulletin;
+    private final SilenceTimer silence;
     private Cancellable tick;
-    private Cancellable silence;
-    private boolean wasSilent = true;
-    private boolean wasLate;
-    private long statusMs;
-    private long toldVersions;
 
     /**
      * Makes a ground that is not started.
@@ -56,6 +52,13 @@ public final class GroundSide implements TelemetrySource {
         this.settings = settings;
         this.executor = executor;
         this.listener = listener;
+        bulletin = new Bulletin(listener);
+        silence = new SilenceTimer(loop, new Runnable() {
+            @Override
+            public void run() {
+                look(true);
+            }
+        });
         link = new GroundLink(loop, settings, tokens, new Links(), random);
         answers = new Answers(loop, random);
         desk = new CommandDesk(loop, settings, link, answers, beacons);
@@ -82,7 +85,7 @@ public final class GroundSide implements TelemetrySource {
         if (tick != null) {
             tick.cancel();
             tick = null;
-            cancelSilence();
+            silence.cancel();
             link.stop();
             judge.forget();
             tellChanged();
@@ -218,11 +221,11 @@ public final class GroundSide implements TelemetrySource {
         beacons.onFrame(frame);
         home.take(frame);
         track.take(frame, home.home(), nowMs);
-        watchSilence(frame, nowMs);
+        silence.watch(frame, nowMs);
         judge.onFrame(frame, status(), nowMs);
         executor.executeCommand(new TelemetryCommand(message));
         listener.onTelemetry(frame);
-        if (wasSilent != frame.isSilent(nowMs) || wasLate != frame.age().isLate(nowMs)) {
+        if (bulletin.isNews(frame, nowMs)) {
             tellStatus();
         }
         if (desk.standing() == SeatStanding.OURS && !frame.isSilent(nowMs)) {
@@ -231,59 +234,32 @@ public final class GroundSide implements TelemetrySource {
         tellChanged();
     }
 
-    /** Sees to it that silence is told when it begins, not when something happens. */
-    private void watchSilence(Telemetry frame, long nowMs) {
-        cancelSilence();
-        final Long ageMs = frame.ageMs(nowMs);
-        if (ageMs != null && ageMs <= Age.SILENT_MS) {
-            silence = loop.schedule(Age.SILENT_MS + 1 - ageMs, new Runnable() {
-                @Override
-                public void run() {
-                    judge.onMoment(stream.newest(), status(), loop.nowMs());
-                    tellStatus();
-                    tellChanged();
-                }
-            });
-        }
-    }
-
-    private void cancelSilence() {
-        if (silence != null) {
-            silence.cancel();
-            silence = null;
-        }
-    }
-
     private void tick() {
         tick = loop.schedule(TICK_MS, new Runnable() {
             @Override
             public void run() {
                 tick();
-                judge.onMoment(stream.newest(), status(), loop.nowMs());
-                if (loop.nowMs() - statusMs >= STATUS_MS) {
-                    tellStatus();
-                }
-                tellChanged();
+                look(bulletin.isDue(loop.nowMs()));
             }
         });
     }
 
+    /** Judges the moment and tells what came of it. */
+    private void look(boolean isStatusDue) {
+        judge.onMoment(stream.newest(), status(), loop.nowMs());
+        if (isStatusDue) {
+            tellStatus();
+        }
+        tellChanged();
+    }
+
     private void tellStatus() {
-        statusMs = loop.nowMs();
-        final GroundStatus status = status();
-        wasSilent = status.isSilent();
-        wasLate = status.isLate();
-        listener.onStatus(status);
+        bulletin.tell(status(), loop.nowMs());
     }
 
     private void tellChanged() {
-        // Each of them only rises, and so does their sum.
-        final long versions = track.version() + events.version()
-                + alarms.snapshot().version() + gains.version();
-        if (versions != toldVersions) {
-            toldVersions = versions;
-            listener.onChanged();
-        }
+        bulletin.tellChanged(track.version() + events.version() + alarms.snapshot().version()
+                + gains.version());
     }
 
     private final class Links implements LinkListener {
@@ -311,7 +287,7 @@ public final class GroundSide implements TelemetrySource {
         @Override
         public void onLost(String reason) {
             beacons.onLost();
-            cancelSilence();
+            silence.cancel();
             if (stream.newest() != Telemetry.NOTHING) {
                 listener.onTelemetry(stream.onLost());
             }
@@ -320,12 +296,8 @@ public final class GroundSide implements TelemetrySource {
 
         @Override
         public void onLink() {
-            final long nowMs = loop.nowMs();
-            final GroundStatus status = status();
-            judge.onLink(status, nowMs);
-            judge.onMoment(stream.newest(), status, nowMs);
-            tellStatus();
-            tellChanged();
+            judge.onLink(status(), loop.nowMs());
+            look(true);
         }
     }
 }

@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Seat;
 
-/** What is known about the link now; written by {@link GroundLink} alone. */
+/** What is known about the link now; written by {@link GroundLink} and its {@link SeatClaim}. */
 final class LinkFacts {
     LinkState state = LinkState.STOPPED;
     long sinceMs;

@@ -1,0 +1,71 @@
+package org.raspilot.up.ground;
+
+import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.loop.Loop;
+
+/** Notices a connection on which nothing comes for longer than {@link QuietLimit} allows. */
+final class QuietWatch {
+    private final Loop loop;
+    private final Owner owner;
+    private final QuietLimit limit = new QuietLimit();
+    private long heardMs;
+    private Cancellable timer;
+
+    /** Whose connection it is. */
+    interface Owner {
+        /** Returns whether the aircraft is there; null: nobody told. */
+        Boolean isAircraftOnline();
+
+        /** Hears that nothing came for so long, ms. */
+        void onQuiet(long forMs);
+    }
+
+    QuietWatch(Loop loop, Owner owner) {
+        this.loop = loop;
+        this.owner = owner;
+    }
+
+    /** Begins with a connection that has just been made. */
+    void start() {
+        heardMs = loop.nowMs();
+        limit.forget();
+        look();
+    }
+
+    /** Ends. */
+    void stop() {
+        if (timer != null) {
+            timer.cancel();
+        }
+    }
+
+    /** Hears that a line came. */
+    void heard() {
+        heardMs = loop.nowMs();
+    }
+
+    /** Hears that the line that came was a message. */
+    void heardMessage() {
+        limit.heard(heardMs);
+    }
+
+    /** Hears that the period of telemetry may change. */
+    void expectAnotherPeriod() {
+        limit.forget();
+    }
+
+    private void look() {
+        final long limitMs = limit.limitMs(owner.isAircraftOnline());
+        final long restMs = heardMs + limitMs - loop.nowMs();
+        if (restMs <= 0) {
+            owner.onQuiet(limitMs);
+            return;
+        }
+        timer = loop.schedule(Math.min(restMs, QuietLimit.SHORTEST_MS), new Runnable() {
+            @Override
+            public void run() {
+                look();
+            }
+        });
+    }
+}

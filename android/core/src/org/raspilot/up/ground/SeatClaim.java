@@ -1,0 +1,100 @@
+package org.raspilot.up.ground;
+
+import org.raspilot.up.wire.ControlLine;
+import org.raspilot.up.wire.Hello;
+import org.raspilot.up.wire.HelloAnswer;
+import org.raspilot.up.wire.Seat;
+
+/**
+ * The seat that this ground wants, the token by which it comes back to it, and what the proxy says
+ * about both. Source: docs/protocols.md 9.
+ */
+final class SeatClaim {
+    private final GroundSettings settings;
+    private final TokenStore tokens;
+    private final LinkFacts facts;
+    private Seat wanted;
+    private String token;
+
+    /** Writes what it hears into {@code facts}. */
+    SeatClaim(GroundSettings settings, TokenStore tokens, LinkFacts facts) {
+        this.settings = settings;
+        this.tokens = tokens;
+        this.facts = facts;
+    }
+
+    /** Begins anew with the seat of the settings and the token that is kept. */
+    void begin() {
+        wanted = settings.seat();
+        token = null;
+        if (wanted == Seat.COMMAND && !settings.isDirect()) {
+            final String stored = tokens.load(settings.tokenKey());
+            token = Hello.isToken(stored) ? stored : null;
+        }
+    }
+
+    /** Wants this seat from now on. */
+    void want(Seat seat) {
+        wanted = seat;
+    }
+
+    /** Forgets the token: the next hello asks as a stranger. */
+    void dropToken() {
+        token = null;
+        tokens.forget(settings.tokenKey());
+    }
+
+    /** Returns the hello that asks for the seat. */
+    Hello hello() {
+        return Hello.ofGround(settings.aircraft(), wanted, wanted == Seat.COMMAND ? token : null);
+    }
+
+    /** Takes the answer that let this ground in. */
+    void onAccepted(HelloAnswer answer) {
+        facts.seat = answer.seat();
+        if (answer.seat() == Seat.COMMAND) {
+            keep(answer.token());
+        }
+    }
+
+    /** Takes what the proxy says; false: it is what only a ground says. */
+    boolean onControl(ControlLine said) {
+        switch (said.kind()) {
+            case SEAT_COMMAND:
+                become(Seat.COMMAND);
+                keep(said.token());
+                return true;
+            case SEAT_LISTEN:
+                become(Seat.LISTEN);
+                facts.askedBy = null;
+                dropToken();
+                return true;
+            case SEAT_ASKED:
+                facts.askedBy = said.number();
+                return true;
+            case SEAT_HOLDER:
+                facts.holder = said.number();
+                facts.isHolderKnown = true;
+                return true;
+            case AIRCRAFT_ONLINE:
+                facts.isAircraftOnline = true;
+                return true;
+            case AIRCRAFT_OFFLINE:
+                facts.isAircraftOnline = false;
+                return true;
+            default:
+                return false;
+        }
+    }
+
+    private void become(Seat given) {
+        facts.seat = given;
+        wanted = given;
+        facts.isLeft = false;
+    }
+
+    private void keep(String given) {
+        token = given;
+        tokens.save(settings.tokenKey(), given);
+    }
+}

@@ -1,0 +1,33 @@
+package org.raspilot.up.ground;
+
+import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.loop.Loop;
+
+/** Runs when a frame becomes silence: that is told when it begins, not when something happens. */
+final class SilenceTimer {
+    private final Loop loop;
+    private final Runnable onSilent;
+    private Cancellable timer;
+
+    SilenceTimer(Loop loop, Runnable onSilent) {
+        this.loop = loop;
+        this.onSilent = onSilent;
+    }
+
+    /** Waits for the end of this frame's life instead of the one's before. */
+    void watch(Telemetry frame, long nowMs) {
+        cancel();
+        final Long ageMs = frame.ageMs(nowMs);
+        if (ageMs != null && ageMs <= Age.SILENT_MS) {
+            timer = loop.schedule(Age.SILENT_MS + 1 - ageMs, onSilent);
+        }
+    }
+
+    /** Waits for nothing. */
+    void cancel() {
+        if (timer != null) {
+            timer.cancel();
+            timer = null;
+        }
+    }
+}
