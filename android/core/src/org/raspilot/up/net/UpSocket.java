@@ -1,12 +1,10 @@
 package org.raspilot.up.net;
 
-import java.util.Iterator;
 import java.util.Random;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.loop.TcpListener;
-import org.raspilot.up.wire.LineSplitter;
 
 /**
  * Keeps one connection to a peer for ever: finds it, connects, and after a loss does so again.
@@ -24,7 +22,7 @@ public final class UpSocket {
     private final UpSocketSettings settings;
     private final BackOff backOff;
     private final LinkWatch watch;
-    private final LineSplitter splitter = new LineSplitter();
+    private final LineDelivery lines;
     private final SendQueue queue;
     private UpSocketStatus status =
             new UpSocketStatus(UpSocketStatus.State.STOPPED, null, "not started");
@@ -51,6 +49,12 @@ public final class UpSocket {
         this.settings = settings;
         queue = new SendQueue(settings.isRaw());
         backOff = new BackOff(settings.firstRetryMs(), settings.lastRetryMs(), random);
+        lines = new LineDelivery(loop, new LineDelivery.Receiver() {
+            @Override
+            public void onLine(byte[] line) {
+                receive(line, line.length);
+            }
+        });
         watch = new LinkWatch(loop, settings, new LinkWatch.Owner() {
             @Override
             public void onBeat() {
@@ -167,7 +171,7 @@ public final class UpSocket {
     /** Returns what was counted. */
     public UpSocketCounters counters() {
         return new UpSocketCounters(connects, failedAttempts, lost, queue.sent(), dropped,
-                queue.replaced(), received, splitter.droppedTooLong(), bytesIn, queue.bytesOut());
+                queue.replaced(), received, lines.tooLong(), bytesIn, queue.bytesOut());
     }
 
     private void attempt() {
@@ -193,6 +197,7 @@ public final class UpSocket {
             retry.cancel();
         }
         watch.stop();
+        lines.end();
         dropped += queue.clear();
         if (current != null) {
             final Attempt ended = current;
@@ -226,6 +231,11 @@ public final class UpSocket {
         final long beforeBytes = queue.bytesOut();
         queue.flush(current.connection);
         watch.wrote(queue.bytesOut() - beforeBytes, !queue.isEmpty());
+    }
+
+    private void receive(byte[] bytes, int length) {
+        received++;
+        listener.onReceived(this, bytes, length);
     }
 
     /** What waits is a sign of life itself, and a line must not be broken. */
@@ -278,7 +288,7 @@ public final class UpSocket {
         public void onConnected() {
             connectedMs = loop.nowMs();
             connects++;
-            splitter.reset();
+            lines.begin(this);
             become(UpSocketStatus.State.CONNECTED, "connected to " + peer);
             watch.start();
             listener.onConnected(UpSocket.this);
@@ -289,10 +299,9 @@ public final class UpSocket {
             bytesIn += length;
             watch.heard();
             if (settings.isRaw()) {
-                received++;
-                listener.onReceived(UpSocket.this, bytes, length);
+                receive(bytes, length);
             } else {
-                deliver(splitter.feed(bytes, length).iterator());
+                lines.feed(bytes, length);
             }
         }
 
@@ -304,28 +313,6 @@ public final class UpSocket {
         @Override
         public void onClosed(String reason) {
             drop(reason);
-        }
-
-        /** What the listener throws at one line keeps the others from nobody. */
-        private void deliver(final Iterator<byte[]> lines) {
-            boolean isDone = false;
-            try {
-                while (current == this && lines.hasNext()) {
-                    final byte[] line = lines.next();
-                    received++;
-                    listener.onReceived(UpSocket.this, line, line.length);
-                }
-                isDone = true;
-            } finally {
-                if (!isDone) {
-                    loop.post(new Runnable() {
-                        @Override
-                        public void run() {
-                            deliver(lines);
-                        }
-                    });
-                }
-            }
         }
     }
 }

@@ -1,0 +1,67 @@
+package org.raspilot.up.net;
+
+import java.util.Iterator;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.wire.LineSplitter;
+
+/**
+ * Makes lines of what comes over one connection after the other and hands them on, each once; what
+ * the receiver throws at one line keeps the others from nobody.
+ */
+final class LineDelivery {
+    private final Loop loop;
+    private final Receiver receiver;
+    private final LineSplitter splitter = new LineSplitter();
+    private Object connection;
+
+    /** Takes the lines. */
+    interface Receiver {
+        /** Takes one without its line end. */
+        void onLine(byte[] line);
+    }
+
+    LineDelivery(Loop loop, Receiver receiver) {
+        this.loop = loop;
+        this.receiver = receiver;
+    }
+
+    /** Begins a connection: half a line of the one before is forgotten. */
+    void begin(Object begun) {
+        connection = begun;
+        splitter.reset();
+    }
+
+    /** Ends the connection: what came over it and is not handed on yet never is. */
+    void end() {
+        connection = null;
+    }
+
+    /** Takes what came over the connection. */
+    void feed(byte[] bytes, int length) {
+        deliver(connection, splitter.feed(bytes, length).iterator());
+    }
+
+    /** Returns how many lines were dropped because they were too long. */
+    long tooLong() {
+        return splitter.droppedTooLong();
+    }
+
+    private void deliver(final Object from, final Iterator<byte[]> lines) {
+        boolean isDone = false;
+        try {
+            while (connection == from && lines.hasNext()) {
+                receiver.onLine(lines.next());
+            }
+            isDone = true;
+        } finally {
+            if (!isDone) {
+                loop.post(new Runnable() {
+                    @Override
+                    public void run() {
+                        deliver(from, lines);
+                    }
+                });
+            }
+        }
+    }
+}
