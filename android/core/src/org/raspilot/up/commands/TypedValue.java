@@ -10,8 +10,12 @@ final class TypedValue {
     /** What stands for a text that is no value of the type. */
     static final Object NONE = new Object();
 
-    /** Some phones' keyboards for numbers have a comma only. */
-    private static final Pattern NUMBER = Pattern.compile("[+-]?[0-9]+([.,][0-9]+)?");
+    /**
+     * Some phones' keyboards for numbers have a comma only; what may be a group of thousands, as
+     * 1,000, is no number: one metre is not a thousand.
+     */
+    private static final Pattern NUMBER = Pattern.compile(
+            "[+-]?([0-9]+(\\.[0-9]+|,[0-9]{1,2}|,[0-9]{4,})?|0,[0-9]{3})");
 
     private TypedValue() {
     }

@@ -104,7 +104,11 @@ public final class CommandFormTest {
     public void eachErrorIsASentenceThatNamesTheField() {
         assertRefused("must is missing");
         assertParsed("{must=1.5}", "must", "1,5");
+        assertParsed("{must=-0.125}", "must", "-0,125");
+        assertParsed("{must=48.1481}", "must", "48,1481");
         assertRefused("must must be a number (s), not \"1,5,5\"", "must", "1,5,5");
+        assertRefused("must must be a number (s), not \"1,000\"", "must", "1,000");
+        assertRefused("must must be a number (s), not \"1,000.5\"", "must", "1,000.5");
         assertRefused("must must be a number (s), not \"NaN\"", "must", "NaN");
         assertRefused("must must be a number (s), not null", "must", "null");
         assertRefused("must must be a number (s), not \"1e999\"", "must", "1e999");
