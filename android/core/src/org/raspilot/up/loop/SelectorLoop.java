@@ -20,6 +20,8 @@ import java.util.concurrent.locks.LockSupport;
 public final class SelectorLoop implements Loop, Network {
     private static final int STOP_MS = 1000;
     private static final int BYTES = 65536;
+    /** Android 4 gives a thread 16 KB, too little for the deepest message that is read. */
+    private static final long STACK_BYTES = 512 * 1024;
 
     private final Guard guard;
     private final Clock clock;
@@ -81,12 +83,12 @@ public final class SelectorLoop implements Loop, Network {
                 throw new IllegalStateException("a loop is started once");
             }
             sockets.open();
-            thread = new Thread(new Runnable() {
+            thread = new Thread(null, new Runnable() {
                 @Override
                 public void run() {
                     work();
                 }
-            }, name);
+            }, name, STACK_BYTES);
             thread.setDaemon(true);
             thread.start();
         }
