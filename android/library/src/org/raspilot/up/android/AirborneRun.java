@@ -5,6 +5,7 @@ import android.os.Handler;
 import android.os.HandlerThread;
 import android.os.Looper;
 import android.os.Process;
+import android.util.Log;
 import java.io.IOException;
 import java.util.Random;
 import org.raspilot.up.Up;
@@ -36,6 +37,7 @@ final class AirborneRun {
         void onReferencePressure(double hPa);
     }
 
+    private static final String TAG = "Up";
     private static final long STATUS_MS = 500;
 
     private final Handler main = new Handler(Looper.getMainLooper());
@@ -48,11 +50,15 @@ final class AirborneRun {
     private final Airborne airborne;
     private boolean isEnded;
 
-    /** Looks which sensors there are and begins to read and to connect. */
+    /**
+     * Looks which sensors there are and begins to read and to connect.
+     *
+     * @throws IllegalStateException when this process has another Up: nothing runs then
+     */
     AirborneRun(Context context, AirborneSettings settings, boolean isOnWifi, SourceTexts texts,
             Host host) throws IOException {
         this.host = host;
-        loop = new SelectorLoop("up", new Faults("up"));
+        loop = new SelectorLoop("up", new Faults("up"), new SleepClock());
         loop.start();
         sensorsThread = new HandlerThread("up sensors", Process.THREAD_PRIORITY_FOREGROUND);
         sensorsThread.start();
@@ -82,17 +88,34 @@ final class AirborneRun {
     }
 
     private void begin() {
+        try {
+            Up.setInstance(airborne.up());
+        } catch (IllegalStateException another) {
+            speaker.end();
+            sensorsThread.quit();
+            loop.stop();
+            throw another;
+        }
         locks.acquire();
-        Up.setInstance(airborne.up());
         loop.post(new Runnable() {
             @Override
             public void run() {
-                host.onUp(airborne.up());
+                setUp();
                 airborne.start();
                 tick();
             }
         });
         network.begin();
+    }
+
+    /** Lets the application set up what is its own; what fails there keeps nothing else down. */
+    private void setUp() {
+        try {
+            host.onUp(airborne.up());
+        } catch (RuntimeException fault) {
+            Log.e(TAG, "the application's own set-up failed", fault);
+            tellEvent("The application's own set-up failed: " + fault);
+        }
     }
 
     /** Ends everything; nothing is told any more. */

@@ -137,6 +137,8 @@ public abstract class BaseUpService extends Service {
             return true;
         } catch (IllegalArgumentException wrong) {
             onEvent(wrong.getMessage());
+        } catch (IllegalStateException another) {
+            onEvent(another.getMessage());
         } catch (IOException failure) {
             onEvent(failure.getMessage());
         }

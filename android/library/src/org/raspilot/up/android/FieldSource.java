@@ -23,6 +23,7 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
     private final Sensor magnetometer;
     private final String absence;
     private final String refusal;
+    private final BadReadings bad;
     private final Handover<Rotation> handover;
     private final ProblemListener problems;
     private final Smooth gravity = new Smooth(SMOOTH_MS);
@@ -37,6 +38,7 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
         refusal = texts.of(Lack.REFUSED);
         handover = new Handover<Rotation>(loop);
         this.problems = problems;
+        bad = new BadReadings(problems, refusal);
     }
 
     @Override
@@ -68,6 +70,15 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
 
     @Override
     public void onSensorChanged(SensorEvent event) {
+        try {
+            take(event);
+        } catch (RuntimeException wrong) {
+            // Whatever a sensor says: thrown on the system's thread it would end the flight.
+            bad.add(event.sensor.getName(), wrong);
+        }
+    }
+
+    private void take(SensorEvent event) {
         long timeMs = TimeUnit.NANOSECONDS.toMillis(event.timestamp);
         if (event.sensor.getType() == Sensor.TYPE_MAGNETIC_FIELD) {
             field.take(event.values, timeMs);

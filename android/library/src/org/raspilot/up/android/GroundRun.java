@@ -51,7 +51,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     GroundRun(Context context, GroundSettings settings, boolean isOnWifi, GroundView view,
             final Setup setup) throws IOException {
         this.view = view;
-        loop = new SelectorLoop("up ground", new Faults("up ground"));
+        loop = new SelectorLoop("up ground", new Faults("up ground"), new SleepClock());
         loop.start();
         up = new Up(loop, this);
         side = new GroundSide(loop, settings, new PreferencesTokenStore(context),
@@ -65,13 +65,22 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         loop.post(new Runnable() {
             @Override
             public void run() {
-                setup.onUp(up, side);
+                setUp(setup);
                 side.start();
                 onStatus(side.status());
                 onChanged();
             }
         });
         network.begin();
+    }
+
+    /** Lets the application set up what is its own; what fails there keeps nothing else down. */
+    private void setUp(Setup setup) {
+        try {
+            setup.onUp(up, side);
+        } catch (RuntimeException fault) {
+            Log.e(TAG, "the application's own set-up failed", fault);
+        }
     }
 
     /** Ends everything; answers that are still due say that the link is lost. */

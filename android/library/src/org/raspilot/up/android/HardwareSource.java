@@ -20,6 +20,7 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
     private final Handover<R> handover;
     private final ProblemListener problems;
     private final String refusal;
+    private final BadReadings bad;
 
     /** Takes the type of {@link Sensor} and why there is nothing where the phone has none. */
     HardwareSource(SensorDesk desk, int type, Executor loop, SourceTexts texts, Lack lack,
@@ -30,6 +31,7 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
         refusal = texts.of(Lack.REFUSED);
         handover = new Handover<R>(loop);
         this.problems = problems;
+        bad = new BadReadings(problems, refusal);
     }
 
     /** Returns the reading of an event, or null for none; on the sensors' thread. */
@@ -65,9 +67,14 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
 
     @Override
     public final void onSensorChanged(SensorEvent event) {
-        R reading = read(event.values, TimeUnit.NANOSECONDS.toMillis(event.timestamp));
-        if (reading != null) {
-            handover.give(reading);
+        try {
+            R reading = read(event.values, TimeUnit.NANOSECONDS.toMillis(event.timestamp));
+            if (reading != null) {
+                handover.give(reading);
+            }
+        } catch (RuntimeException wrong) {
+            // Whatever a sensor says: thrown on the system's thread it would end the flight.
+            bad.add(event.sensor == null ? "" : event.sensor.getName(), wrong);
         }
     }
 

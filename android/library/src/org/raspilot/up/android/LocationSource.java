@@ -5,22 +5,24 @@ import android.content.Context;
 import android.location.Location;
 import android.location.LocationListener;
 import android.location.LocationManager;
+import android.os.Build;
 import android.os.Bundle;
 import android.os.Looper;
-import android.os.SystemClock;
 import java.util.concurrent.Executor;
+import org.raspilot.up.android.api23.FixTime;
 import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
 /**
- * Where the phone is: by its GPS, and by the network while the GPS is silent, to be told from it
- * by its accuracy. Permission and hardware are looked at anew at each question: both change.
+ * Where the phone is, by its GPS alone: what the network knows may stand where an access point once
+ * was, and would be home. Permission and hardware are looked at anew at each question: both change.
  */
 final class LocationSource implements SensorSource<Fix>, LocationListener {
-    private static final String[] PROVIDERS = {
-        LocationManager.GPS_PROVIDER, LocationManager.NETWORK_PROVIDER,
-    };
+    private static final String GPS = LocationManager.GPS_PROVIDER;
+
+    /** Near enough for what is told besides, such as where north is. */
+    private static final String ROUGH = LocationManager.NETWORK_PROVIDER;
 
     private final Context context;
     private final LocationManager manager;
@@ -29,7 +31,8 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
     private final ProblemListener problems;
     private final FixListener besides;
     private final Handover<Fix> handover;
-    private final FixChoice choice = new FixChoice();
+    private final FixFilter filter = new FixFilter();
+    private final BadReadings bad;
 
     LocationSource(Context context, Looper looper, Executor loop, SourceTexts texts,
             ProblemListener problems, FixListener besides) {
@@ -40,6 +43,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         this.besides = besides;
         manager = (LocationManager) context.getSystemService(Context.LOCATION_SERVICE);
         handover = new Handover<Fix>(loop);
+        bad = new BadReadings(problems, texts.of(Lack.REFUSED));
     }
 
     @Override
@@ -50,21 +54,15 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
     @Override
     public String name() {
         Lack lack = lack();
-        return lack == null ? providers() : texts.of(lack);
+        return lack == null ? GPS : texts.of(lack);
     }
 
     @Override
     public void subscribe(long periodMs, SensorListener<Fix> listener) {
         unsubscribe();
         handover.to(listener);
-        choice.forget();
-        boolean isAnyOn = false;
-        for (String provider : PROVIDERS) {
-            isAnyOn |= has(provider) && begin(provider, periodMs);
-        }
-        if (!isAnyOn) {
-            problems.onProblem(texts.of(Lack.LOCATION_OFF));
-        }
+        tellRough();
+        begin(periodMs);
     }
 
     @Override
@@ -77,11 +75,15 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
 
     @Override
     public void onLocationChanged(Location location) {
-        boolean isGps = LocationManager.GPS_PROVIDER.equals(location.getProvider());
-        if (choice.takes(isGps, SystemClock.elapsedRealtime())) {
+        try {
             Fix fix = fix(location);
-            handover.give(fix);
+            if (filter.takes(ageMs(location), location.getTime())) {
+                handover.give(fix);
+            }
             besides.onFix(fix);
+        } catch (RuntimeException wrong) {
+            // Whatever a receiver says: thrown on the system's thread it would end the flight.
+            bad.add(GPS, wrong);
         }
     }
 
@@ -95,7 +97,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
 
     @Override
     public void onProviderDisabled(String provider) {
-        if (LocationManager.GPS_PROVIDER.equals(provider)) {
+        if (GPS.equals(provider)) {
             problems.onProblem(texts.of(Lack.LOCATION_OFF));
         }
     }
@@ -109,42 +111,56 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
                 location.hasBearing() ? Double.valueOf(location.getBearing()) : null);
     }
 
-    private Lack lack() {
-        if (manager == null || providers().isEmpty()) {
-            return Lack.LOCATION;
-        }
-        boolean isPermitted = Permissions.has(context, Manifest.permission.ACCESS_FINE_LOCATION)
-                || Permissions.has(context, Manifest.permission.ACCESS_COARSE_LOCATION);
-        return isPermitted ? null : Lack.LOCATION_PERMISSION;
+    private static long ageMs(Location location) {
+        return Build.VERSION.SDK_INT >= 23 ? FixTime.ageMs(location) : 0;
     }
 
-    private String providers() {
-        StringBuilder names = new StringBuilder();
-        for (String provider : PROVIDERS) {
-            if (has(provider)) {
-                names.append(names.length() == 0 ? "" : ", ").append(provider);
-            }
+    private Lack lack() {
+        if (!has(GPS)) {
+            return Lack.LOCATION;
         }
-        return names.toString();
+        // The approximate location alone is blurred by kilometres: none to fly by.
+        boolean isPermitted = Permissions.has(context, Manifest.permission.ACCESS_FINE_LOCATION);
+        return isPermitted ? null : Lack.LOCATION_PERMISSION;
     }
 
     private boolean has(String provider) {
         return manager != null && manager.getAllProviders().contains(provider);
     }
 
-    /** Begins with one provider; returns whether it may and is switched on. */
-    private boolean begin(String provider, long periodMs) {
+    /** Tells besides where the phone was last by the network, perhaps long ago. */
+    private void tellRough() {
         try {
-            Location known = manager.getLastKnownLocation(provider);
+            Location known = has(ROUGH) ? manager.getLastKnownLocation(ROUGH) : null;
             if (known != null) {
                 besides.onFix(fix(known));
             }
-            manager.requestLocationUpdates(provider, periodMs, 0, this, looper);
-            return manager.isProviderEnabled(provider);
+        } catch (RuntimeException refusal) {
+            // Not permitted, or no fix at all: the GPS will tell it.
+            bad.add(ROUGH, refusal);
+        }
+    }
+
+    private void begin(long periodMs) {
+        if (!has(GPS)) {
+            problems.onProblem(texts.of(Lack.LOCATION));
+            return;
+        }
+        try {
+            Location known = manager.getLastKnownLocation(GPS);
+            if (known == null) {
+                filter.begin();
+            } else {
+                filter.begin(known.getTime());
+                besides.onFix(fix(known));
+            }
+            manager.requestLocationUpdates(GPS, periodMs, 0, this, looper);
+            if (!manager.isProviderEnabled(GPS)) {
+                problems.onProblem(texts.of(Lack.LOCATION_OFF));
+            }
         } catch (SecurityException refusal) {
-            // Only the coarse location is permitted: no GPS then.
-            problems.onProblem(texts.of(Lack.LOCATION_PERMISSION) + ": " + provider);
-            return false;
+            // Taken away between the question and now.
+            problems.onProblem(texts.of(Lack.LOCATION_PERMISSION) + ": " + GPS);
         }
     }
 }

@@ -65,7 +65,8 @@ public final class SpawnService extends IntentService {
     }
 
     private static SpawnResult run(SpawnRequest request) {
-        SelectorLoop loop = new SelectorLoop("up spawn loop", new Faults("up spawn"));
+        SelectorLoop loop = new SelectorLoop("up spawn loop", new Faults("up spawn"),
+                new SleepClock());
         try {
             loop.start();
             return request.run(loop);

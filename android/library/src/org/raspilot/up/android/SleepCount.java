@@ -1,0 +1,19 @@
+package org.raspilot.up.android;
+
+/** Counts for how long the phone has slept, by two clocks of which one stands still meanwhile. */
+final class SleepCount {
+    private long mostMs;
+
+    /**
+     * Returns the time slept since the phone began, ms: never less than before, and at most 1 ms
+     * too much.
+     *
+     * @param allMs of the clock that counts sleep, which must be read first: what passes between
+     *     the two readings is not taken for sleep then
+     * @param awakeMs of the one that does not
+     */
+    synchronized long totalMs(long allMs, long awakeMs) {
+        mostMs = Math.max(mostMs, allMs - awakeMs);
+        return mostMs;
+    }
+}
