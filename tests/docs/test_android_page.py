@@ -11,9 +11,11 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from tests.cogs.arduino_cog.daemon import DEADLINE_S, Ground, wait
+from tests.android.phone_program import PhoneProgram
+from tests.cogs.arduino_cog.daemon import DEADLINE_S, wait
 from tests.docs.flying import lines_of
 from tests.docs.test_pages import PAGES, name_of, text_of
+from tests.ground.aircraft import UP_GROUND
 from tests.support.android import ANDROID, make
 from tests.support.tools import need_tool
 from tests.support.virtual_environment import REPOSITORY
@@ -173,19 +175,22 @@ def test_the_cards_rows_are_numbered_and_each_has_a_box():
         assert all(int(each) <= len(rows) for each in number.split(",")), number
 
 
-def test_the_bench_of_the_card_runs_and_lets_a_ground_command(tmp_path):
+@pytest.fixture
+def bench(tmp_path):
+    """The card's bench on ports of its own: where the phone finds it, the ground's port."""
     make_folder, write_config, start = lines_of("android.md", "bench")
     ports = choose_port_sets(1)[0]
-    write_config = write_config.replace("port: 50002", "port: 0")
-    for line in (make_folder, write_config):
+    for line in (make_folder, write_config.replace("port: 50002", "port: 0")):
         subprocess.run(["bash", "-c", line], cwd=tmp_path, check=True)
     # The page's own ports may be in use here.
-    (tmp_path / "bench/android.yml").write_text(
-        f"general port: {ports.general}\norientation port: {ports.orientation}\n"
-    )
-    (tmp_path / "bench/discovery.yml").write_text(f"port: {ports.discovery}\n")
-    (tmp_path / "bench/black_box.yml").write_text(f"folder: {tmp_path / 'flights'}\n")
-    (tmp_path / "bench/arduino.yml").write_text(f"port: {tmp_path / 'none'}\n")
+    files = {
+        "android": f"general port: {ports.general}\norientation port: {ports.orientation}\n",
+        "discovery": f"port: {ports.discovery}\n",
+        "black_box": f"folder: {tmp_path / 'flights'}\n",
+        "arduino": f"port: {tmp_path / 'none'}\n",
+    }
+    for name, text in files.items():
+        (tmp_path / "bench" / f"{name}.yml").write_text(text)
     words = shlex.split(start)
     assert words[:2] == [".venv/bin/python", "main.py"]
     words = [sys.executable, "main.py", *words[2:-1], str(tmp_path / words[-1])]
@@ -197,9 +202,27 @@ def test_the_bench_of_the_card_runs_and_lets_a_ground_command(tmp_path):
             lambda: re.search(r"ground listens on port (\d+)", log.read_text()),
             "the ground's port in the log",
         )
-        ground = Ground(int(found[1]))
-        wait(lambda: ground.data.get("ground", {}).get("role") == "pilot", "the pilot's role")
-        ground.end()
+        yield f"127.0.0.1:{ports.general}:{ports.orientation}", found[1]
     finally:
         process.terminate()
         process.wait(DEADLINE_S)
+
+
+def up_ground(words, port):
+    """Run a line of the card with the port of this bench; return status and output."""
+    words = [port if word == "50002" else word for word in words[1:]]
+    done = subprocess.run([UP_GROUND, *words], capture_output=True, text=True, timeout=DEADLINE_S)
+    return done.returncode, done.stdout + done.stderr
+
+
+def test_the_phone_speaks_at_the_bench_and_arming_is_refused(bench):
+    place, port = bench
+    (line,) = re.findall(r"`(\.venv/bin/up-ground [^`]* send [^`]*)`", TEXT)
+    words = shlex.split(line)
+    with PhoneProgram("--raspberry", place) as phone:
+        phone.connected()
+        status, said = up_ground(words, port)
+        assert status == 0 and "ack" in said, said
+    arm = [*words[: words.index("send") + 1], "up.arm"]
+    status, said = up_ground(arm, port)
+    assert status == 1 and "refused" in said, said
