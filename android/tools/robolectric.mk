@@ -8,8 +8,9 @@ PICTURES ?= $(BUILD)/pictures
 DOCS_PICTURES ?= ../docs/pictures
 
 # All that the two groups bring; two archives keep their classes one level deeper.
-ROBO_LIBS := $(addprefix $(JARS)/,$(filter %.jar,$(shell $(PYTHON) tools/fetch.py --list $(JARS) robolectric)))
-ROBO_AARS := $(addprefix $(JARS)/,$(filter %.aar,$(shell $(PYTHON) tools/fetch.py --list $(JARS) robolectric)))
+ROBO_FILES := $(addprefix $(JARS)/,$(shell $(PYTHON) tools/fetch.py --list $(JARS) robolectric))
+ROBO_LIBS := $(filter %.jar,$(ROBO_FILES))
+ROBO_AARS := $(filter %.aar,$(ROBO_FILES))
 ROBO_AAR_JARS := $(ROBO_AARS:$(JARS)/%.aar=$(ROBO_SET)/%.jar)
 
 join := $(empty) $(empty)

@@ -16,6 +16,7 @@ import android.hardware.SensorManager;
 import android.location.Location;
 import android.location.LocationManager;
 import android.os.BatteryManager;
+import android.os.Build;
 import android.os.IBinder;
 import android.os.SystemClock;
 import android.preference.PreferenceManager;
@@ -222,7 +223,9 @@ final class Handset {
         location.setAltitude(altitudeM);
         location.setAccuracy(4);
         location.setTime(System.currentTimeMillis());
-        location.setElapsedRealtimeNanos(SystemClock.elapsedRealtime() * 1000000L + 1);
+        if (Build.VERSION.SDK_INT >= 17) {
+            location.setElapsedRealtimeNanos(SystemClock.elapsedRealtime() * 1000000L + 1);
+        }
         shadowOf(locations()).simulateLocation(location);
     }
 

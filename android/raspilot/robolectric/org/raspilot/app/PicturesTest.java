@@ -2,8 +2,11 @@ package org.raspilot.app;
 
 import static org.junit.Assert.assertNotNull;
 import static org.junit.Assert.assertTrue;
+import static org.robolectric.Shadows.shadowOf;
 
+import android.content.Context;
 import android.hardware.Sensor;
+import android.os.PowerManager;
 import android.view.View;
 import android.widget.ListView;
 import android.widget.RadioButton;
@@ -29,9 +32,9 @@ import org.robolectric.annotation.GraphicsMode;
 @Config(sdk = 29, qualifiers = PicturesTest.UPRIGHT)
 @GraphicsMode(GraphicsMode.Mode.NATIVE)
 public final class PicturesTest {
-    static final String UPRIGHT = "w360dp-h640dp-port-xhdpi";
-    private static final String LYING = "w640dp-h360dp-land-xhdpi";
-    private static final String TABLET = "sw800dp-w1280dp-h800dp-land-mdpi";
+    static final String UPRIGHT = AppBench.UPRIGHT;
+    private static final String LYING = AppBench.LYING;
+    private static final String TABLET = AppBench.TABLET;
     private static final String TABLET_UPRIGHT = "sw800dp-w800dp-h1280dp-port-mdpi";
     private static final long MOST_BYTES = 150000;
     private static final int TRACK_FRAMES = 290;
@@ -47,6 +50,8 @@ public final class PicturesTest {
         proxy = new PlayedProxy();
         board = new PlayedBoard();
         handset.fitSensors();
+        shadowOf((PowerManager) handset.application.getSystemService(Context.POWER_SERVICE))
+                .setIgnoringBatteryOptimizations(handset.application.getPackageName(), true);
         handset.set(R.string.key_theme, "dark");
         handset.set(R.string.key_ground_host, "127.0.0.1");
         handset.set(R.string.key_ground_port, "" + proxy.port());
@@ -73,14 +78,17 @@ public final class PicturesTest {
 
     @Test
     public void thePicturesOfThePages() throws Exception {
+        handset.choose(Screen.GROUND);
+        // Its speed is known when the aeroplane was seen for a while.
+        for (int again = 0; again < 30; again++) {
+            live();
+        }
+        documented("android-ground");
         handset.choose(Screen.AIRBORNE);
-        for (int again = 0; again < 15; again++) {
+        for (int again = 0; again < 5; again++) {
             live();
         }
         documented("android-airborne");
-        handset.choose(Screen.GROUND);
-        live();
-        documented("android-ground");
         turn(UPRIGHT, "daylight");
         handset.choose(Screen.COMMANDS);
         open("arduino.pids.tunings");

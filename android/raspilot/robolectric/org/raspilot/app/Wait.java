@@ -7,7 +7,7 @@ import org.robolectric.shadows.ShadowLooper;
 
 /** Waits for what other threads and real sockets bring, while the main thread does its work. */
 final class Wait {
-    private static final long LONGEST_NS = 60L * 1000 * 1000 * 1000;
+    private static final long LONGEST_NS = 30L * 1000 * 1000 * 1000;
     private static final long PAUSE_MS = 2;
 
     private Wait() {

@@ -1,0 +1,80 @@
+package org.raspilot.app;
+
+import static org.junit.Assert.assertTrue;
+import static org.junit.Assume.assumeNotNull;
+
+import android.hardware.Sensor;
+import org.junit.Before;
+import org.junit.Test;
+import org.raspilot.up.ground.SeatStanding;
+import org.robolectric.annotation.Config;
+
+/**
+ * Both ends of the application meet a real daemon and a real proxy, which somebody else started:
+ * the properties {@code meeting.general}, {@code meeting.orientation}, {@code meeting.proxy} are
+ * ports of 127.0.0.1, {@code meeting.aircraft} is the aircraft's name.
+ */
+@Config(sdk = 29)
+public final class MeetingTest extends AppBench {
+    private static final double LATITUDE = 49.74747;
+
+    private static String property(String name) {
+        return System.getProperty("meeting." + name);
+    }
+
+    @Before
+    public void mustMeet() {
+        assumeNotNull("There is nobody to meet: tests/android/test_app.py starts them.",
+                property("general"), property("proxy"));
+        handset.fitSensors();
+        handset.set(R.string.key_host, "127.0.0.1");
+        handset.set(R.string.key_general_port, property("general"));
+        handset.set(R.string.key_orientation_port, property("orientation"));
+        handset.set(R.string.key_ground_host, "127.0.0.1");
+        handset.set(R.string.key_ground_port, property("proxy"));
+        handset.set(R.string.key_ground_aircraft, property("aircraft"));
+    }
+
+    private Double told(String path) {
+        return handset.ground().telemetry().number(path);
+    }
+
+    /** Lets the sensors go on and the screens draw, until something holds. */
+    private void fly(String what, Wait.Condition condition) throws Exception {
+        Wait.until(what, () -> {
+            handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
+            handset.sense(Sensor.TYPE_ROTATION_VECTOR, Handset.BANKED);
+            handset.locate(LATITUDE, 13.37759, 345);
+            Wait.pass(20);
+            return condition.holds();
+        });
+    }
+
+    @Test
+    public void whatThePhoneInTheAirTellsIsSeenOnTheGroundThatCommands() throws Exception {
+        handset.open();
+        find(R.id.run_switch).performClick();
+        assertTrue(handset.startWished());
+        handset.choose(Screen.GROUND);
+        fly("location and battery in telemetry", () -> told("location.latitude") != null
+                && Math.abs(told("location.latitude") - LATITUDE) < 1e-9
+                && told("android.batteryLevel") != null && told("android.batteryLevel") == 83);
+        fly("the latitude on the screen", () -> {
+            Drawing.of(handset.window.get());
+            return text(R.id.ground_place).contains("49.74747");
+        });
+        fly("the seat", () -> handset.ground().status() != null
+                && handset.ground().status().standing() == SeatStanding.OURS);
+
+        handset.choose(Screen.COMMANDS);
+        openCommand("up.telemetry.frequency");
+        field().setText("50");
+        fly("that it may be sent", () -> find(R.id.page_send).isEnabled());
+        // What is sent names the frame that was drawn.
+        Drawing.of(handset.window.get());
+        find(R.id.page_send).performClick();
+        fly("the answer", () -> text(R.id.commands_newest).startsWith("Telemetry period")
+                && text(R.id.commands_newest).contains("carried out"));
+        fly("twenty frames a second", () -> handset.ground().status().rateHz() > 15);
+    }
+}

@@ -1,0 +1,81 @@
+package org.raspilot.app;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertTrue;
+import static org.robolectric.Shadows.shadowOf;
+
+import android.content.Intent;
+import java.io.IOException;
+import org.junit.After;
+import org.junit.Before;
+import org.junit.Test;
+import org.raspilot.up.android.SpawnService;
+import org.robolectric.Robolectric;
+
+/** Black Box Mode: start asks the runner first, by the intent service. */
+public final class SpawnTest extends AppBench {
+    private Peer runner;
+    private String answer;
+
+    @Before
+    public void listen() throws IOException {
+        runner = new Peer() {
+            @Override
+            void onLine(String line) {
+                say(answer);
+            }
+        };
+        handset.set(R.string.key_mode, handset.application.getString(R.string.mode_black_box));
+        handset.set(R.string.key_runner_host, "127.0.0.1");
+        handset.set(R.string.key_runner_port, "" + runner.port());
+        handset.set(R.string.key_aircraft, "glider-5");
+        handset.fitSensors();
+    }
+
+    @After
+    public void close() throws IOException {
+        runner.close();
+    }
+
+    private void ask() throws Exception {
+        handset.open();
+        find(R.id.run_switch).performClick();
+        Intent wish = shadowOf(handset.application).getNextStartedService();
+        assertEquals(SpawnService.class.getName(), wish.getComponent().getClassName());
+        assertTrue(RaspilotApplication.of(handset.application).spawning().isAsking());
+        assertEquals(handset.application.getString(R.string.cancel), text(R.id.run_switch));
+        Robolectric.buildService(SpawnService.class, wish).create().startCommand(0, 1);
+        Wait.until("the answer",
+                () -> !RaspilotApplication.of(handset.application).spawning().isAsking());
+        assertEquals(1, runner.heard().size());
+        mustSay("\"aircraft\": \"glider-5\"", runner.heard().get(0));
+    }
+
+    @Test
+    public void aRefusalIsALineOfTheLogAndStartsNothing() throws Exception {
+        answer = "{\"message\": \"Raspilot not running\", \"spawned\": false, "
+                + "\"error\": \"There is no profile that is called so.\", \"running\": false, "
+                + "\"pid\": null, \"instance\": \"glider-5\", \"ports\": null, \"proxy\": null, "
+                + "\"myAddress\": \"127.0.0.1\"}";
+        ask();
+        assertFalse(handset.startWished());
+        mustSay("no profile", text(R.id.run_link));
+    }
+
+    @Test
+    public void anInstanceThatRunsIsConnectedTo() throws Exception {
+        PlayedBoard board = new PlayedBoard();
+        try {
+            answer = "{\"message\": \"Raspilot spawned\", \"spawned\": true, \"error\": null, "
+                    + "\"running\": true, \"pid\": 1, \"instance\": \"glider-5\", \"ports\": "
+                    + "{\"general\": " + board.port() + ", \"orientation\": " + board.port()
+                    + "}, \"proxy\": null, \"myAddress\": \"127.0.0.1\"}";
+            ask();
+            assertTrue(handset.startWished());
+            Wait.until("the instance", board::isConnected);
+        } finally {
+            board.close();
+        }
+    }
+}

@@ -1,0 +1,127 @@
+package org.raspilot.app;
+
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertNotNull;
+import static org.junit.Assert.assertTrue;
+
+import android.app.Fragment;
+import android.preference.Preference;
+import android.view.View;
+import org.junit.Test;
+import org.robolectric.annotation.Config;
+import org.robolectric.shadows.ShadowToast;
+
+/** The window: its screens, turned, resized, and its settings. */
+public final class WindowTest extends AppBench {
+    private Screen chosen() {
+        return (Screen) handset.window.get().getActionBar().getSelectedTab().getTag();
+    }
+
+    private Fragment part(Screen.Part part) {
+        return handset.window.get().getFragmentManager().findFragmentByTag(part.name());
+    }
+
+    private void mustBeSeen(Screen.Part part) {
+        assertNotNull(part + " is not there", part(part));
+        assertFalse(part + " is detached", part(part).isDetached());
+        assertNotNull(part + " has no view", part(part).getView());
+        assertEquals(View.VISIBLE, find(part.pane).getVisibility());
+    }
+
+    @Test
+    public void everyTabShowsItsScreenAlone() {
+        handset.open();
+        assertEquals(Screen.AIRBORNE, chosen());
+        for (Screen screen : Screen.values()) {
+            handset.choose(screen);
+            for (Screen.Part part : Screen.Part.values()) {
+                if (screen.shows(part, false)) {
+                    mustBeSeen(part);
+                } else if (part(part) != null) {
+                    assertTrue(part + " beside " + screen, part(part).isDetached());
+                }
+            }
+        }
+    }
+
+    @Test
+    public void aTurnedPhoneKeepsItsScreenAndWhatWasWritten() {
+        handset.open();
+        handset.choose(Screen.COMMANDS);
+        openCommand("up.telemetry.frequency");
+        field().setText("250");
+        become(LYING);
+        assertEquals(Screen.COMMANDS, chosen());
+        assertEquals("250", field().getText().toString());
+        become(UPRIGHT);
+        assertEquals(Screen.COMMANDS, chosen());
+        assertEquals("250", field().getText().toString());
+        handset.choose(Screen.LOG);
+        become(LYING);
+        assertEquals(Screen.LOG, chosen());
+    }
+
+    @Test
+    @Config(qualifiers = TABLET)
+    public void aTabletShowsGroundAndCommandsSideBySide() {
+        handset.open();
+        handset.choose(Screen.GROUND);
+        mustBeSeen(Screen.Part.GROUND);
+        mustBeSeen(Screen.Part.COMMANDS);
+        assertEquals(Screen.values().length - 1,
+                handset.window.get().getActionBar().getTabCount());
+        handset.choose(Screen.AIRBORNE);
+        assertEquals(View.GONE, find(R.id.pane_second).getVisibility());
+    }
+
+    @Test
+    public void everyScreenBearsAWindowThatBecomesNarrowAndWide() {
+        handset.open();
+        for (Screen screen : new Screen[] {Screen.AIRBORNE, Screen.GROUND, Screen.SETTINGS,
+            Screen.LOG}) {
+            handset.choose(screen);
+            become(TABLET);
+            become(LYING);
+            become(TABLET);
+            become(UPRIGHT);
+            assertEquals(screen, chosen());
+        }
+    }
+
+    @Test
+    public void theSettingsRefuseWhatIsNoneWithASentence() {
+        handset.open();
+        handset.choose(Screen.SETTINGS);
+        refuse(R.string.key_general_port, "70000", R.string.rule_port);
+        refuse(R.string.key_host, "a b", R.string.rule_host);
+        refuse(R.string.key_aircraft, "", R.string.rule_aircraft);
+        refuse(R.string.key_orientation_hz, "201", R.string.rule_rate);
+        refuse(R.string.key_reference_pressure, "10", R.string.rule_pressure);
+        assertTrue(isTaken(R.string.key_general_port, " 50011 "));
+        assertTrue(isTaken(R.string.key_host, "raspberry.local"));
+    }
+
+    private void refuse(int key, String value, int sentence) {
+        assertFalse(value, isTaken(key, value));
+        assertEquals(handset.application.getString(sentence), ShadowToast.getTextOfLatestToast());
+    }
+
+    private boolean isTaken(int key, String value) {
+        SettingsFragment settings = (SettingsFragment) part(Screen.Part.SETTINGS);
+        Preference preference = settings.findPreference(handset.application.getString(key));
+        return settings.onPreferenceChange(preference, value);
+    }
+
+    @Test
+    public void anotherThemeIsThereAtOnce() {
+        handset.set(R.string.key_theme, "dark");
+        handset.open();
+        handset.choose(Screen.SETTINGS);
+        handset.set(R.string.key_theme, "daylight");
+        Wait.pass(0);
+        assertTrue(handset.window.get().isFinishing() || handset.window.get()
+                .isChangingConfigurations() || AppTheme.style(handset.application)
+                == R.style.Theme_Raspilot_Daylight);
+    }
+}

@@ -1,0 +1,45 @@
+"""The app itself in the framework of Android 4.1 and 10, and at the real daemon and proxy."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from tests.android.real_daemon import AIRCRAFT, RealDaemon
+from tests.proxy.program import Program
+from tests.support.android import make, need_android, need_jars
+
+FIX = {"location__latitude": 49.74747, "location__longitude": 13.37759}
+
+
+@pytest.fixture
+def daemon(tmp_path):
+    """A daemon behind a proxy."""
+    with Program(tmp_path / "proxy") as proxy:
+        made = RealDaemon(tmp_path / "daemon", proxy)
+        try:
+            made.start()
+            made.proxy = proxy
+            yield made
+        finally:
+            made.end()
+
+
+def test_the_app_passes_its_tests_and_meets_the_daemon(daemon, tmp_path):
+    need_android()
+    need_jars("robolectric", "platforms")
+    meeting = {
+        "general": daemon.ports.general,
+        "orientation": daemon.ports.orientation,
+        "proxy": daemon.proxy.ground_port,
+        "aircraft": AIRCRAFT,
+    }
+    options = " ".join(f"-Dmeeting.{name}={value}" for name, value in meeting.items())
+    said = make("test-app", f"ROBO_OPTIONS={options}", f"PICTURES={tmp_path / 'pictures'}")
+    counted = re.search(r"^OK \((\d+) tests\)$", said, re.MULTILINE)
+    assert counted and int(counted[1]) > 25, said
+    # What the app in the air sent has come to the daemon's own ground, too.
+    daemon.ground.sees("what the phone sent", **FIX, android__batteryLevel=83)
+    drawn = sorted(each.name for each in (tmp_path / "pictures").iterdir())
+    assert drawn == [f"android-{name}.png" for name in ("airborne", "commands", "ground", "tablet")]
