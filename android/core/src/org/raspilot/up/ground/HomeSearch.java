@@ -5,9 +5,6 @@ package org.raspilot.up.ground;
  * first place found, only a home that moved replaces it.
  */
 final class HomeSearch {
-    /** Mean radius of the Earth, m. */
-    static final double EARTH_RADIUS_M = 6371008.8;
-
     private static final double MOVED_M = 20;
     private static final double FARTHEST_M = 1e6;
 
@@ -39,7 +36,7 @@ final class HomeSearch {
     static Home destination(double latitudeDeg, double longitudeDeg, double bearingDeg,
             double distanceM) {
         final double north = Math.toRadians(latitudeDeg);
-        final double way = distanceM / EARTH_RADIUS_M;
+        final double way = distanceM / Earth.RADIUS_M;
         final double turn = Math.toRadians(bearingDeg);
         final double there = Math.asin(Math.sin(north) * Math.cos(way)
                 + Math.cos(north) * Math.sin(way) * Math.cos(turn));
@@ -59,6 +56,6 @@ final class HomeSearch {
                 Math.sin(Math.toRadians(b.longitudeDeg() - a.longitudeDeg()) / 2);
         final double h = halfNorth * halfNorth
                 + Math.cos(south) * Math.cos(north) * halfEast * halfEast;
-        return 2 * EARTH_RADIUS_M * Math.asin(Math.min(1, Math.sqrt(h)));
+        return 2 * Earth.RADIUS_M * Math.asin(Math.min(1, Math.sqrt(h)));
     }
 }

@@ -1,7 +1,6 @@
 package org.raspilot.up.ground;
 
 import java.util.ArrayList;
-import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
 
@@ -15,11 +14,6 @@ public final class Track {
     public static final int MOST_POINTS = 4000;
     /** Points are not nearer to each other, m. */
     public static final double NEAREST_M = 2;
-
-    private static final double METRES_A_DEGREE = 111195;
-    /** Nothing known for longer is a silence, unless places come more seldom than that. */
-    private static final long GAP_MS = 900;
-    private static final int INTERVALS = 5;
 
     /** The track of a moment. Immutable. */
     public static final class Snapshot {
@@ -85,9 +79,7 @@ public final class Track {
     private Spot newest;
     private Home home;
     private Home firstPlace;
-    private Long knownMs;
-    private final long[] intervalsMs = new long[INTERVALS];
-    private int intervals;
+    private final PlaceGaps gaps = new PlaceGaps();
     private boolean isAfterSilence;
     private long version;
     private final List<TrackPoint> points = new ArrayList<TrackPoint>();
@@ -144,7 +136,7 @@ public final class Track {
             altitude = telemetry.number("altitude");
         }
         if (!telemetry.age().isStale("location", nowMs)) {
-            isAfterSilence |= wasSilent(nowMs);
+            isAfterSilence |= gaps.take(nowMs);
         }
         if (firstPlace == null) {
             firstPlace = new Home(latitude, longitude);
@@ -158,23 +150,6 @@ public final class Track {
                 thin();
             }
         }
-    }
-
-    private boolean wasSilent(long nowMs) {
-        final Long beforeMs = knownMs;
-        knownMs = nowMs;
-        if (beforeMs == null) {
-            return false;
-        }
-        double periodMs = 0;
-        if (intervals >= INTERVALS) {
-            final long[] sorted = intervalsMs.clone();
-            Arrays.sort(sorted);
-            periodMs = sorted[INTERVALS / 2];
-        }
-        intervalsMs[intervals % INTERVALS] = nowMs - beforeMs;
-        intervals++;
-        return nowMs - beforeMs > Math.max(GAP_MS, 2.5 * periodMs);
     }
 
     /** Leaves out every second point; what was told of it, the next one tells. */
@@ -214,28 +189,12 @@ public final class Track {
     }
 
     private static TrackPoint point(Home origin, Spot spot) {
-        return new TrackPoint(northM(origin.latitudeDeg(), spot.latitudeDeg),
-                eastM(origin.longitudeDeg(), spot.longitudeDeg, origin.latitudeDeg()),
+        return new TrackPoint(Earth.northM(origin.latitudeDeg(), spot.latitudeDeg),
+                Earth.eastM(origin.longitudeDeg(), spot.longitudeDeg, origin.latitudeDeg()),
                 spot.altitudeM, spot.isAfterSilence);
     }
 
     private static double distanceM(Spot a, Spot b) {
-        return Math.hypot(northM(a.latitudeDeg, b.latitudeDeg),
-                eastM(a.longitudeDeg, b.longitudeDeg, a.latitudeDeg));
-    }
-
-    /** Flat is near enough as far as a model aircraft flies. */
-    private static double northM(double fromDeg, double toDeg) {
-        return (toDeg - fromDeg) * METRES_A_DEGREE;
-    }
-
-    private static double eastM(double fromDeg, double toDeg, double latitudeDeg) {
-        double apartDeg = toDeg - fromDeg;
-        if (apartDeg > 180) {
-            apartDeg -= 360;
-        } else if (apartDeg < -180) {
-            apartDeg += 360;
-        }
-        return apartDeg * METRES_A_DEGREE * Math.cos(Math.toRadians(latitudeDeg));
+        return Earth.distanceM(a.latitudeDeg, a.longitudeDeg, b.latitudeDeg, b.longitudeDeg);
     }
 }

@@ -1,12 +1,13 @@
 package org.raspilot.app.ground;
 
+import org.raspilot.up.ground.Earth;
+
 /**
  * Ground speed worked out from the places that telemetry tells: it carries none itself.
  *
  * <p>Main thread only.
  */
 final class GroundSpeed {
-    private static final double EARTH_RADIUS_M = 6371009;
     private static final int KEPT = 16;
     private static final long LONGEST_MS = 6000;
     private static final long SHORTEST_MS = 400;
@@ -70,10 +71,7 @@ final class GroundSpeed {
     }
 
     private double distanceM(int from, int to) {
-        double north = Math.toRadians(latitudesDeg[to] - latitudesDeg[from]);
-        double middle = Math.toRadians((latitudesDeg[to] + latitudesDeg[from]) / 2);
-        double eastDeg = longitudesDeg[to] - longitudesDeg[from];
-        eastDeg -= Math.rint(eastDeg / 360) * 360;
-        return EARTH_RADIUS_M * Math.hypot(north, Math.toRadians(eastDeg) * Math.cos(middle));
+        return Earth.distanceM(latitudesDeg[from], longitudesDeg[from], latitudesDeg[to],
+                longitudesDeg[to]);
     }
 }

@@ -1,0 +1,38 @@
+package org.raspilot.up.ground;
+
+import java.util.Arrays;
+
+/** Says whether nothing was known of the place for a while: no line leads over that. */
+final class PlaceGaps {
+    /** Nothing known for longer, ms, is a silence, unless places come more seldom than that. */
+    private static final long GAP_MS = 900;
+    private static final double PERIODS = 2.5;
+    private static final int INTERVALS = 5;
+
+    private final long[] intervalsMs = new long[INTERVALS];
+    private int intervals;
+    private Long knownMs;
+
+    /** Takes that the place is known now; returns whether a silence ends by that. */
+    boolean take(long nowMs) {
+        final Long beforeMs = knownMs;
+        knownMs = nowMs;
+        if (beforeMs == null) {
+            return false;
+        }
+        final double periodMs = periodMs();
+        intervalsMs[intervals % INTERVALS] = nowMs - beforeMs;
+        intervals++;
+        return nowMs - beforeMs > Math.max(GAP_MS, PERIODS * periodMs);
+    }
+
+    /** Returns the time between two places as it was in the middle of the last ones; 0: unknown. */
+    private double periodMs() {
+        if (intervals < INTERVALS) {
+            return 0;
+        }
+        final long[] sorted = intervalsMs.clone();
+        Arrays.sort(sorted);
+        return sorted[INTERVALS / 2];
+    }
+}
