@@ -78,12 +78,23 @@ public final class GainsForm {
         return null;
     }
 
+    /** Returns the gain that a person has typed, with a point or a comma; null: it is none. */
+    public static Double number(String typed) {
+        final String trimmed = typed.trim();
+        if (!NUMBER.matcher(trimmed).matches()) {
+            return null;
+        }
+        final double value = Double.parseDouble(trimmed.replace(',', '.'));
+        return value <= Gains.GREATEST ? Double.valueOf(value) : null;
+    }
+
     private static double number(GainKey key, String typed) {
-        if (!NUMBER.matcher(typed).matches()) {
+        final Double value = number(typed);
+        if (value == null) {
             throw new InvalidCommandException(key.words() + " must be a number, 0 to 50, not "
                     + SafeText.of(typed, LONGEST_SHOWN));
         }
-        return Double.parseDouble(typed.replace(',', '.'));
+        return value;
     }
 
     private static LoopGains loop(int loop, Map<GainKey, Double> values, boolean isNeeded) {

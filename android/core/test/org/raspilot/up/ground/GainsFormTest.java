@@ -41,12 +41,21 @@ public final class GainsFormTest {
     }
 
     @Test
+    public void oneGainIsReadAsTheFormReadsIt() {
+        assertEquals(0.125, GainsForm.number(" 0,125 "), 0);
+        assertEquals(50, GainsForm.number("50."), 0);
+        for (String typed : new String[] {"", "51", "-1", "1e1", "0x1p3", "1d", "NaN", "1,0,0"}) {
+            assertNull(typed, GainsForm.number(typed));
+        }
+    }
+
+    @Test
     public void whatIsNoGainIsNamed() {
         refused("ratePIDs.ailerons.p", "x", "rate roll P must be a number, 0 to 50, not x");
         refused("ratePIDs.ailerons.p", "NaN", "rate roll P must be a number, 0 to 50, not NaN");
         refused("ratePIDs.ailerons.p", "1e1", "rate roll P must be a number, 0 to 50, not 1e1");
         refused("ratePIDs.ailerons.p", "-1", "rate roll P must be a number, 0 to 50, not -1");
-        refused("ratePIDs.ailerons.p", "51", "rate roll P must be 0 to 50, not 51");
+        refused("ratePIDs.ailerons.p", "51", "rate roll P must be a number, 0 to 50, not 51");
         refused("ratePIDs.ailerons.p", "1.2.3",
                 "rate roll P must be a number, 0 to 50, not 1.2.3");
     }

@@ -97,7 +97,7 @@ final class GainsEditor {
     /** Says whether what is written in a cell is no gain. */
     boolean isWrong(GainKey key) {
         Edit edit = edits.get(key);
-        return edit != null && !edit.written.trim().isEmpty() && number(edit.written) == null;
+        return edit != null && !edit.written.trim().isEmpty() && GainsForm.number(edit.written) == null;
     }
 
     /** Returns the gains that fly otherwise than their writer saw; unmodifiable. */
@@ -173,19 +173,7 @@ final class GainsEditor {
         if (written.trim().isEmpty()) {
             return now == null;
         }
-        Double value = number(written);
+        Double value = GainsForm.number(written);
         return now != null && value != null && text(value).equals(text(now));
-    }
-
-    private static Double number(String written) {
-        try {
-            // As the form reads it: many keyboards have a comma only.
-            double value = Double.parseDouble(written.trim().replace(',', '.'));
-            boolean isGain = value >= 0 && value <= Gains.GREATEST;
-            return isGain ? Double.valueOf(value) : null;
-        } catch (NumberFormatException notOne) {
-            // Not a number is an answer: the cell says so.
-            return null;
-        }
     }
 }
