@@ -68,9 +68,9 @@ final class AppSettings {
                 ? AirborneMode.BLACK_BOX : AirborneMode.FLIGHT_CONTROLLER;
     }
 
-    /** Says whether sockets stay on Wi-Fi in Flight Controller Mode. */
+    /** Says whether sockets stay on the Wi-Fi in which the Raspberry Pi is found. */
     boolean isOnWifi() {
-        return preferences.getBoolean(context.getString(R.string.key_on_wifi), true);
+        return preferences.getBoolean(context.getString(R.string.key_on_wifi), false);
     }
 
     /** Returns how the phone lies in the aeroplane; flat, where what is kept is none. */

@@ -47,6 +47,7 @@ final class AirborneRun {
     private final AndroidSpeaker speaker;
     private final AwakeLocks locks;
     private final NetworkWatch network;
+    private final WifiWay way;
     private final Airborne airborne;
     private boolean isEnded;
 
@@ -77,7 +78,8 @@ final class AirborneRun {
                 }));
         speaker = new AndroidSpeaker(context, texts, problems);
         locks = new AwakeLocks(context);
-        network = new NetworkWatch(context, isOnWifi, new Runnable() {
+        way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host());
+        network = new NetworkWatch(context, new Runnable() {
             @Override
             public void run() {
                 comeBack();
@@ -130,6 +132,7 @@ final class AirborneRun {
                 try {
                     airborne.stop();
                 } finally {
+                    way.end();
                     sensorsThread.quit();
                     loop.stop();
                 }
@@ -195,6 +198,8 @@ final class AirborneRun {
         loop.post(new Runnable() {
             @Override
             public void run() {
+                way.networksChanged();
+                lookAtWay(airborne.status());
                 airborne.networkChanged();
             }
         });
@@ -207,11 +212,23 @@ final class AirborneRun {
                 tick();
             }
         });
-        tellStatus();
+        AirborneStatus status = airborne.status();
+        if (lookAtWay(status)) {
+            airborne.networkChanged();
+        }
+        tellStatus(status);
+    }
+
+    /** Says whether another way is open now. */
+    private boolean lookAtWay(AirborneStatus status) {
+        return way.look(loop.nowMs(), status.isConnected() ? status.place().host() : null);
     }
 
     private void tellStatus() {
-        final AirborneStatus status = airborne.status();
+        tellStatus(airborne.status());
+    }
+
+    private void tellStatus(final AirborneStatus status) {
         tell(new Runnable() {
             @Override
             public void run() {

@@ -58,7 +58,10 @@ public abstract class BaseUpService extends Service {
      */
     protected abstract AirborneSettings readSettings();
 
-    /** Returns whether sockets are to stay on Wi-Fi while there is one, from Android 6 on. */
+    /**
+     * Returns whether sockets stay on a Wi-Fi in whose network the other end lies, from Android 6
+     * on; it is searched for there, too.
+     */
     protected abstract boolean isOnWifi();
 
     /** Returns the words for what the phone lacks. */

@@ -16,6 +16,7 @@ import org.raspilot.up.ground.GroundListener;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.GroundStatus;
+import org.raspilot.up.ground.LinkState;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.TelemetrySource;
 import org.raspilot.up.loop.SelectorLoop;
@@ -43,6 +44,8 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     private final SelectorLoop loop;
     private final GroundSide side;
     private final NetworkWatch network;
+    private final WifiWay way;
+    private final String host;
     private final GroundView view;
     private final Up up;
     private volatile boolean isEnded;
@@ -56,7 +59,9 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         up = new Up(loop, this);
         side = new GroundSide(loop, settings, new PreferencesTokenStore(context),
                 up.commandExecutor(), this, new Random());
-        network = new NetworkWatch(context, isOnWifi, new Runnable() {
+        way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host());
+        host = settings.host();
+        network = new NetworkWatch(context, new Runnable() {
             @Override
             public void run() {
                 comeBack();
@@ -93,6 +98,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
                 try {
                     side.stop();
                 } finally {
+                    way.end();
                     loop.stop();
                 }
             }
@@ -140,6 +146,9 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     public void onStatus(GroundStatus status) {
         if (!isEnded) {
             view.take(status);
+            if (lookAtWay(status)) {
+                comeBack();
+            }
         }
     }
 
@@ -157,10 +166,17 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         Log.e(TAG, handler.getClass().getName() + " failed at " + command.name(), fault);
     }
 
+    /** Says whether another way is open now. */
+    private boolean lookAtWay(GroundStatus status) {
+        return way.look(loop.nowMs(), status.link() == LinkState.OPEN ? host : null);
+    }
+
     private void comeBack() {
         post(new Call() {
             @Override
             public void with(GroundSide ground) {
+                way.networksChanged();
+                lookAtWay(ground.status());
                 ground.reconnectNow();
             }
         });

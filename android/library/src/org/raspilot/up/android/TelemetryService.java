@@ -40,8 +40,8 @@ public abstract class TelemetryService extends Service {
     protected abstract GroundSettings readSettings();
 
     /**
-     * Returns whether sockets are to stay on Wi-Fi while there is one, from Android 6 on, as for
-     * an aircraft's own access point without internet.
+     * Returns whether sockets stay on a Wi-Fi in whose network the other end lies, from Android 6
+     * on, as for an aircraft's own access point without internet.
      */
     protected boolean isOnWifi() {
         return false;

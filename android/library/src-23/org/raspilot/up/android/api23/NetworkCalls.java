@@ -2,15 +2,15 @@ package org.raspilot.up.android.api23;
 
 import android.content.Context;
 import android.net.ConnectivityManager;
+import android.net.LinkAddress;
+import android.net.LinkProperties;
 import android.net.Network;
 import android.net.NetworkCapabilities;
 import android.net.NetworkRequest;
+import java.net.InetAddress;
+import java.net.UnknownHostException;
 
-/**
- * Hears of networks that come (API 21, reached from 23 on), and keeps the process on Wi-Fi where
- * that is wanted: a system prefers its mobile network to a Wi-Fi without internet, on which
- * an aeroplane's own access point would never be reached.
- */
+/** Hears of networks, and binds the process's sockets to one (API 21 and 23). */
 public final class NetworkCalls {
     private NetworkCalls() {
     }
@@ -18,82 +18,99 @@ public final class NetworkCalls {
     /**
      * Begins to hear.
      *
-     * @param isOnWifi keep every socket of the process on Wi-Fi while there is one
-     * @param came called on a thread of the system for each network that came or changed
+     * @param changed called on a thread of the system for each network that came, changed or went
      * @return what ends it, on any thread; null: the system knows no networks
      */
-    public static Runnable begin(Context context, boolean isOnWifi, Runnable came) {
-        ConnectivityManager manager = (ConnectivityManager)
-                context.getSystemService(Context.CONNECTIVITY_SERVICE);
+    public static Runnable begin(Context context, Runnable changed) {
+        final ConnectivityManager manager = manager(context);
         if (manager == null) {
             return null;
         }
-        final Calls calls = new Calls(manager, isOnWifi, came);
-        NetworkRequest.Builder wanted = new NetworkRequest.Builder()
-                .removeCapability(NetworkCapabilities.NET_CAPABILITY_INTERNET);
-        if (isOnWifi) {
-            wanted.addTransportType(NetworkCapabilities.TRANSPORT_WIFI);
-        }
-        manager.registerNetworkCallback(wanted.build(), calls);
+        final Calls calls = new Calls(changed);
+        // An aeroplane's own access point has no internet.
+        manager.registerNetworkCallback(new NetworkRequest.Builder()
+                .removeCapability(NetworkCapabilities.NET_CAPABILITY_INTERNET).build(), calls);
         return new Runnable() {
             @Override
             public void run() {
-                calls.end();
+                manager.unregisterNetworkCallback(calls);
             }
         };
     }
 
-    private static final class Calls extends ConnectivityManager.NetworkCallback {
-        private final ConnectivityManager manager;
-        private final boolean isOnWifi;
-        private final Runnable came;
-        private final Object lock = new Object();
-        private Network bound;
-        private boolean isEnded;
+    /**
+     * Binds the process's sockets that are made from now on to a Wi-Fi.
+     *
+     * @param address in whose network it must be, written in numbers; null: any Wi-Fi
+     * @return whether there is such a Wi-Fi
+     */
+    public static boolean bindToWifi(Context context, String address) {
+        ConnectivityManager manager = manager(context);
+        if (manager == null) {
+            return false;
+        }
+        for (Network network : manager.getAllNetworks()) {
+            NetworkCapabilities known = manager.getNetworkCapabilities(network);
+            boolean isWifi = known != null
+                    && known.hasTransport(NetworkCapabilities.TRANSPORT_WIFI);
+            if (isWifi && (address == null
+                    || holds(manager.getLinkProperties(network), address))) {
+                return manager.bindProcessToNetwork(network);
+            }
+        }
+        return false;
+    }
 
-        Calls(ConnectivityManager manager, boolean isOnWifi, Runnable came) {
-            this.manager = manager;
-            this.isOnWifi = isOnWifi;
-            this.came = came;
+    /** Leaves the choice of the network to the system again. */
+    public static void release(Context context) {
+        ConnectivityManager manager = manager(context);
+        if (manager != null) {
+            manager.bindProcessToNetwork(null);
+        }
+    }
+
+    private static ConnectivityManager manager(Context context) {
+        return (ConnectivityManager) context.getSystemService(Context.CONNECTIVITY_SERVICE);
+    }
+
+    private static boolean holds(LinkProperties properties, String address) {
+        if (properties == null) {
+            return false;
+        }
+        try {
+            byte[] other = InetAddress.getByName(address).getAddress();
+            for (LinkAddress own : properties.getLinkAddresses()) {
+                if (Subnet.holds(own.getAddress().getAddress(), own.getPrefixLength(), other)) {
+                    return true;
+                }
+            }
+            return false;
+        } catch (UnknownHostException none) {
+            // Numbers that are no address lie in no network.
+            return false;
+        }
+    }
+
+    private static final class Calls extends ConnectivityManager.NetworkCallback {
+        private final Runnable changed;
+
+        Calls(Runnable changed) {
+            this.changed = changed;
         }
 
         @Override
         public void onAvailable(Network network) {
-            synchronized (lock) {
-                if (isEnded) {
-                    return;
-                }
-                if (isOnWifi && manager.bindProcessToNetwork(network)) {
-                    bound = network;
-                }
-            }
-            came.run();
+            changed.run();
+        }
+
+        @Override
+        public void onLinkPropertiesChanged(Network network, LinkProperties properties) {
+            changed.run();
         }
 
         @Override
         public void onLost(Network network) {
-            synchronized (lock) {
-                if (isEnded || !network.equals(bound)) {
-                    return;
-                }
-                unbind();
-            }
-            came.run();
-        }
-
-        void end() {
-            synchronized (lock) {
-                isEnded = true;
-                unbind();
-            }
-            manager.unregisterNetworkCallback(this);
-        }
-
-        private void unbind() {
-            if (bound != null) {
-                bound = null;
-                manager.bindProcessToNetwork(null);
-            }
+            changed.run();
         }
     }
 }

@@ -1,0 +1,27 @@
+package org.raspilot.up.android.api23;
+
+/** Whether two addresses of the internet lie in one network. */
+public final class Subnet {
+    private static final int BITS = 8;
+
+    private Subnet() {
+    }
+
+    /**
+     * Says whether the other one lies in the network of which one is.
+     *
+     * @param prefixBits how many of the first bits name the network
+     */
+    public static boolean holds(byte[] one, int prefixBits, byte[] other) {
+        if (one.length != other.length || prefixBits <= 0 || prefixBits > one.length * BITS) {
+            return false;
+        }
+        for (int bit = 0; bit < prefixBits; bit++) {
+            int mask = 0x80 >> bit % BITS;
+            if ((one[bit / BITS] & mask) != (other[bit / BITS] & mask)) {
+                return false;
+            }
+        }
+        return true;
+    }
+}
