@@ -49,8 +49,14 @@ class ConsoleProgram(JavaProcess):
         self.until(lambda: self.status.get("seat") == seat, f"seat {seat}")
 
     def holds(self):
-        """Wait until it may send: the seat, and telemetry that was seen."""
-        self.until(lambda: self.status.get("standing") == "OURS" and self.frames, "the seat")
+        """Wait until it may send: the seat, and telemetry that was seen since the link is open."""
+
+        def may_send():
+            shut = [at for at, said in list(self.events)
+                    if said["event"] == "status" and said["link"] != "OPEN"]  # fmt: skip
+            return self.status.get("standing") == "OURS" and self.all("telemetry", shut[-1])
+
+        self.until(may_send, "the seat")
 
     def ask(self, name, **data):
         """Send a Command and return what became of it."""

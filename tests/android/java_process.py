@@ -50,7 +50,7 @@ class JavaProcess:
             if said["event"] == event and time_s >= since_s
         ]  # fmt: skip
 
-    def until(self, condition, what, deadline_s=DEADLINE_S):
+    def until(self, condition, what):
         """Wait for a condition and return its value; a program that died is told at once."""
 
         def is_so():
@@ -58,9 +58,7 @@ class JavaProcess:
             return condition()
 
         try:
-            return wait(is_so, what) if deadline_s == DEADLINE_S else until(
-                is_so, what, deadline_s
-            )  # fmt: skip
+            return wait(is_so, what)
         except AssertionError as never:
             last = [said for _, said in self.events[-8:]]
             raise AssertionError(f"{never}; it said at last: {last}") from None
@@ -105,15 +103,6 @@ class JavaProcess:
         with suppress(ValueError):
             for line in self.process.stderr:
                 self.complaints += line
-
-
-def until(condition, what, deadline_s):
-    """Wait that long for a condition and return its value."""
-    end_s = time.monotonic() + deadline_s
-    while not (value := condition()):
-        assert time.monotonic() < end_s, f"not within {deadline_s} s: {what}"
-        time.sleep(0.005)
-    return value
 
 
 def resident_bytes(pid):

@@ -4,6 +4,7 @@ import itertools
 
 import pytest
 
+from tests.android.far_network import HERE, FarNetwork
 from tests.android.lossy_relay import LossyRelay
 from tests.android.numbered_motion import numbers_of
 from tests.android.phone_program import PhoneProgram
@@ -69,3 +70,20 @@ def test_a_frame_cut_in_the_middle_dies_with_its_connection(daemon):
         assert counter(daemon, "replaced") >= 0
     numbers = check(daemon)
     print(f"TCP: 5 cuts in a frame, {len(numbers)} frames, all right")
+
+
+@pytest.mark.parametrize("transport", ["tcp", "udp"])
+def test_a_radio_that_loses_packets_costs_frames_and_spoils_none(daemon, transport):
+    """One packet in ten is lost, either way; TCP sends again, what waits is replaced."""
+    daemon.start()
+    with FarNetwork(delay_s=0.02, loss=0.1, seed=11) as radio:
+        options = ("--orientation", transport, "--orientation-hz", 100)
+        with PhoneProgram(*daemon.place_at(HERE), *options, prefix=radio.prefix) as phone:
+            phone.connected()
+            wait(lambda: counter(daemon, "frames") >= FRAMES, "frames enough")
+            said = phone.number
+        assert counter(daemon, "dropped") == 0
+    numbers = check(daemon)
+    assert radio.lost > 20
+    print(f"{transport}: {radio.lost} of {radio.lost + radio.passed} packets lost;"
+          f" {len(set(numbers))} attitudes of {said} arrived, all right")  # fmt: skip
