@@ -10,6 +10,7 @@ from up.protocols.general_message import encode
 from up_ground.ground_link import GroundLink
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore
+from up_simulator.in_process.machine import LiteralResolver
 
 
 @pytest.fixture
@@ -24,6 +25,14 @@ def daemon(tmp_path, proxy):
     made.start()
     yield made
     made.end()
+
+
+@pytest.fixture(autouse=True)
+def no_look_up():
+    """Addresses need none: the reactor's threads for it would outlive the tests."""
+    before = reactor.installNameResolver(LiteralResolver())
+    yield
+    reactor.installNameResolver(before)
 
 
 class PythonGround:
@@ -86,4 +95,4 @@ def test_the_seat_goes_to_the_python_ground_and_back(proxy, daemon, tmp_path):
             assert java.all("telemetry")[-1]["beacon"] <= python.frames[-1].beacon + 20
         await python.link.stop()
 
-    run_in_reactor(flight)
+    run_in_reactor(flight, timeout_s=120.0)
