@@ -4,7 +4,6 @@ import java.io.Closeable;
 import java.io.IOException;
 import java.nio.channels.SelectableChannel;
 import java.nio.channels.SelectionKey;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicLong;
@@ -31,7 +30,7 @@ public final class SelectorLoop implements Loop, Network {
     private final byte[] bytes = new byte[BYTES];
     private final TimerQueue timers = new TimerQueue();
     private final Object lock = new Object();
-    private List<Runnable> posted = new ArrayList<Runnable>();
+    private final Inbox posted = new Inbox();
     private volatile Thread thread;
     private volatile boolean isStopped;
     private final AtomicLong rounds = new AtomicLong();
@@ -104,7 +103,7 @@ public final class SelectorLoop implements Loop, Network {
         synchronized (lock) {
             isStopped = true;
             running = thread;
-            posted.clear();
+            posted.close();
         }
         names.stop();
         if (running != null && !isInLoop()) {
@@ -134,15 +133,7 @@ public final class SelectorLoop implements Loop, Network {
 
     @Override
     public void post(Runnable call) {
-        final boolean isFirst;
-        synchronized (lock) {
-            if (isStopped) {
-                return;
-            }
-            isFirst = posted.isEmpty();
-            posted.add(call);
-        }
-        if (isFirst && !isInLoop()) {
+        if (posted.add(call) && !isInLoop()) {
             sockets.wakeup();
         }
     }
@@ -227,16 +218,8 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     private void runPosted() {
-        final List<Runnable> calls;
-        synchronized (lock) {
-            if (posted.isEmpty()) {
-                return;
-            }
-            calls = posted;
-            posted = new ArrayList<Runnable>();
-        }
-        sockets.hadReason();
-        for (Runnable call : calls) {
+        for (Runnable call : posted.take()) {
+            sockets.hadReason();
             run(call);
         }
     }
@@ -280,10 +263,8 @@ public final class SelectorLoop implements Loop, Network {
 
     /** Returns how long nothing is to be done, rounded up; 0: not at all, -1: for ever. */
     private long waitMs(long nowNs) {
-        synchronized (lock) {
-            if (isStopped || !posted.isEmpty()) {
-                return 0;
-            }
+        if (isStopped || !posted.isEmpty()) {
+            return 0;
         }
         final TimerQueue.Timer first = timers.first();
         if (first == null) {

@@ -10,6 +10,7 @@ public interface Outlet {
      *
      * @param key whose Command it is: the provider's name
      * @return whether the link took it; false: it is not connected, and nothing is kept
+     * @throws IllegalArgumentException for what is no message: NaN, or more than 16 KiB
      */
     boolean sendNewest(String key, BaseCommand command);
 

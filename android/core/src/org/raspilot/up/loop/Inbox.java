@@ -1,0 +1,40 @@
+package org.raspilot.up.loop;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+
+/** The calls that wait for a loop, in their order. On any thread. */
+final class Inbox {
+    private List<Runnable> waiting = new ArrayList<Runnable>();
+    private boolean isClosed;
+
+    /** Lets a call wait; returns whether it is the only one, for which the loop is to wake. */
+    synchronized boolean add(Runnable call) {
+        if (isClosed) {
+            return false;
+        }
+        waiting.add(call);
+        return waiting.size() == 1;
+    }
+
+    /** Returns those that wait; they wait no more. */
+    synchronized List<Runnable> take() {
+        if (waiting.isEmpty()) {
+            return Collections.emptyList();
+        }
+        final List<Runnable> taken = waiting;
+        waiting = new ArrayList<Runnable>();
+        return taken;
+    }
+
+    synchronized boolean isEmpty() {
+        return waiting.isEmpty();
+    }
+
+    /** Forgets those that wait and all that come. */
+    synchronized void close() {
+        isClosed = true;
+        waiting.clear();
+    }
+}
