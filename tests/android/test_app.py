@@ -8,7 +8,7 @@ import pytest
 
 from tests.android.real_daemon import AIRCRAFT, RealDaemon
 from tests.proxy.program import Program
-from tests.support.android import make, need_android, need_jars
+from tests.support.android import ANDROID, make, need_android, need_jars
 
 FIX = {"location__latitude": 49.74747, "location__longitude": 13.37759}
 
@@ -43,3 +43,23 @@ def test_the_app_passes_its_tests_and_meets_the_daemon(daemon, tmp_path):
     daemon.ground.sees("what the phone sent", **FIX, android__batteryLevel=83)
     drawn = sorted(each.name for each in (tmp_path / "pictures").iterdir())
     assert drawn == [f"android-{name}.png" for name in ("airborne", "commands", "ground", "tablet")]
+
+
+def test_only_the_loop_opens_sockets():
+    """What calls the network's classes runs on the loop's threads, never on the screen's."""
+    wanted = re.compile(r"\b(java\.nio\.channels|java\.net|javax\.net)\.")
+    found = {
+        each.relative_to(ANDROID).as_posix()
+        for folder in ("core/src", "library", "raspilot/src")
+        for each in (ANDROID / folder).rglob("*.java")
+        if wanted.search(each.read_text(encoding="utf-8"))
+    }
+    loop = "core/src/org/raspilot/up/loop/"
+    others = {each for each in found if not each.startswith(loop)}
+    assert others == {
+        # Which addresses a broadcast goes to: asked on the loop.
+        "core/src/org/raspilot/up/net/InterfaceBroadcasts.java",
+        # Reads an address that the system wrote; names are never looked up there.
+        "library/src-23/org/raspilot/up/android/api23/NetworkCalls.java",
+    }
+    assert len(found) > len(others)

@@ -36,7 +36,7 @@ public final class PicturesTest {
     private static final String LYING = AppBench.LYING;
     private static final String TABLET = AppBench.TABLET;
     private static final String TABLET_UPRIGHT = "sw800dp-w800dp-h1280dp-port-mdpi";
-    private static final long MOST_BYTES = 150000;
+    private static final long MOST_BYTES = 150 * 1024;
     private static final int TRACK_FRAMES = 290;
 
     private final File folder = new File(System.getProperty("pictures"));
