@@ -35,6 +35,7 @@ class JavaPhoneProcess:
         folder = self._workspace.path
         self._child = Child("phone", command, folder, talks=True, wish=signal.SIGKILL)
         self._unread = b""
+        self._unwritten = b""
         self._is_heard = True
         self._is_ended = False
         self.last_words = ""
@@ -82,7 +83,10 @@ class JavaPhoneProcess:
         return events, {}
 
     def say(self, line: Mapping[str, Any]) -> None:
-        """Say a line; one that it does not take now is lost, and counted."""
+        """Say a line; one that it does not take now is lost, and counted.
+
+        One that has been begun is never lost: its rest goes before the next.
+        """
         if self._is_heard:
             os.set_blocking(self._child.input.fileno(), False)
             self._write(line)
@@ -108,14 +112,30 @@ class JavaPhoneProcess:
     def _write(self, line: Mapping[str, Any]) -> None:
         data = json.dumps(line, allow_nan=False).encode("ascii") + b"\n"
         try:
-            # Straight to the pipe: what a buffer kept would be tried again at the end.
-            while data:
-                data = data[os.write(self._child.input.fileno(), data) :]
-        except BlockingIOError:
-            self.dropped += 1
+            self._unwritten = self._push(self._unwritten)
+            if self._unwritten:
+                self.dropped += 1
+                return
+            rest = self._push(data)
         except OSError:
             # It has ended: what it said before is read first.
             return
+        if rest == data:
+            self.dropped += 1
+        else:
+            self._unwritten = rest
+
+    def _push(self, data: bytes) -> bytes:
+        """Write straight to the pipe; return what it does not take now.
+
+        What a buffer kept would be tried again at the end.
+        """
+        try:
+            while data:
+                data = data[os.write(self._child.input.fileno(), data) :]
+        except BlockingIOError:
+            return data
+        return data
 
     def _read_lines(self) -> list[dict[str, Any]]:
         try:
