@@ -16,14 +16,17 @@ $(BUILD)/api-$(LEAST).signature: $(JARS)/.stubs $(BOOT) $(BUILD)/signatures.jar
 
 # Everything keeps to the java.* of API 16; android.* too, but for the classes of newer levels,
 # which keep to what is public in theirs. Those are reached behind the check of the version only.
+# What resources name is as old.
 $(BUILD)/.guarded: $(CORE_JAR) $(APP_JAR) $(NEWER_JARS) $(MANIFEST) $(BUILD)/api-$(LEAST).signature \
-		tools/guards.py $(LEVELS:%=$(JARS)/.level-%) $(wildcard tools/newer-*.list)
+		tools/guards.py tools/resources.py $(RES) $(LEVELS:%=$(JARS)/.level-%) \
+		$(wildcard tools/newer-*.list)
 	@echo 'check that no call is newer than its guard'
 	@$(SNIFF) check $(BUILD)/api-$(LEAST).signature $(OURS) - $(CORE_JAR) $(APP_JAR) \
 		$(if $(LEVELS),-- $(BUILD)/api-$(LEAST).signature $(OURS)$(comma)android - $(NEWER_JARS)) \
 		$(foreach each,$(LEVELS),-- $(PUBLIC_$(each)) $(OURS) \
 		$(or $(wildcard tools/newer-$(each).list),-) $(BUILD)/newer-$(each).jar)
 	@$(PYTHON) tools/guards.py $(MANIFEST) $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
+	@$(PYTHON) tools/resources.py $(RASPILOT)/res $(STUBS)
 	@touch $@
 
 SPOTBUGS_PATH = $(subst $(empty) $(empty),:,$(patsubst %,$(JARS)/%,$(shell \

@@ -10,14 +10,16 @@ of a package whose last part is ``apiNN`` may be named
   constant must be one that the compiler writes down; ``&&``, early returns and ``switch`` are
   followed. A method that was called, and a class within a class, is not behind its caller's check.
 
-It may not be extended or implemented, nor be the type of a field, parameter or result, nor stand in
-the manifest. Its name in a string (``Class.forName``) counts; one put together at run time is not
-seen.
+It may not be extended or implemented, nor be the type of a field, parameter or result, nor be
+caught or annotate anything, nor stand in the manifest. Its name in a string (``Class.forName``)
+counts; one put together at run time is not seen. And ``newer-NN.jar``, which was compiled against
+the framework of NN, may hold classes of packages ``apiNN`` only.
 """
 
 from __future__ import annotations
 
 import re
+import struct
 import subprocess
 import sys
 import zipfile
@@ -30,9 +32,14 @@ MENTIONED = re.compile(rb"[/.]api\d+[/.]")
 CLASS = re.compile(r"^(?:\w+ )*(?:class|interface|enum) ([\w.$]+)")
 INSTRUCTION = re.compile(r"^\s+(\d+): (\w+)\s*(.*)$")
 CASE = re.compile(r"^\s+(-?\d+|default): (\d+)$")
-HANDLER = re.compile(r"^\s+(\d+)\s+(\d+)\s+(\d+)\s+(?:Class|any)")
+HANDLER = re.compile(r"^\s+(\d+)\s+(\d+)\s+(\d+)\s+(?:Class (\S+)|any)")
+NEWER_JAR = re.compile(r"newer-(\d+)\.jar")
 SDK_INT = re.compile(r"// Field android/os/Build\$VERSION\.SDK_INT:I")
 PUSHED = re.compile(r"^(?:iconst_(m1|\d)|[bs]ipush|ldc)$")
+# The bytes after the tag of every kind of constant but text (the Java Virtual Machine
+# Specification, table 4.4-A).
+CONSTANT_BYTES = dict.fromkeys((7, 8, 16, 19, 20), 2) | {15: 3, 5: 8, 6: 8}
+CONSTANT_BYTES |= dict.fromkeys((3, 4, 9, 10, 11, 12, 17, 18), 4)
 ENDS = {"return", "ireturn", "lreturn", "freturn", "dreturn", "areturn", "athrow"}
 # What the branch taken, and the way past it, show of "SDK_INT (op) constant".
 MIRRORED = {"lt": "gt", "gt": "lt", "le": "ge", "ge": "le", "eq": "eq", "ne": "ne"}
@@ -52,11 +59,12 @@ class Instruction:
 
 @dataclass(slots=True)
 class Method:
-    """A method's declaration, its instructions and where exceptions go (from, to, handler)."""
+    """A method's declaration, its instructions, where exceptions go (from, to, handler), which."""
 
     declared: str
     code: dict[int, Instruction] = field(default_factory=dict)
     handlers: list[tuple[int, int, int]] = field(default_factory=list)
+    caught: list[str] = field(default_factory=list)
 
     def targets(self) -> set[int]:
         """Return every place in the code that something jumps to."""
@@ -115,6 +123,7 @@ def listings(text: str) -> Iterator[Listing]:
             last = method.code[at] = Instruction(at, found[2], found[3])
         elif found := HANDLER.match(line):
             method.handlers.append((int(found[1]), int(found[2]), int(found[3])))
+            method.caught.append(found[4] or "")
 
 
 def constant(instruction: Instruction) -> int | None:
@@ -203,6 +212,10 @@ def faults(listing: Listing) -> Iterator[str]:
         for needed, name in named(method.declared):
             if needed > own:
                 yield f"{listing.name} declares {name}, which needs API {needed}: {method.declared}"
+        for needed, name in named(" ".join(method.caught)):
+            if needed > own:
+                # The whole method fails verification where the class is not there.
+                yield f"{listing.name}: {method.declared} catches {name}, which needs API {needed}"
         known = least_known(method, own)
         for at, instruction in method.code.items():
             sure = known.get(at)
@@ -214,16 +227,68 @@ def faults(listing: Listing) -> Iterator[str]:
                     )
 
 
-def listed(jar: Path) -> str:
-    """Return what ``javap`` says of every class in ``jar`` that names one for a newer Android."""
+def texts(code: bytes) -> Iterator[str]:
+    """Yield every text among the constants of a class file."""
+    (count,) = struct.unpack_from(">H", code, 8)
+    at, index = 10, 1
+    while index < count:
+        tag = code[at]
+        if tag == 1:
+            (length,) = struct.unpack_from(">H", code, at + 1)
+            yield code[at + 3 : at + 3 + length].decode("utf-8", "replace")
+            at += 3 + length
+        else:
+            at += 1 + CONSTANT_BYTES[tag]
+        # A long and a double take two places of the table.
+        index += 2 if tag in (5, 6) else 1
+
+
+def unseen(listing: Listing, code: bytes) -> Iterator[str]:
+    """Yield one sentence for every newer class that is named where no instruction is.
+
+    That is an annotation, mostly: what javap lists says nothing of it.
+    """
+    seen = {name for _, name in named(listing.declared)}
+    for method in listing.methods:
+        lines = [method.declared, *method.caught, *(each.operands for each in method.code.values())]
+        seen.update(name for line in lines for _, name in named(line))
+    # A class within a class brings those around it.
+    seen |= {name[:at] for name in seen for at, each in enumerate(name) if each == "$"}
+    for text in texts(code):
+        for needed, name in named(text):
+            if needed > level(listing.name) and name not in seen:
+                yield f"{listing.name} names {name}, as an annotation does: it needs API {needed}"
+
+
+def inside(jar: Path) -> dict[str, bytes]:
+    """Return the class files in ``jar`` by the names of their classes."""
     with zipfile.ZipFile(jar) as opened:
         names = [each for each in opened.namelist() if each.endswith(".class")]
-        telling = [each for each in names if MENTIONED.search(opened.read(each))]
-    classes = [each.removesuffix(".class").replace("/", ".") for each in telling]
+        return {n.removesuffix(".class").replace("/", "."): opened.read(n) for n in names}
+
+
+def listed(jar: Path, classes: list[str]) -> str:
+    """Return what ``javap`` says of the classes in ``jar``."""
     if not classes:
         return ""
     command = ["javap", "-J-XX:TieredStopAtLevel=1", "-c", "-p", "-cp", str(jar), *classes]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def faults_of_jar(jar: Path) -> Iterator[str]:
+    """Yield one sentence for every place in a jar that breaks the rule."""
+    classes = inside(jar)
+    if compiled := NEWER_JAR.fullmatch(jar.name):
+        for name in classes:
+            if level(name) != int(compiled[1]):
+                yield (
+                    f"{name} is compiled for API {compiled[1]}: "
+                    f"its package must end in .api{compiled[1]}"
+                )
+    telling = [name for name, code in classes.items() if MENTIONED.search(code)]
+    for listing in listings(listed(jar, telling)):
+        yield from faults(listing)
+        yield from unseen(listing, classes[listing.name])
 
 
 def main(arguments: list[str]) -> int:
@@ -234,8 +299,7 @@ def main(arguments: list[str]) -> int:
         for _, name in named(Path(manifest).read_text(encoding="utf-8"))
     ]
     for jar in jars:
-        for listing in listings(listed(Path(jar))):
-            found.extend(faults(listing))
+        found.extend(faults_of_jar(Path(jar)))
     for each in dict.fromkeys(found):
         print(each, file=sys.stderr)
     return 1 if found else 0

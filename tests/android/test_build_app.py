@@ -117,6 +117,14 @@ def test_a_guard_that_is_too_old_stops_it(app):
     assert "api23.Asking without Build.VERSION.SDK_INT >= 23" in fails(app, "build/.guarded")
 
 
+def test_what_resources_must_not_name_stops_it(app):
+    folder = app / "raspilot" / "res" / "drawable"
+    folder.mkdir()
+    space = 'xmlns:android="http://schemas.android.com/apk/res/android"'
+    (folder / "touched.xml").write_text(f'<ripple {space} android:color="#fff" />\n')
+    assert "touched.xml: Android 16 draws no <ripple>" in fails(app, "build/.guarded")
+
+
 def test_a_missing_string_fails(app):
     mutate(app, "raspilot/res/values/strings.xml", 'name="app_name"', 'name="other"')
     assert "string/app_name" in fails(app, "build/resources.apk")

@@ -47,6 +47,7 @@ GUARDED = {
     "either": "if (SDK_INT >= 26) { x = 1; } else if (SDK_INT >= 23) { x = 2; } "
     "else { return; } New.run();",
     "switch": "switch (SDK_INT) { case 23: case 24: New.run(); break; default: x = 1; }",
+    "inner": "if (SDK_INT >= 23) { up.api23.Trouble.Deeper.run(); }",
     "caught": "if (SDK_INT >= 23) { try { x /= x; } catch (RuntimeException e) { New.run(); } }",
 }
 UNGUARDED = {
@@ -76,12 +77,30 @@ UNGUARDED = {
     "new Runnable() { public void run() { New.run(); } }.run(); }",
     "passed": "if (SDK_INT >= 23) { helper(); }} static void helper() { New.run();",
 }
+ANNOTATION_23 = """package up.api23;
+@java.lang.annotation.Retention(java.lang.annotation.RetentionPolicy.RUNTIME)
+public @interface Mark {}"""
+TROUBLE_23 = """package up.api23;
+public class Trouble extends RuntimeException {
+    static final long serialVersionUID = 1;
+    public static class Deeper { public static long number = 5; public static void run() {} }
+}"""
 DECLARED = {
     "extends": "class {} extends up.api23.New {{}}",
     "holds": "class {} {{ up.api23.New held; }}",
     "takes": "class {} {{ void take(up.api23.New given) {{}} }}",
     "gives": "class {} {{ up.api23.New give() {{ return null; }} }}",
+    "annotated": "class {} {{ @up.api23.Mark int held; long large() {{ return 1L << 40; }} }}",
+    "catches": "class {} {{ void run(int x) {{ "
+    "try {{ x /= x; }} catch (up.api23.Trouble e) {{ x = 1; }} }} }}",
+    "catches_behind": "class {} {{ void run(int x) {{ "
+    "if (android.os.Build.VERSION.SDK_INT >= 23) {{ "
+    "try {{ x /= x; }} catch (up.api23.Trouble e) {{ x = 1; }} }} }} }}",
 }
+
+
+NAMED = {"level": "api26.Newer", "field": "api26.Newer", "annotated": "names up.api23.Mark"}
+NAMED |= dict.fromkeys(("catches", "catches_behind"), "catches up.api23.Trouble")
 
 
 def source(name, body):
@@ -95,30 +114,42 @@ public class {name} {{
 }}"""
 
 
-@pytest.fixture(scope="module")
-def found(tmp_path_factory):
-    """What is wrong with each class, all compiled and read at once."""
-    need_jdk()
-    folder = tmp_path_factory.mktemp("guards")
-    sources = {"Build": SDK, "New": NEW_23, "Newer": NEW_26}
-    sources |= {f"Good_{key}": source(f"Good_{key}", body) for key, body in GUARDED.items()}
-    sources |= {f"Bad_{key}": source(f"Bad_{key}", body) for key, body in UNGUARDED.items()}
-    for key, text in DECLARED.items():
-        sources[f"Bad_{key}"] = "package up; public " + text.format(f"Bad_{key}")
-    for name, text in sources.items():
-        place = folder / "src" / text.split(";")[0].removeprefix("package ").replace(".", "/")
-        place.mkdir(parents=True, exist_ok=True)
-        (place / f"{name}.java").write_text(text)
+def write(folder, name, text):
+    """Write a class where its package is."""
+    place = folder / "src" / text.split(";")[0].removeprefix("package ").replace(".", "/")
+    place.mkdir(parents=True, exist_ok=True)
+    (place / f"{name}.java").write_text(text)
+
+
+def packed(folder, name):
+    """Return a jar of all classes that were written."""
     classes = folder / "classes"
     classes.mkdir()
     subprocess.run(
         ["javac", "-nowarn", "-d", str(classes), *map(str, (folder / "src").rglob("*.java"))],
         check=True,
     )
-    pack.pack(folder / "all.jar", classes)
-    said = {}
-    for listing in guards.listings(guards.listed(folder / "all.jar")):
-        said.setdefault(listing.name.split("$")[0], []).extend(guards.faults(listing))
+    pack.pack(folder / name, classes)
+    return folder / name
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    """What is wrong with each class, all compiled and read at once."""
+    need_jdk()
+    folder = tmp_path_factory.mktemp("guards")
+    sources = {"Build": SDK, "New": NEW_23, "Newer": NEW_26}
+    sources |= {"Mark": ANNOTATION_23, "Trouble": TROUBLE_23}
+    sources |= {f"Good_{key}": source(f"Good_{key}", body) for key, body in GUARDED.items()}
+    sources |= {f"Bad_{key}": source(f"Bad_{key}", body) for key, body in UNGUARDED.items()}
+    for key, text in DECLARED.items():
+        sources[f"Bad_{key}"] = "package up; public " + text.format(f"Bad_{key}")
+    for name, text in sources.items():
+        write(folder, name, text)
+    packed(folder, "all.jar")
+    said = {name.split("$")[0]: [] for name in guards.inside(folder / "all.jar")}
+    for fault in guards.faults_of_jar(folder / "all.jar"):
+        said[fault.split()[0].rstrip(":").split("$")[0]].append(fault)
     return said
 
 
@@ -130,7 +161,7 @@ def test_what_is_behind_the_check_passes(found, key):
 @pytest.mark.parametrize("key", [*UNGUARDED, *DECLARED])
 def test_what_is_not_behind_the_check_is_named(found, key):
     faults = found[f"up.Bad_{key}"]
-    needed = "api26.Newer" if key in ("level", "field") else "api23.New"
+    needed = NAMED.get(key, "api23.New")
     assert faults and all(needed in each for each in faults)
 
 
@@ -145,3 +176,33 @@ def test_a_component_of_the_manifest_is_there_on_every_android(tmp_path, capsys)
     assert "names org.raspilot.up.android.api29.Typed" in capsys.readouterr().err
     manifest.write_text('<service android:name="org.raspilot.up.android.BaseUpService" />')
     assert guards.main([str(manifest)]) == 0
+
+
+@pytest.fixture
+def manifest(tmp_path):
+    need_jdk()
+    written = tmp_path / "AndroidManifest.xml"
+    written.write_text("<manifest />")
+    return written
+
+
+def test_a_class_compiled_for_a_level_is_in_its_package(tmp_path, manifest, capsys):
+    write(tmp_path, "Sneak", "package up.android; public class Sneak {}")
+    write(tmp_path, "New", NEW_23)
+    jar = packed(tmp_path, "newer-23.jar")
+    assert guards.main([str(manifest), str(jar)]) == 1
+    assert capsys.readouterr().err == (
+        "up.android.Sneak is compiled for API 23: its package must end in .api23\n"
+    )
+
+
+def test_a_class_of_an_older_level_is_not_compiled_for_a_newer(tmp_path, manifest, capsys):
+    write(tmp_path, "New", NEW_23)
+    assert guards.main([str(manifest), str(packed(tmp_path, "newer-26.jar"))]) == 1
+    assert "up.api23.New is compiled for API 26" in capsys.readouterr().err
+
+
+def test_what_is_in_its_place_passes(tmp_path, manifest, capsys):
+    write(tmp_path, "New", NEW_23)
+    assert guards.main([str(manifest), str(packed(tmp_path, "newer-23.jar"))]) == 0
+    assert capsys.readouterr().err == ""
