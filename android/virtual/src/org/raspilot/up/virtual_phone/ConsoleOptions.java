@@ -25,8 +25,8 @@ final class ConsoleOptions {
             + "  --values PATH,PATH     what to print of telemetry, as orientation.roll,altitude\n"
             + "  --help                 this text\n"
             + "\n"
-            + "try: echo '{\"send\": \"up.telemetry.frequency\", \"data\": {\"frequency\": 50}}'"
-            + " | java ...\n"
+            + "try: (sleep 2; echo '{\"send\": \"up.telemetry.frequency\","
+            + " \"data\": {\"frequency\": 50}}'; sleep 3) | java ...\n"
             + "The lines are described in GroundConsole.java.\n"
             + "Exit status: 0 when its input has ended, 2 for wrong options.\n";
 

@@ -13,6 +13,9 @@ import org.raspilot.up.loop.SelectorLoop;
 
 /** A program in real time with sockets of its own: it lives as long as its standard input. */
 final class LoopProgram implements FaultListener {
+    /** Whoever closes standard input may give the JVM some other file in its place. */
+    private static final int MOST_WRONG = 100;
+
     private final Words words;
     private final SelectorLoop loop;
 
@@ -38,7 +41,7 @@ final class LoopProgram implements FaultListener {
         loop = new SelectorLoop(name, this);
     }
 
-    /** Runs a part until there are no more lines. */
+    /** Runs a part until there are no more lines, or a hundred in a row are none of its own. */
     void run(InputStream input, final Part part) throws IOException {
         loop.start();
         loop.post(new Runnable() {
@@ -49,8 +52,18 @@ final class LoopProgram implements FaultListener {
         });
         BufferedReader lines =
                 new BufferedReader(new InputStreamReader(input, Charset.forName("UTF-8")));
-        for (String text = lines.readLine(); text != null; text = lines.readLine()) {
-            take(part, text);
+        String text = lines.readLine();
+        for (int wrong = 0; text != null && wrong < MOST_WRONG; text = lines.readLine()) {
+            try {
+                take(part, InputLine.read(text));
+                wrong = 0;
+            } catch (OptionException error) {
+                words.notice(error.getMessage());
+                wrong++;
+            }
+        }
+        if (text != null) {
+            words.notice(MOST_WRONG + " lines in a row are no JSON objects: this is no input");
         }
         end(part);
     }
@@ -60,12 +73,12 @@ final class LoopProgram implements FaultListener {
         words.notice(Words.faultText(fault));
     }
 
-    private void take(final Part part, final String text) {
+    private void take(final Part part, final InputLine line) {
         loop.post(new Runnable() {
             @Override
             public void run() {
                 try {
-                    part.take(InputLine.read(text).fields);
+                    part.take(line.fields);
                 } catch (OptionException error) {
                     words.notice(error.getMessage());
                 }

@@ -34,7 +34,8 @@ final class PhoneOptions {
             + "  --stepped                              time and network are the simulator's\n"
             + "  --help                                 this text\n"
             + "\n"
-            + "try: echo '{\"battery\": 87}' | java ... --raspberry 127.0.0.1:50001:50000\n"
+            + "try: (echo '{\"battery\": 87}'; sleep 5)"
+            + " | java ... --raspberry 127.0.0.1:50001:50000\n"
             + "The lines are described in VirtualPhone.java.\n"
             + "Exit status: 0 when its input has ended, 2 for wrong options.\n";
 
