@@ -87,7 +87,8 @@ def test_arming_without_a_beacon_is_refused_at_both_ends(system):
         to_mute = ("--proxy", f"127.0.0.1:{system.proxy.ground_port}", "--aircraft", "mute")
         with ConsoleProgram(*to_mute) as console:
             console.until(lambda: console.status.get("standing") == "OURS", "the seat")
-            console.until(lambda: console.status["online"] is True, "the aircraft")
+            # It lives, and says nothing: the proxy misses who is silent for 3 s.
+            console.until(lambda: mute.say("\n") and console.status["online"], "the aircraft")
             refused = console.ask("up.arm")
             assert (refused["outcome"], refused["code"]) == ("REFUSED", "no_beacon")
         mute.socket.settimeout(0.2)
