@@ -112,16 +112,4 @@ public final class WindowTest extends AppBench {
         Preference preference = settings.findPreference(handset.application.getString(key));
         return settings.onPreferenceChange(preference, value);
     }
-
-    @Test
-    public void anotherThemeIsThereAtOnce() {
-        handset.set(R.string.key_theme, "dark");
-        handset.open();
-        handset.choose(Screen.SETTINGS);
-        handset.set(R.string.key_theme, "daylight");
-        Wait.pass(0);
-        assertTrue(handset.window.get().isFinishing() || handset.window.get()
-                .isChangingConfigurations() || AppTheme.style(handset.application)
-                == R.style.Theme_Raspilot_Daylight);
-    }
 }
