@@ -28,6 +28,7 @@ class JavaHandset:
 
     ``place`` are the virtual phone's options that say where Raspilot is. A JVM that ends by
     itself is told in a sentence, once, and costs the flight nothing but its phone.
+    ``has_connected`` says whether it was connected at any time.
     """
 
     def __init__(
@@ -51,6 +52,7 @@ class JavaHandset:
         self._say = say
         self._feed = SensorFeed(flight, seed=seed, record=record)
         self._process: JavaPhoneProcess | None = None
+        self.has_connected = False
 
     @property
     def pid(self) -> int | None:
@@ -90,7 +92,10 @@ class JavaHandset:
     def _take(self, event: dict[str, Any], now_s: float) -> None:
         if event.get("event") == "wants":
             self._feed.want(str(event["sensor"]), event["period_ms"] / 1000, now_s)
-        elif (sentence := sentence_of(event)) is not None:
+            return
+        if event.get("event") == "connected":
+            self.has_connected = True
+        if (sentence := sentence_of(event)) is not None:
             self._say(sentence)
 
     def _lose(self, process: JavaPhoneProcess) -> None:

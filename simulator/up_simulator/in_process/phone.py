@@ -64,6 +64,12 @@ class InProcessPhone:
         """Return whether the cable is plugged in."""
         return self._is_started and not self.up.is_black
 
+    @property
+    def is_awaited(self) -> bool:
+        """Return whether a program of its own has begun and has not connected yet."""
+        handset = self.handset
+        return self._is_started and isinstance(handset, JavaHandset) and not handset.has_connected
+
     def plug(self) -> None:
         """Plug it in; the first time it also begins to connect."""
         self.up.restore()

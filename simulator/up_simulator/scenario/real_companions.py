@@ -105,6 +105,12 @@ class RealCompanions(CrewCompanions):
             else:
                 self._proxy.begin()
 
+    def _has_connected(self) -> bool:
+        """Wait for a JVM aboard, too: on a busy machine it is there seconds after the others."""
+        phone = self.phone
+        is_awaited = isinstance(phone, InProcessPhone) and phone.is_awaited
+        return not is_awaited and super()._has_connected()
+
     def plug_serial(self, is_in: bool) -> None:
         """Let the pty be there, or be gone with all that waits in it."""
         if self._line is not None:
