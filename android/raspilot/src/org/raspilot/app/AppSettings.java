@@ -111,7 +111,7 @@ final class AppSettings {
     double referencePressureHPa() {
         String value = text(R.string.key_reference_pressure, R.string.default_reference_pressure);
         check(SettingRule.PRESSURE, value);
-        return Double.parseDouble(value);
+        return SettingRule.number(value);
     }
 
     /** Keeps the pressure at altitude zero, hPa. */

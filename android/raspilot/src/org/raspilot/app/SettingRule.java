@@ -51,14 +51,14 @@ enum SettingRule {
     PRESSURE(R.string.rule_pressure) {
         @Override
         boolean holds(String value) {
-            return NUMBERS.matcher(value).matches() && isWithin(Double.parseDouble(value));
+            return NUMBERS.matcher(value).matches() && isWithin(number(value));
         }
     };
 
     private static final Pattern HOSTS = Pattern.compile("[A-Za-z0-9_.:%-]+");
     private static final Pattern AIRCRAFTS = Pattern.compile("[A-Za-z0-9_-][A-Za-z0-9_.-]{0,31}");
     private static final Pattern WHOLES = Pattern.compile("[0-9]{1,9}");
-    private static final Pattern NUMBERS = Pattern.compile("[0-9]{1,5}(\\.[0-9]{1,6})?");
+    private static final Pattern NUMBERS = Pattern.compile("[0-9]{1,5}([.,][0-9]{1,6})?");
 
     private final int sentence;
 
@@ -72,6 +72,11 @@ enum SettingRule {
     /** Returns the resource of the sentence that says what it must be. */
     int sentence() {
         return sentence;
+    }
+
+    /** Returns the number that a value says; some phones' keyboards for numbers have a comma only. */
+    static double number(String value) {
+        return Double.parseDouble(value.replace(',', '.'));
     }
 
     private static boolean isWhole(String value, int least, int greatest) {

@@ -5,6 +5,7 @@ import android.text.Editable;
 import android.text.InputFilter;
 import android.text.InputType;
 import android.text.TextWatcher;
+import android.text.method.DigitsKeyListener;
 import android.view.View;
 import android.widget.AdapterView;
 import android.widget.ArrayAdapter;
@@ -22,6 +23,7 @@ import org.raspilot.up.commands.FieldType;
 /** Where a person says the value of a field: a text, a choice or a switch. */
 abstract class FieldInput {
     private static final int LONGEST = 4096;
+    private static final String DIGITS = "0123456789.,-";
 
     /** Hears that something was typed or chosen. */
     interface ChangeListener {
@@ -59,6 +61,11 @@ abstract class FieldInput {
             this.listener = listener;
             view = new EditText(context);
             view.setInputType(inputType(field));
+            if (field.type() == FieldType.NUMBER) {
+                // Some phones' keyboards for numbers have a comma only, which is refused otherwise.
+                view.setKeyListener(DigitsKeyListener.getInstance(DIGITS));
+                view.setRawInputType(inputType(field));
+            }
             // The aircraft counts characters, this counts halves of some: never cut in between.
             view.setFilters(new InputFilter[] {new InputFilter.LengthFilter(LONGEST)});
             view.addTextChangedListener(this);
