@@ -26,7 +26,8 @@ final class ConsoleOptions {
             + "  --help                 this text\n"
             + "\n"
             + "try: (sleep 2; echo '{\"send\": \"up.telemetry.frequency\","
-            + " \"data\": {\"frequency\": 50}}'; sleep 3) | java ...\n"
+            + " \"data\": {\"frequency\": 50}}';\n"
+            + "      sleep 3) | java ...\n"
             + "The lines are described in GroundConsole.java.\n"
             + "Exit status: 0 when its input has ended, 2 for wrong options.\n";
 
