@@ -97,7 +97,8 @@ def test_arming_without_a_beacon_is_refused_at_both_ends(system):
 
 def test_hello_seat_and_telemetry_by_a_handler(system, console):
     assert console.status["link"] == "OPEN" and console.status["seat"] == "command"
-    assert (console.status["role"], console.status["tune_in_flight"]) == ("pilot", False)
+    console.until(lambda: console.status["role"] == "pilot", "the role")
+    assert console.status["tune_in_flight"] is False
     console.sees("the Arduino", arduino__connected=True, armed=False, arduino__switch="low")
     beacons = [frame["beacon"] for frame in console.frames]
     assert beacons == sorted(beacons) and len(set(beacons)) == len(beacons)
