@@ -176,7 +176,8 @@ public abstract class UpProvider {
         try {
             boolean isFound = isPresent();
             // Kept, as asking may take the system long.
-            sensorName = sensorName();
+            String said = sensorName();
+            sensorName = said == null ? "" : said;
             isThere = isFound;
         } catch (RuntimeException fault) {
             // As above; a sensor that cannot be asked for is not there.

@@ -76,6 +76,9 @@ public final class LocationProviderTest {
         gps.name = "GPS, the permission is missing";
         bench.controller.restart("location");
         assertEquals("GPS, the permission is missing", bench.status().sensor());
+        gps.name = null;
+        bench.controller.restart("location");
+        assertEquals("one that has no name", "", bench.status().sensor());
     }
 
     @Test

@@ -19,7 +19,7 @@ final class ConsoleOptions {
             + "which it ends.\n"
             + "\n"
             + "  --proxy HOST:PORT      through a proxy; default 127.0.0.1:3004\n"
-            + "  --direct HOST:PORT     straight to an aircraft's own listener\n"
+            + "  --direct HOST:PORT     straight to an aircraft that answers no hello\n"
             + "  --aircraft NAME        which of the proxy's; default 'default'\n"
             + "  --seat command|listen  what to ask for at first; default command\n"
             + "  --values PATH,PATH     what to print of telemetry, as orientation.roll,altitude\n"
