@@ -74,7 +74,7 @@ enum SettingRule {
         return sentence;
     }
 
-    /** Returns the number that a value says; some phones' keyboards for numbers have a comma only. */
+    /** Returns the number that a value says; some phones' keyboards have a comma only. */
     static double number(String value) {
         return Double.parseDouble(value.replace(',', '.'));
     }
