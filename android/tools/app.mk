@@ -22,7 +22,13 @@ APP := $(call java,$(LIBRARY)/src $(RASPILOT)/src)
 newer = $(call java,$(LIBRARY)/src-$(1) $(RASPILOT)/src-$(1))
 RES := $(sort $(shell find $(RASPILOT)/res $(RASPILOT)/assets -type f 2>/dev/null))
 
+ifneq ($(shell printf '%s' '$(LIMIT)' | tr -d 0-9),)
+$(error LIMIT=$(LIMIT) is no number of bytes)
+endif
+
 $(BUILD)/debian-tools: tools/app.mk
+	@$(jdk)
+	@$(call need,keytool,default-jdk-headless)
 	@$(foreach tool,aapt zipalign apksigner dexdump,$(call need,$(tool),$(PACKAGES));)
 	@[ -f $(FRAMEWORK_RES) ] || { echo 'Building for Android needs $(FRAMEWORK_RES):' \
 		'apt-get install $(PACKAGES)' >&2; exit 1; }
@@ -74,7 +80,7 @@ $(BUILD)/unsigned.apk: $(RESOURCES) $(DEX) tools/assemble.py | $(BUILD)/debian-t
 # Another key decides, too.
 SIGNER := $(ANDROID_KEYSTORE) $(ANDROID_KEY_ALIAS)
 $(APK): $(BUILD)/unsigned.apk $(BUILD)/SIGNER.list tools/sign
-	@tools/sign $< $@ $(BUILD)/debug.keystore
+	@tools/sign $< $@ $(BUILD)/debug.keystore '$(TYPED_IN)'
 
 apk: $(APK)
 	@zipalign -c -p 4 $(APK) || { echo '$(APK) is not aligned' >&2; exit 1; }
@@ -82,3 +88,4 @@ apk: $(APK)
 		echo "$$said" | grep -E '^(Verifies|Verified using v[123] )' || \
 		{ echo "$$said" >&2; exit 1; }
 	@$(PYTHON) tools/verify.py $(APK) $(MANIFEST) $(VERSION) $(LIMIT)
+	@echo 'install it: adb install -r $(abspath $(APK))'

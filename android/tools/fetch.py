@@ -22,6 +22,7 @@ SUMS = HERE / "jars.sha256"
 SPACE = "{http://maven.apache.org/POM/4.0.0}"
 PLUGIN = "org.apache.maven.plugins:maven-dependency-plugin"
 PACKAGES = "maven default-jdk-headless"
+LONGEST_REASON = 300
 PROGRESS = re.compile(r"(Downloading|Downloaded) from \S+ \S+/([^/\s]+\.jar)(?: \(([^)]+)\))?")
 
 
@@ -98,6 +99,7 @@ def maven(group: str, names: list[str], folder: Path, pom: Path, options: list[s
     command = [program, "-B", *options, "-f", str(pom), f"-Dmdep.outputDirectory={folder}"]
     command += ["-DoutputDirectory=" + str(folder), f"{PLUGIN}:copy@{group}"]
     errors = []
+    last = ""
     told = False
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
@@ -115,9 +117,26 @@ def maven(group: str, names: list[str], folder: Path, pom: Path, options: list[s
                 told = True
             if line.startswith("[ERROR]"):
                 errors.append(line.removeprefix("[ERROR]").strip())
+            last = line.strip() or last
     if running.returncode != 0:
-        reason = errors[0] if errors else f"exit status {running.returncode}"
-        raise FetchError(f"Maven could not fetch the jars of {group}: {reason}")
+        said = reason(errors) or last or f"exit status {running.returncode}"
+        raise FetchError(f"Maven could not fetch the jars of {group}: {said}")
+
+
+def reason(errors: list[str]) -> str:
+    """Return what matters of Maven's error lines: the cause, or the file that it cannot read."""
+    told = [each for each in errors if each]
+    if not told:
+        return ""
+    # "Plugin p or one of its dependencies ...: Could not transfer artifact a from/to place
+    # (address): cause -> [Help 1]": the words before the cause are those of its own plumbing.
+    text = re.sub(r"\s*->\s*\[Help \d+\]$", "", told[0])
+    if found := re.search(r".*from/to \S+ \([^)]*\): (.+)$", text):
+        return re.sub(r"^transfer failed for \S+?(?: proxy: ProxyInfo\{.*?\})?: ", "", found[1])
+    # "1 problem was encountered ...": which one stands in the next line.
+    if re.search(r"problems? w(?:as|ere) encountered", text) and len(told) > 1:
+        return told[1]
+    return text if len(text) <= LONGEST_REASON else f"{text[:LONGEST_REASON]} ..."
 
 
 def main(arguments: list[str]) -> int:

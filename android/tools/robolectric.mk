@@ -51,12 +51,14 @@ robolectric = $(JVM) -ea -Xmx1500m -Drobolectric.offline=true -Drobolectric.depe
 robo_ready := $(ROBO_JAR) $(RESOURCES) $(ROBO_SET)/com/android/tools/test_config.properties \
 	$(JARS)/.platforms
 
-ROBO_CHOSEN = $(subst /,.,$(patsubst $(ROBO)/%.java,%,$(if $(TEST),$(filter \
-	$(addprefix %/,$(addsuffix .java,$(TEST))),$(ROBO_TESTS)),$(filter %Test.java,$(ROBO_TESTS)))))
+ifneq ($(filter test-app,$(MAKECMDGOALS)),)
+ROBO_CHOSEN := $(subst /,.,$(patsubst $(ROBO)/%.java,%,$(call chosen,$(ROBO_TESTS))))
+endif
 
-.PHONY: test-app pictures
+.PHONY: test-app app-tests pictures
+app-tests: $(robo_ready)
+
 test-app: $(robo_ready)
-	@$(if $(ROBO_CHOSEN),,echo 'No test is called $(TEST)' >&2; exit 1)
 	@$(call robolectric,$(ROBO_CHOSEN),-Dpictures=$(abspath $(PICTURES)) $(ROBO_OPTIONS))
 
 pictures: $(robo_ready)

@@ -60,6 +60,7 @@ def test_it_is_signed_in_three_ways_and_told_with_its_size(built):
     for scheme in ("v1 scheme", "v2 scheme", "v3 scheme"):
         assert any(scheme in line and line.endswith("true") for line in said.splitlines())
     assert "raspilot.apk " in said and " bytes of 400000" in said
+    assert said.rstrip().endswith(f"adb install -r {built[0]}/build/raspilot.apk")
 
 
 def test_what_is_built_is_not_built_again(app):
@@ -159,6 +160,11 @@ def test_an_apk_over_its_size_fails(app):
     assert "over its target of 5000" in fails(app, "LIMIT=5000")
 
 
+def test_a_size_that_is_no_number_is_a_sentence(app):
+    said = fails(app, "LIMIT=abc")
+    assert "LIMIT=abc is no number of bytes" in said and "Traceback" not in said
+
+
 def test_a_level_of_which_nothing_is_known_is_a_sentence(app):
     shutil.copytree(app / "library" / "src-23", app / "library" / "src-77")
     assert "pom.xml has no group 'level-77'" in fails(app)
@@ -181,6 +187,22 @@ def test_a_release_key_signs(app, tmp_path):
     apk = str(app / "build" / "raspilot.apk")
     shown = subprocess.run(["apksigner", "verify", "--print-certs", apk], capture_output=True)
     assert b"CN=Somebody" in shown.stdout
+
+
+def test_a_release_key_is_looked_for_from_where_make_was_typed(app, tmp_path):
+    key = {"ANDROID_KEYSTORE": "mine.jks", "PWD": str(tmp_path)}
+    assert f"names {tmp_path}/mine.jks, and there is no such file" in fails(app, env=key)
+
+
+def test_a_file_that_is_no_keystore_is_a_sentence(app):
+    key = {
+        "ANDROID_KEYSTORE": __file__,
+        "ANDROID_KEY_ALIAS": "mine",
+        "ANDROID_KEYSTORE_PASSWORD": "secret1",
+    }
+    said = fails(app, env=key)
+    assert "the key mine of " in said and "does not sign: is the password right" in said
+    assert "\tat " not in said
 
 
 @pytest.mark.parametrize(

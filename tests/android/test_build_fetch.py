@@ -8,7 +8,15 @@ import sys
 
 import pytest
 
-from tests.support.android import ANDROID, JARS, AndroidBuildError, make, need_jars, need_jdk
+from tests.support.android import (
+    ANDROID,
+    JARS,
+    AndroidBuildError,
+    AndroidBuildLateError,
+    make,
+    need_jars,
+    need_jdk,
+)
 from tests.support.java import path_without
 
 sys.path.insert(0, str(ANDROID / "tools"))
@@ -99,6 +107,9 @@ def test_without_maven_a_missing_jar_is_a_sentence(copy, tmp_path):
         ("build/up-core.jar", "javac", "needs javac: apt-get install default-jdk-headless"),
         ("build/debian-tools", "aapt", "needs aapt: apt-get install aapt android-framework-res"),
         ("build/debian-tools", "dexdump", "needs dexdump: apt-get install aapt"),
+        ("build/debian-tools", "keytool", "needs keytool: apt-get install default-jdk-headless"),
+        ("build/up-core.jar", "java", "needs java: apt-get install default-jdk-headless"),
+        ("build/up-core.jar", "python3", "needs python3: apt-get install python3"),
     ],
 )
 def test_a_missing_tool_is_a_sentence(copy, tmp_path, target, tool, sentence):
@@ -126,6 +137,24 @@ def test_no_source_is_a_sentence(copy):
     assert "There are no sources for build/up-core.jar" in said_by(copy, "core")
 
 
+@pytest.mark.parametrize("goal", ["test", "test-app"])
+def test_a_test_that_is_not_there_is_a_sentence_before_anything_is_built(copy, goal):
+    said = said_by(copy, goal, "TEST=NoSuch")
+    assert "No test is called NoSuch" in said and "compile" not in said
+
+
+def test_what_the_projects_own_make_was_told_is_not_told_to_the_phones(copy, monkeypatch):
+    monkeypatch.setenv("MAKEFLAGS", " -- TEST=tests/up")
+    monkeypatch.setenv("TEST", "tests/up")
+    assert "There are no sources for build/up-core.jar" in said_by(copy, "test")
+
+
+def test_a_build_that_takes_too_long_is_ended_and_said(tmp_path):
+    (tmp_path / "Makefile").write_text("all:\n\t@echo begun\n\t@sleep 1000\n")
+    with pytest.raises(AndroidBuildLateError, match=r"(?s)was ended after 1 s\nbegun"):
+        make(folder=tmp_path, limit_s=1)
+
+
 def test_what_is_not_ready_is_said_and_skipped_unless_nothing_may_be(tmp_path):
     path = {"PATH": path_without(tmp_path / "bin", "aapt", "javac")}
     where_ready = ANDROID / "tools" / "where_ready"
@@ -135,3 +164,43 @@ def test_what_is_not_ready_is_said_and_skipped_unless_nothing_may_be(tmp_path):
     assert "android: skipped (needs the Debian packages default-jdk-headless aapt" in said
     said = said_by(tmp_path, env=path | {"UP_REQUIRE_TOOLS": "1"})
     assert "nothing may be skipped here" in said
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        (
+            "Plugin p or one of its dependencies could not be resolved: Failed to read artifact "
+            "descriptor for p: Could not transfer artifact p from/to central (there): "
+            "Connect to there failed: Connection refused -> [Help 1]",
+            "Connect to there failed: Connection refused",
+        ),
+        ("Could not find artifact p in central (there) -> [Help 1]", "Could not find artifact p"),
+        ("1 problem was encountered while building\nNon-parseable settings s.xml @1:5", "s.xml @1"),
+        ("x" * 700, "x" * 300 + " ..."),
+    ],
+)
+def test_what_matters_of_mavens_words_is_told(said, told):
+    found = fetch.reason(["", *said.split("\n"), "", "To see the full stack trace"])
+    assert told in found and len(found) < 310 and "Help" not in found
+
+
+def test_what_stops_mavens_jvm_is_told(copy):
+    (copy / "build" / "jars" / HAMCREST).unlink()
+    said = said_by(copy, "build/jars/.junit", env={"MAVEN_OPTS": "-Xbogus"})
+    assert "Maven could not fetch the jars of junit: " in said and "exit status" not in said
+
+
+def test_a_network_that_is_not_there_is_one_sentence(copy, tmp_path):
+    proxy = "<proxy><id>{0}</id><protocol>{0}</protocol><host>127.0.0.1</host>"
+    proxy += "<port>9</port></proxy>"
+    proxies = "".join(map(proxy.format, ("http", "https")))
+    (tmp_path / ".m2").mkdir()
+    (tmp_path / ".m2" / "settings.xml").write_text(
+        f"<settings><proxies>{proxies}</proxies></settings>"
+    )
+    (copy / "build" / "jars" / HAMCREST).unlink()
+    nowhere = {"MAVEN_OPTS": f"-Duser.home={tmp_path}"}
+    said = said_by(copy, "build/jars/.junit", env=nowhere)
+    (line,) = [each for each in said.splitlines() if each.startswith("android: ")]
+    assert "refused" in line and len(line) < 250, line

@@ -1,11 +1,13 @@
-"""Runs the Makefile of the phone for tests, one process at a time."""
+"""Runs the Makefile of the phone for tests."""
 
 from __future__ import annotations
 
 import fcntl
 import os
 import shutil
+import signal
 import subprocess
+from contextlib import nullcontext
 from pathlib import Path
 
 from tests.support.tools import need_tool, unavailable
@@ -15,30 +17,60 @@ ANDROID = ROOT / "android"
 BUILD = ANDROID / "build"
 JARS = BUILD / "jars"
 LONGEST_S = 600
+# 800 MB by a slow network.
+LONGEST_FETCH_S = 1500
 TOOLS = ("aapt", "zipalign", "apksigner", "dexdump")
+# What `make test TEST=...` hands down is not meant for the phone's Makefile.
+FROM_ABOVE = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "MAKEOVERRIDES", "TEST")
 
 
 class AndroidBuildError(Exception):
     """make fails: the message is what it printed."""
 
 
-def make(*arguments, folder=ANDROID, env=None):
-    """Run make in ``folder`` and return what it printed. Raises ``AndroidBuildError``."""
+class AndroidBuildLateError(AndroidBuildError):
+    """make was ended: the message says after which time, and what it printed."""
+
+
+def make(*arguments, folder=ANDROID, env=None, is_built=False, limit_s=LONGEST_S):
+    """Run make in ``folder`` and return what it printed. Raises ``AndroidBuildError``.
+
+    One process at a time builds in the project's own folder; what ``is_built`` only runs there, and
+    nobody waits for it.
+    """
     need_tool("make")
     BUILD.mkdir(exist_ok=True)
-    with (BUILD / ".lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        done = subprocess.run(
-            ["make", "--no-print-directory", "-C", str(folder), *arguments],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=LONGEST_S,
-            env={**os.environ, **(env or {})},
-        )
-    if done.returncode != 0:
-        raise AndroidBuildError(done.stdout)
-    return done.stdout
+    builds_here = Path(folder) == ANDROID and not is_built
+    with (BUILD / ".lock").open("w") if builds_here else nullcontext() as lock:
+        if lock is not None:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        return _run(["make", "--no-print-directory", "-C", str(folder), *arguments], env, limit_s)
+
+
+def _run(command, env, limit_s):
+    handed = {name: value for name, value in os.environ.items() if name not in FROM_ABOVE}
+    with subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**handed, **(env or {})},
+        start_new_session=True,
+    ) as running:
+        try:
+            said, _ = running.communicate(timeout=limit_s)
+        except subprocess.TimeoutExpired:
+            # Make alone would leave behind what it waits for.
+            os.killpg(running.pid, signal.SIGKILL)
+            said, _ = running.communicate()
+            late = f"{' '.join(command)} was ended after {limit_s} s\n{said}"
+            raise AndroidBuildLateError(late) from None
+        except BaseException:
+            os.killpg(running.pid, signal.SIGKILL)
+            raise
+    if running.returncode != 0:
+        raise AndroidBuildError(said)
+    return said
 
 
 def need_jdk():
@@ -51,7 +83,9 @@ def need_jars(*groups):
     need_jdk()
     need_tool("mvn", "maven")
     try:
-        make(*(f"build/jars/.{group}" for group in groups))
+        make(*(f"build/jars/.{group}" for group in groups), limit_s=LONGEST_FETCH_S)
+    except AndroidBuildLateError:
+        unavailable(f"the network did not bring the jars within {LONGEST_FETCH_S / 60:g} min")
     except AndroidBuildError as failure:
         if "Maven could not fetch" in str(failure):
             unavailable(str(failure).strip().splitlines()[0])
