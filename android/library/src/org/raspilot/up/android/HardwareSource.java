@@ -44,7 +44,12 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
 
     @Override
     public final String name() {
-        return sensor == null ? absence : sensor.getName();
+        if (sensor == null) {
+            return absence;
+        }
+        // Some makers leave it out.
+        String name = sensor.getName();
+        return name == null ? "" : name;
     }
 
     @Override
