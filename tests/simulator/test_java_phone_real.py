@@ -116,6 +116,12 @@ def system(request, tmp_path):
     made.end()
 
 
+def test_it_knows_when_it_has_connected(system):
+    assert not system.phone.has_connected
+    system.until(lambda: system.phone.has_connected, "connected")
+    assert any(each.startswith("connected to ") for each in system.said)
+
+
 def test_the_daemon_has_what_is_true_and_the_ground_reads_it(system):
     truth = system.flight.state
     wanted = set(VALUES)
