@@ -36,7 +36,9 @@ def test_the_app_passes_its_tests_and_meets_the_daemon(daemon, tmp_path):
         "aircraft": AIRCRAFT,
     }
     options = " ".join(f"-Dmeeting.{name}={value}" for name, value in meeting.items())
-    said = make("test-app", f"ROBO_OPTIONS={options}", f"PICTURES={tmp_path / 'pictures'}")
+    make("app-tests")
+    pictures = f"PICTURES={tmp_path / 'pictures'}"
+    said = make("test-app", f"ROBO_OPTIONS={options}", pictures, is_built=True)
     counted = re.search(r"^OK \((\d+) tests\)$", said, re.MULTILINE)
     assert counted and int(counted[1]) > 25, said
     # What the app in the air sent has come to the daemon's own ground, too.
