@@ -10,6 +10,8 @@ import struct
 import threading
 import time
 
+import pytest
+
 from tests.proxy.namespace import must, run
 from tests.support.tools import need_root, need_tool, unavailable
 
@@ -107,5 +109,6 @@ def _tunnel(name):
         request = struct.pack("16sH22x", name.encode(), _TUN_WITHOUT_HEAD)
         fcntl.ioctl(end, _SET_INTERFACE, request)
     except OSError as error:
-        unavailable(f"no tunnel device: {error.strerror}")
+        # A container's matter, which no package mends.
+        pytest.skip(f"no tunnel device: {error.strerror}")
     return end
