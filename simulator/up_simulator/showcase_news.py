@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable
 
 NEWS = ("hit the ground", "broke in the air", "lost itself", "given up", "launched again",
-        "battery")  # fmt: skip
+        "battery", "the phone is gone")  # fmt: skip
 QUIET_S = 60.0
 _LATE = re.compile(r"late by ([0-9]+(?:\.[0-9]+)?) s")
 

@@ -190,7 +190,7 @@ def bench(tmp_path):
         "arduino": f"port: {tmp_path / 'none'}\n",
     }
     for name, text in files.items():
-        (tmp_path / "bench" / f"{name}.yml").write_text(text)
+        (tmp_path / "run" / "card" / f"{name}.yml").write_text(text)
     words = shlex.split(start)
     assert words[:2] == [".venv/bin/python", "main.py"]
     words = [sys.executable, "main.py", *words[2:-1], str(tmp_path / words[-1])]

@@ -2,6 +2,7 @@
 
 from twisted.internet.task import Clock
 
+from up_simulator.java_phone import GONE
 from up_simulator.showcase_news import News
 
 LATE = "late by 0.25 s: the missed time is skipped, not flown"
@@ -29,3 +30,8 @@ def test_other_news_are_said_each_time():
     news = News(Clock().seconds)
     lines = ["the wing hit the ground", "nothing of note", LATE, "launched again", "launched again"]
     assert news.of(lines) == [lines[0], *lines[2:]]
+
+
+def test_the_end_of_the_phone_is_news():
+    line = f"phone: ended by itself with signal 9; {GONE}"
+    assert News(Clock().seconds).of([line]) == [line]
