@@ -1,8 +1,6 @@
 package org.raspilot.app.commands;
 
-import android.app.Fragment;
 import android.os.Bundle;
-import android.os.Handler;
 import android.view.LayoutInflater;
 import android.view.View;
 import android.view.ViewGroup;
@@ -10,65 +8,19 @@ import java.io.IOException;
 import java.util.Collections;
 import java.util.List;
 import org.raspilot.app.R;
-import org.raspilot.app.TelemetryLink;
-import org.raspilot.up.android.GroundWatcher;
+import org.raspilot.app.WatchingFragment;
 import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.commands.CommandForm;
-import org.raspilot.up.ground.GroundStatus;
-import org.raspilot.up.ground.Telemetry;
 
 /**
  * The commands screen: every Command with its form, its answer and the history (thesis 4.5.3).
  *
- * <p>Bound from start to stop. What was typed and sent outlives a rotation in
- * {@link CommandsMemory}. Main thread only.
+ * <p>What was typed and sent outlives a rotation in {@link CommandsMemory}. Main thread only.
  */
-public final class CommandsFragment extends Fragment implements CommandsMemory.Listener {
-    private static final long TICK_MS = 200;
-
-    private final Handler handler = new Handler();
-    private final Runnable tick = new Runnable() {
-        @Override
-        public void run() {
-            show();
-            handler.postDelayed(this, TICK_MS);
-        }
-    };
-    private final GroundWatcher watcher = new GroundWatcher() {
-        @Override
-        public void onTelemetry(Telemetry telemetry) {
-            if (screen != null) {
-                screen.showFrame();
-            }
-        }
-
-        @Override
-        public void onStatus(GroundStatus status) {
-            show();
-        }
-
-        @Override
-        public void onChanged() {
-            show();
-        }
-    };
-    private final TelemetryLink.Watcher linkWatcher = new TelemetryLink.Watcher() {
-        @Override
-        public void onGround(TelemetryService.Ground newGround) {
-            take(newGround);
-        }
-
-        @Override
-        public void onGroundGone() {
-            take(null);
-        }
-    };
-
+public final class CommandsFragment extends WatchingFragment implements CommandsMemory.Listener {
     private CommandsMemory memory;
     private List<CommandForm> forms = Collections.emptyList();
     private String fault = "";
-    private TelemetryLink link;
-    private TelemetryService.Ground ground;
     private CommandsScreen screen;
 
     @Override
@@ -92,28 +44,18 @@ public final class CommandsFragment extends Fragment implements CommandsMemory.L
 
     @Override
     public void onStart() {
-        super.onStart();
         memory.setListener(this);
-        link = TelemetryLink.of(getActivity());
-        link.watch(linkWatcher);
-        handler.removeCallbacks(tick);
-        tick.run();
+        super.onStart();
     }
 
     @Override
     public void onStop() {
-        handler.removeCallbacks(tick);
-        if (link != null) {
-            link.unwatch(linkWatcher);
-            link = null;
-        }
-        take(null);
+        super.onStop();
         memory.setListener(null);
         if (screen != null) {
             // Nobody says yes to a question that they do not see.
             screen.dismiss();
         }
-        super.onStop();
     }
 
     @Override
@@ -127,27 +69,25 @@ public final class CommandsFragment extends Fragment implements CommandsMemory.L
 
     @Override
     public void onHistory() {
-        show();
+        showAll();
     }
 
-    private void take(TelemetryService.Ground newGround) {
-        if (ground == newGround) {
-            return;
-        }
-        if (ground != null) {
-            ground.remove(watcher);
-        }
-        ground = newGround;
+    @Override
+    protected void onGround(TelemetryService.Ground newGround) {
         if (screen != null) {
             screen.setGround(newGround);
         }
-        if (newGround != null) {
-            newGround.add(watcher);
-        }
-        show();
     }
 
-    private void show() {
+    @Override
+    protected void showNewest() {
+        if (screen != null) {
+            screen.showFrame();
+        }
+    }
+
+    @Override
+    protected void showAll() {
         if (screen != null) {
             screen.show();
         }

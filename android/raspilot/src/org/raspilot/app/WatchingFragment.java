@@ -1,0 +1,107 @@
+package org.raspilot.app;
+
+import android.app.Fragment;
+import android.os.Handler;
+
+import org.raspilot.up.android.GroundWatcher;
+import org.raspilot.up.android.TelemetryService;
+import org.raspilot.up.ground.GroundStatus;
+import org.raspilot.up.ground.Telemetry;
+
+/**
+ * A screen that watches the aircraft from start to stop (thesis 4.5.3).
+ *
+ * <p>It is told to draw five times a second, so that what is old looks old within a second even
+ * when no message comes. Main thread only.
+ */
+public abstract class WatchingFragment extends Fragment {
+    private static final long TICK_MS = 200;
+
+    private final Handler handler = new Handler();
+    private final Runnable tick = new Runnable() {
+        @Override
+        public void run() {
+            showAll();
+            handler.postDelayed(this, TICK_MS);
+        }
+    };
+    private final GroundWatcher watcher = new GroundWatcher() {
+        @Override
+        public void onTelemetry(Telemetry telemetry) {
+            showNewest();
+        }
+
+        @Override
+        public void onStatus(GroundStatus status) {
+            showAll();
+        }
+
+        @Override
+        public void onChanged() {
+            showAll();
+        }
+    };
+    private final TelemetryLink.Watcher linkWatcher = new TelemetryLink.Watcher() {
+        @Override
+        public void onGround(TelemetryService.Ground newGround) {
+            take(newGround);
+        }
+
+        @Override
+        public void onGroundGone() {
+            take(null);
+        }
+    };
+
+    private TelemetryLink link;
+    private TelemetryService.Ground ground;
+
+    @Override
+    public void onStart() {
+        super.onStart();
+        link = TelemetryLink.of(getActivity());
+        link.watch(linkWatcher);
+        handler.removeCallbacks(tick);
+        tick.run();
+    }
+
+    @Override
+    public void onStop() {
+        handler.removeCallbacks(tick);
+        if (link != null) {
+            link.unwatch(linkWatcher);
+            link = null;
+        }
+        take(null);
+        super.onStop();
+    }
+
+    /** Draws everything, as old as it is now; there may be no view. */
+    protected abstract void showAll();
+
+    /** Draws what moves with a frame that has just come; there may be no view. */
+    protected abstract void showNewest();
+
+    /** Hears which ground is watched from now on; null: none. */
+    protected abstract void onGround(TelemetryService.Ground newGround);
+
+    /** Returns the ground that is watched; null: none. */
+    protected final TelemetryService.Ground ground() {
+        return ground;
+    }
+
+    private void take(TelemetryService.Ground newGround) {
+        if (ground == newGround) {
+            return;
+        }
+        if (ground != null) {
+            ground.remove(watcher);
+        }
+        ground = newGround;
+        onGround(newGround);
+        if (newGround != null) {
+            newGround.add(watcher);
+        }
+        showAll();
+    }
+}
