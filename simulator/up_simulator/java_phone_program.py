@@ -6,6 +6,7 @@ import contextlib
 import fcntl
 import shutil
 import subprocess
+import zipfile
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -60,15 +61,15 @@ def find_java_program(
         try:
             _build(android)
         except JavaUnavailableError as error:
-            if not all(jar.is_file() for jar in jars) or not _lacks_tools():
+            if not all(map(zipfile.is_zipfile, jars)) or not _lacks_tools():
                 raise
             say(f"the Java phone was built before and is not built anew: {error}")
     return JavaProgram(java, jars)
 
 
 def _are_fresh(jars: Iterable[Path], android: Path) -> bool:
-    """Return whether the jars are there, and no source is newer."""
-    if not all(jar.is_file() for jar in jars):
+    """Return whether the jars are there and whole, and no source is newer."""
+    if not all(map(zipfile.is_zipfile, jars)):
         return False
     oldest_s = min(jar.stat().st_mtime for jar in jars)
     folders = (android / name for name in SOURCES)
@@ -90,6 +91,10 @@ def _build(android: Path) -> None:
             f"building the Java phone needs {', '.join(lacking)} (Debian packages make {PACKAGE})"
         )
     with _lock(android / "build"):
+        for name in JARS:
+            # A full disk leaves what make would take for done.
+            if not zipfile.is_zipfile(android / "build" / name):
+                (android / "build" / name).unlink(missing_ok=True)
         try:
             done = subprocess.run(
                 ["make", "-C", str(android), "core", "virtual"],

@@ -140,6 +140,9 @@ class ScenarioFlight:
         finally:
             self.record.flown_s = self.time_s
             self.record.took_s = time.perf_counter() - began_s
+            phone = self.companions.phone
+            if phone is not None and phone.loss is not None:
+                self.record.notes.append(f"the {phone.loss}")
             self.companions.stop()
             self.record.black_boxes = self.companions.black_boxes
         return self.record
