@@ -172,7 +172,7 @@ def test_the_other_command_that_is_said_flies_it_again_in_the_page(flight):
 
 def test_a_run_that_is_stopped_leaves_a_whole_log(tmp_path):
     showcase = Showcase(tmp_path, "--no-page", "--seconds", "3")
-    assert showcase.process.wait(LIMIT_S) == 0
+    assert showcase.process.wait(LIMIT_S) == 0, showcase.said()
     assert "  page " not in showcase.said()
     (path,) = (tmp_path / "flights").glob("*.mcap")
     with path.open("rb") as file:

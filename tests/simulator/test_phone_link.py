@@ -1,4 +1,4 @@
-"""The phone as a process against real sockets: connecting, coming back, finding, stalling."""
+"""The phone in Python as a process against real sockets: connecting, finding, stalling."""
 
 import json
 import select
@@ -17,6 +17,9 @@ from up_simulator.phone_address import (
     read_discovery_answer,
     read_spawn_answer,
 )
+
+# The Java phone has its own tests: tests/android/test_interop_*.py.
+PYTHON = ("--phone", "python")
 
 
 @pytest.fixture
@@ -63,7 +66,7 @@ class Peer:
 
 
 def phone(general, *arguments):
-    return Program("--no-board", "--general-port", port_of(general), *arguments)
+    return Program("--no-board", *PYTHON, "--general-port", port_of(general), *arguments)
 
 
 def test_it_sends_what_it_measures_and_answers(server):
@@ -95,7 +98,7 @@ def test_it_comes_back_after_a_lost_link_and_half_a_line_dies_with_it(server):
 def test_it_waits_for_a_raspberry_pi_that_is_not_there_yet(server):
     port = port_of(server)
     server.close()
-    with Program("--no-board", "--general-port", port) as program:
+    with Program("--no-board", *PYTHON, "--general-port", port) as program:
         program.wait_for(f"no connection to 127.0.0.1:{port}")
         with socket.create_server(("127.0.0.1", port)) as late:
             late.settimeout(DEADLINE_S)
@@ -187,7 +190,9 @@ def test_it_asks_a_runner_and_goes_where_the_answer_says(server):
     with socket.create_server(("127.0.0.1", 0)) as runner:
         runner.settimeout(DEADLINE_S)
         place = f"127.0.0.1:{port_of(runner)}"
-        with Program("--no-board", "--runner", place, "--aircraft-name", "glider-1") as program:
+        with Program(
+            "--no-board", *PYTHON, "--runner", place, "--aircraft-name", "glider-1"
+        ) as program:
             with Peer(runner) as peer:
                 assert json.loads(peer.file.readline()) == {"aircraft": "glider-1"}
                 peer.send(b'{"running": false, "error": "no such aircraft", "ports": null}\n')
@@ -205,7 +210,7 @@ def test_it_asks_a_runner_and_goes_where_the_answer_says(server):
 def test_a_runner_that_hangs_up_is_asked_again():
     with socket.create_server(("127.0.0.1", 0)) as runner:
         runner.settimeout(DEADLINE_S)
-        with Program("--no-board", "--runner", f"127.0.0.1:{port_of(runner)}") as program:
+        with Program("--no-board", *PYTHON, "--runner", f"127.0.0.1:{port_of(runner)}") as program:
             for _ in range(2):
                 with Peer(runner) as peer:
                     peer.file.readline()
@@ -266,7 +271,7 @@ def test_it_ends_at_once_while_it_waits_for_an_answer(option):
         discovery.bind(("127.0.0.1", 0))
         asked = discovery if option == "--discover" else runner
         asked.settimeout(DEADLINE_S)
-        with Program("--no-board", option, f"127.0.0.1:{port_of(asked)}") as program:
+        with Program("--no-board", *PYTHON, option, f"127.0.0.1:{port_of(asked)}") as program:
             question = asked.recv(512) if asked is discovery else asked.accept()[0]
             status, took_s, error = program.end()
             if asked is runner:

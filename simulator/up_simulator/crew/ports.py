@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import random
 import socket
 from dataclasses import astuple, dataclass
 
 _TRIES = 20
+_FIRST, _LAST = 20_000, 32_767
+"""Below what systems give to whoever connects (Linux: from 32768): nobody has one by chance before
+the program that it was chosen for."""
+_random = random.SystemRandom()
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,15 +51,15 @@ def _choose(count: int, any_ports: bool) -> tuple[Ports, ...]:
 
 def _free_port(wanted: int, any_port: bool, held: list[socket.socket]) -> int:
     """Return a port that is free for TCP and for UDP, and hold it until all are chosen."""
-    for port in (0,) * _TRIES if any_port else (wanted, *(0,) * _TRIES):
+    chosen = [_random.randint(_FIRST, _LAST) for _ in range(_TRIES)]
+    for port in chosen if any_port else (wanted, *chosen):
         stream, datagrams = socket.socket(), socket.socket(type=socket.SOCK_DGRAM)
         held += [stream, datagrams]
         stream.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             stream.bind(("", port))
-            bound: int = stream.getsockname()[1]
-            datagrams.bind(("", bound))
+            datagrams.bind(("", port))
         except OSError:
             continue
-        return bound
+        return port
     raise OSError("no port is free")

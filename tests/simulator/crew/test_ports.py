@@ -1,5 +1,6 @@
 import socket
-from dataclasses import astuple, fields
+from dataclasses import astuple
+from pathlib import Path, fields
 
 from up_simulator.crew.ports import Ports, choose_port_sets, choose_ports
 
@@ -32,3 +33,12 @@ def test_the_ports_of_all_sets_differ_though_the_system_hands_them_out_again(mon
     monkeypatch.setattr("up_simulator.crew.ports.socket.socket", Socket)
     chosen = [port for ports in choose_port_sets(2) for port in astuple(ports)]
     assert len(set(chosen)) == len(chosen) == 2 * len(fields(Ports))
+
+
+def test_any_ports_are_none_that_the_system_gives_to_whoever_connects():
+    sets = choose_port_sets(3)
+    ports = [port for each in sets for port in astuple(each)]
+    assert len(set(ports)) == len(ports)
+    given = Path("/proc/sys/net/ipv4/ip_local_port_range").read_text(encoding="ascii")
+    first, last = map(int, given.split())
+    assert not any(first <= port <= last for port in ports)
