@@ -1,6 +1,6 @@
 import socket
-from dataclasses import astuple
-from pathlib import Path, fields
+from dataclasses import astuple, fields
+from pathlib import Path
 
 from up_simulator.crew.ports import Ports, choose_port_sets, choose_ports
 
