@@ -110,11 +110,6 @@ public final class AirborneSettings {
         return orientation;
     }
 
-    /** Returns whether orientation leaves in Flight Controller Mode too. */
-    public boolean isOrientationRedundant() {
-        return redundantOrientation;
-    }
-
     /** Returns how often orientation leaves, Hz, 50 to 200. */
     public int orientationHz() {
         return orientationHz;

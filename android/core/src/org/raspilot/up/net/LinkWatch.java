@@ -1,6 +1,5 @@
 package org.raspilot.up.net;
 
-import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 
 /**
@@ -8,131 +7,63 @@ import org.raspilot.up.loop.Loop;
  * the peer says nothing, or takes nothing of what waits, for too long.
  */
 final class LinkWatch {
-    private final Loop loop;
-    private final UpSocketSettings settings;
-    private final Owner owner;
-    private Cancellable beat;
-    private Cancellable silence;
-    private Cancellable stall;
-    private long wroteMs;
-    private long heardMs;
-    private long movedMs;
+    private final IdleTimer beat;
+    private final IdleTimer silence;
+    private final IdleTimer stall;
 
-    LinkWatch(Loop loop, UpSocketSettings settings, Owner owner) {
-        this.loop = loop;
-        this.settings = settings;
-        this.owner = owner;
+    LinkWatch(Loop loop, UpSocketSettings settings, final Owner owner) {
+        beat = new IdleTimer(loop, settings.heartbeatMs(), new Runnable() {
+            @Override
+            public void run() {
+                beat.start();
+                owner.onBeat();
+            }
+        });
+        silence = givingUp(loop, settings.silenceLimitMs(), "said nothing", owner);
+        stall = givingUp(loop, settings.stallLimitMs(), "took nothing", owner);
     }
 
     /** Begins with a new connection. */
     void start() {
         stop();
-        wroteMs = loop.nowMs();
-        heardMs = wroteMs;
-        if (settings.heartbeatMs() > 0) {
-            scheduleBeat(settings.heartbeatMs());
-        }
-        if (settings.silenceLimitMs() > 0) {
-            scheduleSilence(settings.silenceLimitMs());
-        }
+        beat.start();
+        silence.start();
     }
 
     /** Ends with the connection. */
     void stop() {
-        cancel(beat);
-        cancel(silence);
-        cancel(stall);
+        beat.stop();
+        silence.stop();
+        stall.stop();
     }
 
     /** Hears that bytes came. */
     void heard() {
-        heardMs = loop.nowMs();
+        silence.touch();
     }
 
     /** Hears that something was given to the connection: how much it took, what still waits. */
     void wrote(long bytes, boolean isWaiting) {
         if (bytes > 0) {
-            wroteMs = loop.nowMs();
-        }
-        if (settings.stallLimitMs() == 0) {
-            return;
+            beat.touch();
         }
         if (!isWaiting) {
-            cancel(stall);
-        } else if (bytes > 0 || stall == null || !stall.isPending()) {
-            movedMs = loop.nowMs();
-            if (stall == null || !stall.isPending()) {
-                scheduleStall(settings.stallLimitMs());
-            }
+            stall.stop();
+        } else if (!stall.isRunning()) {
+            stall.start();
+        } else if (bytes > 0) {
+            stall.touch();
         }
     }
 
-    private void scheduleBeat(long delayMs) {
-        beat = loop.schedule(delayMs, new Runnable() {
+    private static IdleTimer givingUp(Loop loop, final long limitMs, final String what,
+            final Owner owner) {
+        return new IdleTimer(loop, limitMs, new Runnable() {
             @Override
             public void run() {
-                long restMs = wroteMs + settings.heartbeatMs() - loop.nowMs();
-                if (restMs <= 0) {
-                    restMs = settings.heartbeatMs();
-                    scheduleBeat(restMs);
-                    owner.onBeat();
-                } else {
-                    scheduleBeat(restMs);
-                }
+                owner.onGivenUp(what + " for " + limitMs + " ms");
             }
         });
-    }
-
-    private void scheduleSilence(long delayMs) {
-        silence = loop.schedule(delayMs, new Runnable() {
-            @Override
-            public void run() {
-                final long restMs = heardMs + settings.silenceLimitMs() - loop.nowMs();
-                if (restMs > 0) {
-                    scheduleSilence(restMs);
-                } else {
-                    decideSilence();
-                }
-            }
-        });
-    }
-
-    /**
-     * A phone that slept finds the time over before it has read what came meanwhile: the loop reads
-     * between two timers, so the decision falls at the second.
-     */
-    private void decideSilence() {
-        silence = loop.schedule(0, new Runnable() {
-            @Override
-            public void run() {
-                final long restMs = heardMs + settings.silenceLimitMs() - loop.nowMs();
-                if (restMs > 0) {
-                    scheduleSilence(restMs);
-                } else {
-                    owner.onGivenUp("said nothing for " + settings.silenceLimitMs() + " ms");
-                }
-            }
-        });
-    }
-
-    private void scheduleStall(long delayMs) {
-        stall = loop.schedule(delayMs, new Runnable() {
-            @Override
-            public void run() {
-                final long restMs = movedMs + settings.stallLimitMs() - loop.nowMs();
-                if (restMs > 0) {
-                    scheduleStall(restMs);
-                } else {
-                    owner.onGivenUp("took nothing for " + settings.stallLimitMs() + " ms");
-                }
-            }
-        });
-    }
-
-    private static void cancel(Cancellable timer) {
-        if (timer != null) {
-            timer.cancel();
-        }
     }
 
     /** Who does what the watch decides. */

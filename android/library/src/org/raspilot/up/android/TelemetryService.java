@@ -236,16 +236,6 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Forgets the way that the aircraft has come. */
-        public void clearTrack() {
-            post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    side.track().clear();
-                }
-            });
-        }
-
         private void post(GroundRun.Call call) {
             if (run != null) {
                 run.post(call);

@@ -23,15 +23,4 @@ public final class BarsGeometry {
     public static boolean isBeyond(double pulseUs) {
         return Math.abs(pulseUs - MIDDLE_US) > HALF_US;
     }
-
-    /**
-     * Returns how far down from the middle of its gimbal a stick is drawn.
-     *
-     * @param pulseUs microseconds
-     * @param isElevator a pulled elevator (above 1500 us, nose up) is a stick drawn down
-     * @return -1.1 to 1.1 of half the gimbal
-     */
-    public static float stickDown(double pulseUs, boolean isElevator) {
-        return isElevator ? share(pulseUs) : -share(pulseUs);
-    }
 }
