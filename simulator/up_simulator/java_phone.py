@@ -23,12 +23,60 @@ def options_of(orientation: str, seed: int) -> list[str]:
     return ["--orientation", orientation, "--seed", str(seed), "--mounting", mounting]
 
 
-class JavaHandset:
+class JvmHandset:
+    """What every phone on a JVM has: its sensors' feed, its words, and how it ended by itself.
+
+    A JVM that ends by itself is told in a sentence, once, and costs the flight nothing but its
+    phone. ``has_connected`` says whether it was connected at any time.
+    """
+
+    def __init__(self, feed: SensorFeed, clock: Clock, say: Callable[[str], None]) -> None:
+        self._feed = feed
+        self._clock = clock
+        self._say = say
+        self._process: JavaPhoneProcess | None = None
+        self.has_connected = False
+        self.loss: str | None = None
+
+    @property
+    def pid(self) -> int | None:
+        """Return the JVM's process number while it runs."""
+        return None if self._process is None else self._process.pid
+
+    def set_battery(self, percent: float) -> None:
+        """Let its battery have this level from now on."""
+        self._feed.set_battery(percent, self._clock.seconds())
+
+    async def stop(self) -> None:
+        """End it."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.end()
+
+    def take(self, event: dict[str, Any]) -> None:
+        """Take what the JVM says."""
+        if event.get("event") == "wants":
+            period_s = event["period_ms"] / 1000
+            self._feed.want(str(event["sensor"]), period_s, self._clock.seconds())
+            return
+        if event.get("event") == "connected":
+            self.has_connected = True
+        if (sentence := sentence_of(event)) is not None:
+            self._say(sentence)
+
+    def lose(self, process: JavaPhoneProcess) -> None:
+        """Take that it has ended by itself."""
+        self._process = None
+        self._feed.forget()
+        process.end()
+        self.loss = " ".join(f"{process.last_words}; {GONE}".split())
+        self._say(self.loss)
+
+
+class JavaHandset(JvmHandset):
     """A phone whose sensors are fed by ``tick``; it finds and keeps its links by itself.
 
-    ``place`` are the virtual phone's options that say where Raspilot is. A JVM that ends by
-    itself is told in a sentence, once, and costs the flight nothing but its phone.
-    ``has_connected`` says whether it was connected at any time.
+    ``place`` are the virtual phone's options that say where Raspilot is.
     """
 
     def __init__(
@@ -43,21 +91,12 @@ class JavaHandset:
         seed: int = 1,
         record: Record | None = None,
     ) -> None:
+        super().__init__(SensorFeed(flight, seed=seed, record=record), clock, say)
         self._program = program
-        self._clock = clock
         self._place = place
         self._options = options_of(orientation, seed)
         if record is not None:
             self._options.append("--record")
-        self._say = say
-        self._feed = SensorFeed(flight, seed=seed, record=record)
-        self._process: JavaPhoneProcess | None = None
-        self.has_connected = False
-
-    @property
-    def pid(self) -> int | None:
-        """Return the JVM's process number while it runs."""
-        return None if self._process is None else self._process.pid
 
     def start(self) -> None:
         """Start the JVM; it connects as soon as it is there."""
@@ -69,37 +108,11 @@ class JavaHandset:
         process = self._process
         if process is None:
             return
-        now_s = self._clock.seconds()
         for event in process.hear():
-            self._take(event, now_s)
+            self.take(event)
         if not process.is_running:
-            self._lose(process)
+            self.lose(process)
             return
-        readings = self._feed.readings(now_s)
+        readings = self._feed.readings(self._clock.seconds())
         if readings:
             process.say(readings)
-
-    def set_battery(self, percent: float) -> None:
-        """Let its battery have this level from now on."""
-        self._feed.set_battery(percent, self._clock.seconds())
-
-    async def stop(self) -> None:
-        """End it."""
-        process, self._process = self._process, None
-        if process is not None:
-            process.end()
-
-    def _take(self, event: dict[str, Any], now_s: float) -> None:
-        if event.get("event") == "wants":
-            self._feed.want(str(event["sensor"]), event["period_ms"] / 1000, now_s)
-            return
-        if event.get("event") == "connected":
-            self.has_connected = True
-        if (sentence := sentence_of(event)) is not None:
-            self._say(sentence)
-
-    def _lose(self, process: JavaPhoneProcess) -> None:
-        self._process = None
-        self._feed.forget()
-        process.end()
-        self._say(f"{process.last_words}; {GONE}")

@@ -15,7 +15,12 @@ Record = Callable[[FlightState], dict[str, Any]]
 
 
 class Handset(Protocol):
-    """A phone with its links; ``tick`` is to be called every few milliseconds once it began."""
+    """A phone with its links; ``tick`` is to be called every few milliseconds once it began.
+
+    ``loss`` says in a sentence how it ended by itself; None: it did not.
+    """
+
+    loss: str | None
 
     def start(self) -> None:
         """Switch it on: it connects, and connects again after every loss."""
@@ -32,6 +37,8 @@ class Handset(Protocol):
 
 class PythonHandset:
     """The stand-in in Python: for machines without Java."""
+
+    loss: str | None = None
 
     def __init__(
         self,

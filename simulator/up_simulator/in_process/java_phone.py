@@ -9,18 +9,17 @@ from typing import Any
 from up_simulator.flight import Flight
 from up_simulator.in_process.machine import Machine
 from up_simulator.in_process.piped_sockets import PipedSockets
-from up_simulator.java_phone import GONE, options_of
+from up_simulator.java_phone import JvmHandset, options_of
 from up_simulator.java_phone_feed import SensorFeed
 from up_simulator.java_phone_process import JavaPhoneProcess
 from up_simulator.java_phone_program import JavaProgram
-from up_simulator.java_phone_words import sentence_of
 
 THINKS_S = 0.002
 """How long the phone takes for everything: meanwhile its JVM works beside the simulation."""
 _TINY_S = 1e-6
 
 
-class SteppedJavaHandset:
+class SteppedJavaHandset(JvmHandset):
     """A JVM in lock-step: it is asked only when a timer, a reading or its network wants it.
 
     Its sockets are opened on ``machine``, so that the same seed gives the same flight. The JVM is
@@ -38,20 +37,14 @@ class SteppedJavaHandset:
         *,
         seed: int = 1,
     ) -> None:
+        super().__init__(SensorFeed(flight, seed=seed), machine, say)
         self._machine = machine
-        self._say = say
-        self._feed = SensorFeed(flight, seed=seed)
         self._sockets = PipedSockets(machine)
         self._due_s = math.inf
         self._is_asked = False
         self.steps = 0
         options = [*options_of(orientation, seed), *place, "--stepped"]
-        self._process: JavaPhoneProcess | None = JavaPhoneProcess(program, *options)
-
-    @property
-    def pid(self) -> int | None:
-        """Return the JVM's process number while it runs."""
-        return None if self._process is None else self._process.pid
+        self._process = JavaPhoneProcess(program, *options)
 
     def start(self) -> None:
         """Let the phone's time begin."""
@@ -73,42 +66,28 @@ class SteppedJavaHandset:
         process.ask(line)
         self._machine.callLater(THINKS_S, self._take_answer)
 
-    def set_battery(self, percent: float) -> None:
-        """Let its battery have this level from now on."""
-        self._feed.set_battery(percent, self._machine.seconds())
-
     async def stop(self) -> None:
         """End it, and close its sockets."""
         self._sockets.close()
-        process, self._process = self._process, None
-        if process is not None:
-            process.end()
+        await super().stop()
 
     def _take_answer(self) -> None:
-        process, now_s = self._process, self._machine.seconds()
+        process = self._process
         self._is_asked = False
         if process is None:
             return
         events, answer = process.answer()
         for event in events:
-            self._take(event, now_s)
+            self.take(event)
         if not answer:
-            self._lose(process)
+            self.lose(process)
             return
         due_ms = answer["due"]
         self._due_s = math.inf if due_ms is None else due_ms / 1000
         for words in answer["net"]:
             self._sockets.do(words)
 
-    def _take(self, event: dict[str, Any], now_s: float) -> None:
-        if event.get("event") == "wants":
-            self._feed.want(str(event["sensor"]), event["period_ms"] / 1000, now_s)
-        elif (sentence := sentence_of(event)) is not None:
-            self._say(sentence)
-
-    def _lose(self, process: JavaPhoneProcess) -> None:
-        self._process = None
-        process.end()
-        # As by the system of a program that has died.
+    def lose(self, process: JavaPhoneProcess) -> None:
+        """Take that it has ended: its sockets go as by the system of a program that has died."""
         self._sockets.close()
-        self._say(f"{process.last_words}; {GONE}")
+        super().lose(process)

@@ -12,7 +12,7 @@ from up_simulator.in_process.java_phone import SteppedJavaHandset
 from up_simulator.in_process.machine import Machine
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
-from up_simulator.java_phone import GONE, JavaHandset
+from up_simulator.java_phone import JavaHandset
 from up_simulator.java_phone_program import JavaProgram
 from up_simulator.link.model import LinkModel, LinkSettings
 from up_simulator.phone_address import RaspberryPi
@@ -47,7 +47,6 @@ class InProcessPhone:
         java: JavaProgram | None = None,
     ) -> None:
         self.said: list[str] = []
-        self.loss: str | None = None
         self.up = LinkModel(cable, seed)
         self.down = LinkModel(cable, seed + 1)
         self._reactor = reactor
@@ -64,6 +63,11 @@ class InProcessPhone:
     def is_plugged(self) -> bool:
         """Return whether the cable is plugged in."""
         return self._is_started and not self.up.is_black
+
+    @property
+    def loss(self) -> str | None:
+        """Return in a sentence how it ended by itself; None: it did not."""
+        return self.handset.loss
 
     @property
     def is_awaited(self) -> bool:
@@ -129,7 +133,5 @@ class InProcessPhone:
             self.handset.tick()
 
     def _say(self, text: str) -> None:
-        if text.endswith(GONE):
-            self.loss = " ".join(text.split())
         if len(self.said) < SAID_KEPT:
             self.said.append(f"{self._reactor.seconds():9.3f} {text}")
