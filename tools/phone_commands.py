@@ -12,8 +12,14 @@ import json
 import sys
 from pathlib import Path
 
-from up_ground.catalogue import Catalogue
-from up_ground.web.catalogue_message import catalogue_message
+try:
+    from up_ground.catalogue import Catalogue
+    from up_ground.web.catalogue_message import catalogue_message
+except ModuleNotFoundError as error:
+    sys.exit(
+        f"{error}: tools/phone_commands.py wants the project's own Python, which make run sets up:"
+        " .venv/bin/python tools/phone_commands.py"
+    )
 
 ASSET = Path(__file__).resolve().parent.parent / "android" / "raspilot" / "assets" / "commands.json"
 

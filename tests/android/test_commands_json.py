@@ -37,3 +37,16 @@ def test_the_tool_writes_the_same_bytes_each_time(tmp_path):
 def test_a_catalogue_that_is_not_whole_is_not_written():
     with pytest.raises(ValueError, match="the Commands of broken_cog are left out"):
         asset_text(Catalogue([], ["the Commands of broken_cog are left out"]))
+
+
+def test_another_python_is_told_which_one_it_takes():
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", str(ASSET.parents[3] / "tools" / "phone_commands.py")],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert "Traceback" not in done.stderr
+    assert ".venv/bin/python tools/phone_commands.py" in done.stderr

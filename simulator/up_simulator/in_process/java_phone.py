@@ -42,7 +42,6 @@ class SteppedJavaHandset(JvmHandset):
         self._sockets = PipedSockets(machine)
         self._due_s = math.inf
         self._is_asked = False
-        self.steps = 0
         options = [*options_of(orientation, seed), *place, "--stepped"]
         self._process = JavaPhoneProcess(program, *options)
 
@@ -58,7 +57,6 @@ class SteppedJavaHandset(JvmHandset):
         is_due = min(self._due_s, self._feed.next_s) <= now_s + _TINY_S
         if not is_due and not self._sockets.is_urgent:
             return
-        self.steps += 1
         line: dict[str, Any] = {"t": round(now_s * 1000), **self._feed.readings(now_s)}
         if brought := self._sockets.take():
             line["net"] = brought
