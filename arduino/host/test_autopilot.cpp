@@ -184,6 +184,8 @@ TEST_CASE("FBW flies until the Outputs come that the Raspberry Pi has asked to s
 TEST_CASE("an armed aircraft that is still for once does not take that for its gyro's bias") {
   fake_board().reset();
   FlyingBoard board;
+  board.autopilot.settings.calibration.gyro_bias_16[0] = 1;
+  board.autopilot.attitude.begin();
   board.imu.gyro_noise_deg_s = 8;
   board.wake();
   REQUIRE(board.autopilot.attitude.is_bias_from_eeprom());

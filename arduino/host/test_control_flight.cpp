@@ -4,6 +4,7 @@
 #include <random>
 
 #include "control/flight_controller.h"
+#include "moving_imu.h"
 
 using namespace raspilot;
 
@@ -11,13 +12,23 @@ namespace {
 
 constexpr int SLOTS_TO_TUNE = 5;
 
+/** As the attitude filter gives it: hundredths of a degree, sixteenths of a deg/s. */
+Attitude attitude_of(int roll, int pitch, int yaw, int p, int q, int r) {
+  const double cosine = std::cos(roll / 100.0 * PI / 180);
+  const double sine = std::sin(roll / 100.0 * PI / 180);
+  const double tangent = cosine >= 0.5 ? sine / cosine : cosine > 0 ? 4 * sine * cosine : 0;
+  return {static_cast<int16_t>(roll), static_cast<int16_t>(pitch), static_cast<int16_t>(yaw),
+          static_cast<int16_t>(p), static_cast<int16_t>(q), static_cast<int16_t>(r),
+          static_cast<int16_t>(std::fmax(0, cosine) * 16384), static_cast<int16_t>(tangent * 8192)};
+}
+
 /** A controller with sticks and an attitude that the test moves. */
 struct Flight {
   Profile profile = DEFAULT_PROFILE;
   Gains gains = DEFAULT_GAINS;
   FlightController controller{profile, gains};
   Demand demand{};
-  Attitude attitude{};
+  Attitude attitude = attitude_of(0, 0, 0, 0, 0, 0);
 
   Flight() {
     demand.mode = Mode::FBW;
@@ -64,7 +75,7 @@ TEST_CASE("before the first slot the surfaces are neutral and the motor is off")
 TEST_CASE("ACRO passes the sticks through to the half microsecond, whatever the attitude") {
   Flight flight;
   flight.demand.mode = Mode::ACRO;
-  flight.attitude = {17000, -8000, 100, 3000, -3000, 3000};
+  flight.attitude = attitude_of(17000, -8000, 100, 3000, -3000, 3000);
   for (int ticks = 2000; ticks <= 4000; ++ticks) {
     flight.demand.sticks[AILERONS] = static_cast<Ticks>(ticks);
     flight.demand.sticks[ELEVATOR] = static_cast<Ticks>(6000 - ticks);
@@ -91,12 +102,12 @@ TEST_CASE("the throttle is what the authority says, in every mode") {
 TEST_CASE("FBW: the surfaces go against bank, pitch and rotation") {
   Flight flight;
   flight.tune(only_p(1.0f, 2.0f));
-  flight.attitude = {1000, 0, 0, 0, 0, 0};
+  flight.attitude = attitude_of(1000, 0, 0, 0, 0, 0);
   // 10 degrees ask for -20 deg/s, at 1.25 us a unit.
   CHECK(flight.us(AILERONS) == doctest::Approx(1475).epsilon(0.001));
-  flight.attitude = {0, -500, 0, 0, 0, 0};
+  flight.attitude = attitude_of(0, -500, 0, 0, 0, 0);
   CHECK(flight.us(ELEVATOR) == doctest::Approx(1512.5).epsilon(0.001));
-  flight.attitude = {0, 0, 0, 40 * 16, -20 * 16, 0};
+  flight.attitude = attitude_of(0, 0, 0, 40 * 16, -20 * 16, 0);
   CHECK(flight.us(AILERONS) == doctest::Approx(1450).epsilon(0.001));
   CHECK(flight.us(ELEVATOR) == doctest::Approx(1525).epsilon(0.001));
 }
@@ -106,30 +117,31 @@ TEST_CASE("FBW: the sticks ask for bank and pitch up to the profile's limits") {
   flight.tune(only_p(1.0f, 1.0f));
   flight.stick(AILERONS, 2000);
   flight.stick(ELEVATOR, 2000);
-  flight.attitude = {5000, 2000, 0, 0, 0, 0};
+  flight.attitude = attitude_of(5000, 2000, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500);
   CHECK(flight.us(ELEVATOR) == 1500);
   flight.stick(AILERONS, 1000);
   flight.stick(ELEVATOR, 1000);
-  flight.attitude = {-5000, -2500, 0, 0, 0, 0};
+  flight.attitude = attitude_of(-5000, -2500, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500);
   CHECK(flight.us(ELEVATOR) == 1500);
   flight.profile.roll_limit_cdeg = 3000;
   flight.profile.pitch_down_limit_cdeg = 1000;
-  flight.attitude = {-3000, -1000, 0, 0, 0, 0};
+  flight.attitude = attitude_of(-3000, -1000, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500);
   CHECK(flight.us(ELEVATOR) == 1500);
   // Half a stick is half the bank.
   flight.stick(AILERONS, 1750);
-  flight.attitude = {1500, -1000, 0, 0, 0, 0};
+  flight.attitude = attitude_of(1500, -1000, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500);
 }
 
 TEST_CASE("an angle asks for no faster rotation than its limit") {
   Flight flight;
   flight.tune(only_p(1.0f, 50.0f));
-  flight.attitude = {-6000, -4000, 0, 0, 0, 0};
+  flight.attitude = attitude_of(-6000, 0, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500 + 120 * 1.25);
+  flight.attitude = attitude_of(0, -4000, 0, 0, 0, 0);
   CHECK(flight.us(ELEVATOR) == 1500 + 80 * 1.25);
 }
 
@@ -137,11 +149,42 @@ TEST_CASE("the way back from inverted flight is the shorter one") {
   Flight flight;
   flight.tune(only_p(1.0f, 1.0f));
   flight.stick(AILERONS, 2000);
-  flight.attitude = {-17000, 0, 0, 0, 0, 0};
+  flight.attitude = attitude_of(-17000, 0, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) < 1500);
   flight.stick(AILERONS, 1000);
-  flight.attitude = {17000, 0, 0, 0, 0, 0};
+  flight.attitude = attitude_of(17000, 0, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) > 1500);
+}
+
+TEST_CASE("a banked aircraft holds its nose by pitching with the turn") {
+  Flight flight;
+  flight.tune(only_p(1.0f, 8.0f));
+  for (int bank_deg : {-49, -20, 20, 49}) {
+    CAPTURE(bank_deg);
+    flight.stick(AILERONS, 1500 + bank_deg * 10);
+    // A level turn: the yaw rate and the pitch rate that its bank has, 20 deg/s in all.
+    const double bank = bank_deg * DEG;
+    const double turn_16 = (bank_deg < 0 ? -20 : 20) * 16;
+    const int pitch_rate = static_cast<int>(std::lround(turn_16 * std::sin(bank)));
+    const int yaw_rate = static_cast<int>(std::lround(turn_16 * std::cos(bank)));
+    flight.attitude = attitude_of(bank_deg * 100, 0, 0, 0, pitch_rate, yaw_rate);
+    CHECK(flight.us(ELEVATOR) == doctest::Approx(1500).epsilon(0.001));
+    flight.attitude = attitude_of(bank_deg * 100, 0, 0, 0, 0, yaw_rate);
+    CHECK(flight.us(ELEVATOR) == doctest::Approx(1500 + pitch_rate / 16.0 * 1.25).epsilon(0.001));
+  }
+}
+
+TEST_CASE("beyond 90 degrees of bank the aircraft rolls first and does not pull") {
+  Flight flight;
+  flight.tune(only_p(1.0f, 8.0f));
+  for (int bank_deg : {-170, -120, -91, 91, 120, 170, 180}) {
+    CAPTURE(bank_deg);
+    flight.attitude = attitude_of(bank_deg * 100, -3000, 0, 0, 0, 200);
+    CHECK(flight.us(ELEVATOR) == 1500);
+    CHECK(std::fabs(flight.us(AILERONS) - 1500) == 120 * 1.25);
+  }
+  flight.attitude = attitude_of(8000, -3000, 0, 0, 0, 0);
+  CHECK(flight.us(ELEVATOR) == doctest::Approx(1500 + 80 * std::cos(80 * DEG) * 1.25).epsilon(0.001));
 }
 
 TEST_CASE("RATE: the stick is a rotation, and attitude does not matter") {
@@ -150,10 +193,10 @@ TEST_CASE("RATE: the stick is a rotation, and attitude does not matter") {
   flight.demand.mode = Mode::RATE;
   flight.stick(AILERONS, 2000);
   flight.stick(ELEVATOR, 1250);
-  flight.attitude = {17000, 5000, 0, 180 * 16, -45 * 16, 0};
+  flight.attitude = attitude_of(17000, 5000, 0, 180 * 16, -45 * 16, 0);
   CHECK(flight.us(AILERONS) == doctest::Approx(1500).epsilon(0.0005));
   CHECK(flight.us(ELEVATOR) == doctest::Approx(1500).epsilon(0.0005));
-  flight.attitude = {17000, 5000, 0, 160 * 16, -65 * 16, 0};
+  flight.attitude = attitude_of(17000, 5000, 0, 160 * 16, -65 * 16, 0);
   CHECK(flight.us(AILERONS) == doctest::Approx(1550).epsilon(0.001));
   CHECK(flight.us(ELEVATOR) == doctest::Approx(1550).epsilon(0.001));
 }
@@ -164,11 +207,11 @@ TEST_CASE("SETPOINT: the Raspberry Pi's attitude, within the limits of FBW") {
   flight.demand.mode = Mode::SETPOINT;
   flight.stick(AILERONS, 2000);
   flight.demand.setpoint = {-2000, 1000, 0, 0};
-  flight.attitude = {-2000, 1000, 0, 0, 0, 0};
+  flight.attitude = attitude_of(-2000, 1000, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500);
   CHECK(flight.us(ELEVATOR) == 1500);
   flight.demand.setpoint = {32767, -32768, 0, 0};
-  flight.attitude = {5000, -2500, 0, 0, 0, 0};
+  flight.attitude = attitude_of(5000, -2500, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500);
   CHECK(flight.us(ELEVATOR) == 1500);
   flight.demand.setpoint = {0, 0, 1000, 0};
@@ -182,7 +225,7 @@ TEST_CASE("OUTPUT: the Raspberry Pi's surfaces, through the servos' directions l
   flight.ask(AILERONS, 1600);
   flight.ask(ELEVATOR, 1450);
   flight.ask(RUDDER, 1320);
-  flight.attitude = {3000, 2000, 0, 800, 800, 800};
+  flight.attitude = attitude_of(3000, 2000, 0, 800, 800, 800);
   CHECK(flight.us(AILERONS) == 1600);
   CHECK(flight.us(ELEVATOR) == 1450);
   CHECK(flight.us(RUDDER) == 1320);
@@ -227,11 +270,11 @@ TEST_CASE("a lost receiver: the circle at the glide's pitch, sticks and modes fo
     flight.stick(RUDDER, 2000);
     flight.profile.preset_rudder_us = 1600;
     flight.ask(AILERONS, 2000);
-    flight.attitude = {2000, -300, 0, 0, 0, 0};
+    flight.attitude = attitude_of(2000, -300, 0, 0, 0, 0);
     CHECK(flight.us(AILERONS) == 1500);
     CHECK(flight.us(ELEVATOR) == 1500);
     CHECK(flight.us(RUDDER) == 1500);
-    flight.attitude = Attitude();
+    flight.attitude = attitude_of(0, 0, 0, 0, 0, 0);
     CHECK(flight.us(AILERONS) == 1525);
     CHECK(flight.us(ELEVATOR) == doctest::Approx(1496.25).epsilon(0.001));
   }
@@ -245,7 +288,7 @@ TEST_CASE("a lost receiver without an IMU: the preset surfaces") {
   flight.profile.preset_elevator_us = 1460;
   flight.profile.preset_rudder_us = 1570;
   flight.stick(AILERONS, 1000);
-  flight.attitude = {3000, 3000, 0, 900, 900, 900};
+  flight.attitude = attitude_of(3000, 3000, 0, 900, 900, 900);
   CHECK(flight.us(AILERONS) == 1510);
   CHECK(flight.us(ELEVATOR) == 1460);
   CHECK(flight.us(RUDDER) == 1570);
@@ -260,7 +303,7 @@ TEST_CASE("without an IMU every mode that needs it passes the sticks through") {
     flight.stick(AILERONS, 1650);
     flight.stick(ELEVATOR, 1234);
     flight.stick(RUDDER, 1777);
-    flight.attitude = {3000, 3000, 0, 900, 900, 900};
+    flight.attitude = attitude_of(3000, 3000, 0, 900, 900, 900);
     CHECK(flight.us(AILERONS) == 1650);
     CHECK(flight.us(ELEVATOR) == 1234);
     CHECK(flight.us(RUDDER) == 1777);
@@ -307,7 +350,7 @@ TEST_CASE("from FBW to SETPOINT, into the circle and back the surfaces do not ju
 TEST_CASE("gains fly within five slots of their change") {
   Flight flight;
   flight.tune(only_p(1.0f, 1.0f));
-  flight.attitude = {0, 0, 0, -20 * 16, -20 * 16, 0};
+  flight.attitude = attitude_of(0, 0, 0, -20 * 16, -20 * 16, 0);
   CHECK(flight.us(AILERONS) == 1525);
   flight.gains = only_p(2.0f, 1.0f);
   CHECK(flight.us(AILERONS) == 1525);
@@ -339,10 +382,10 @@ TEST_CASE("no stick, attitude or gain lets a servo out of its end points") {
     for (Ticks& asked : flight.demand.asked.ticks) asked = number();
     flight.demand.throttle = number();
     flight.demand.setpoint = {number(), number(), number(), 0};
-    flight.attitude = {static_cast<int16_t>(any(random) % 18001),
+    flight.attitude = attitude_of(static_cast<int16_t>(any(random) % 18001),
                        static_cast<int16_t>(any(random) % 9001),
                        static_cast<int16_t>(any(random) % 18001),
-                       number(), number(), number()};
+                       number(), number(), number());
     const Outputs& outputs = flight.controller.update(flight.demand, flight.attitude);
     for (Ticks output : outputs.ticks) {
       CHECK(output >= 2000);

@@ -22,6 +22,8 @@ class Glider {
     demand.is_imu_valid = true;
     for (Ticks& stick : demand.sticks) stick = us_to_ticks(1500);
     demand.throttle = us_to_ticks(1000);
+    // Its gyro was calibrated.
+    calibration_.gyro_bias_16[0] = 1;
   }
 
   void fly(double seconds) {
@@ -35,6 +37,7 @@ class Glider {
  private:
   static constexpr double FASTEST_DEG_S[3] = {250, 120, 60};
   static constexpr double LAG_SLOTS[3] = {40, 60, 100};
+  static constexpr double SPEED_M_S = 12;
 
   void slot() {
     for (int axis = 0; axis < 3; ++axis) {
@@ -42,7 +45,11 @@ class Glider {
       rate_deg_s_[axis] += (asked - rate_deg_s_[axis]) / LAG_SLOTS[axis];
     }
     imu.turn(rate_deg_s_[0], rate_deg_s_[1], rate_deg_s_[2]);
-    filter_.on_sample(imu.sample(), 0);
+    // In the air a turn is felt: by the speed, across the nose.
+    const double per_deg_s = SPEED_M_S * DEG / GRAVITY_M_S2;
+    const double force[3] = {-imu.down[0], -imu.down[1] + rate_deg_s_[2] * per_deg_s,
+                             -imu.down[2] - rate_deg_s_[1] * per_deg_s};
+    filter_.on_sample(imu.sample(force), 0);
     demand.is_imu_valid = filter_.is_valid();
     const Outputs& outputs = controller_.update(demand, filter_.attitude());
     if (++slots_ % 10 != 0) return;

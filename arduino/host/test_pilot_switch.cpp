@@ -93,13 +93,30 @@ TEST_CASE("pilot switch: ground modes are taken at AUTO only, and never ACRO") {
   CHECK(bench.authority.mode() == Mode::FBW);
 }
 
+TEST_CASE("pilot switch: a bad pulse stops what flies at AUTO, and does not end the mode asked for") {
+  PilotBench bench;
+  bench.fly(2000);
+  REQUIRE(bench.ask('r') == Reason::NONE);
+  for (uint32_t left_ms : {2u, 40u, 140u}) {
+    CAPTURE(left_ms);
+    bench.sticks[AUX1] = 1500;
+    REQUIRE(bench.run_until([&] { return !bench.authority.is_auto(); }, 100) <= 34);
+    CHECK(bench.authority.mode() == Mode::FBW);
+    CHECK(bench.output(1600, 0) == Reason::NOT_AUTO);
+    bench.run(left_ms - 2);
+    bench.sticks[AUX1] = 2000;
+    bench.run(40);
+    CHECK(bench.authority.mode() == (left_ms < 140 ? Mode::RATE : Mode::FBW));
+  }
+}
+
 TEST_CASE("pilot switch: leaving AUTO ends what the ground and the Raspberry Pi had asked for") {
   PilotBench bench;
   bench.fly(2000);
   SUBCASE("the mode") {
     REQUIRE(bench.ask('r') == Reason::NONE);
     bench.sticks[AUX1] = 1500;
-    bench.run(40);
+    bench.run(140);
     bench.sticks[AUX1] = 2000;
     bench.run(40);
     CHECK(bench.authority.mode() == Mode::FBW);

@@ -60,8 +60,8 @@ OUT_OF_LINE void setup() {
   DDRB |= bit_on_b(PIN_LED);
   sei();
   SavedState state;
-  const bool is_restored = reset::restore(state);
-  autopilot.begin(is_restored ? &state : nullptr, reset::cause(), clock::now_us());
+  const bool is_kept = reset::restore(state);
+  autopilot.begin(is_kept ? &state : nullptr, reset::cause(), clock::now_us());
   autopilot.link.open();
   due_us = clock::now_us();
 }

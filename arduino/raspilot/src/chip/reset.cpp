@@ -34,12 +34,17 @@ uint8_t cause() {
 }
 
 bool restore(SavedState& state) {
-  const bool was_watchdog = cause() == _BV(WDRF);
-  const bool is_restored = was_watchdog && states.read(state);
   cause_at_start = cause();
   marker = 0;
-  if (!is_restored) states.forget();
-  return is_restored;
+  const bool is_kept = !(cause_at_start & _BV(PORF)) && states.read(state);
+  if (is_kept && cause_at_start == _BV(WDRF)) return true;
+  // Neither copy may arm after a second reset.
+  states.forget();
+  if (!is_kept) return false;
+  state.authority = AuthorityState();
+  state.authority.switch_position = SWITCH_UNKNOWN;
+  states.write(state);
+  return true;
 }
 
 void keep(const SavedState& state) { states.write(state); }

@@ -12,11 +12,12 @@ namespace reset {
 uint8_t cause();
 
 /**
- * The state to fly on with, into `state`; false unless this was a watchdog reset. Power-on and
- * brown-out make the kept copies unreadable.
+ * The state from before the reset, into `state`; false after power-on, and when memory lost it.
+ * Only after a watchdog reset it holds who flew: any other reset, and the next one, find it
+ * disarmed.
  *
- * optiboot clears MCUSR before it starts this program; then the marker tells, which on_overflow()
- * leaves when the loop stands still.
+ * optiboot clears MCUSR before it starts this program; then the marker tells of a watchdog reset,
+ * which on_overflow() leaves when the loop stands still, and memory that is whole of any other.
  */
 bool restore(SavedState& state);
 

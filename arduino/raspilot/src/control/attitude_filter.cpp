@@ -13,6 +13,7 @@ constexpr uint16_t OLDEST_SLOTS = 32767;
 constexpr uint16_t SEARCH_SLOTS = 5000;
 constexpr uint8_t FROZEN_COPIES = 24;  // with the one they copy 25 samples, 50 ms
 constexpr uint8_t GOOD_ENOUGH = 10;
+constexpr uint8_t SATURATED_SLOTS = 250;
 // No aircraft and no sensor with a filter of 98 Hz turns 500 deg/s faster after 2 ms.
 constexpr int8_t GREATEST_JUMP = 64;
 // A senseless sample is forgotten after eight that make sense; after two none is believed until all
@@ -43,27 +44,29 @@ constexpr int16_t LEAST_COSINE_SQUARED_Q14 = 820;  // pitch of 77 degrees: yaw m
 constexpr uint16_t YAW_PER_Q17 = 5215;             // 2^32 / (2 pi) / 2^17
 constexpr int16_t HALF_CIRCLE_CDEG = 18000;
 
-// Four samples are collected for one look at the accelerometer, each at most 1.15 g an axis:
-// turned in any way they stay within 16 bits.
+// Four samples are collected for one look at the accelerometer, each at most 2 g an axis: halved
+// and turned in any way they stay within 16 bits.
 constexpr uint8_t GROUP = 4;
-constexpr int16_t GREATEST_ACCEL = 4700;
-constexpr int32_t SQUARE_TOLERANCE = static_cast<int32_t>(0.2 * ONE_Q28);          // 0.9 to 1.1 g
-constexpr int32_t SQUARE_TOLERANCE_FINDING = static_cast<int32_t>(0.6 * ONE_Q28);  // 0.63 to 1.26 g
-
-// The accelerometer draws gravity by 2^-n of the difference every 8 ms.
+constexpr int16_t GREATEST_ACCEL = 8191;
+constexpr int32_t ONE_Q26 = 1L << 26;
+constexpr int32_t SQUARE_TOLERANCE_FINDING = static_cast<int32_t>(0.6 * ONE_Q26);  // 0.63 to 1.26 g
+// Gravity is found by 2^-n of the difference every 8 ms.
 constexpr uint8_t FINDING_SHIFT = 2;
-constexpr uint8_t SETTLING_SHIFT = 7;  // 1.0 s
-constexpr uint8_t FLYING_SHIFT = 11;   // 16.4 s
 constexpr uint8_t FINDING_GROUPS = 16;
-constexpr uint8_t SETTLED_GROUPS = 250;
 
-// The bias is learned with a quarter of the square of the draw's rate: just too slow to swing.
-constexpr int16_t LEARNING_DIVISOR = 4;
+// How far off the attitude may be (1 sigma, degrees) when it was found or kept, and the bias
+// (tenths of a deg/s).
+constexpr uint8_t FOUND_TILT = 3;
+constexpr uint8_t FOUND_IN_FLIGHT_TILT = 15;
+constexpr uint8_t KEPT_TILT = 5;
+constexpr uint8_t SATURATED_TILT = 1;
+constexpr uint8_t MEASURED_BIAS = 1;
+constexpr uint8_t KEPT_BIAS = 3;
+constexpr uint8_t STORED_BIAS = 10;
+constexpr uint8_t UNKNOWN_BIAS = 50;
 
-// A turn of more than 2.5 deg/s about the vertical, low-passed with 0.5 s, tilts what the
-// accelerometer takes for down.
-constexpr uint8_t TURN_SHIFT = 6;
-constexpr int32_t TURN_LIMIT = 46L << TURN_SHIFT;
+// EEPROM lasts 100,000 writes: a new bias is stored when it differs by half a deg/s.
+constexpr int16_t BIAS_CHANGE_16 = 8;
 
 }  // namespace
 
@@ -74,9 +77,12 @@ void AttitudeFilter::begin() {
   has_begun_ = true;
   level_.set(calibration_.level_roll_cdeg, calibration_.level_pitch_cdeg);
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    state_.bias_q36[axis] =
-        clamped16(calibration_.gyro_bias_16[axis], GREATEST_BIAS_16) * BIAS_PER_16TH;
+    const int16_t bias_16 = clamped16(calibration_.gyro_bias_16[axis], GREATEST_BIAS_16);
+    state_.bias_q36[axis] = bias_16 * BIAS_PER_16TH;
+    // No gyro is without bias: three zeros are what EEPROM holds before one was measured.
+    if (bias_16 != 0) state_.has_bias = true;
   }
+  tilt_.begin(FOUND_TILT, state_.has_bias ? STORED_BIAS : UNKNOWN_BIAS, 0);
 }
 
 OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
@@ -89,16 +95,18 @@ OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
   const int16_t gyro[3] = {sample.gyro[0], negative(sample.gyro[1]), negative(sample.gyro[2])};
   if (searched_slots_ < SEARCH_SLOTS) ++searched_slots_;
   collect(sample);
-  const bool is_looking = !has_ended_search_ && searched_slots_ < SEARCH_SLOTS;
-  if ((phase_ & 1) != 0 && stillness_.on_sample(gyro) && is_looking) take_own_bias();
+  if ((phase_ & 1) != 0 && stillness_.on_sample(gyro) && !state_.has_ended_search) on_still();
   // The slot that looks at the accelerometer has no time for a second step.
   for (uint8_t step = phase_ == 0 ? 1 : 0; step < STEPS_A_SLOT && pending_slots_ != 0; ++step) {
     --pending_slots_;
     integrate(gyro);
   }
+  TiltCorrection correction;
   if (phase_ == 0) {
     correct();
     normalize();
+  } else if (tilt_.step(down_, correction)) {
+    apply(correction);
   }
   if ((phase_ & 1) != 0) {
     find_roll_and_yaw();
@@ -120,21 +128,33 @@ OUT_OF_LINE void AttitudeFilter::miss() {
   is_fresh_ = false;
   good_samples_ = 0;
   stillness_.forget();
-  // How it turned meanwhile is not known: the accelerometer draws quickly for a while.
-  if (found_groups_ > FINDING_GROUPS) found_groups_ = FINDING_GROUPS;
+  if (missing_slots_ == STALE_SLOTS) tilt_.widen(KEPT_TILT);
   if (missing_slots_ >= LOST_SLOTS) lose();
 }
 
-/** What turned meanwhile is not known any more: gravity is to be found anew. */
+/** How the aircraft turned since is unknown: gravity is to be found again. */
 void AttitudeFilter::lose() {
+  has_lost_gravity_ = has_lost_gravity_ || has_gravity_;
   has_gravity_ = false;
   found_groups_ = 0;
   pending_slots_ = 0;
 }
 
+/** A gyro at its end stop is a fast roll for half a second, and broken after that. */
+bool AttitudeFilter::has_saturated_long(const ImuSample& sample) {
+  if (!is_saturated(sample)) {
+    saturated_slots_ = 0;
+    return false;
+  }
+  if (saturated_slots_ == SATURATED_SLOTS) return true;
+  ++saturated_slots_;
+  tilt_.widen(SATURATED_TILT);
+  return false;
+}
+
 /** Noise jumps about; a twelfth of it makes sense by chance. */
 OUT_OF_LINE bool AttitudeFilter::is_senseless(const ImuSample& sample) {
-  bool is_bad = is_garbage(sample);
+  bool is_bad = is_garbage(sample) || has_saturated_long(sample);
   for (uint8_t axis = 0; axis < 3; ++axis) {
     const int8_t rate = static_cast<int8_t>(sample.gyro[axis] >> 8);
     const int16_t jump = static_cast<int16_t>(rate - gyro_[axis]);
@@ -176,8 +196,34 @@ OUT_OF_LINE void AttitudeFilter::take_own_bias() {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     state_.bias_q36[axis] = product(stillness_.mean_q4()[axis], TURN_PER_COUNT);
   }
+  state_.has_bias = true;
   state_.has_own_bias = true;
-  has_ended_search_ = true;
+  state_.has_ended_search = true;
+  tilt_.begin(FOUND_TILT, MEASURED_BIAS, tilt_.speed_m_s());
+}
+
+/** The still second that was searched for: its bias also flies after a reset with lost memory. */
+void AttitudeFilter::on_still() {
+  take_own_bias();
+  for (uint8_t axis = 0; axis < 3; ++axis) {
+    const int16_t change_16 = difference_of(mean_16(axis), calibration_.gyro_bias_16[axis]);
+    if (clamped16(change_16, BIAS_CHANGE_16) != change_16) has_new_bias_ = true;
+  }
+  if (has_new_bias_) keep_bias();
+}
+
+int16_t AttitudeFilter::mean_16(uint8_t axis) const {
+  return times_q15(stillness_.mean_q4()[axis], COUNT_TO_DEG_S);
+}
+
+OUT_OF_LINE void AttitudeFilter::keep_bias() {
+  for (uint8_t axis = 0; axis < 3; ++axis) calibration_.gyro_bias_16[axis] = mean_16(axis);
+}
+
+bool AttitudeFilter::take_new_bias() {
+  const bool has_new_bias = has_new_bias_;
+  has_new_bias_ = false;
+  return has_new_bias;
 }
 
 /** What is felt as up, turned over: the chip's x forward, y left, z up. */
@@ -190,6 +236,8 @@ void AttitudeFilter::collect(const ImuSample& sample) {
     sign = 1;
   }
   phase_ = static_cast<uint8_t>((phase_ + 1) % GROUP);
+  if (phase_ != 0) return;
+  for (int16_t& sum : measured_) sum = static_cast<int16_t>(sum / 2);
 }
 
 void AttitudeFilter::integrate(const int16_t* gyro) {
@@ -211,9 +259,6 @@ void AttitudeFilter::integrate(const int16_t* gyro) {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     state_.gravity_q30[axis] += change[axis] >> 3;
     down_[axis] = upper_half(state_.gravity_q30[axis]);
-  }
-  if (phase_ == 0) {
-    turn_rate_ += from_q14(dot(down_, angle)) - shifted(turn_rate_, TURN_SHIFT);
   }
 }
 
@@ -243,43 +288,38 @@ OUT_OF_LINE void AttitudeFilter::find_down() {
 
 void AttitudeFilter::correct() {
   level_.straighten(measured_);
-  const int32_t excess = dot(measured_, measured_) - ONE_Q28;
   if (found_groups_ < FINDING_GROUPS) {
-    if (clamped(excess, SQUARE_TOLERANCE_FINDING) != excess) return;
-    if (found_groups_ == 0) {
-      for (uint8_t axis = 0; axis < 3; ++axis) state_.gravity_q30[axis] = 0;
-    }
-    draw(FINDING_SHIFT);
-    has_gravity_ = ++found_groups_ == FINDING_GROUPS;
+    find_gravity();
     return;
   }
-  const bool is_settling = found_groups_ < SETTLED_GROUPS;
-  if (is_settling) ++found_groups_;
-  const bool is_one_g = clamped(excess, SQUARE_TOLERANCE) == excess;
-  const bool is_turning = clamped(turn_rate_, TURN_LIMIT) != turn_rate_;
-  if (!is_one_g || is_turning) return;
-  draw(is_settling ? SETTLING_SHIFT : FLYING_SHIFT);
-  if (!is_settling) learn_drift();
+  int16_t difference[3];
+  for (uint8_t axis = 0; axis < 3; ++axis) {
+    difference[axis] = difference_of(measured_[axis], static_cast<int16_t>(down_[axis] / 2));
+  }
+  tilt_.collect(difference, attitude_.pitch_rate_16, attitude_.yaw_rate_16);
 }
 
-/** Moves gravity by 2^-shift of the way to what was measured. */
-void AttitudeFilter::draw(uint8_t shift) {
+/** Moves gravity quickly to what the accelerometer measures. */
+void AttitudeFilter::find_gravity() {
+  const int32_t excess = dot(measured_, measured_) - ONE_Q26;
+  if (clamped(excess, SQUARE_TOLERANCE_FINDING) != excess) return;
   for (uint8_t axis = 0; axis < 3; ++axis) {
     int32_t& gravity = state_.gravity_q30[axis];
-    gravity += shifted(measured_[axis] * 65536L, shift) - shifted(gravity, shift);
+    if (found_groups_ == 0) gravity = 0;
+    gravity += shifted(product(measured_[axis], ONE_Q14) * 8, FINDING_SHIFT) - shifted(gravity, FINDING_SHIFT);
   }
+  has_gravity_ = ++found_groups_ == FINDING_GROUPS;
+  if (has_gravity_ && has_lost_gravity_) tilt_.widen(FOUND_IN_FLIGHT_TILT);
 }
 
-/** The rotation that leads to what was measured, summed up, is what the gyro reads too much. */
-void AttitudeFilter::learn_drift() {
-  int32_t rotation[3];
-  int16_t error[3];
-  cross(measured_, down_, rotation);
-  for (uint8_t axis = 0; axis < 3; ++axis) error[axis] = upper_half(rotation[axis]);
-  level_.tilt(error);
+void AttitudeFilter::apply(TiltCorrection& correction) {
+  int32_t change[3];
+  cross(down_, correction.rotation_q17, change);
+  level_.tilt(correction.bias_q28);
   for (uint8_t axis = 0; axis < 3; ++axis) {
+    state_.gravity_q30[axis] += change[axis] / 2;
     int32_t& bias = state_.bias_q36[axis];
-    bias = clamped(bias - error[axis] / LEARNING_DIVISOR, GREATEST_BIAS);
+    bias = clamped(bias + product(correction.bias_q28[axis], 256), GREATEST_BIAS);
   }
 }
 
@@ -293,6 +333,13 @@ OUT_OF_LINE void AttitudeFilter::find_pitch() {
                                 static_cast<uint32_t>(product(down_[2], down_[2]));
   const int16_t level = static_cast<int16_t>(square_root(level_square));
   attitude_.pitch_cdeg = arc_tangent_cdeg(negative(down_[0]), level);
+  attitude_.cos_bank_q14 = attitude_.tan_bank_q13 = 0;
+  if (down_[2] <= 0) return;
+  const int16_t sine = static_cast<int16_t>(product(down_[1], ONE_Q14) / level);
+  const int16_t cosine = static_cast<int16_t>(product(down_[2], ONE_Q14) / level);
+  attitude_.cos_bank_q14 = cosine;
+  attitude_.tan_bank_q13 = static_cast<int16_t>(
+      cosine < ONE_Q14 / 2 ? shifted(product(sine, cosine), 13) : product(sine, 8192) / cosine);
 }
 
 OUT_OF_LINE void AttitudeFilter::find_angles() {
@@ -305,8 +352,10 @@ uint16_t AttitudeFilter::age_ms(uint32_t) const {
   return static_cast<uint16_t>(missing_slots_ * 2);
 }
 
+bool AttitudeFilter::has_searched_long() const { return searched_slots_ == SEARCH_SLOTS; }
+
 bool AttitudeFilter::is_calibrating() const {
-  return !has_ended_search_ && searched_slots_ < SEARCH_SLOTS;
+  return !state_.has_bias || !(state_.has_ended_search || has_searched_long());
 }
 
 Reason AttitudeFilter::refusal() const {
@@ -317,9 +366,7 @@ Reason AttitudeFilter::refusal() const {
 Reason AttitudeFilter::calibrate_gyro() {
   if (refusal() != Reason::NONE) return refusal();
   take_own_bias();
-  for (uint8_t axis = 0; axis < 3; ++axis) {
-    calibration_.gyro_bias_16[axis] = times_q15(stillness_.mean_q4()[axis], COUNT_TO_DEG_S);
-  }
+  keep_bias();
   return Reason::NONE;
 }
 
@@ -343,14 +390,22 @@ Reason AttitudeFilter::calibrate_level() {
   return is_in_range ? Reason::NONE : Reason::OUT_OF_RANGE;
 }
 
+AttitudeState AttitudeFilter::state() const {
+  AttitudeState state = state_;
+  state.speed_m_s = tilt_.speed_m_s();
+  return state;
+}
+
 void AttitudeFilter::restore(const AttitudeState& state, uint32_t) {
   begin();
   state_ = state;
+  tilt_.begin(KEPT_TILT, state.has_bias ? KEPT_BIAS : UNKNOWN_BIAS, state.speed_m_s);
   has_sample_ = true;
-  has_gravity_ = true;
-  found_groups_ = SETTLED_GROUPS;
-  has_ended_search_ = true;
+  has_lost_gravity_ = true;
   find_down();
+  // A reset may come before gravity was found.
+  has_gravity_ = dot(down_, down_) > ONE_Q28 / 2;
+  if (has_gravity_) found_groups_ = FINDING_GROUPS;
   find_angles();
 }
 

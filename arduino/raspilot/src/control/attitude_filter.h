@@ -6,6 +6,7 @@
 #include "imu_sample.h"
 #include "level.h"
 #include "stillness.h"
+#include "tilt_filter.h"
 
 namespace raspilot {
 
@@ -14,7 +15,10 @@ struct AttitudeState {
   int32_t gravity_q30[3];  // direction of down in body axes
   int32_t bias_q36[3];     // of the gyro, rad per slot
   uint32_t yaw;            // a full circle is 2^32
-  bool has_own_bias;       // found since power-on, not EEPROM's
+  uint8_t speed_m_s;       // the airspeed that turns have shown
+  bool has_bias;           // measured at some time: since power-on, or kept in EEPROM
+  bool has_own_bias;       // measured since power-on
+  bool has_ended_search;   // for a still second
 };
 
 /**
@@ -26,38 +30,40 @@ struct AttitudeMemory {
   bool has_sample_;
   bool is_fresh_;
   bool has_gravity_;
-  bool has_ended_search_;
+  bool has_lost_gravity_;  // since the start
+  bool has_new_bias_;
   uint8_t copies_;
   uint8_t good_samples_;
   uint8_t distrust_;
+  uint8_t saturated_slots_;
   uint8_t pending_slots_;
   uint8_t phase_;
-  uint8_t found_groups_;  // groups of four samples since gravity was looked for
+  uint8_t found_groups_;  // groups of four samples that gravity is found from
   uint16_t print_;
   int8_t gyro_[3];        // upper halves of the newest sample's
   uint16_t searched_slots_;
   uint16_t missing_slots_;  // since the newest sample
   int32_t yaw_change_;      // not yet in yaw, rad Q31 times cosine of pitch squared
-  int32_t turn_rate_;       // of the turn about the vertical, rad per slot Q19, times 64
   int16_t down_[3];         // gravity_q30 in Q14
   Attitude attitude_;
-  int16_t measured_[3];   // four samples of the accelerometer as down, Q14 of 1 g
+  int16_t measured_[3];   // four samples of the accelerometer as down, Q13 of 1 g
   int16_t remainder_[3];  // of the angle of a slot, rad Q32
   AttitudeState state_;
   Level level_;
   Stillness stillness_;
+  TiltFilter tilt_;
 };
 
 /**
- * A Mahony filter on the direction of gravity: the gyro turns it at 500 Hz, the accelerometer draws
- * it with a time constant of 16 s while it measures about 1 g and the aircraft does not turn, and
- * what it draws away steadily is learned as the gyro's drift. Yaw is integrated, nothing holds it.
- * Roll and yaw are computed in one slot, pitch in the next: 250 Hz.
+ * The direction of gravity: the gyro turns it at 500 Hz, a Kalman filter of its errors (TiltFilter)
+ * corrects it by the accelerometer four times a second and learns the gyro's bias. Yaw is
+ * integrated, nothing holds it. Roll and yaw are computed in one slot, pitch in the next: 250 Hz.
  */
 class AttitudeFilter : private AttitudeMemory {
  public:
-  /** Reads bias and level offsets with the first sample and after calibrating. */
   explicit AttitudeFilter(Calibration& calibration);
+  /** Takes bias and level offsets from the calibration; at the latest the first sample does. */
+  void begin();
 
   /** Takes the sample of a slot; each slot of 2000 us has this or on_missing(). */
   void on_sample(const ImuSample& sample, uint32_t now_us);
@@ -73,29 +79,37 @@ class AttitudeFilter : private AttitudeMemory {
   uint16_t age_ms(uint32_t now_us) const;
 
   /**
-   * Gyro bias from stillness at start; never while armed. True while it looks for it, 10 s at
-   * most: later the aircraft may fly, and a steady turn is still too.
+   * Against arming: no bias is known, or the search for a still second is younger than 10 s. The
+   * search itself goes on until it succeeds or stop_calibrating() ends it.
    */
   bool is_calibrating() const;
+  /** The search has had its 10 s. */
+  bool has_searched_long() const;
+  /** The search found a bias that the calibration did not have; true once. */
+  bool take_new_bias();
   bool is_bias_from_eeprom() const { return !state_.has_own_bias; }
+  bool has_bias() const { return state_.has_bias; }
   /** Whether the aircraft has been still for the last second. */
   bool is_still() const { return stillness_.is_still(); }
   /** `e` 3: NONE when the bias of the still second was taken into the calibration. */
   Reason calibrate_gyro();
   /** `e` 0: this attitude is level; out of range beyond 15 degrees. */
   Reason calibrate_level();
-  /** Armed aircraft stop the search for stillness. */
-  void stop_calibrating() { has_ended_search_ = true; }
+  /** Ends the search: in flight a steady turn is still, too. */
+  void stop_calibrating() { state_.has_ended_search = true; }
 
-  const AttitudeState& state() const { return state_; }
+  AttitudeState state() const;
   void restore(const AttitudeState& state, uint32_t now_us);
 
  private:
-  void begin();
   void miss();
   bool is_copy(const ImuSample& sample);
   bool is_senseless(const ImuSample& sample);
+  bool has_saturated_long(const ImuSample& sample);
   void take_own_bias();
+  void on_still();
+  void keep_bias();
+  int16_t mean_16(uint8_t axis) const;
   void count_slots();
   void lose();
   void collect(const ImuSample& sample);
@@ -104,8 +118,8 @@ class AttitudeFilter : private AttitudeMemory {
   void normalize();
   void find_down();
   void correct();
-  void draw(uint8_t shift);
-  void learn_drift();
+  void find_gravity();
+  void apply(TiltCorrection& correction);
   void find_roll_and_yaw();
   void find_pitch();
   void find_angles();

@@ -122,7 +122,8 @@ OUT_OF_LINE void FlightController::hold_rates(const Demand& demand, const Attitu
                                               Ticks* demands) {
   const int16_t roll_16 = wanted_rate_16(AILERONS, demand, attitude);
   demands[AILERONS] = sum_of(NEUTRAL, deflection(ROLL, roll_16, attitude.roll_rate_16));
-  const int16_t pitch_16 = wanted_rate_16(ELEVATOR, demand, attitude);
+  int16_t pitch_16 = wanted_rate_16(ELEVATOR, demand, attitude);
+  if (hold_ == Hold::ANGLES) pitch_16 = pitch_rate_in_turn_16(pitch_16, attitude);
   demands[ELEVATOR] = sum_of(NEUTRAL, deflection(PITCH, pitch_16, attitude.pitch_rate_16));
   int16_t yaw_16 = 0;
   if (demand.is_failsafe) {
@@ -148,6 +149,17 @@ int16_t FlightController::wanted_rate_16(Channel channel, const Demand& demand,
   const int32_t rate = stabilize_[channel].update(error, to_128ths(angle_cdeg),
                                                   is_roll ? ROLL_RATE_LIMIT : PITCH_RATE_LIMIT);
   return upper_half(rate * RATE_TO_UPPER_HALF);
+}
+
+/**
+ * The rate about the pitch axis that changes pitch by `wanted_16`, sixteenths of a deg/s: banked,
+ * the nose stays where it is only while it turns with the yaw rate. Beyond 90 degrees of bank the
+ * elevator waits: it would pull the nose down.
+ */
+int16_t FlightController::pitch_rate_in_turn_16(int16_t wanted_16, const Attitude& attitude) {
+  const int16_t turning_16 =
+      to_int16(shifted(product(attitude.yaw_rate_16, attitude.tan_bank_q13), 13));
+  return sum_of(times_q14(wanted_16, attitude.cos_bank_q14), turning_16);
 }
 
 /** The failsafe's, the Raspberry Pi's or the stick's bank or pitch. */

@@ -70,6 +70,7 @@ class FlightController : private ControllerMemory {
   void pass_through(const Demand& demand, Ticks* demands) const;
   void hold_rates(const Demand& demand, const Attitude& attitude, Ticks* demands);
   int16_t wanted_rate_16(Channel channel, const Demand& demand, const Attitude& attitude);
+  static int16_t pitch_rate_in_turn_16(int16_t wanted_16, const Attitude& attitude);
   int16_t wanted_angle_cdeg(Channel channel, const Demand& demand) const;
   int16_t swinging_16(int16_t yaw_rate_16);
   Ticks deflection(uint8_t axis, int16_t wanted_16, int16_t rate_16);

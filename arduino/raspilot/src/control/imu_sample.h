@@ -19,8 +19,10 @@ struct ImuSample {
 constexpr int16_t ACCEL_PER_G = 4096;
 constexpr int16_t GYRO_PER_10_DEG_S = 328;
 
-/** Whether no working sensor sends this: all bits alike, or a gyro at its end stop. */
+/** Whether no working sensor sends this: all bits alike. */
 bool is_garbage(const ImuSample& sample);
+/** Whether a gyro axis is at its end stop: the aircraft turns faster than 1000 deg/s. */
+bool is_saturated(const ImuSample& sample);
 
 /** Sixteen bits that differ when samples differ, but for one noisy pair in a hundred or so. */
 uint16_t fingerprint(const ImuSample& sample);

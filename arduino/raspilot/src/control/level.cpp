@@ -5,16 +5,11 @@
 
 namespace raspilot {
 
-namespace {
-
-/** Turns (a, b) in their plane by the angle of sine and cosine. */
 OUT_OF_LINE void turn(int16_t& a, int16_t& b, int16_t sine, int16_t cosine) {
   const int16_t before = a;
   a = from_q14(product(a, cosine) + product(b, sine));
   b = from_q14(product(b, cosine) - product(before, sine));
 }
-
-}  // namespace
 
 constexpr int16_t Level::GREATEST_CDEG;
 

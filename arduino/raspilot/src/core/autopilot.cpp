@@ -10,22 +10,27 @@ Autopilot::Autopilot()
       link(*this),
       reset_cause(0) {}
 
-void Autopilot::begin(const SavedState* restored, uint8_t cause, uint32_t now_us) {
+void Autopilot::begin(const SavedState* kept, uint8_t cause, uint32_t now_us) {
   reset_cause = cause;
   settings.load();
   controller.on_gains();
-  // What resets by itself may be flying: stillness there is a steady turn.
-  const bool is_in_flight = (cause & (RESET_BROWN_OUT | RESET_WATCHDOG)) && !(cause & RESET_POWER_ON);
-  if (is_in_flight) attitude.stop_calibrating();
-  if (restored == nullptr) return;
+  attitude.begin();
+  // A reset without power-on may come in flight, where a steady turn is still: an old bias is
+  // better than that turn.
+  const bool may_fly = cause != 0 && !(cause & RESET_POWER_ON);
+  if (may_fly && attitude.has_bias()) attitude.stop_calibrating();
+  if (kept == nullptr) return;
+  attitude.restore(kept->attitude, now_us);
+  if (cause != RESET_WATCHDOG) return;
   reset_cause |= RESET_RESTORED;
-  authority.restore(restored->authority, now_us);
-  attitude.restore(restored->attitude, now_us);
+  authority.restore(kept->authority, now_us);
 }
 
 void Autopilot::control(const ImuSample* sample, uint32_t now_us) {
   receiver.check(now_us);
-  if (authority.is_armed()) attitude.stop_calibrating();
+  if (authority.is_armed() || (!settings.profile.has_motor && attitude.has_searched_long())) {
+    attitude.stop_calibrating();
+  }
   if (sample != nullptr) {
     attitude.on_sample(*sample, now_us);
   } else {
@@ -52,6 +57,7 @@ Demand Autopilot::demand() const {
 
 bool Autopilot::background(uint32_t now_us) {
   link.check(now_us);
+  if (attitude.take_new_bias()) settings.save_calibration();
   is_settings_turn_ = !is_settings_turn_;
   if (is_settings_turn_ && settings.background(authority.is_armed())) return true;
   return link.background(now_us);

@@ -27,8 +27,11 @@ class Autopilot {
  public:
   Autopilot();
 
-  /** Loads the settings; `restored` is null unless a watchdog reset in flight is to be resumed. */
-  void begin(const SavedState* restored, uint8_t reset_cause, uint32_t now_us);
+  /**
+   * Loads the settings. `kept` is the state from before the reset, null when memory lost it: after
+   * a watchdog reset all of it flies on, after any other attitude and gyro bias, never arming.
+   */
+  void begin(const SavedState* kept, uint8_t reset_cause, uint32_t now_us);
   /** One slot of 2000 us: receiver, authority, attitude, control. `sample` is null without one. */
   void control(const ImuSample* sample, uint32_t now_us);
   /** One piece of background work of at most 100 us; false when nothing is due. */

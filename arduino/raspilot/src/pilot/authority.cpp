@@ -7,12 +7,16 @@ namespace {
 constexpr uint16_t LOSS_UNITS = units_at_least(500);
 // More than one frame of any receiver (22 ms).
 constexpr uint16_t RETURN_UNITS = units_at_least(30);
+// Three frames of any receiver.
+constexpr uint16_t LEFT_UNITS = units_at_least(70);
 constexpr uint16_t LATCH_UNITS = units_at_least(5000);
 constexpr uint16_t OUTPUT_LIVES_UNITS = units_at_most(250);
 constexpr uint16_t LONGEST_SETPOINT_MS = 250;
 constexpr uint16_t ASKED_OUTPUT_UNITS = units_at_least(500);
 constexpr uint16_t VETO_LIVES_UNITS = units_at_least(1000);
 constexpr uint16_t LOW_LONG_ENOUGH_UNITS = units_at_least(2000);
+// A receiver needs that long to link again after a reset in flight.
+constexpr uint16_t RELINK_S = 5;
 constexpr uint32_t OLDEST_ORIENTATION_US = 100000;
 constexpr Ticks LOW_THROTTLE = us_to_ticks(1050);
 constexpr Ticks MOTOR_OFF = us_to_ticks(1000);
@@ -55,8 +59,12 @@ void Authority::follow_receiver(uint16_t passed_units) {
     return;
   }
   switch_.take(receiver_.pulse(AUX1));
-  if (!is_auto()) {
-    asked_mode_ = 0;
+  if (is_auto()) {
+    away_.start();
+  } else {
+    // One bad pulse does not end the mode that was selected, though nothing flies by it meanwhile.
+    away_.pass(passed_units);
+    if (away_.units() >= LEFT_UNITS) asked_mode_ = 0;
     lives_[ASKED].end();
     end_demands();
   }
@@ -110,6 +118,10 @@ Mode Authority::flown_mode() const {
 bool Authority::is_auto() const {
   const uint8_t position = switch_.position();
   return position != SWITCH_UNKNOWN && profile_.switch_modes[position] == 'A';
+}
+
+bool Authority::is_in_flight(uint16_t uptime_s) const {
+  return is_armed_ || (!profile_.has_motor && (was_heard() || uptime_s < RELINK_S));
 }
 
 bool Authority::is_throttle_low() const { return receiver_.pulse(THROTTLE) < LOW_THROTTLE; }

@@ -62,6 +62,11 @@ class Authority {
   Mode flown_mode() const;
   bool is_armed() const { return is_armed_; }
   bool is_auto() const;
+  /**
+   * Whether settings must not change: armed, or an aircraft without a motor, which flies disarmed,
+   * unless it has been on for 5 s and its transmitter was never heard.
+   */
+  bool is_in_flight(uint16_t uptime_s) const;
   /** 0 low, 1 middle, 2 high, 255 not known yet; holds while the receiver is lost. */
   uint8_t switch_position() const { return switch_.position(); }
   bool has_receiver() const { return !(slot_vetoes_ & VETO_RECEIVER); }
@@ -119,6 +124,7 @@ class Authority {
   Stopwatch throttle_low_;
   Stopwatch sound_;
   Stopwatch lost_;
+  Stopwatch away_;
   // The newer of the two: which it is, flown_mode() says.
   union {
     Setpoint setpoint_ ZEROED;

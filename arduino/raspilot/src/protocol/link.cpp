@@ -141,7 +141,10 @@ void Link::carry_out(const CommandDefinition& command, const Request& request) {
       answers_.push(static_cast<uint8_t>(reason), command.type, request.sequence);
     }
   }
-  if (!answers_.is_empty()) send_answer(request.now_us);
+  // A handler that answers itself takes longer than a byte of the line may: background() calls it.
+  if (!answers_.is_empty() && answers_.front().what != PendingAnswer::ASK) {
+    send_answer(request.now_us);
+  }
 }
 
 void Link::refuse_seldom(char type, uint8_t sequence, Reason reason, uint32_t now_us) {

@@ -1,4 +1,4 @@
-/** What survives a watchdog reset in RAM that start-up does not clear. */
+/** What survives a reset in RAM that start-up does not clear. */
 #pragma once
 
 #include <stdint.h>
@@ -19,7 +19,7 @@ class SavedStates {
   void write(const SavedState& state);
   /** The newest copy whose CRC is right; false when there is none. */
   bool read(SavedState& state) const;
-  /** Makes both copies unreadable (power-on, brown-out). */
+  /** Makes both copies unreadable. */
   void forget();
 
  private:

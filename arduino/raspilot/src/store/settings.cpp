@@ -78,7 +78,24 @@ bool Settings::background(bool is_armed) {
     kind_ = static_cast<Kind>(kind_ + 1 == KINDS ? 0 : kind_ + 1);
     begin_save();
   }
-  step();
+  if (offset_ == 0 && !is_checking_ && is_kept()) {
+    kinds_[kind_].is_pending = false;
+  } else {
+    step();
+  }
+  return true;
+}
+
+/** Whether the newest copy already holds what is to be saved: cells of EEPROM wear. */
+bool Settings::is_kept() const {
+  const KindState& state = kinds_[kind_];
+  if (!state.is_stored) return false;
+  uint8_t data[LARGEST_SIZE];
+  give(data);
+  const uint16_t start = static_cast<uint16_t>(slot_address(kind_, state.slot) + SLOT_HEADER_SIZE);
+  for (uint8_t at = 0; at < size_of(kind_); ++at) {
+    if (board::eeprom_read(static_cast<uint16_t>(start + at)) != data[at]) return false;
+  }
   return true;
 }
 

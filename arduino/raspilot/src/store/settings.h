@@ -60,6 +60,7 @@ class Settings {
   void fail();
   void finish();
   uint8_t next_byte();
+  bool is_kept() const;
   uint16_t target() const;
   bool is_at_end() const;
   bool take(Kind kind, const uint8_t* data);

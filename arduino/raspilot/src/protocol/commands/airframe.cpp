@@ -1,4 +1,4 @@
-/** `C` `c` `e`: the airframe's profile, and calibrating; nothing of it while armed. */
+/** `C` `c` `e`: the airframe's profile, and calibrating; neither changes in flight. */
 #include "../../core/autopilot.h"
 #include "../command_executor.h"
 
@@ -7,10 +7,14 @@ namespace {
 
 enum What : uint8_t { LEVEL, ENDS_BEGIN, ENDS_END, GYRO };
 
+bool is_in_flight(const Autopilot& autopilot) {
+  return autopilot.authority.is_in_flight(autopilot.meter.seconds());
+}
+
 Reason on_profile(Autopilot& autopilot, const Request& request) {
   Profile profile;
   if (!read_profile(request.payload, profile)) return Reason::OUT_OF_RANGE;
-  if (autopilot.authority.is_armed()) return Reason::ONLY_DISARMED;
+  if (is_in_flight(autopilot)) return Reason::ONLY_DISARMED;
   autopilot.settings.profile = profile;
   autopilot.settings.save_profile();
   return Reason::NONE;
@@ -34,7 +38,10 @@ Reason end_learning(Autopilot& autopilot) {
 Reason on_calibrate(Autopilot& autopilot, const Request& request) {
   const uint8_t what = request.payload[0];
   if (what > GYRO) return Reason::OUT_OF_RANGE;
-  if (autopilot.authority.is_armed()) return Reason::ONLY_DISARMED;
+  // The end points of a glider need its transmitter, which was off when they began.
+  if (autopilot.authority.is_armed() || (what != ENDS_END && is_in_flight(autopilot))) {
+    return Reason::ONLY_DISARMED;
+  }
   if (what == ENDS_BEGIN) {
     autopilot.receiver.begin_range_learning();
     return Reason::NONE;

@@ -1,0 +1,309 @@
+#include "tilt_filter.h"
+
+#include "angles.h"
+#include "fixed_point.h"
+#include "level.h"
+
+namespace raspilot {
+
+namespace {
+
+constexpr float RAD = 0.01745329F;
+constexpr float GRAVITY_M_S2 = 9.81F;
+
+// A cycle: 64 slots of samples, then these pieces in three of four slots.
+constexpr uint8_t GROUPS = 16;
+constexpr uint8_t FIRST_PREDICTION = 2;
+constexpr uint8_t PREDICTIONS = 7;
+constexpr uint8_t PIECES_AN_UPDATE = 14;
+constexpr uint8_t SUBJECTS = 3;
+constexpr float CYCLE_S = 0.268F;
+
+constexpr float DEFAULT_SPEED_M_S = 13;
+constexpr float MIN_SPEED_M_S = 5;
+constexpr float MAX_SPEED_M_S = 40;
+
+// Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more in the
+// first minutes, airspeed from gusts.
+constexpr float TILT_WALK = 0.026F * RAD;
+constexpr float BIAS_WALK = 0.008F * RAD;
+constexpr float EARLY_BIAS_WALK = 0.016F * RAD;
+constexpr float SPEED_WALK = 0.2F;
+constexpr uint16_t EARLY_CYCLES = 450;  // 2 minutes
+// The bias drifts as it did in the last minute, later in the last two.
+constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 60;
+constexpr float DRIFT_SHARE = CYCLE_S / 120;
+
+// 1 sigma of what is observed, for one cycle.
+constexpr float FORCE_SIGMA = 0.1F;              // g, across the nose
+constexpr float EXCESS_WEIGHT = 10;              // a force is trusted less when it is not 1 g
+constexpr float SPEED_SIGMA = 7;                 // m/s, about its mean
+constexpr float EARLY_SPEED_SIGMA = 15;
+constexpr float MEAN_SPEED_SHARE = CYCLE_S / 60;
+constexpr float STRAIGHT_SIGMA = 4 * RAD;        // rad/s: below 5 deg/s a turn is mostly bias
+constexpr float STRAIGHT_LIMIT = 5 * RAD;
+
+constexpr float FORCE_UNIT = 1 / 8192.0F;
+constexpr int16_t ONE_Q14 = 16384;
+constexpr float ONE_Q17 = 131072;
+/** rad/s in rad a slot Q28. */
+constexpr float BIAS_TO_Q28 = 536870.9F;
+/** m/s and sixteenths of a deg/s in g Q13, times 512. */
+constexpr float SPEED_TO_FORCE = RAD / 16 / GRAVITY_M_S2 * 8192 * 512;
+constexpr int16_t TWO_G_Q13 = 16383;
+/** A force beyond 1 g by more than this is no change of airspeed: a launch, a loop. */
+constexpr int16_t MAX_EXCESS_Q13 = 819;
+/** Bank means nothing straight up or down: the cosine of pitch counts as at least 0.2. */
+constexpr int16_t MIN_COS_PITCH = 3277;
+constexpr float MAX_TILT_VARIANCE = 900 * RAD * RAD;
+
+OUT_OF_LINE void add_product(float* sum, const float* a, float b) { *sum += *a * b; }
+
+OUT_OF_LINE float square(float value) { return value * value; }
+
+OUT_OF_LINE float from_fixed(int16_t value, float unit) { return value * unit; }
+
+OUT_OF_LINE int16_t to_fixed(float value, float scale) {
+  return to_int16(static_cast<int32_t>(value * scale));
+}
+
+}  // namespace
+
+OUT_OF_LINE float& TiltFilter::covariance(uint8_t row, uint8_t column) {
+  const uint8_t low = row < column ? row : column;
+  const uint8_t high = row < column ? column : row;
+  return covariance_[static_cast<uint8_t>(high * (high + 1)) / 2 + low];
+}
+
+OUT_OF_LINE void TiltFilter::restart() {
+  groups_ = 0;
+  piece_ = 0;
+  for (int32_t& sum : sums_) sum = 0;
+}
+
+/** Adds to the variances of tilt, bias and speed. */
+OUT_OF_LINE void TiltFilter::add_noise(float tilt, float bias, float speed) {
+  for (uint8_t state = 0; state < STATES; ++state) {
+    covariance(state, state) += square(state < BIAS_X ? tilt : state < SPEED ? bias : speed);
+    change_[state] = 0;
+  }
+}
+
+OUT_OF_LINE void TiltFilter::begin(uint8_t tilt_deg, uint8_t bias_10, uint8_t speed_m_s) {
+  // Zero, and no piece of a cycle: as its owner made it.
+  uint8_t* const bytes = reinterpret_cast<uint8_t*>(this);
+  for (uint8_t at = 0; at < sizeof *this; ++at) bytes[at] = 0;
+  add_noise(from_fixed(tilt_deg, RAD), from_fixed(bias_10, RAD / 10), 7);
+  const bool is_speed = speed_m_s >= MIN_SPEED_M_S && speed_m_s <= MAX_SPEED_M_S;
+  speed_ = mean_speed_ = is_speed ? speed_m_s : DEFAULT_SPEED_M_S;
+}
+
+OUT_OF_LINE void TiltFilter::widen(uint8_t tilt_deg) {
+  restart();
+  if (covariance(ROLL, ROLL) < MAX_TILT_VARIANCE) add_noise(from_fixed(tilt_deg, RAD), 0, 0);
+}
+
+void TiltFilter::collect(const int16_t* difference_q13, int16_t pitch_rate_16,
+                         int16_t yaw_rate_16) {
+  if (groups_ == GROUPS) return;
+  ++groups_;
+  for (uint8_t axis = 0; axis < 3; ++axis) sums_[axis] += difference_q13[axis];
+  sums_[PITCH_RATE] += pitch_rate_16;
+  sums_[YAW_RATE] += yaw_rate_16;
+}
+
+/** State `to` grows by `factor` times state `from`. */
+OUT_OF_LINE void TiltFilter::add(uint8_t to, uint8_t from, float factor) {
+  // In this order the variance gains 2 * factor * covariance + factor^2 * variance of `from`.
+  add_product(&covariance(to, to), &covariance(to, from), factor);
+  for (uint8_t other = 0; other < STATES; ++other) {
+    if (other != to) add_product(&covariance(to, other), &covariance(from, other), factor);
+  }
+  add_product(&covariance(to, to), &covariance(to, from), factor);
+}
+
+OUT_OF_LINE void TiltFilter::find_bank(const int16_t* down_q14) {
+  const uint16_t level =
+      square_root(static_cast<uint32_t>(product(down_q14[1], down_q14[1])) +
+                  static_cast<uint32_t>(product(down_q14[2], down_q14[2])));
+  cos_pitch_ = level > MIN_COS_PITCH ? static_cast<int16_t>(level) : MIN_COS_PITCH;
+  sin_pitch_ = negative(down_q14[0]);
+  sin_bank_ = static_cast<int16_t>(product(down_q14[1], ONE_Q14) / cos_pitch_);
+  cos_bank_ = static_cast<int16_t>(product(down_q14[2], ONE_Q14) / cos_pitch_);
+}
+
+/** Mean of a sum of forces, Q13, with the centripetal force added. */
+OUT_OF_LINE int16_t TiltFilter::force(Sum across, int32_t turning) const {
+  return clamped16(to_int16(shifted(sums_[across], 4) + shifted(turning, 9)), TWO_G_Q13);
+}
+
+/** The attitude's errors as they were in this cycle, and how far they can be trusted. */
+OUT_OF_LINE void TiltFilter::find_errors() {
+  int16_t pitch_rate = to_int16(shifted(sums_[PITCH_RATE], 4));
+  int16_t yaw_rate = to_int16(shifted(sums_[YAW_RATE], 4));
+  const int16_t per_rate = to_fixed(speed_, SPEED_TO_FORCE);
+  int16_t x = force(X, 0);
+  int16_t y = force(Y, product(yaw_rate, per_rate));
+  int16_t z = force(Z, -product(pitch_rate, per_rate));
+  turn(yaw_rate, pitch_rate, sin_bank_, cos_bank_);
+  turn_rate_ = from_fixed(yaw_rate, RAD / 16);
+  turn(z, y, sin_bank_, cos_bank_);
+  roll_error_ = y;
+  turn(x, z, sin_pitch_, cos_pitch_);
+  pitch_error_ = negative(x);
+  // Half of what the square of the force exceeds 1 g by: a tilt error does not change it.
+  const int16_t parts[3] = {static_cast<int16_t>(x / 2), static_cast<int16_t>(y / 2),
+                            static_cast<int16_t>(z / 2)};
+  const int16_t excess = sum_of(z, to_int16(shifted(dot(parts, parts), 12)));
+  noise_ = square(FORCE_SIGMA) + square(from_fixed(excess, EXCESS_WEIGHT * FORCE_UNIT));
+  if (clamped16(excess, MAX_EXCESS_Q13) != excess) pitch_error_ = 0;
+}
+
+/** Tilt errors turn with the heading and grow with the bias; speed follows the force. */
+OUT_OF_LINE void TiltFilter::predict(uint8_t piece) {
+  float factor = turn_rate_ * CYCLE_S;
+  uint8_t to = ROLL;
+  uint8_t from = PITCH;
+  switch (piece) {
+    case 0:
+      from = BIAS_X;
+      factor = -CYCLE_S;
+      break;
+    case 1: break;
+    case 2:
+      to = PITCH;
+      from = ROLL;
+      factor = -factor;
+      break;
+    case 3:
+      to = PITCH;
+      from = BIAS_Y;
+      factor = from_fixed(cos_bank_, -CYCLE_S / ONE_Q14);
+      break;
+    case 4:
+      to = PITCH;
+      from = BIAS_Z;
+      factor = from_fixed(sin_bank_, CYCLE_S / ONE_Q14);
+      break;
+    case 5:
+      to = SPEED;
+      factor = -GRAVITY_M_S2 * CYCLE_S;
+      speed_ -= from_fixed(pitch_error_, -GRAVITY_M_S2 * CYCLE_S * FORCE_UNIT);
+      break;
+    default:
+      add_noise(TILT_WALK, cycles_ < EARLY_CYCLES ? EARLY_BIAS_WALK : BIAS_WALK, SPEED_WALK);
+      return;
+  }
+  add(to, from, factor);
+}
+
+/** Speed near its mean, roll by the force across the nose, no turn in straight flight. */
+OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject) {
+  float per_bias = 1 / static_cast<float>(ONE_Q14);
+  if (subject == 0) {
+    weights_[SPEED] = 1;
+    innovation_ = mean_speed_ - speed_;
+    variance_ = SPEED_SIGMA * SPEED_SIGMA;
+    if (cycles_ < EARLY_CYCLES) variance_ = EARLY_SPEED_SIGMA * EARLY_SPEED_SIGMA;
+    return;
+  }
+  if (subject == 1) {
+    per_bias = speed_ * (1 / GRAVITY_M_S2 / ONE_Q14);
+    weights_[ROLL] = 1;
+    weights_[SPEED] = turn_rate_ * (-1 / GRAVITY_M_S2);
+    drawn_speed_ = change_[SPEED];
+    innovation_ = from_fixed(roll_error_, FORCE_UNIT);
+    variance_ = noise_;
+  } else {
+    const float steep = square(turn_rate_ * (1 / STRAIGHT_LIMIT));
+    variance_ = 0;
+    if (steep > 1) return;
+    innovation_ = turn_rate_;
+    variance_ = square(STRAIGHT_SIGMA + STRAIGHT_SIGMA * 8 * steep);
+  }
+  weights_[BIAS_Y] = from_fixed(sin_bank_, per_bias);
+  weights_[BIAS_Z] = from_fixed(cos_bank_, per_bias);
+}
+
+/** A part of an update by one observation. */
+OUT_OF_LINE void TiltFilter::update(uint8_t piece) {
+  if (piece < STATES) {
+    for (uint8_t state = 0; state < STATES; ++state) {
+      if (piece == 0) gains_[state] = 0;
+      add_product(&gains_[state], &covariance(state, piece), weights_[piece]);
+    }
+    return;
+  }
+  if (piece == STATES) {
+    for (uint8_t state = 0; state < STATES; ++state) {
+      const float weight = weights_[state];
+      add_product(&variance_, &gains_[state], weight);
+      add_product(&innovation_, &change_[state], -weight);
+      weights_[state] = 0;
+    }
+    variance_ = 1 / variance_;
+    return;
+  }
+  const uint8_t row = static_cast<uint8_t>(piece - STATES - 1);
+  const float gain = gains_[row] * variance_;
+  add_product(&change_[row], &innovation_, gain);
+  for (uint8_t column = 0; column <= row; ++column) {
+    add_product(&covariance(row, column), &gains_[column], -gain);
+  }
+}
+
+OUT_OF_LINE bool TiltFilter::step(const int16_t* down_q14, TiltCorrection& correction) {
+  if (groups_ < GROUPS) return false;
+  uint8_t piece = piece_++;
+  if (piece == 0) find_bank(down_q14);
+  if (piece == 1) find_errors();
+  if (piece < FIRST_PREDICTION) return false;
+  piece = static_cast<uint8_t>(piece - FIRST_PREDICTION);
+  if (piece < PREDICTIONS) {
+    predict(piece);
+    return false;
+  }
+  piece = static_cast<uint8_t>(piece - PREDICTIONS);
+  const uint8_t subject = piece / PIECES_AN_UPDATE;
+  if (subject == SUBJECTS) return finish(correction);
+  piece %= PIECES_AN_UPDATE;
+  if (piece == 0) {
+    begin_observation(subject);
+  } else if (variance_ != 0) {
+    update(static_cast<uint8_t>(piece - 1));
+  }
+  return false;
+}
+
+/** Gives the correction; starts over when rounding has spoilt the covariance. */
+OUT_OF_LINE bool TiltFilter::finish(TiltCorrection& correction) {
+  restart();
+  for (uint8_t state = 0; state < STATES; ++state) {
+    if (covariance(state, state) > 0) continue;
+    begin(10, 10, 0);
+    return false;
+  }
+  correction.rotation_q17[0] = to_fixed(change_[ROLL], ONE_Q17);
+  correction.rotation_q17[1] = to_fixed(change_[PITCH], ONE_Q17);
+  correction.rotation_q17[2] = 0;
+  turn(correction.rotation_q17[1], correction.rotation_q17[2], sin_bank_, cos_bank_);
+  float share = DRIFT_SHARE;
+  if (cycles_ < EARLY_CYCLES) {
+    ++cycles_;
+    share = EARLY_DRIFT_SHARE;
+    // The first turns show what the mean is.
+    mean_speed_ += change_[SPEED] - drawn_speed_;
+  }
+  for (uint8_t axis = 0; axis < 3; ++axis) {
+    const float* const change = &change_[BIAS_X + axis];
+    add_product(&drift_[axis], change, share);
+    correction.bias_q28[axis] = to_fixed(*change + drift_[axis], BIAS_TO_Q28);
+  }
+  speed_ += change_[SPEED];
+  if (speed_ < MIN_SPEED_M_S) speed_ = MIN_SPEED_M_S;
+  if (speed_ > MAX_SPEED_M_S) speed_ = MAX_SPEED_M_S;
+  mean_speed_ += (speed_ - mean_speed_) * MEAN_SPEED_SHARE;
+  return true;
+}
+
+}  // namespace raspilot

@@ -1,0 +1,93 @@
+/** Kalman filter of the attitude's errors: tilt, gyro bias, and the airspeed that turns need. */
+#pragma once
+
+#include "../core/compiler.h"
+#include "../core/types.h"
+
+namespace raspilot {
+
+/** What one cycle of the filter found, in body axes (x forward, y right, z down). */
+struct TiltCorrection {
+  /** Rotation from the estimated to the true attitude, rad. */
+  int16_t rotation_q17[3];
+  /** To be added to the gyro bias, rad a slot. */
+  int16_t bias_q28[3];
+};
+
+/**
+ * Six states: tilt error about the horizontal axes forward and right, gyro bias on three axes,
+ * airspeed. A cycle of 268 ms takes 16 groups of four samples (128 ms), then one short piece of
+ * arithmetic in each of three slots out of four, in floating point.
+ *
+ * An accelerometer feels gravity less the acceleration of flight, which is the turn rate times the
+ * airspeed across the nose, and the change of airspeed along it. The filter expects both. So no
+ * turn is gated out, and bias is learned in turns, too. The airspeed itself is integrated, held
+ * near its mean of a minute, and shown by turns: a tilt error is fixed to the earth and rotates
+ * through the body axes, the centripetal force does not. The yaw gyro's bias is learned where
+ * bank makes it a pitch rate, and in straight flight. Bias that drifts steadily is extrapolated.
+ */
+class TiltFilter {
+ public:
+  /**
+   * Starts over with these uncertainties (1 sigma): tilt in degrees, gyro bias in tenths of a
+   * deg/s. A speed in m/s that is out of range becomes the default.
+   */
+  void begin(uint8_t tilt_deg, uint8_t bias_10, uint8_t speed_m_s);
+  /** Samples are missing: the tilt may have changed by `tilt_deg`. The cycle starts over. */
+  void widen(uint8_t tilt_deg);
+  /** Mean airspeed. */
+  uint8_t speed_m_s() const { return static_cast<uint8_t>(mean_speed_ + 0.5F); }
+
+  /**
+   * Takes a group: measured less estimated direction of down (Q13 of 1 g) in body axes, and the
+   * body rates, sixteenths of a deg/s.
+   */
+  void collect(const int16_t* difference_q13, int16_t pitch_rate_16, int16_t yaw_rate_16);
+  /** One piece of a cycle; true when a correction is ready. `down` is the estimate, Q14. */
+  bool step(const int16_t* down_q14, TiltCorrection& correction);
+
+ private:
+  enum State : uint8_t { ROLL, PITCH, BIAS_X, BIAS_Y, BIAS_Z, SPEED, STATES };
+  enum Sum : uint8_t { X, Y, Z, PITCH_RATE, YAW_RATE, SUMS };
+
+  float& covariance(uint8_t row, uint8_t column);
+  void restart();
+  void add_noise(float tilt, float bias, float speed);
+  void add(uint8_t to, uint8_t from, float factor);
+  void find_bank(const int16_t* down_q14);
+  void find_errors();
+  int16_t force(Sum across, int32_t turning) const;
+  void predict(uint8_t piece);
+  void begin_observation(uint8_t subject);
+  void update(uint8_t piece);
+  bool finish(TiltCorrection& correction);
+
+  // All zero at first, by its owner; begin() comes before anything else. The chip reaches the
+  // first 64 bytes by short instructions.
+  uint8_t piece_;
+  uint8_t groups_;
+  int16_t roll_error_;  // Q13
+  int16_t pitch_error_;
+  int16_t sin_bank_;  // Q14
+  int16_t cos_bank_;
+  int16_t sin_pitch_;
+  int16_t cos_pitch_;
+  uint16_t cycles_;
+  float innovation_;
+  float variance_;
+  float turn_rate_;  // about the vertical, rad/s
+  float noise_;      // variance of the force, g squared
+  float speed_;      // m/s
+  float mean_speed_;
+  float drawn_speed_;  // how far the mean has drawn it in this cycle
+  float drift_[3];  // rad/s a cycle
+  union {
+    float gains_[STATES];  // covariance of the states with what is observed
+    int32_t sums_[SUMS];
+  };
+  float change_[STATES];
+  float weights_[STATES];  // of the states in what is observed
+  float covariance_[STATES * (STATES + 1) / 2];  // lower triangle, row by row
+};
+
+}  // namespace raspilot
