@@ -26,21 +26,21 @@ constexpr float MAX_SPEED_M_S = 40;
 // Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more in the
 // first minutes, airspeed from gusts.
 constexpr float TILT_WALK = 0.026F * RAD;
-constexpr float BIAS_WALK = 0.008F * RAD;
+constexpr float BIAS_WALK = 0.012F * RAD;
 constexpr float EARLY_BIAS_WALK = 0.016F * RAD;
-constexpr float SPEED_WALK = 0.2F;
-constexpr uint16_t EARLY_CYCLES = 450;  // 2 minutes
+constexpr float SPEED_WALK = 0.3F;
+constexpr uint16_t EARLY_CYCLES = 150;  // 2 minutes
 // The bias drifts as it did in the last minute, later in the last two.
-constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 60;
-constexpr float DRIFT_SHARE = CYCLE_S / 120;
+constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 40;
+constexpr float DRIFT_SHARE = CYCLE_S / 100;
 
 // 1 sigma of what is observed, for one cycle.
 constexpr float FORCE_SIGMA = 0.1F;              // g, across the nose
 constexpr float EXCESS_WEIGHT = 10;              // a force is trusted less when it is not 1 g
 constexpr float SPEED_SIGMA = 7;                 // m/s, about its mean
-constexpr float EARLY_SPEED_SIGMA = 15;
-constexpr float MEAN_SPEED_SHARE = CYCLE_S / 60;
-constexpr float STRAIGHT_SIGMA = 4 * RAD;        // rad/s: below 5 deg/s a turn is mostly bias
+constexpr float EARLY_SPEED_SIGMA = 10;
+constexpr float MEAN_SPEED_SHARE = CYCLE_S / 120;
+constexpr float STRAIGHT_SIGMA = 3 * RAD;        // rad/s: below 5 deg/s a turn is mostly bias
 constexpr float STRAIGHT_LIMIT = 5 * RAD;
 
 constexpr float FORCE_UNIT = 1 / 8192.0F;
@@ -53,11 +53,19 @@ constexpr float SPEED_TO_FORCE = RAD / 16 / GRAVITY_M_S2 * 8192 * 512;
 constexpr int16_t TWO_G_Q13 = 16383;
 /** A force beyond 1 g by more than this is no change of airspeed: a launch, a loop. */
 constexpr int16_t MAX_EXCESS_Q13 = 819;
+/** Nothing but a wrong attitude differs from a force of 1 g by so much, 30 degrees. */
+constexpr int16_t FAR_OFF_Q13 = 4096;
+constexpr float FAR_OFF_TILT = 10 * RAD;
 /** Bank means nothing straight up or down: the cosine of pitch counts as at least 0.2. */
 constexpr int16_t MIN_COS_PITCH = 3277;
 constexpr float MAX_TILT_VARIANCE = 900 * RAD * RAD;
 
 OUT_OF_LINE void add_product(float* sum, const float* a, float b) { *sum += *a * b; }
+
+OUT_OF_LINE float sane_speed(float speed_m_s) {
+  if (speed_m_s < MIN_SPEED_M_S) return MIN_SPEED_M_S;
+  return speed_m_s > MAX_SPEED_M_S ? MAX_SPEED_M_S : speed_m_s;
+}
 
 OUT_OF_LINE float square(float value) { return value * value; }
 
@@ -156,7 +164,12 @@ OUT_OF_LINE void TiltFilter::find_errors() {
                             static_cast<int16_t>(z / 2)};
   const int16_t excess = sum_of(z, to_int16(shifted(dot(parts, parts), 12)));
   noise_ = square(FORCE_SIGMA) + square(from_fixed(excess, EXCESS_WEIGHT * FORCE_UNIT));
-  if (clamped16(excess, MAX_EXCESS_Q13) != excess) pitch_error_ = 0;
+  is_far_off_ = false;
+  if (clamped16(excess, MAX_EXCESS_Q13) != excess) {
+    pitch_error_ = 0;
+  } else if (clamped16(x, FAR_OFF_Q13) != x || clamped16(y, FAR_OFF_Q13) != y) {
+    is_far_off_ = true;
+  }
 }
 
 /** Tilt errors turn with the heading and grow with the bias; speed follows the force. */
@@ -191,7 +204,7 @@ OUT_OF_LINE void TiltFilter::predict(uint8_t piece) {
       speed_ -= from_fixed(pitch_error_, -GRAVITY_M_S2 * CYCLE_S * FORCE_UNIT);
       break;
     default:
-      add_noise(TILT_WALK, cycles_ < EARLY_CYCLES ? EARLY_BIAS_WALK : BIAS_WALK, SPEED_WALK);
+      add_noise(is_far_off_ ? FAR_OFF_TILT : TILT_WALK, cycles_ < EARLY_CYCLES ? EARLY_BIAS_WALK : BIAS_WALK, SPEED_WALK);
       return;
   }
   add(to, from, factor);
@@ -299,10 +312,8 @@ OUT_OF_LINE bool TiltFilter::finish(TiltCorrection& correction) {
     add_product(&drift_[axis], change, share);
     correction.bias_q28[axis] = to_fixed(*change + drift_[axis], BIAS_TO_Q28);
   }
-  speed_ += change_[SPEED];
-  if (speed_ < MIN_SPEED_M_S) speed_ = MIN_SPEED_M_S;
-  if (speed_ > MAX_SPEED_M_S) speed_ = MAX_SPEED_M_S;
-  mean_speed_ += (speed_ - mean_speed_) * MEAN_SPEED_SHARE;
+  speed_ = sane_speed(speed_ + change_[SPEED]);
+  mean_speed_ = sane_speed(mean_speed_ + (speed_ - mean_speed_) * MEAN_SPEED_SHARE);
   return true;
 }
 

@@ -72,6 +72,7 @@ class TiltFilter {
   int16_t cos_bank_;
   int16_t sin_pitch_;
   int16_t cos_pitch_;
+  bool is_far_off_;
   uint16_t cycles_;
   float innovation_;
   float variance_;
