@@ -32,7 +32,9 @@ def test_messages_are_written_and_read_as_the_vectors_say(vector):
     assert encode(message.name, message.data, message.id, message.beacon) == vector["line"].encode()
 
 
-@pytest.mark.parametrize("vector", vectors("general_message_read.json"), ids=lambda v: v["line"][:60])
+@pytest.mark.parametrize(
+    "vector", vectors("general_message_read.json"), ids=lambda v: v["line"][:60]
+)
 def test_messages_are_read_or_refused_as_the_vectors_say(vector):
     line = vector["line"].encode()
     if "malformed" in vector:
@@ -81,7 +83,7 @@ class CountedKey(str):
 
 def comparisons(keys):
     CountedKey.compared = 0
-    with pytest.raises(ValueError, match="repeated|more than"):
+    with pytest.raises(ValueError, match=r"repeated|more than"):
         _unique_object([(CountedKey(key), 0) for key in keys])
     return CountedKey.compared
 
