@@ -40,9 +40,8 @@ class Subscriber:
 
 def ours(count: int) -> Work:
     """Return a publish on the bus of this project."""
-    bus = CommandExecutor(
-        CommandRegistry(()), lambda call, *arguments: call(*arguments), Limited(Clock(), 10)
-    )
+    limited = Limited(Clock(), 10)
+    bus = CommandExecutor(CommandRegistry(()), lambda call, *rest: call(*rest), limited)
     for _ in range(count):
         bus.register_command(BenchCommand, Subscriber().on_command)
     publish, command, origin = bus.execute_command, BenchCommand(1), Origin("bench", Role.BOARD)

@@ -78,7 +78,7 @@ def longest_gap_ms(what: str, transport: str, rate_hz: int, seconds: float) -> f
         subprocess.run(command, cwd=ROOT, env=environment(), timeout=seconds + 30, check=True)
         time.sleep(SETTLE_S)
         arrivals_s = [*ground.arrivals_s[began - 1 :], time.monotonic()]
-        pairs = zip(arrivals_s, arrivals_s[1:], strict=False)
+        pairs = itertools.pairwise(arrivals_s)
         return max(later - earlier for earlier, later in pairs) * 1000
 
 

@@ -84,11 +84,12 @@ class BaseThreadModule(BaseStartedModule):
                 self.stop_event.wait(_PAUSE_AFTER_FAULT_S)
 
     def _log_fault(self, fault: Failure) -> None:
-        text, fields = "{name} failed in its thread", {"failure": fault, "name": self.class_name}
+        text, name = "{name} failed in its thread", self.class_name
         if self._limited is None or self.stop_event.is_set():
-            self.logger.failure(text, **fields)
+            self.logger.failure(text, fault, name=name)
         else:
-            self._limited.log(self.logger.failure, text, key=fault.type, **fields)
+            key = repr(fault.type)
+            self._limited.log(self.logger.failure, text, key=key, failure=fault, name=name)
 
     @property
     def _is_thread_alive(self) -> bool:

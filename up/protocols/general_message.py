@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
@@ -209,8 +210,7 @@ def _unique_object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         raise ValueError(f"an object with more than {MAX_KEYS} keys")
     fields = dict(pairs)
     if len(fields) != len(pairs):
-        seen: set[str] = set()
-        repeated = next(key for key, _ in pairs if key in seen or seen.add(key))
+        ((repeated, _),) = Counter(key for key, _ in pairs).most_common(1)
         raise ValueError(f"the key {repeated[:40]!r} is repeated")
     return fields
 

@@ -13,13 +13,20 @@ from twisted.python.failure import Failure
 from up.protocols.orientation_forward import (
     OrientationDecoder,
     OrientationFrame,
+    OrientationValues,
     decode_datagram,
 )
 from up.protocols.tcp_options import watch_peer, why_lost
 from up.system.clock import Clock, Timer
+from up.system.token_bucket import TokenBucket
 
 TAKEOVER_SILENCE_S = 1.0
-"""How long a UDP source must be silent before another one is taken over."""
+"""How long a source must be silent before another one is taken over."""
+MAX_FRAMES_HZ = 500.0
+MAX_BURST = 50
+"""Frames of one source beyond its rate and burst are dropped."""
+MAX_WAITING = 4
+"""Connections that wait for the source to fall silent; the oldest is dropped."""
 
 _USER_TIMEOUT_MS = 3000
 
@@ -30,16 +37,17 @@ OnSourceLost = Callable[[str, str], object]
 
 @dataclass(slots=True)
 class OrientationCounters:
-    """Frames handed on, frames dropped, sources replaced, datagrams of somebody else."""
+    """Frames handed on, frames dropped, sources replaced, frames of another source or too many."""
 
     frames: int = 0
     dropped: int = 0
     replaced: int = 0
     foreign: int = 0
+    too_many: int = 0
 
 
 class OrientationFactory(Factory):
-    """The TCP side: the newest connection is the source, an older one is dropped.
+    """The TCP side: a connection is the source until it closes or is silent for 1 s.
 
     `on_orientation` gets a frame and the source as text, `on_connected` the source, `on_lost` the
     source and why. A connection that was replaced is told as lost before the new one connects.
@@ -48,38 +56,82 @@ class OrientationFactory(Factory):
     noisy = False
 
     def __init__(
-        self, *, on_orientation: OnOrientation, on_connected: OnSource, on_lost: OnSourceLost
+        self,
+        clock: Clock,
+        *,
+        on_orientation: OnOrientation,
+        on_connected: OnSource,
+        on_lost: OnSourceLost,
     ) -> None:
         self.counters = OrientationCounters()
         self.on_orientation = on_orientation
+        self._clock = clock
+        self._bucket = TokenBucket(clock, MAX_FRAMES_HZ, MAX_BURST)
+        self._heard_s = 0.0
         self._on_connected = on_connected
         self._on_lost = on_lost
         self._current: _OrientationConnection | None = None
+        self._waiting: list[_OrientationConnection] = []
+
+    @property
+    def source(self) -> str:
+        """Return host and port of the source; empty: there is none."""
+        return "" if self._current is None else self._current.source
 
     def buildProtocol(self, addr: IAddress | None) -> Protocol:  # noqa: N802 - Twisted's name
         """Return the protocol of a new connection."""
         return _OrientationConnection(self)
 
     def connected(self, connection: _OrientationConnection) -> None:
-        """Make `connection` the source."""
-        if self._current is not None:
-            self.counters.replaced += 1
-            older = self._current
-            self.lost(older, "replaced by a newer connection")
-            older.drop()
-        self._current = connection
-        self._on_connected(connection.source)
+        """Make `connection` the source, or let it wait for the source to end."""
+        self._waiting.append(connection)
+        if self._current is None:
+            self._make_source(connection)
+        elif len(self._waiting) > MAX_WAITING:
+            self._waiting.pop(0).drop()
+
+    def received(self, connection: _OrientationConnection, frames: list[OrientationValues]) -> None:
+        """Hand on the frames of the source, at most `MAX_FRAMES_HZ` and the newest of a burst."""
+        now_s = self._clock.seconds()
+        if connection is not self._current:
+            if self._current is not None and now_s - self._heard_s <= TAKEOVER_SILENCE_S:
+                self.counters.foreign += len(frames)
+                return
+            self._make_source(connection)
+        self._heard_s = now_s
+        self.counters.too_many += max(0, len(frames) - MAX_BURST)
+        for values in frames[-MAX_BURST:]:
+            if connection is not self._current:
+                return
+            if self._bucket.take():
+                self.counters.frames += 1
+                self.on_orientation(OrientationFrame._make(values), connection.source)
+            else:
+                self.counters.too_many += 1
 
     def lost(self, connection: _OrientationConnection, why: str) -> None:
-        """Forget `connection` if it is the source."""
+        """Forget `connection`."""
+        if connection in self._waiting:
+            self._waiting.remove(connection)
         if connection is self._current:
             self._current = None
             self._on_lost(connection.source, why)
 
     def close(self) -> None:
-        """Drop the source; its port is whoever's who opened it."""
-        if self._current is not None:
-            self._current.drop()
+        """Drop every connection; the port is closed by the module that opened it."""
+        for connection in (*self._waiting, *filter(None, [self._current])):
+            connection.drop()
+
+    def _make_source(self, connection: _OrientationConnection) -> None:
+        older = self._current
+        if older is not None:
+            self.counters.replaced += 1
+            self.lost(older, f"silent for {TAKEOVER_SILENCE_S:g} s")
+            older.drop()
+        self._waiting.remove(connection)
+        self._current = connection
+        self._heard_s = self._clock.seconds()
+        self._on_connected(connection.source)
 
 
 class _OrientationConnection(Protocol):
@@ -100,15 +152,11 @@ class _OrientationConnection(Protocol):
         self._server.connected(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        counters = self._server.counters
         dropped_before = self._decoder.dropped
         frames = self._decoder.feed(data)
-        counters.dropped += self._decoder.dropped - dropped_before
-        for values in frames:
-            if self._is_dropped:
-                return
-            counters.frames += 1
-            self._server.on_orientation(OrientationFrame._make(values), self.source)
+        self._server.counters.dropped += self._decoder.dropped - dropped_before
+        if frames and not self._is_dropped:
+            self._server.received(self, frames)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         self._server.lost(self, why_lost(reason))
@@ -137,6 +185,7 @@ class OrientationDatagrams(DatagramProtocol):
     ) -> None:
         self.counters = OrientationCounters()
         self._clock = clock
+        self._bucket = TokenBucket(clock, MAX_FRAMES_HZ, MAX_BURST)
         self._on_orientation = on_orientation
         self._on_connected = on_connected
         self._on_lost = on_lost
@@ -162,8 +211,20 @@ class OrientationDatagrams(DatagramProtocol):
             self._source = f"{addr[0]}:{addr[1]}"
             self._timer = self._clock.callLater(TAKEOVER_SILENCE_S, self._check_silence)
             self._on_connected(self._source)
-        self.counters.frames += 1
-        self._on_orientation(frame, self._source)
+        if self._bucket.take():
+            self.counters.frames += 1
+            self._on_orientation(frame, self._source)
+        else:
+            self.counters.too_many += 1
+
+    @property
+    def source(self) -> str:
+        """Return host and port of the source; empty: there is none."""
+        return "" if self._address is None else self._source
+
+    def drop(self, why: str) -> None:
+        """Give the source up."""
+        self._lose(why)
 
     def stopProtocol(self) -> None:  # noqa: N802 - Twisted's name
         """The port was closed."""

@@ -3,10 +3,16 @@ import socket
 
 import pytest
 from twisted.internet.protocol import Factory
+from twisted.internet.task import Clock
 
 from tests.support.reactor import reactor, run_in_reactor, sleep, until
+from tests.support.transport import Transport
 from up.protocols.general_message import encode
-from up.protocols.general_message_link import GeneralMessageProtocol
+from up.protocols.general_message_link import (
+    MAX_BURST,
+    MAX_MESSAGES_HZ,
+    GeneralMessageProtocol,
+)
 
 
 class Listener:
@@ -265,3 +271,23 @@ def test_nothing_is_heard_after_closing():
             assert [message.name for _, message in listener.messages] == ["a"]
 
     with_listener(scenario)
+
+
+def test_a_flood_costs_a_bounded_number_of_messages():
+    clock, messages = Clock(), []
+    link = GeneralMessageProtocol(
+        clock,
+        on_message=lambda link, message: messages.append(message),
+        on_malformed=None,
+        on_connected=lambda link: None,
+        on_lost=None,
+    )
+    link.makeConnection(Transport("192.0.2.1"))
+    for _ in range(30):
+        clock.advance(0.1)
+        link.dataReceived(b'{"name": "a"}\n' * 1000)
+    assert MAX_BURST <= len(messages) <= MAX_BURST + 3 * MAX_MESSAGES_HZ
+    assert len(messages) + link.bucket.refused == 30_000
+    clock.advance(1)
+    link.dataReceived(b'{"name": "after"}\n')
+    assert messages[-1].name == "after"
