@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from android_cog.absence_watch import AbsenceWatch
 from android_cog.config import ANDROID
 from android_cog.orientation_input import OrientationInput
-from android_cog.phone_link import PhoneLink
+from android_cog.phone_link import PhoneLink, host_of
 from android_cog.phone_route import PhoneRoute
 from android_cog.ports import Ports
 from android_cog.telemetry_forward import TelemetryForward
@@ -197,7 +197,7 @@ class AndroidProvider(BaseStartedModule):
         return is_phone
 
     def _on_rejected(self, peer: str) -> None:
-        self._competitor, self._competitor_s = peer, self.context.reactor.seconds()
+        self._competitor, self._competitor_s = host_of(peer), self.context.reactor.seconds()
         owner = self._phone.current
         self._said.log(
             self.logger.warn,
