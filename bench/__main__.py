@@ -12,7 +12,6 @@ SUBJECTS = {
     "codecs": "the serial line and orientation from bytes",
     "cascade": "the control loop's arithmetic",
     "latency": "sensor to actuator through the running daemon",
-    "floods": "how long telemetry pauses while a peer floods the daemon",
     "startup": "start to ports bound, and memory",
     "load": "CPU of the daemon in flight and idle",
     "recorder": "what recording the flight costs",

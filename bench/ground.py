@@ -2,7 +2,6 @@
 
 import socket
 import threading
-import time
 from contextlib import suppress
 from types import TracebackType
 
@@ -15,7 +14,6 @@ class Ground:
     def __init__(self) -> None:
         self.frames = 0
         self.bytes = 0
-        self.arrivals_s: list[float] = []
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.port = int(self._listener.getsockname()[1])
         self._peer: socket.socket | None = None
@@ -45,10 +43,7 @@ class Ground:
             self._peer, _ = self._listener.accept()
             self._peer.sendall(WELCOME)
             while data := self._peer.recv(65536):
-                frames = data.count(b'"up.telemetry.update"')
-                self.frames += frames
+                self.frames += data.count(b'"up.telemetry.update"')
                 self.bytes += len(data)
-                if frames:
-                    self.arrivals_s.append(time.monotonic())
         except OSError:
             return

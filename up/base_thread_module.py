@@ -10,13 +10,11 @@ from twisted.internet.defer import CancelledError, Deferred
 from twisted.python.failure import Failure
 
 from up.base_started_module import BaseStartedModule
-from up.log.limits import Limited
 
 # Less than the life cycle has for all stops: what the module itself closes is still closed.
 STOP_LIMIT_S = 1.2
 _LOOK_S = 0.01
 _PAUSE_AFTER_FAULT_S = 1.0
-_LOG_INTERVAL_S = 60.0
 
 
 class BaseThreadModule(BaseStartedModule):
@@ -25,7 +23,7 @@ class BaseThreadModule(BaseStartedModule):
     The thread's only way back is the reactor: publish Commands (the bus hands them over) or
     ``call_in_reactor``. ``_loop`` blocks for a while at most and waits with
     ``self.stop_event.wait(seconds)``; one that raises is logged, counted and, after a second,
-    called again; equal faults are logged once a minute with their count. A thread that has not
+    called again; equal faults are logged seldom, with their count. A thread that has not
     ended 1.2 s after the stop does not keep the process alive.
     """
 
@@ -34,14 +32,12 @@ class BaseThreadModule(BaseStartedModule):
         self.stop_event = threading.Event()
         self.faults = 0
         self._thread: threading.Thread | None = None
-        self._limited: Limited | None = None
 
     async def start(self) -> Any:
         """Start the module, then its thread."""
         result = await super().start()
         if self._started:
             self.stop_event.clear()
-            self._limited = Limited(self.context.reactor, _LOG_INTERVAL_S)
             self._thread = threading.Thread(
                 target=self._run, name=f"Thread-{self.class_name}", daemon=True
             )
@@ -62,8 +58,6 @@ class BaseThreadModule(BaseStartedModule):
                 break
         if self._is_thread_alive:
             self._log_warning("its thread did not end in time and is left behind")
-        if self._limited is not None:
-            self._limited.stop()
         await super().stop()
 
     def call_in_reactor(self, call: Callable[..., Any], *arguments: Any) -> None:
@@ -84,12 +78,13 @@ class BaseThreadModule(BaseStartedModule):
                 self.stop_event.wait(_PAUSE_AFTER_FAULT_S)
 
     def _log_fault(self, fault: Failure) -> None:
-        text, name = "{name} failed in its thread", self.class_name
-        if self._limited is None or self.stop_event.is_set():
-            self.logger.failure(text, fault, name=name)
-        else:
-            key = repr(fault.type)
-            self._limited.log(self.logger.failure, text, key=key, failure=fault, name=name)
+        self.up.command_executor.limited.log(
+            self.logger.failure,
+            "{name} failed in its thread",
+            key=(self.path, repr(fault.type)),
+            failure=fault,
+            name=self.class_name,
+        )
 
     @property
     def _is_thread_alive(self) -> bool:

@@ -22,8 +22,8 @@ from up.log.limits import Limited
 from up.registrations import Registrations, note_undo
 from up.vetoes import Vetoes
 
-LOG_INTERVAL_S = 10.0
-"""A refused Command is logged immediately, and then as a count so often."""
+LOG_INTERVAL_S = 30.0
+"""A refused Command or a fault of a thread is logged immediately, and then as a count so often."""
 
 _M = TypeVar("_M")
 

@@ -13,7 +13,7 @@ from twisted.python.failure import Failure
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
 from up.protocols.line_decoder import LineDecoder
 from up.protocols.link_output import LinkOutput
-from up.protocols.tcp_options import set_user_timeout, watch_peer, why_lost
+from up.protocols.tcp_options import watch_peer, why_lost
 from up.system.clock import Clock, Timer
 from up.system.token_bucket import TokenBucket
 
@@ -74,10 +74,9 @@ class GeneralMessageProtocol(Protocol):
     """One connection; make a new one for each.
 
     The callbacks get this link first: `on_message` a message, `on_malformed` a line that is none,
-    `on_connected` nothing more, `on_lost` the reason as text. With `idle_timeout_s` a peer that
-    sends no byte for so long, not even an empty line, is given up. `malformed` and
-    `output.dropped`, `output.replaced`, `dropped_too_long`, `bucket.refused` count; `bucket` may
-    be shared by the connections of one peer.
+    `on_connected` nothing more, `on_lost` the reason as text. `malformed`, `output.dropped`,
+    `output.replaced`, `dropped_too_long` and `bucket.refused` count; `bucket` may be shared by the
+    connections of one peer.
     """
 
     transport: Any
@@ -90,7 +89,6 @@ class GeneralMessageProtocol(Protocol):
         on_malformed: OnMalformed,
         on_connected: OnConnected,
         on_lost: OnLost,
-        idle_timeout_s: float | None = None,
         user_timeout_ms: int = USER_TIMEOUT_MS,
         bucket: TokenBucket | None = None,
     ) -> None:
@@ -103,7 +101,6 @@ class GeneralMessageProtocol(Protocol):
         self._on_malformed = on_malformed
         self._on_connected = on_connected
         self._on_lost = on_lost
-        self._idle_timeout_s = idle_timeout_s
         self._user_timeout_ms = user_timeout_ms
         self._lines = LineDecoder()
         self._heard_s = 0.0
@@ -129,18 +126,12 @@ class GeneralMessageProtocol(Protocol):
         """Send `message`; of what a slow peer cannot take only the newest is kept."""
         return self.output.send_newest(message)
 
-    def set_user_timeout(self, milliseconds: int) -> None:
-        """Lose the link when sent bytes stay unacknowledged for so long."""
-        self._user_timeout_ms = milliseconds
-        if self._is_open:
-            set_user_timeout(self.transport, milliseconds)
-
     def close(self) -> None:
         """Send what waits and close; a peer that does not take it within 1 s is cut off."""
         if self._is_open:
             self._is_open = False
             self.output.finish()
-            self._schedule(CLOSING_LIMIT_S, self.abort)
+            self._timer = self._clock.callLater(CLOSING_LIMIT_S, self.abort)
             self.transport.loseConnection()
 
     def abort(self) -> None:
@@ -157,8 +148,6 @@ class GeneralMessageProtocol(Protocol):
         self._is_open = True
         self._heard_s = self._clock.seconds()
         self.output.start(self.transport)
-        if self._idle_timeout_s is not None:
-            self._schedule(self._idle_timeout_s, self._check_idle)
         self._on_connected(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
@@ -185,17 +174,3 @@ class GeneralMessageProtocol(Protocol):
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
         self._on_lost(self, self._why_given_up or why_lost(reason))
-
-    def _check_idle(self) -> None:
-        assert self._idle_timeout_s is not None
-        remaining = self._heard_s + self._idle_timeout_s - self._clock.seconds()
-        if remaining > 0:
-            self._schedule(remaining, self._check_idle)
-        else:
-            self._why_given_up = f"nothing heard for {self._idle_timeout_s:g} s"
-            self.abort()
-
-    def _schedule(self, delay_s: float, call: Callable[[], None]) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
-        self._timer = self._clock.callLater(delay_s, call)

@@ -25,8 +25,6 @@ TAKEOVER_SILENCE_S = 1.0
 MAX_FRAMES_HZ = 500.0
 MAX_BURST = 50
 """Frames of one source beyond its rate and burst are dropped."""
-MAX_WAITING = 4
-"""Connections that wait for the source to fall silent; the oldest is dropped."""
 
 _USER_TIMEOUT_MS = 3000
 
@@ -37,7 +35,7 @@ OnSourceLost = Callable[[str, str], object]
 
 @dataclass(slots=True)
 class OrientationCounters:
-    """Frames handed on, frames dropped, sources replaced, frames of another source or too many."""
+    """Frames handed on, dropped ones, sources replaced and refused, frames beyond the rate."""
 
     frames: int = 0
     dropped: int = 0
@@ -71,7 +69,6 @@ class OrientationFactory(Factory):
         self._on_connected = on_connected
         self._on_lost = on_lost
         self._current: _OrientationConnection | None = None
-        self._waiting: list[_OrientationConnection] = []
 
     @property
     def source(self) -> str:
@@ -83,55 +80,40 @@ class OrientationFactory(Factory):
         return _OrientationConnection(self)
 
     def connected(self, connection: _OrientationConnection) -> None:
-        """Make `connection` the source, or let it wait for the source to end."""
-        self._waiting.append(connection)
-        if self._current is None:
-            self._make_source(connection)
-        elif len(self._waiting) > MAX_WAITING:
-            self._waiting.pop(0).drop()
+        """Make `connection` the source, or drop it while another one sends."""
+        older, now_s = self._current, self._clock.seconds()
+        if older is not None and now_s - self._heard_s <= TAKEOVER_SILENCE_S:
+            self.counters.foreign += 1
+            connection.drop()
+            return
+        if older is not None:
+            self.counters.replaced += 1
+            self.lost(older, f"silent for {TAKEOVER_SILENCE_S:g} s")
+            older.drop()
+        self._current, self._heard_s = connection, now_s
+        self._on_connected(connection.source)
 
-    def received(self, connection: _OrientationConnection, frames: list[OrientationValues]) -> None:
-        """Hand on the frames of the source, at most `MAX_FRAMES_HZ` and the newest of a burst."""
-        now_s = self._clock.seconds()
-        if connection is not self._current:
-            if self._current is not None and now_s - self._heard_s <= TAKEOVER_SILENCE_S:
-                self.counters.foreign += len(frames)
-                return
-            self._make_source(connection)
-        self._heard_s = now_s
+    def received(self, source: str, frames: list[OrientationValues]) -> None:
+        """Hand on frames of the source, at most `MAX_FRAMES_HZ` and the newest of a burst."""
+        self._heard_s = self._clock.seconds()
         self.counters.too_many += max(0, len(frames) - MAX_BURST)
         for values in frames[-MAX_BURST:]:
-            if connection is not self._current:
-                return
             if self._bucket.take():
                 self.counters.frames += 1
-                self.on_orientation(OrientationFrame._make(values), connection.source)
+                self.on_orientation(OrientationFrame._make(values), source)
             else:
                 self.counters.too_many += 1
 
     def lost(self, connection: _OrientationConnection, why: str) -> None:
-        """Forget `connection`."""
-        if connection in self._waiting:
-            self._waiting.remove(connection)
+        """Forget `connection` if it is the source."""
         if connection is self._current:
             self._current = None
             self._on_lost(connection.source, why)
 
     def close(self) -> None:
-        """Drop every connection; the port is closed by the module that opened it."""
-        for connection in (*self._waiting, *filter(None, [self._current])):
-            connection.drop()
-
-    def _make_source(self, connection: _OrientationConnection) -> None:
-        older = self._current
-        if older is not None:
-            self.counters.replaced += 1
-            self.lost(older, f"silent for {TAKEOVER_SILENCE_S:g} s")
-            older.drop()
-        self._waiting.remove(connection)
-        self._current = connection
-        self._heard_s = self._clock.seconds()
-        self._on_connected(connection.source)
+        """Drop the source; the port is closed by the module that opened it."""
+        if self._current is not None:
+            self._current.drop()
 
 
 class _OrientationConnection(Protocol):
@@ -156,7 +138,7 @@ class _OrientationConnection(Protocol):
         frames = self._decoder.feed(data)
         self._server.counters.dropped += self._decoder.dropped - dropped_before
         if frames and not self._is_dropped:
-            self._server.received(self, frames)
+            self._server.received(self.source, frames)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         self._server.lost(self, why_lost(reason))

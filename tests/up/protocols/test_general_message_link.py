@@ -1,7 +1,6 @@
 import json
 import socket
 
-import pytest
 from twisted.internet.protocol import Factory
 from twisted.internet.task import Clock
 
@@ -192,36 +191,13 @@ def test_messages_to_a_stalled_reader_stay_in_order_and_within_a_bound():
     with_listener(scenario)
 
 
-def test_a_silent_peer_is_given_up_and_empty_lines_keep_it():
-    async def scenario(listener):
-        with await listener.client() as silent, await listener.client() as lively:
-
-            def is_silent_lost():
-                lively.sendall(b"\n")
-                return listener.lost
-
-            await until(is_silent_lost)
-            link, why = listener.lost[0]
-            assert link is listener.links[0]
-            assert why == "nothing heard for 0.5 s"
-            with pytest.raises(ConnectionResetError):
-                silent.recv(1)
-            assert len(listener.lost) == 1
-            assert not listener.faults
-
-    with_listener(scenario, idle_timeout_s=0.5)
-
-
-@pytest.mark.parametrize("milliseconds", [1500, 400])
-def test_the_socket_notices_a_dead_peer(milliseconds):
+def test_the_socket_notices_a_dead_peer():
     async def scenario(listener):
         with await listener.client():
             link = listener.links[0]
-            if milliseconds != 1500:
-                link.set_user_timeout(milliseconds)
             handle = link.transport.getHandle()
             tcp = socket.IPPROTO_TCP
-            assert handle.getsockopt(tcp, socket.TCP_USER_TIMEOUT) == milliseconds
+            assert handle.getsockopt(tcp, socket.TCP_USER_TIMEOUT) == 1500
             assert handle.getsockopt(tcp, socket.TCP_NODELAY)
             assert handle.getsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE)
             assert handle.getsockopt(tcp, socket.TCP_KEEPIDLE) == 3

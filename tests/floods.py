@@ -1,4 +1,8 @@
-"""How long telemetry pauses while a peer floods the daemon: the longest gap between two frames."""
+"""How long telemetry pauses while a peer floods the daemon: the longest gap between two frames.
+
+``python -m tests.floods`` prints the figures; they depend on the machine, so no test asserts them.
+The tests of each rule count work instead.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +13,15 @@ import struct
 import subprocess
 import sys
 import time
-from collections.abc import Iterable
 
 from bench.daemon import ROOT, daemon
 from bench.ground import Ground
 from bench.processes import environment, wait_until
 from bench.startup import wait_for_ports
-from bench.table import Row
 
-SECONDS, QUICK_SECONDS = 3.0, 1.0
+ROUNDS = 3
+SECONDS = 3.0
 SETTLE_S = 1.0
-TARGET_MS = 200.0
 KEYS = b",".join(b'"%x":0' % number for number in range(2000))
 PLACE = '{"name":"up.location.update","data":{"latitude":50.1,"longitude":14.4},"id":"%d"}\n'
 RECORD = '{"name":"black_box.record","data":{"topic":"bench","content":{"x":1}},"id":"%d"}\n'
@@ -65,35 +67,38 @@ def send(what: str, transport: str, port: int, rate_hz: int, seconds: float) -> 
                     peer.send(message)
 
 
-def longest_gap_ms(what: str, transport: str, rate_hz: int, seconds: float) -> float:
+def longest_gap_ms(what: str, transport: str, rate_hz: int) -> float:
     """Return the longest time between two frames of telemetry, before, in and after a flood."""
     with Ground() as ground, daemon(proxy_port=ground.port) as running:
         wait_for_ports(running.ports)
         wait_until(lambda: ground.frames > 5, "telemetry on the ground")
         time.sleep(SETTLE_S)
-        began = len(ground.arrivals_s)
         port = running.ports.orientation if what == "orientation" else running.ports.general
-        words = (what, transport, str(port), str(rate_hz), str(seconds))
-        command = (sys.executable, "-m", "bench.floods", *words)
-        subprocess.run(command, cwd=ROOT, env=environment(), timeout=seconds + 30, check=True)
-        time.sleep(SETTLE_S)
-        arrivals_s = [*ground.arrivals_s[began - 1 :], time.monotonic()]
-        pairs = itertools.pairwise(arrivals_s)
-        return max(later - earlier for earlier, later in pairs) * 1000
+        words = (what, transport, str(port), str(rate_hz))
+        command = (sys.executable, "-m", "tests.floods", *words)
+        with subprocess.Popen(command, cwd=ROOT, env=environment()) as sender:
+            frames, seen_s = ground.frames, time.monotonic()
+            longest_s, end_s = 0.0, seen_s + SECONDS + 2 * SETTLE_S
+            while (now_s := time.monotonic()) < end_s:
+                longest_s = max(longest_s, now_s - seen_s)
+                if ground.frames != frames:
+                    frames, seen_s = ground.frames, now_s
+                time.sleep(0.001)
+        if sender.returncode:
+            raise RuntimeError("the sender failed")
+        return longest_s * 1000
 
 
-def rows(quick: bool) -> Iterable[Row]:
-    """Yield the gap without a flood, which shows the noise of the machine, and in each flood."""
-    seconds = QUICK_SECONDS if quick else SECONDS
+def main() -> None:
+    """Print the least of some rounds, as noise only adds; the first row is that noise alone."""
     for what, transport, rate_hz in (("locations", "tcp", 1), *FLOODS):
-        gap_ms = longest_gap_ms(what, transport, rate_hz, seconds)
-        yield Row(
-            f"longest telemetry gap: {rate_hz} Hz {what}, {transport}",
-            f"{gap_ms:.0f} ms",
-            target=f"<= {TARGET_MS:.0f} ms",
-            met=gap_ms <= TARGET_MS,
-        )
+        gaps_ms = sorted(longest_gap_ms(what, transport, rate_hz) for _ in range(ROUNDS))
+        spread = " ".join(f"{gap_ms:.0f}" for gap_ms in gaps_ms)
+        print(f"{rate_hz:6d} Hz {what}, {transport}: {spread} ms", flush=True)
 
 
 if __name__ == "__main__":
-    send(sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4]), float(sys.argv[5]))
+    if len(sys.argv) > 1:
+        send(sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4]), SECONDS)
+    else:
+        main()
