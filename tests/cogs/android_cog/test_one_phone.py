@@ -13,6 +13,7 @@ from tests.up.commands.samples import Log
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
 from up.protocols.general_message import decode
+from up.protocols.general_message_link import MAX_BURST
 from up.protocols.general_message_udp import SILENCE_TIMEOUT_S
 from up.system.plain_peers import PlainPeers
 
@@ -257,3 +258,11 @@ def test_a_phone_on_datagrams_is_gone_after_1_5_s():
     assert rig.link.current is not None
     rig.clock.advance(0.1)
     assert rig.link.current is None
+
+
+def test_a_phone_that_reconnects_keeps_its_empty_bucket():
+    rig = Rig()
+    for port in range(10):
+        rig.connect(FIRST, port).dataReceived(line(1) * 1000)
+    assert len(rig.messages) == MAX_BURST
+    assert rig.link.bucket.refused == 10_000 - MAX_BURST
