@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, ClassVar
 
+from twisted.internet.task import Clock
+
 from bench.table import Row
 from bench.timing import Work, best_ns
 from up.commands.command import BaseCommand, value
@@ -15,6 +17,7 @@ from up.commands.command_executor import CommandExecutor
 from up.commands.command_registry import CommandRegistry
 from up.commands.origin import Origin
 from up.commands.roles import Role
+from up.log.limits import Limited
 
 TARGETS = {1: 2.6, 10: 1.6, 100: 1.3}
 PEERS = ("pluggy", "blinker")
@@ -37,7 +40,8 @@ class Subscriber:
 
 def ours(count: int) -> Work:
     """Return a publish on the bus of this project."""
-    bus = CommandExecutor(CommandRegistry(()), lambda call, *arguments: call(*arguments))
+    limited = Limited(Clock(), 10)
+    bus = CommandExecutor(CommandRegistry(()), lambda call, *rest: call(*rest), limited)
     for _ in range(count):
         bus.register_command(BenchCommand, Subscriber().on_command)
     publish, command, origin = bus.execute_command, BenchCommand(1), Origin("bench", Role.BOARD)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from twisted.internet.defer import CancelledError, Deferred
+from twisted.python.failure import Failure
 
 from up.base_started_module import BaseStartedModule
 
@@ -22,7 +23,8 @@ class BaseThreadModule(BaseStartedModule):
     The thread's only way back is the reactor: publish Commands (the bus hands them over) or
     ``call_in_reactor``. ``_loop`` blocks for a while at most and waits with
     ``self.stop_event.wait(seconds)``; one that raises is logged, counted and, after a second,
-    called again. A thread that has not ended 1.2 s after the stop does not keep the process alive.
+    called again; equal faults are logged seldom, with their count. A thread that has not
+    ended 1.2 s after the stop does not keep the process alive.
     """
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
@@ -72,8 +74,17 @@ class BaseThreadModule(BaseStartedModule):
                 self._loop()
             except (Exception, SystemExit):  # noqa: BLE001 - a fault ends neither thread nor program
                 self.faults += 1
-                self.logger.failure("{name} failed in its thread", name=self.class_name)
+                self.call_in_reactor(self._log_fault, Failure())
                 self.stop_event.wait(_PAUSE_AFTER_FAULT_S)
+
+    def _log_fault(self, fault: Failure) -> None:
+        self.up.command_executor.limited.log(
+            self.logger.failure,
+            "{name} failed in its thread",
+            key=(self.path, repr(fault.type)),
+            failure=fault,
+            name=self.class_name,
+        )
 
     @property
     def _is_thread_alive(self) -> bool:

@@ -18,8 +18,12 @@ from up.commands.command_registry import CommandRegistry
 from up.context import Context
 from up.loading.order import forget_wanted, needed_by
 from up.loading.plan import Plan
+from up.log.limits import Limited
 from up.registrations import Registrations, note_undo
 from up.vetoes import Vetoes
+
+LOG_INTERVAL_S = 30.0
+"""A refused Command or a fault of a thread is logged immediately, and then as a count so often."""
 
 _M = TypeVar("_M")
 
@@ -38,7 +42,9 @@ class Up:
         self.vetoes = Vetoes()
         self.beacons = Beacons(context.reactor, context.random)
         registry = CommandRegistry((*BUILTIN_COMMANDS, *plan.commands))
-        self.command_executor = CommandExecutor(registry, context.reactor.callFromThread)
+        self.command_executor = CommandExecutor(
+            registry, context.reactor.callFromThread, Limited(context.reactor, LOG_INTERVAL_S)
+        )
         self.command_receiver = CommandReceiver(
             self.command_executor, self.beacons, context.reactor
         )

@@ -23,7 +23,7 @@ LONGEST_SPEECH = 200
 LONGEST_DELAY_MS = 10_000
 SLACK_S = 1e-6
 PANICS = ("up.panic", "load_guard.panic")
-ANSWERS = ("up.ack", "up.nack")
+ACK, NACK = "up.ack", "up.nack"
 IGNORED = ("up.telemetry.update", "up.system.state", "arduino.pids.values")
 
 
@@ -43,7 +43,8 @@ class Phone:
     ``send`` takes lines for the General Message link, ``send_orientation`` frames of 24 bytes;
     ``tick`` is to be called every few milliseconds. In Panic Mode no stream is quicker than the
     delay that the Raspberry Pi names. ``record`` gives what it has the black box write, 20 times
-    a second: the data of ``black_box.record``.
+    a second: the data of ``black_box.record``. ``identity``, up to 8 hexadecimal digits, begins
+    the id of each connection's first message and tells this phone from another (protocols 4).
     """
 
     def __init__(
@@ -52,12 +53,16 @@ class Phone:
         clock: Clock,
         *,
         seed: int = 1,
+        identity: str = "",
         say: Callable[[str], None] = lambda _text: None,
         record: Callable[[FlightState], dict[str, Any]] | None = None,
     ) -> None:
         self._flight = flight
         self._clock = clock
         self._say = say
+        self._identity = identity or f"{seed & 0xFFFFFFFF:x}"
+        self._connections = 0
+        self._id: str | None = None
         self.send: Callable[[bytes], None] | None = None
         self.send_orientation: Callable[[bytes], None] | None = None
         self.panic_s = 0.0
@@ -83,6 +88,8 @@ class Phone:
     def connected(self, send: Callable[[bytes], None]) -> None:
         """Begin to send on a new link: everything at once, then each in its period."""
         self.send = send
+        self._connections += 1
+        self._id = f"{self._identity}.{self._connections}"
         for stream in self._streams:
             stream.due_s = 0.0
 
@@ -100,7 +107,8 @@ class Phone:
                 if now_s >= stream.due_s - SLACK_S:
                     stream.due_s = _next(stream.due_s, period_s, now_s)
                     data = stream.data(self._flight.state)
-                    self.send(write_message(GeneralMessage(stream.name, data)))
+                    id_, self._id = self._id, None
+                    self.send(write_message(GeneralMessage(stream.name, data, id_)))
         if self.send_orientation is not None and now_s >= self._orientation_due_s - SLACK_S:
             period_s = max(ORIENTATION_S, self.panic_s)
             self._orientation_due_s = _next(self._orientation_due_s, period_s, now_s)
@@ -119,7 +127,9 @@ class Phone:
             self._speak(message)
         elif message.name in PANICS:
             self._panic(message)
-        elif message.name not in ANSWERS and message.name not in IGNORED:
+        elif message.name == NACK:
+            self._say(f"refused ({message.data.get('code')}): {message.data.get('reason')}")
+        elif message.name != ACK and message.name not in IGNORED:
             self._answer(message, "unknown", f"the phone knows no {message.name[:64]}")
 
     def _speak(self, message: GeneralMessage) -> None:
@@ -148,7 +158,7 @@ class Phone:
         data = {"id": message.id}
         if code:
             data |= {"code": code, "reason": reason}
-        name = "up.nack" if code else "up.ack"
+        name = NACK if code else ACK
         self.send(write_message(GeneralMessage(name, data)))
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ipaddress
 import json
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +12,8 @@ from twisted.internet.error import ConnectError
 from twisted.internet.protocol import DatagramProtocol, Factory
 from twisted.protocols.basic import LineOnlyReceiver
 from twisted.python.failure import Failure
+
+from up.system.addresses import is_private
 
 ANSWER_S = 1.5
 SPAWN_S = 20.0
@@ -105,12 +106,10 @@ def read_spawn_answer(line: bytes, host: str) -> RaspberryPi:
     return RaspberryPi(host, general, orientation)
 
 
-def read_discovery_answer(answer: bytes, source: str) -> str:
-    """Return the address in a Discovery answer, or the answer's source when it holds none."""
-    try:
-        return str(ipaddress.IPv4Address(answer.decode("ascii").strip()))
-    except ValueError:
-        return source
+def read_discovery_answer(answer: bytes, source: str) -> str | None:
+    """Return the sender's address; None: the answer names another, or it is public."""
+    is_own = answer.strip() in (b"", source.encode("ascii"))
+    return source if is_own and is_private(source) else None
 
 
 class _Question(DatagramProtocol):
@@ -118,6 +117,7 @@ class _Question(DatagramProtocol):
 
     def __init__(self, host: str, port: int) -> None:
         self._place = (host, port)
+        self._refused = ""
         self.answer: Deferred[str] = Deferred()
 
     def startProtocol(self) -> None:  # noqa: N802 - Twisted's name
@@ -127,16 +127,19 @@ class _Question(DatagramProtocol):
         transport.write(QUESTION, self._place)
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802
-        """Take the first answer."""
-        if not self.answer.called:
-            self.answer.callback(read_discovery_answer(datagram, addr[0]))
+        """Take the first answer that names its sender."""
+        host = read_discovery_answer(datagram, addr[0])
+        if host is None:
+            self._refused = f"; refused {datagram[:40]!r} from {addr[0]}"
+        elif not self.answer.called:
+            self.answer.callback(host)
 
     def give_up(self) -> None:
         """Say that nobody answered."""
         host, port = self._place
         if not self.answer.called:
             self.answer.errback(
-                Failure(NotFoundError(f"no answer from Discovery at {host}:{port}"))
+                Failure(NotFoundError(f"no answer from Discovery at {host}:{port}{self._refused}"))
             )
 
 

@@ -49,9 +49,10 @@ class PythonHandset:
         say: Callable[[str], None],
         *,
         seed: int = 1,
+        identity: str = "",
         record: Record | None = None,
     ) -> None:
-        self._phone = Phone(flight, reactor, seed=seed, say=say, record=record)
+        self._phone = Phone(flight, reactor, seed=seed, identity=identity, say=say, record=record)
         self._link = PhoneLink(reactor, self._phone, find, orientation, say)
         self.tick = self._phone.tick
         self.set_battery = self._phone.set_battery

@@ -135,7 +135,23 @@ def test_lines_are_written_as_the_page_says():
     for line in bench.lines:
         assert line.endswith(b"\n")
         assert list(json.loads(line)) == ["name", "data", "id"]
-        assert json.loads(line)["id"] is None
+
+
+def test_the_first_message_of_each_connection_identifies_the_phone():
+    bench = Bench(identity="0badcafe")
+    bench.run(1.0)
+    bench.phone.disconnected()
+    bench.phone.connected(bench.lines.append)
+    bench.run(1.0)
+    ids = [each["id"] for each in bench.take()]
+    assert ids[0] == "0badcafe.1"
+    assert [each for each in ids if each] == ["0badcafe.1", "0badcafe.2"]
+
+
+def test_a_refusal_is_shown():
+    bench = Bench()
+    bench.hear(name="up.nack", data={"id": "1.1", "code": "taken", "reason": "another phone"})
+    assert bench.said == ["refused (taken): another phone"]
 
 
 def test_measurements_are_near_the_truth_but_not_the_truth():

@@ -168,7 +168,7 @@ def test_orientation_is_off_unless_it_is_asked_for(server):
         assert program.end()[0] == 0
 
 
-@pytest.mark.parametrize("answer", [b"127.0.0.1", b"1"])
+@pytest.mark.parametrize("answer", [b"127.0.0.1", b""])
 def test_it_finds_the_raspberry_pi_by_discovery(server, answer):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as discovery:
         discovery.bind(("127.0.0.1", 0))
@@ -248,16 +248,21 @@ def test_a_runners_right_answer_is_a_place():
 
 @pytest.mark.parametrize(
     ("answer", "host"),
-    [(b"192.0.2.9", "192.0.2.9"), (b"192.0.2.9\n", "192.0.2.9"), (b"1", "192.0.2.1"),
-     (b"\xff", "192.0.2.1"), (b"", "192.0.2.1"), (b"999.1.1.1", "192.0.2.1")],
+    [(b"10.0.0.1", "10.0.0.1"), (b"10.0.0.1\n", "10.0.0.1"), (b"", "10.0.0.1"),
+     (b"10.0.0.2", None), (b"203.0.113.9", None), (b"\xff", None), (b"010.0.0.1", None)],
 )  # fmt: skip
-def test_discoverys_answer_is_an_address_or_its_source(answer, host):
-    assert read_discovery_answer(answer, "192.0.2.1") == host
+def test_discoverys_answer_is_the_senders_address(answer, host):
+    assert read_discovery_answer(answer, "10.0.0.1") == host
+
+
+def test_a_public_address_is_no_answer():
+    assert read_discovery_answer(b"203.0.113.9", "203.0.113.9") is None
+    assert read_discovery_answer(b"", "203.0.113.9") is None
 
 
 @given(st.binary(max_size=100))
 def test_any_answer_is_a_place_or_one_sentence(answer):
-    assert read_discovery_answer(answer, "192.0.2.1").count(".") == 3
+    assert read_discovery_answer(answer, "10.0.0.1") in ("10.0.0.1", None)
     with pytest.raises(NotFoundError):
         read_spawn_answer(answer, "127.0.0.1")
 

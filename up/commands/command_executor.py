@@ -21,6 +21,7 @@ from up.commands.command import BaseCommand
 from up.commands.command_registry import CommandRegistry
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
+from up.log.limits import Limited
 from up.registrations import note_undo
 
 Handler = Callable[[Any], Any]
@@ -57,13 +58,17 @@ class CommandExecutor:
         "counters",
         "dispatching",
         "dispatching_since",
+        "limited",
         "on_handler_failed",
         "origin",
         "registry",
     )
 
-    def __init__(self, registry: CommandRegistry, call_from_thread: Callable[..., Any]) -> None:
+    def __init__(
+        self, registry: CommandRegistry, call_from_thread: Callable[..., Any], limited: Limited
+    ) -> None:
         self.registry = registry
+        self.limited = limited
         self.origin: Origin = INTERNAL
         self.dispatching_since = 0.0
         self.dispatching: BaseCommand | None = None
@@ -297,13 +302,16 @@ class CommandExecutor:
 
     def _failed(self, failure: Failure, handler: Handler, command: BaseCommand) -> None:
         owner = owner_of(handler)
-        if failure.check(CommandRefusedError) and handler not in self._observing:
+        error = failure.value
+        if isinstance(error, CommandRefusedError) and handler not in self._observing:
             self.counters["refused"] += 1
-            self.log.info(
+            self.limited.log(
+                self.log.info,
                 "{owner} refused {name}: {reason}",
+                key=(owner, command.NAME, error.code),
                 owner=owner,
                 name=command.NAME,
-                reason=failure.getErrorMessage(),
+                reason=error.reason,
             )
             return
         self.counters["failed_handlers"] += 1

@@ -21,7 +21,6 @@ from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.registrations import note_undo
 
 OUTCOME_LIMIT_S = 2.0
-_LOGGED_LIMIT = 100
 _FAILED = "carrying it out failed; the log says where"
 Route = Callable[[BaseCommand, CommandLink, str | None], "Deferred[None] | None"]
 
@@ -41,7 +40,6 @@ class CommandReceiver:
         self._beacons = beacons
         self._clock = clock
         self._routes: dict[str, Route] = {}
-        self._logged: set[tuple[str, str]] = set()
         self._reports = AnswerReports(executor, clock)
 
     def execute_command(self, command: BaseCommand, origin: Origin = INTERNAL) -> None:
@@ -64,8 +62,14 @@ class CommandReceiver:
         try:
             self._receive(message, link)
         except Exception:  # noqa: BLE001 - the border isolates the links from the Commands' faults
-            if self._is_first(link, f"{Code.FAILED.value} {message.name}"):
-                self.log.failure("{name} from {link} failed", name=message.name, link=link.name)
+            self._executor.limited.log(
+                self.log.failure,
+                "{name} from {link} failed",
+                key=(link.name, message.name),
+                failure=Failure(),
+                name=message.name,
+                link=link.name,
+            )
             self._refuse(link, message, Code.FAILED, _FAILED)
 
     def _receive(self, message: GeneralMessage, link: CommandLink) -> None:
@@ -97,7 +101,8 @@ class CommandReceiver:
     def receive_malformed(self, malformed: MalformedMessage, link: CommandLink) -> None:
         """Count a line that is no General Message; nack it when its id could be read."""
         self.counters["malformed"] += 1
-        self._log_once(link, "malformed", f"dropped a malformed message: {malformed.reason}")
+        reason = f"dropped a malformed message: {malformed.reason}"
+        self._log_refusal(link, (Code.MALFORMED, ""), reason)
         link.nack(malformed.id, Code.MALFORMED, malformed.reason)
         if malformed.id is not None:
             code = Code.MALFORMED.value
@@ -169,17 +174,12 @@ class CommandReceiver:
 
     def _refuse(self, link: CommandLink, message: GeneralMessage, code: Code, reason: str) -> None:
         self.counters[code.value] += 1
-        self._log_once(link, f"{code.value} {message.name}", f"refused: {reason}")
+        # Names that a peer invents share one key.
+        name = "" if code is Code.UNKNOWN else message.name
+        self._log_refusal(link, (code, name), f"refused: {reason}")
         link.nack(message.id, code, reason)
         self._reports.tell(link.name, message.name, message.id, code.value, reason)
 
-    def _log_once(self, link: CommandLink, what: str, text: str) -> None:
-        if self._is_first(link, what):
-            self.log.warn("{link} {text} (said once, then counted)", link=link.name, text=text)
-
-    def _is_first(self, link: CommandLink, what: str) -> bool:
-        key = (link.name, what[:96])
-        if key in self._logged or len(self._logged) >= _LOGGED_LIMIT:
-            return False
-        self._logged.add(key)
-        return True
+    def _log_refusal(self, link: CommandLink, key: tuple[Code, str], text: str) -> None:
+        limited = self._executor.limited
+        limited.log(self.log.warn, "{link} {text}", key=(link.name, key), link=link.name, text=text)

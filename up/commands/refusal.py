@@ -16,6 +16,7 @@ class Code(Enum):
     NO_BEACON = "no_beacon"
     REFUSED = "refused"
     UNAVAILABLE = "unavailable"
+    TAKEN = "taken"
     TIMEOUT = "timeout"
     FAILED = "failed"
 

@@ -42,7 +42,9 @@ PROPERTIES: dict[str, Any] = {
     "altitude": _number("m"),
     "altitude_required": _number("m"),
     "heading": _numbers(("actual", "required"), "deg"),
-    "android": _object({"connected": _FLAG, "batteryLevel": _number("percent")}),
+    "android": _object(
+        {"connected": _FLAG, "batteryLevel": _number("percent"), "competitor": _TEXT}
+    ),
     "arduino": _object(
         {
             **dict.fromkeys(("connected", "failsafe", "restored", "bias_stored"), _FLAG),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
@@ -13,6 +14,8 @@ from up.protocols.line_decoder import LONGEST_LINE
 DEEPEST_NESTING = 32
 LONGEST_NAME = 128
 LONGEST_ID = 64
+MAX_KEYS = 512
+"""Keys of one object; it bounds the work per message."""
 
 _LONGEST_WHOLE_NUMBER = 20
 _STRING_OR_BRACKET = re.compile(rb'"(?:[^"\\]++|\\.)*+(?:"|\\?\Z)|[\[\]{}]', re.DOTALL)
@@ -203,10 +206,11 @@ def _refuse_constant(text: str) -> NoReturn:
 
 
 def _unique_object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    if len(pairs) > MAX_KEYS:
+        raise ValueError(f"an object with more than {MAX_KEYS} keys")
     fields = dict(pairs)
     if len(fields) != len(pairs):
-        keys = [key for key, _ in pairs]
-        repeated = next(key for key in keys if keys.count(key) > 1)
+        ((repeated, _),) = Counter(key for key, _ in pairs).most_common(1)
         raise ValueError(f"the key {repeated[:40]!r} is repeated")
     return fields
 

@@ -7,15 +7,20 @@ from typing import Any
 from typing import Protocol as Interface
 
 from twisted.internet.protocol import Protocol, connectionDone
+from twisted.logger import Logger
 from twisted.python.failure import Failure
 
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
 from up.protocols.line_decoder import LineDecoder
 from up.protocols.link_output import LinkOutput
-from up.protocols.tcp_options import set_user_timeout, watch_peer, why_lost
+from up.protocols.tcp_options import watch_peer, why_lost
 from up.system.clock import Clock, Timer
+from up.system.token_bucket import TokenBucket
 
 USER_TIMEOUT_MS = 1500
+MAX_MESSAGES_HZ = 300.0
+MAX_BURST = 150
+"""Messages of one link beyond its rate and burst are dropped before they are decoded."""
 CLOSING_LIMIT_S = 1.0
 
 
@@ -25,6 +30,10 @@ class GeneralMessageLink(Interface):
     @property
     def peer(self) -> str:
         """Host and port of the other side as text; empty while there is none."""
+
+    @property
+    def heard_s(self) -> float:
+        """The clock's time of the newest byte or datagram from the other side."""
 
     def send(self, message: bytes) -> bool:
         """Send an encoded message in order; False: dropped and counted."""
@@ -36,19 +45,38 @@ class GeneralMessageLink(Interface):
         """Give the link up."""
 
 
+_log = Logger()
 OnMessage = Callable[[Any, GeneralMessage], object]
 OnMalformed = Callable[[Any, MalformedMessage], object]
 OnConnected = Callable[[Any], object]
 OnLost = Callable[[Any, str], object]
 
 
+def permits(bucket: TokenBucket, peer: str, waiting: int = 1) -> bool:
+    """Take a token for the next of ``waiting`` messages; False: all of them are dropped.
+
+    The first drop is logged; `bucket.refused` counts.
+    """
+    is_first = not bucket.refused
+    if bucket.take():
+        return True
+    bucket.refused += waiting - 1
+    if is_first:
+        _log.warn(
+            "{peer} sends more than {rate:g} messages a second: the excess is dropped and counted",
+            peer=peer,
+            rate=MAX_MESSAGES_HZ,
+        )
+    return False
+
+
 class GeneralMessageProtocol(Protocol):
     """One connection; make a new one for each.
 
     The callbacks get this link first: `on_message` a message, `on_malformed` a line that is none,
-    `on_connected` nothing more, `on_lost` the reason as text. With `idle_timeout_s` a peer that
-    sends no byte for so long, not even an empty line, is given up. `malformed` and
-    `output.dropped`, `output.replaced`, `dropped_too_long` count.
+    `on_connected` nothing more, `on_lost` the reason as text. `malformed`, `output.dropped`,
+    `output.replaced`, `dropped_too_long` and `bucket.refused` count; `bucket` may be shared by the
+    connections of one peer.
     """
 
     transport: Any
@@ -61,18 +89,18 @@ class GeneralMessageProtocol(Protocol):
         on_malformed: OnMalformed,
         on_connected: OnConnected,
         on_lost: OnLost,
-        idle_timeout_s: float | None = None,
         user_timeout_ms: int = USER_TIMEOUT_MS,
+        bucket: TokenBucket | None = None,
     ) -> None:
         self.peer = ""
         self.output = LinkOutput()
+        self.bucket = bucket or TokenBucket(clock, MAX_MESSAGES_HZ, MAX_BURST)
         self.malformed = 0
         self._clock = clock
         self._on_message = on_message
         self._on_malformed = on_malformed
         self._on_connected = on_connected
         self._on_lost = on_lost
-        self._idle_timeout_s = idle_timeout_s
         self._user_timeout_ms = user_timeout_ms
         self._lines = LineDecoder()
         self._heard_s = 0.0
@@ -98,18 +126,12 @@ class GeneralMessageProtocol(Protocol):
         """Send `message`; of what a slow peer cannot take only the newest is kept."""
         return self.output.send_newest(message)
 
-    def set_user_timeout(self, milliseconds: int) -> None:
-        """Lose the link when sent bytes stay unacknowledged for so long."""
-        self._user_timeout_ms = milliseconds
-        if self._is_open:
-            set_user_timeout(self.transport, milliseconds)
-
     def close(self) -> None:
         """Send what waits and close; a peer that does not take it within 1 s is cut off."""
         if self._is_open:
             self._is_open = False
             self.output.finish()
-            self._schedule(CLOSING_LIMIT_S, self.abort)
+            self._timer = self._clock.callLater(CLOSING_LIMIT_S, self.abort)
             self.transport.loseConnection()
 
     def abort(self) -> None:
@@ -126,15 +148,16 @@ class GeneralMessageProtocol(Protocol):
         self._is_open = True
         self._heard_s = self._clock.seconds()
         self.output.start(self.transport)
-        if self._idle_timeout_s is not None:
-            self._schedule(self._idle_timeout_s, self._check_idle)
         self._on_connected(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
         """Hand on the messages that `data` completes."""
         self._heard_s = self._clock.seconds()
-        for line in self._lines.feed(data):
+        lines = self._lines.feed(data)
+        for index, line in enumerate(lines):
             if not self._is_open:
+                return
+            if not permits(self.bucket, self.peer, len(lines) - index):
                 return
             try:
                 message = decode(line)
@@ -151,17 +174,3 @@ class GeneralMessageProtocol(Protocol):
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
         self._on_lost(self, self._why_given_up or why_lost(reason))
-
-    def _check_idle(self) -> None:
-        assert self._idle_timeout_s is not None
-        remaining = self._heard_s + self._idle_timeout_s - self._clock.seconds()
-        if remaining > 0:
-            self._schedule(remaining, self._check_idle)
-        else:
-            self._why_given_up = f"nothing heard for {self._idle_timeout_s:g} s"
-            self.abort()
-
-    def _schedule(self, delay_s: float, call: Callable[[], None]) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
-        self._timer = self._clock.callLater(delay_s, call)

@@ -1,4 +1,4 @@
-"""General Messages on UDP: one object a datagram, answers to the address heard last."""
+"""General Messages on UDP: one object a datagram, one peer at a time."""
 
 from __future__ import annotations
 
@@ -8,19 +8,28 @@ from twisted.internet.error import MessageLengthError
 from twisted.internet.protocol import DatagramProtocol
 
 from up.protocols.general_message import MalformedMessage, decode
-from up.protocols.general_message_link import OnConnected, OnLost, OnMalformed, OnMessage
+from up.protocols.general_message_link import (
+    MAX_BURST,
+    MAX_MESSAGES_HZ,
+    OnConnected,
+    OnLost,
+    OnMalformed,
+    OnMessage,
+    permits,
+)
 from up.system.clock import Clock, Timer
+from up.system.token_bucket import TokenBucket
 
-SILENCE_TIMEOUT_S = 3.0
+SILENCE_TIMEOUT_S = 1.5
 _MAX_PACKET_SIZE = 65536
 
 
 class GeneralMessageDatagrams(DatagramProtocol):
-    """One port, one peer: whoever was heard last.
+    """One port, one peer: an address keeps its place until it is silent for `idle_timeout_s`.
 
-    The callbacks are those of `GeneralMessageProtocol`. The link counts as lost after
-    `idle_timeout_s` without a datagram; then nothing is sent until one comes. An empty datagram
-    is a heartbeat. `malformed` and `dropped` (could not be sent) count.
+    The callbacks are those of `GeneralMessageProtocol`. An empty datagram is a heartbeat.
+    `malformed`, `dropped` (could not be sent), `foreign` (from another address) and
+    `bucket.refused` (beyond the rate) count.
     """
 
     transport: Any
@@ -34,7 +43,10 @@ class GeneralMessageDatagrams(DatagramProtocol):
         on_connected: OnConnected,
         on_lost: OnLost,
         idle_timeout_s: float = SILENCE_TIMEOUT_S,
+        bucket: TokenBucket | None = None,
     ) -> None:
+        self.bucket = bucket or TokenBucket(clock, MAX_MESSAGES_HZ, MAX_BURST)
+        self.foreign = 0
         self.malformed = 0
         self.dropped = 0
         self._clock = clock
@@ -49,12 +61,12 @@ class GeneralMessageDatagrams(DatagramProtocol):
 
     @property
     def peer(self) -> str:
-        """Host and port heard last; empty while nobody is."""
+        """Host and port of the peer; empty while there is none."""
         return "" if self._address is None else f"{self._address[0]}:{self._address[1]}"
 
     @property
     def heard_s(self) -> float:
-        """The clock's time of the newest datagram."""
+        """The clock's time of the peer's newest datagram."""
         return self._heard_s
 
     def send(self, message: bytes) -> bool:
@@ -84,13 +96,19 @@ class GeneralMessageDatagrams(DatagramProtocol):
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
         """Hand on the one message of a datagram."""
+        if addr != self._address:
+            if not self._admits(datagram, addr):
+                self.foreign += 1
+                return
+            self._lose("replaced by another address")
         self._heard_s = self._clock.seconds()
-        is_new = self._address is None
-        self._address = addr
-        if is_new:
+        if self._address is None:
+            self._address = addr
             self._timer = self._clock.callLater(self._idle_timeout_s, self._check_idle)
             self._on_connected(self)
         if not datagram.strip(b"\r\n"):
+            return
+        if not permits(self.bucket, self.peer):
             return
         try:
             message = decode(datagram)
@@ -103,6 +121,10 @@ class GeneralMessageDatagrams(DatagramProtocol):
     def stopProtocol(self) -> None:  # noqa: N802 - Twisted's name
         """The port was closed."""
         self._lose("the port was closed")
+
+    def _admits(self, datagram: bytes, addr: Any) -> bool:
+        """Return whether an address that is not the peer's becomes the peer's."""
+        return self._address is None
 
     def _check_idle(self) -> None:
         remaining = self._heard_s + self._idle_timeout_s - self._clock.seconds()

@@ -13,13 +13,18 @@ from twisted.python.failure import Failure
 from up.protocols.orientation_forward import (
     OrientationDecoder,
     OrientationFrame,
+    OrientationValues,
     decode_datagram,
 )
 from up.protocols.tcp_options import watch_peer, why_lost
 from up.system.clock import Clock, Timer
+from up.system.token_bucket import TokenBucket
 
 TAKEOVER_SILENCE_S = 1.0
-"""How long a UDP source must be silent before another one is taken over."""
+"""How long a source must be silent before another one is taken over."""
+MAX_FRAMES_HZ = 500.0
+MAX_BURST = 50
+"""Frames of one source beyond its rate and burst are dropped."""
 
 _USER_TIMEOUT_MS = 3000
 
@@ -30,16 +35,17 @@ OnSourceLost = Callable[[str, str], object]
 
 @dataclass(slots=True)
 class OrientationCounters:
-    """Frames handed on, frames dropped, sources replaced, datagrams of somebody else."""
+    """Frames handed on, dropped ones, sources replaced and refused, frames beyond the rate."""
 
     frames: int = 0
     dropped: int = 0
     replaced: int = 0
     foreign: int = 0
+    too_many: int = 0
 
 
 class OrientationFactory(Factory):
-    """The TCP side: the newest connection is the source, an older one is dropped.
+    """The TCP side: a connection is the source until it closes or is silent for 1 s.
 
     `on_orientation` gets a frame and the source as text, `on_connected` the source, `on_lost` the
     source and why. A connection that was replaced is told as lost before the new one connects.
@@ -48,27 +54,55 @@ class OrientationFactory(Factory):
     noisy = False
 
     def __init__(
-        self, *, on_orientation: OnOrientation, on_connected: OnSource, on_lost: OnSourceLost
+        self,
+        clock: Clock,
+        *,
+        on_orientation: OnOrientation,
+        on_connected: OnSource,
+        on_lost: OnSourceLost,
     ) -> None:
         self.counters = OrientationCounters()
         self.on_orientation = on_orientation
+        self._clock = clock
+        self._bucket = TokenBucket(clock, MAX_FRAMES_HZ, MAX_BURST)
+        self._heard_s = 0.0
         self._on_connected = on_connected
         self._on_lost = on_lost
         self._current: _OrientationConnection | None = None
+
+    @property
+    def source(self) -> str:
+        """Return host and port of the source; empty: there is none."""
+        return "" if self._current is None else self._current.source
 
     def buildProtocol(self, addr: IAddress | None) -> Protocol:  # noqa: N802 - Twisted's name
         """Return the protocol of a new connection."""
         return _OrientationConnection(self)
 
     def connected(self, connection: _OrientationConnection) -> None:
-        """Make `connection` the source."""
-        if self._current is not None:
+        """Make `connection` the source, or drop it while another one sends."""
+        older, now_s = self._current, self._clock.seconds()
+        if older is not None and now_s - self._heard_s <= TAKEOVER_SILENCE_S:
+            self.counters.foreign += 1
+            connection.drop()
+            return
+        if older is not None:
             self.counters.replaced += 1
-            older = self._current
-            self.lost(older, "replaced by a newer connection")
+            self.lost(older, f"silent for {TAKEOVER_SILENCE_S:g} s")
             older.drop()
-        self._current = connection
+        self._current, self._heard_s = connection, now_s
         self._on_connected(connection.source)
+
+    def received(self, source: str, frames: list[OrientationValues]) -> None:
+        """Hand on frames of the source, at most `MAX_FRAMES_HZ` and the newest of a burst."""
+        self._heard_s = self._clock.seconds()
+        self.counters.too_many += max(0, len(frames) - MAX_BURST)
+        for values in frames[-MAX_BURST:]:
+            if self._bucket.take():
+                self.counters.frames += 1
+                self.on_orientation(OrientationFrame._make(values), source)
+            else:
+                self.counters.too_many += 1
 
     def lost(self, connection: _OrientationConnection, why: str) -> None:
         """Forget `connection` if it is the source."""
@@ -77,7 +111,7 @@ class OrientationFactory(Factory):
             self._on_lost(connection.source, why)
 
     def close(self) -> None:
-        """Drop the source; its port is whoever's who opened it."""
+        """Drop the source; the port is closed by the module that opened it."""
         if self._current is not None:
             self._current.drop()
 
@@ -100,15 +134,11 @@ class _OrientationConnection(Protocol):
         self._server.connected(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        counters = self._server.counters
         dropped_before = self._decoder.dropped
         frames = self._decoder.feed(data)
-        counters.dropped += self._decoder.dropped - dropped_before
-        for values in frames:
-            if self._is_dropped:
-                return
-            counters.frames += 1
-            self._server.on_orientation(OrientationFrame._make(values), self.source)
+        self._server.counters.dropped += self._decoder.dropped - dropped_before
+        if frames and not self._is_dropped:
+            self._server.received(self.source, frames)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         self._server.lost(self, why_lost(reason))
@@ -137,6 +167,7 @@ class OrientationDatagrams(DatagramProtocol):
     ) -> None:
         self.counters = OrientationCounters()
         self._clock = clock
+        self._bucket = TokenBucket(clock, MAX_FRAMES_HZ, MAX_BURST)
         self._on_orientation = on_orientation
         self._on_connected = on_connected
         self._on_lost = on_lost
@@ -162,8 +193,20 @@ class OrientationDatagrams(DatagramProtocol):
             self._source = f"{addr[0]}:{addr[1]}"
             self._timer = self._clock.callLater(TAKEOVER_SILENCE_S, self._check_silence)
             self._on_connected(self._source)
-        self.counters.frames += 1
-        self._on_orientation(frame, self._source)
+        if self._bucket.take():
+            self.counters.frames += 1
+            self._on_orientation(frame, self._source)
+        else:
+            self.counters.too_many += 1
+
+    @property
+    def source(self) -> str:
+        """Return host and port of the source; empty: there is none."""
+        return "" if self._address is None else self._source
+
+    def drop(self, why: str) -> None:
+        """Give the source up."""
+        self._lose(why)
 
     def stopProtocol(self) -> None:  # noqa: N802 - Twisted's name
         """The port was closed."""

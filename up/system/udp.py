@@ -6,6 +6,31 @@ import socket
 from typing import Any
 
 from twisted.internet.error import CannotListenError
+from twisted.internet.udp import Port
+from twisted.logger import Logger
+
+MAX_DATAGRAMS_PER_TURN = 64
+
+
+class _FairPort(Port):
+    """Returns to the reactor after `MAX_DATAGRAMS_PER_TURN`.
+
+    Twisted's port reads 256 KiB per turn: thousands of short datagrams, and any number of empty
+    ones.
+    """
+
+    log = Logger()
+
+    def doRead(self) -> None:  # noqa: N802 - Twisted's name
+        for _ in range(MAX_DATAGRAMS_PER_TURN):
+            try:
+                datagram, address = self.socket.recvfrom(self.maxPacketSize)
+            except (BlockingIOError, InterruptedError, ConnectionRefusedError):
+                return
+            try:
+                self.protocol.datagramReceived(datagram, address[:2])
+            except Exception:  # noqa: BLE001 - as in Twisted's port: one datagram, not the port
+                self.log.failure("a datagram could not be handled")
 
 
 def listen_udp(reactor: Any, number: int, protocol: Any, address: str = "") -> Any:
@@ -23,4 +48,7 @@ def listen_udp(reactor: Any, number: int, protocol: Any, address: str = "") -> A
             opened.bind((address, number))
         except OSError as error:
             raise CannotListenError(address, number, error) from error
-        return reactor.adoptDatagramPort(opened.fileno(), family, protocol)
+        adopt: Any = _FairPort._fromListeningDescriptor
+        port = adopt(reactor, opened.fileno(), family, protocol, maxPacketSize=8192)
+    port.startListening()
+    return port

@@ -8,6 +8,7 @@ from typing import Any
 from twisted.internet.interfaces import IAddress
 from twisted.internet.protocol import Protocol
 
+from android_cog.phone_link import host_of
 from up.protocols.orientation_forward import OrientationFrame
 from up.protocols.orientation_server import (
     TAKEOVER_SILENCE_S,
@@ -15,19 +16,19 @@ from up.protocols.orientation_server import (
     OrientationFactory,
 )
 from up.system.clock import Clock
-from up.system.plain_peers import PlainPeers
 
 
 class OrientationInput:
-    """The newest TCP connection, and UDP while no TCP connection brought a frame for 1 s.
+    """One TCP connection, and UDP while no TCP connection brought a frame for 1 s.
 
-    ``on_connected`` and ``on_lost`` tell that the first source came and that the last one went.
+    ``permits`` judges a source's host. ``on_connected`` and ``on_lost`` tell that the first source
+    came and that the last one went.
     """
 
     def __init__(
         self,
         clock: Clock,
-        peers: PlainPeers,
+        permits: Callable[[str], bool],
         *,
         on_frame: Callable[[OrientationFrame], object],
         on_connected: Callable[[], object],
@@ -39,15 +40,17 @@ class OrientationInput:
         self._on_lost = on_lost
         self._sources = 0
         self._stream_heard_s: float | None = None
+        self._permits = permits
         self.factory = _JudgedFactory(
-            peers,
+            clock,
+            permits,
             on_orientation=self._on_stream_frame,
             on_connected=self._came,
             on_lost=self._went,
         )
         self.datagrams = _JudgedDatagrams(
             clock,
-            peers,
+            permits,
             on_orientation=self._on_datagram_frame,
             on_connected=self._came,
             on_lost=self._went,
@@ -60,14 +63,22 @@ class OrientationInput:
 
     @property
     def counters(self) -> dict[str, int]:
-        """Return frames, dropped frames, replaced sources and datagrams of others."""
+        """Return frames, dropped frames, replaced sources, frames of others and too many."""
         parts = (self.factory.counters, self.datagrams.counters)
         return {
             "orientation_frames": sum(part.frames for part in parts),
             "orientation_dropped": sum(part.dropped for part in parts),
             "orientation_replaced": sum(part.replaced for part in parts),
             "orientation_foreign": sum(part.foreign for part in parts),
+            "orientation_too_many": sum(part.too_many for part in parts),
         }
+
+    def judge_again(self) -> None:
+        """Drop the sources that are not permitted any more."""
+        if self.factory.source and not self._permits(host_of(self.factory.source)):
+            self.factory.close()
+        if self.datagrams.source and not self._permits(host_of(self.datagrams.source)):
+            self.datagrams.drop("another phone is connected")
 
     def close(self) -> None:
         """Drop the source."""
@@ -99,12 +110,12 @@ class OrientationInput:
 class _JudgedFactory(OrientationFactory):
     """Takes connections only of peers that may speak."""
 
-    def __init__(self, peers: PlainPeers, **callbacks: Any) -> None:
-        super().__init__(**callbacks)
-        self._peers = peers
+    def __init__(self, clock: Clock, permits: Callable[[str], bool], **callbacks: Any) -> None:
+        super().__init__(clock, **callbacks)
+        self._permits = permits
 
     def buildProtocol(self, addr: IAddress | None) -> Protocol | None:  # type: ignore[override]  # noqa: N802 - Twisted's name
-        if not self._peers.permits(getattr(addr, "host", "")):
+        if not self._permits(getattr(addr, "host", "")):
             return None
         return super().buildProtocol(addr)
 
@@ -112,10 +123,10 @@ class _JudgedFactory(OrientationFactory):
 class _JudgedDatagrams(OrientationDatagrams):
     """Hears only peers that may speak."""
 
-    def __init__(self, clock: Clock, peers: PlainPeers, **callbacks: Any) -> None:
+    def __init__(self, clock: Clock, permits: Callable[[str], bool], **callbacks: Any) -> None:
         super().__init__(clock, **callbacks)
-        self._peers = peers
+        self._permits = permits
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
-        if self._peers.permits(addr[0]):
+        if self._permits(addr[0]):
             super().datagramReceived(datagram, addr)

@@ -1,19 +1,33 @@
-"""The phone's General Messages, on TCP or on UDP."""
+"""The phone's General Messages, on TCP or on UDP, from one phone at a time."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 from twisted.internet.defer import Deferred
 from twisted.internet.interfaces import IAddress
 from twisted.internet.protocol import Factory, Protocol
 
-from up.protocols.general_message import GeneralMessage, MalformedMessage
-from up.protocols.general_message_link import GeneralMessageLink, GeneralMessageProtocol
-from up.protocols.general_message_udp import GeneralMessageDatagrams
-from up.system.clock import Clock
+from up.commands.refusal import Code
+from up.protocols.general_message import GeneralMessage, MalformedMessage, decode, encode
+from up.protocols.general_message_link import (
+    MAX_BURST,
+    MAX_MESSAGES_HZ,
+    GeneralMessageLink,
+    GeneralMessageProtocol,
+)
+from up.protocols.general_message_udp import SILENCE_TIMEOUT_S, GeneralMessageDatagrams
+from up.system.clock import Clock, Timer
 from up.system.plain_peers import PlainPeers
+from up.system.token_bucket import TokenBucket
+
+MAX_UNDECIDED = 8
+"""Connections that have not shown yet whose they are."""
+_FOREIGN_HZ = 10.0
+_IDENTITY = re.compile(r"([0-9a-f]{1,8})\.[0-9]+", re.ASCII)
 
 OnMessage = Callable[[GeneralMessageLink, GeneralMessage], object]
 OnMalformed = Callable[[GeneralMessageLink, MalformedMessage], object]
@@ -22,10 +36,14 @@ OnLost = Callable[[GeneralMessageLink, str], object]
 
 
 class PhoneLink:
-    """One phone: the newest TCP connection, and without one the UDP address heard last.
+    """One phone owns the link until its connection closes or it is silent for 1.5 s.
 
-    A newer TCP connection replaces the older, which a phone that lost its network leaves behind.
-    The callbacks get the connection or the datagrams that they concern.
+    A phone is known by the part before the dot of the id of its first message (docs/protocols.md
+    4); one without such an id by its host, on UDP by host and port. The same phone replaces its
+    own connection immediately. Another phone gets the nack `taken` and is closed, after its first
+    message or 1.5 s; `on_rejected` gets its address, `rejected` counts.
+
+    The other callbacks get the connection or the datagrams that they concern.
     """
 
     def __init__(
@@ -37,45 +55,56 @@ class PhoneLink:
         on_malformed: OnMalformed,
         on_connected: OnLink,
         on_lost: OnLost,
+        on_rejected: Callable[[str], object],
     ) -> None:
         self._clock = clock
+        self.bucket = TokenBucket(clock, MAX_MESSAGES_HZ, MAX_BURST)
+        self._foreign = TokenBucket(clock, _FOREIGN_HZ, _FOREIGN_HZ)
         self._callbacks: dict[str, Any] = {
-            "on_message": on_message,
-            "on_malformed": on_malformed,
+            "on_message": self._message,
+            "on_malformed": self._malformed,
             "on_connected": self._connected,
             "on_lost": self._lost,
         }
+        self._on_message = on_message
+        self._on_malformed = on_malformed
         self._on_connected = on_connected
         self._on_lost = on_lost
-        self._stream: GeneralMessageProtocol | None = None
+        self._on_rejected = on_rejected
+        self._owner: GeneralMessageLink | None = None
+        self._identity = ""
+        self._address = ""
+        self._undecided: dict[GeneralMessageProtocol, Timer] = {}
         self._open: set[GeneralMessageProtocol] = set()
         self._all_closed: Deferred[None] | None = None
         self.peers = peers
+        self.rejected = 0
         self.replaced = 0
         self.dropped_too_long = 0
         self.factory = _Streams(self)
-        self.datagrams = _JudgedDatagrams(clock, peers, self._callbacks)
+        self.datagrams = _JudgedDatagrams(clock, self, {**self._callbacks, "bucket": self.bucket})
 
     @property
     def current(self) -> GeneralMessageLink | None:
         """Return the link that the phone is reached by, None while it is away."""
-        if self._stream is not None:
-            return self._stream
-        return self.datagrams if self.datagrams.peer else None
+        return self._owner
+
+    @property
+    def host(self) -> str:
+        """Return the phone's host; empty while it is away."""
+        return "" if self._owner is None else host_of(self._owner.peer)
 
     def send_by_stream(self, message: bytes) -> bool:
         """Send to the TCP connection in order; False: dropped."""
-        return self._stream is not None and self._stream.send(message)
+        return self._owner is not self.datagrams and self.send(message)
 
     def send(self, message: bytes) -> bool:
         """Send in order to wherever the phone is; False: dropped."""
-        link = self.current
-        return link is not None and link.send(message)
+        return self._owner is not None and self._owner.send(message)
 
     def send_newest(self, message: bytes) -> bool:
         """Send in place of an older message that still waits."""
-        link = self.current
-        return link is not None and link.send_newest(message)
+        return self._owner is not None and self._owner.send_newest(message)
 
     def is_stream(self, link: GeneralMessageLink) -> bool:
         """Return whether a link is a TCP connection."""
@@ -93,24 +122,101 @@ class PhoneLink:
                 stream.close()
             await self._all_closed
 
+    def admits_datagram(self, datagram: bytes, addr: Any) -> bool:
+        """Return whether a datagram of an address that is not the owner's makes it the owner."""
+        address = f"{addr[0]}:{addr[1]}"
+        if not self._may_own("", address):
+            # A few are decoded, to recognize the owner's new address and to answer another phone.
+            if not self._foreign.take():
+                return False
+            try:
+                message = decode(datagram)
+            except MalformedMessage:
+                return False
+            if not self._may_own(_identity_of(message), address):
+                self._reject(address, message, lambda raw: self.datagrams.send_to(raw, addr))
+                return False
+        if self._owner is not None and self._owner is not self.datagrams:
+            self._replace()
+        return True
+
+    def _may_own(self, identity: str, address: str) -> bool:
+        if self._owner is None:
+            return True
+        if identity and self._identity:
+            is_same = identity == self._identity
+        else:
+            is_same = not self._identity and address == self._address
+        return is_same or self._clock.seconds() - self._owner.heard_s > SILENCE_TIMEOUT_S
+
     def _connected(self, link: GeneralMessageLink) -> None:
+        if not isinstance(link, GeneralMessageProtocol):
+            self._own(link, link.peer)
+            return
+        self._open.add(link)
+        if self._may_own("", host_of(link.peer)):
+            self._own(link, host_of(link.peer))
+            return
+        self._undecided[link] = self._clock.callLater(SILENCE_TIMEOUT_S, self._decide, link)
+        if len(self._undecided) > MAX_UNDECIDED:
+            self._decide(next(iter(self._undecided)))
+
+    def _own(self, link: GeneralMessageLink, address: str, identity: str = "") -> None:
+        self._replace()
         if isinstance(link, GeneralMessageProtocol):
-            older, self._stream = self._stream, link
-            self._open.add(link)
-            if older is not None:
-                self.replaced += 1
-                self._on_lost(older, "replaced by a newer connection")
-                older.close()
+            # Its own until here, so that nobody else can empty the owner's.
+            link.bucket = self.bucket
+        self._owner, self._address, self._identity = link, address, identity
         self._on_connected(link)
 
+    def _replace(self) -> None:
+        older, self._owner = self._owner, None
+        if older is not None:
+            self.replaced += 1
+            self._on_lost(older, "replaced by a newer connection")
+            older.close()
+
+    def _decide(self, link: GeneralMessageProtocol, message: GeneralMessage | None = None) -> None:
+        timer = self._undecided.pop(link)
+        if timer.active():
+            timer.cancel()
+        address, identity = host_of(link.peer), _identity_of(message)
+        if self._may_own(identity, address):
+            self._own(link, address, identity)
+        else:
+            self._reject(link.peer, message, link.send)
+            link.close()
+
+    def _reject(
+        self, peer: str, message: GeneralMessage | None, send: Callable[[bytes], object]
+    ) -> None:
+        self.rejected += 1
+        if message is not None and message.id is not None and self._owner is not None:
+            reason = f"another phone is connected, from {self._owner.peer}"
+            data = {"id": message.id, "code": Code.TAKEN.value, "reason": reason}
+            send(encode("up.nack", data))
+        self._on_rejected(peer)
+
+    def _message(self, link: GeneralMessageLink, message: GeneralMessage) -> None:
+        if isinstance(link, GeneralMessageProtocol) and link in self._undecided:
+            self._decide(link, message)
+        if link is self._owner:
+            self._identity = self._identity or _identity_of(message)
+            self._on_message(link, message)
+
+    def _malformed(self, link: GeneralMessageLink, fault: MalformedMessage) -> None:
+        if link is self._owner:
+            self._on_malformed(link, fault)
+
     def _lost(self, link: GeneralMessageLink, why: str) -> None:
-        if not isinstance(link, GeneralMessageProtocol):
-            self._on_lost(link, why)
-            return
-        self._open.discard(link)
-        self.dropped_too_long += link.dropped_too_long
-        if link is self._stream:
-            self._stream = None
+        if isinstance(link, GeneralMessageProtocol):
+            self._open.discard(link)
+            self.dropped_too_long += link.dropped_too_long
+            timer = self._undecided.pop(link, None)
+            if timer is not None and timer.active():
+                timer.cancel()
+        if link is self._owner:
+            self._owner = None
             self._on_lost(link, why)
         if not self._open and self._all_closed is not None:
             self._all_closed.callback(None)
@@ -130,14 +236,33 @@ class _Streams(Factory):
 
 
 class _JudgedDatagrams(GeneralMessageDatagrams):
-    """Hears only peers that may speak."""
+    """Hears only peers that may speak, and of them the phone that owns the link."""
 
     noisy = False
 
-    def __init__(self, clock: Clock, peers: PlainPeers, callbacks: dict[str, Any]) -> None:
+    def __init__(self, clock: Clock, link: PhoneLink, callbacks: dict[str, Any]) -> None:
         super().__init__(clock, **callbacks)
-        self._peers = peers
+        self._link = link
+
+    def send_to(self, message: bytes, addr: Any) -> None:
+        """Send one datagram to an address that is not the peer's."""
+        with suppress(OSError):
+            self.transport.write(message, addr)
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
-        if self._peers.permits(addr[0]):
+        if self._link.peers.permits(addr[0]):
             super().datagramReceived(datagram, addr)
+
+    def _admits(self, datagram: bytes, addr: Any) -> bool:
+        return self._link.admits_datagram(datagram, addr)
+
+
+def host_of(peer: str) -> str:
+    """Return the host of a peer's text, host and port."""
+    return peer.rpartition(":")[0]
+
+
+def _identity_of(message: GeneralMessage | None) -> str:
+    """Return the phone that an id names; empty: none, as in the ids of legacy phones."""
+    found = _IDENTITY.fullmatch(message.id or "") if message is not None else None
+    return "" if found is None else found[1]

@@ -43,6 +43,7 @@ class Grounds:
         random: Random | None = None,
     ) -> None:
         self.dropped = 0
+        self.too_many = 0
         self.peers = peers
         self.factory = _Factory(self)
         self._clock = clock
@@ -132,6 +133,7 @@ class Grounds:
 
     def _lost(self, station: GroundConnection, why: str) -> None:
         del self._stations[station]
+        self.too_many += station.bucket.refused
         if station is self._holder:
             self._holder = None
             self._kept_token = station.token

@@ -16,7 +16,9 @@ from mission_control_cog.hello import HelloAnswer
 from mission_control_cog.host_addresses import HostAddresses, HostNotFoundError
 from mission_control_cog.uplink_protocol import UplinkProtocol
 from up.protocols.general_message import GeneralMessage, MalformedMessage
+from up.protocols.general_message_link import MAX_BURST, MAX_MESSAGES_HZ
 from up.system.backoff import Backoff
+from up.system.token_bucket import TokenBucket
 
 CONNECT_LIMIT_S = 5.0
 """Within it the kernel repeats a lost SYN after 1 and 3 s."""
@@ -54,6 +56,7 @@ class Uplink:
         addresses: HostAddresses | None = None,
     ) -> None:
         self.connects = 0
+        self.bucket = TokenBucket(reactor, MAX_MESSAGES_HZ, MAX_BURST)
         self._reactor = reactor
         self._host = host
         self._port = port
@@ -156,6 +159,7 @@ class Uplink:
             on_message=lambda link, message: self._on_message(message),
             on_malformed=lambda link, fault: self._on_malformed(fault),
             on_lost=self._link_lost,
+            bucket=self.bucket,
         )
         return self._link
 

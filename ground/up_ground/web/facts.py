@@ -139,6 +139,8 @@ FACTS: tuple[Fact, ...] = (
     Fact("restored", "source", lambda t: t.flag("arduino", "restored"), _restored),
     _part("board", board_state, "back", ALARM),
     _part("phone", phone_state, "here again", WARNING),
+    Fact("competitor", "source", lambda t: t.text("android", "competitor"),
+         lambda _, now: (WARNING, f"another phone, {now}, is refused: one is connected")),
     _flag("panic", "panic", "load.panic", True, "panic: every sender slows down", "panic is over"),
     Fact("vetoes", "veto", _read_vetoes, _vetoes),
     Fact("role", "link", lambda t: t.text("ground", "role", limit=12), _role),

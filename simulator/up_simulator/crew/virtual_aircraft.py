@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import secrets
 from collections.abc import Awaitable, Callable
 from functools import partial
 from typing import Any
@@ -197,6 +198,7 @@ class VirtualAircraft:
             options.orientation,
             say,
             seed=options.seed,
+            identity=secrets.token_hex(4),
             record=record,
         )
 

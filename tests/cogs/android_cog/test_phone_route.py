@@ -81,7 +81,7 @@ def test_only_the_phones_own_answer_counts(tmp_path):
             f.peers.append(other)
             other.say(ack("x"), f.up.ports["general"])
             counters = lambda: f.telemetry["counters"]["android"]  # noqa: E731
-            await until(lambda: counters()["unasked_answers"] == 1)
+            await until(lambda: counters()["foreign"] == 1)
             assert asker.answers == []
             phone.say(ack("x"))
             await until(lambda: asker.answers)

@@ -53,7 +53,7 @@ def test_phone_to_ground_and_back(proxy, tmp_path):
         gyro.say(struct.pack(">6f", 1.5, -2.5, 90, 0.1, 0.2, 0.3))
         await until(lambda: newest(ground)["data"].get("orientation", {}).get("yaw") == 90)
         seen = newest(ground)["data"]
-        assert seen["android"] == {"connected": True, "batteryLevel": 57}
+        assert seen["android"] == {"connected": True, "competitor": None, "batteryLevel": 57}
         assert (seen["location"]["latitude"], seen["source"]["location"]) == (50.1, "android")
         assert seen["orientation"] == {"roll": 1.5, "pitch": -2.5, "yaw": 90}
 

@@ -61,7 +61,7 @@ def test_the_first_commands_the_others_listen_and_nobody_steals(tmp_path):
             for each in (one, two):
                 await until(lambda each=each: each.named("up.altitude.change"))
             counters = a.up.telemetry_controller.collect()["counters"]["ground"]
-            assert counters == {"stations": 2, "not_holder": 1, "refused_peers": 0}
+            assert counters == {"stations": 2, "not_holder": 1, "too_many": 0, "refused_peers": 0}
             # The holder leaves; without a token its seat is free for who speaks next.
             await one.close()
             two.say(heading(40, "c"))

@@ -246,6 +246,7 @@ def test_a_command_to_the_ground_says_whether_it_left(tmp_path):
                 "connects": 1,
                 "unsent": 1,
                 "telemetry_faults": 0,
+                "too_many": 0,
             }
         await server.close()
 

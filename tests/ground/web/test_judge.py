@@ -54,6 +54,13 @@ def bench():
     return Bench().see()
 
 
+def test_another_phone_is_an_event_once(bench):
+    for competitor in ("192.0.2.7", "192.0.2.7", None, "192.0.2.7"):
+        bench.see(android__competitor=competitor)
+    assert len(bench.texts) == 1
+    assert "192.0.2.7" in bench.texts[0]
+
+
 def test_a_healthy_aircraft_is_no_news(bench):
     for _ in range(50):
         bench.see()

@@ -14,6 +14,7 @@ from up.commands.command_link import CommandLink
 from up.commands.command_receiver import CommandReceiver
 from up.commands.command_registry import CommandRegistry
 from up.commands.roles import Role
+from up.log.limits import Limited
 from up.protocols.general_message import GeneralMessage, decode
 
 
@@ -34,10 +35,11 @@ class OtherCommand(BaseCommand):
     NAME: ClassVar[str] = "test.other"
 
 
-def make_bus(*commands, call_from_thread=None):
+def make_bus(*commands, call_from_thread=None, clock=None):
     return CommandExecutor(
         CommandRegistry((*BUILTIN_COMMANDS, NumberCommand, OtherCommand, *commands)),
         call_from_thread or (lambda call, *arguments: call(*arguments)),
+        Limited(clock or Clock(), 10),
     )
 
 
@@ -46,7 +48,7 @@ class Border:
 
     def __init__(self, role=Role.PILOT, *commands):
         self.clock = Clock()
-        self.bus = make_bus(*commands)
+        self.bus = make_bus(*commands, clock=self.clock)
         self.beacons = Beacons(self.clock)
         self.receiver = CommandReceiver(self.bus, self.beacons, self.clock)
         self.sent = []

@@ -2,6 +2,7 @@
 
 import pytest
 from twisted.internet.defer import Deferred, succeed
+from twisted.internet.task import Clock
 
 from tests.up.commands.samples import Log, NumberCommand, OtherCommand, make_bus
 from up.base_module import BaseModule
@@ -85,6 +86,22 @@ def test_a_handler_that_fails_always_does_not_fill_the_log(bus):
     assert bus.counters["failed_handlers"] == 1000
     assert len(log.failures) == 4
     assert "(1000 times now)" in log.text()
+
+
+def test_a_command_that_is_refused_always_does_not_fill_the_log():
+    clock = Clock()
+    bus = make_bus(clock=clock)
+
+    def refuse(command):
+        raise CommandRefusedError(f"number {command.number}")
+
+    bus.register_command(NumberCommand, refuse)
+    with Log() as log:
+        for number in range(5000):
+            bus.execute_command(NumberCommand(number % 100))
+        clock.advance(10)
+    assert bus.counters["refused"] == 5000
+    assert [event.get("more", 0) for event in log.events] == [0, 4999]
 
 
 @pytest.mark.parametrize("fault", [SystemExit(3), RecursionError(), MemoryError(), KeyError("x")])

@@ -8,10 +8,13 @@ from hypothesis import strategies as st
 
 from tests.up.protocols.golden import vectors
 from up.protocols.general_message import (
+    MAX_KEYS,
     GeneralMessage,
     MalformedMessage,
     _is_too_deep,
+    _unique_object,
     decode,
+    decode_object,
     encode,
 )
 
@@ -29,7 +32,9 @@ def test_messages_are_written_and_read_as_the_vectors_say(vector):
     assert encode(message.name, message.data, message.id, message.beacon) == vector["line"].encode()
 
 
-@pytest.mark.parametrize("vector", vectors("general_message_read.json"), ids=lambda v: v["line"])
+@pytest.mark.parametrize(
+    "vector", vectors("general_message_read.json"), ids=lambda v: v["line"][:60]
+)
 def test_messages_are_read_or_refused_as_the_vectors_say(vector):
     line = vector["line"].encode()
     if "malformed" in vector:
@@ -61,6 +66,38 @@ def test_what_is_refused_still_gives_its_id_for_the_nack(rest, reason):
     fault = refused(b'{"name": "up.arm", "id": "i-7", ' + rest + b"}")
     assert reason in fault.reason
     assert fault.id == "i-7"
+
+
+class CountedKey(str):
+    """A key that counts how often it is compared."""
+
+    __slots__ = ()
+    compared = 0
+
+    def __eq__(self, other):
+        CountedKey.compared += 1
+        return super().__eq__(other)
+
+    __hash__ = str.__hash__
+
+
+def comparisons(keys):
+    CountedKey.compared = 0
+    with pytest.raises(ValueError, match=r"repeated|more than"):
+        _unique_object([(CountedKey(key), 0) for key in keys])
+    return CountedKey.compared
+
+
+def test_a_repeated_key_is_found_in_linear_time():
+    keys = [f"k{number}" for number in range(MAX_KEYS - 1)]
+    assert comparisons([*keys, keys[-1]]) <= 2 * MAX_KEYS
+    assert comparisons(keys * 100) == 0
+
+
+def test_as_many_keys_as_64_kib_hold_are_refused():
+    keys = b",".join(b'"%x":0' % number for number in range(7000))
+    with pytest.raises(MalformedMessage, match=str(MAX_KEYS)):
+        decode_object(b"{" + keys + b"}", 65536)
 
 
 def test_an_id_that_cannot_be_told_is_not_guessed():

@@ -4,7 +4,13 @@ import struct
 from twisted.internet.task import Clock
 
 from tests.support.reactor import reactor, run_in_reactor, until
-from up.protocols.orientation_server import OrientationDatagrams, OrientationFactory
+from tests.support.transport import Transport
+from up.protocols.orientation_server import (
+    MAX_BURST,
+    MAX_FRAMES_HZ,
+    OrientationDatagrams,
+    OrientationFactory,
+)
 
 BAD = struct.pack(">6f", 400, 0, 0, 0, 0, 0)
 
@@ -31,7 +37,7 @@ def name(client):
 def with_factory(scenario):
     async def run():
         notes = Notes()
-        factory = OrientationFactory(**notes.callbacks)
+        factory = OrientationFactory(reactor, **notes.callbacks)
         port = reactor.listenTCP(0, factory, interface="127.0.0.1")
         try:
             await scenario(notes, factory, ("127.0.0.1", port.getHost().port))
@@ -71,34 +77,70 @@ def test_an_unfinished_frame_dies_with_its_connection():
     with_factory(scenario)
 
 
-def test_the_newest_connection_is_the_source():
-    async def scenario(notes, factory, address):
-        with socket.create_connection(address) as older:
-            older.sendall(frame(1))
-            await until(lambda: notes.rolls)
-            with socket.create_connection(address) as newer:
-                newer.sendall(frame(2))
-                await until(lambda: len(notes.rolls) == 2)
+def connect(factory, number):
+    """Return a connection of host 192.0.2.<number> without a socket."""
+    connection = factory.buildProtocol(None)
+    connection.makeConnection(Transport(f"192.0.2.{number}"))
+    return connection
 
-                def is_older_cut_off():
-                    try:
-                        older.sendall(frame(3))
-                    except OSError:
-                        return True
-                    return False
 
-                await until(is_older_cut_off)
-                newer.sendall(frame(4))
-                await until(lambda: len(notes.rolls) == 3)
-                assert [roll for roll, _ in notes.rolls] == [1, 2, 4]
-                assert notes.events == [
-                    ("connected", name(older)),
-                    ("lost", name(older), "replaced by a newer connection"),
-                    ("connected", name(newer)),
-                ]
-                assert factory.counters.replaced == 1
+def test_a_connection_keeps_its_place_until_it_is_silent_for_1_s():
+    clock, notes = Clock(), Notes()
+    factory = OrientationFactory(clock, **notes.callbacks)
+    first = connect(factory, 1)
+    for number in range(3):
+        clock.advance(0.9)
+        first.dataReceived(frame(number))
+        other = connect(factory, 2)
+        other.dataReceived(frame(90))
+        assert other.transport.disconnected
+    assert [roll for roll, _ in notes.rolls] == [0, 1, 2]
+    assert factory.counters.foreign == 3
+    clock.advance(1.1)
+    other = connect(factory, 2)
+    other.dataReceived(frame(4))
+    first.dataReceived(frame(5))
+    assert [roll for roll, _ in notes.rolls] == [0, 1, 2, 4]
+    assert first.transport.disconnected
+    assert notes.events == [
+        ("connected", "192.0.2.1:5000"),
+        ("lost", "192.0.2.1:5000", "silent for 1 s"),
+        ("connected", "192.0.2.2:5000"),
+    ]
+    assert factory.counters.replaced == 1
 
-    with_factory(scenario)
+
+def test_another_connection_follows_one_that_closes():
+    notes = Notes()
+    factory = OrientationFactory(Clock(), **notes.callbacks)
+    first = connect(factory, 1)
+    first.dataReceived(frame(1))
+    first.connectionLost()
+    connect(factory, 2).dataReceived(frame(2))
+    assert [roll for roll, _ in notes.rolls] == [1, 2]
+
+
+def test_a_flood_costs_a_bounded_number_of_frames_and_keeps_the_newest():
+    clock, notes = Clock(), Notes()
+    factory = OrientationFactory(clock, **notes.callbacks)
+    connection = connect(factory, 1)
+    for _ in range(24):
+        clock.advance(0.125)
+        connection.dataReceived(b"".join(frame(number % 360) for number in range(2000)))
+        assert notes.rolls[-1][0] == 1999 % 360
+    assert len(notes.rolls) <= MAX_BURST + 3 * MAX_FRAMES_HZ
+    assert factory.counters.frames + factory.counters.too_many == 48_000
+
+
+def test_a_flood_of_datagrams_costs_a_bounded_number_of_frames():
+    clock, notes = Clock(), Notes()
+    server = OrientationDatagrams(clock, **notes.callbacks)
+    for _ in range(30):
+        clock.advance(0.1)
+        for _ in range(1000):
+            server.datagramReceived(frame(1), FIRST)
+    assert MAX_BURST <= len(notes.rolls) <= MAX_BURST + 3 * MAX_FRAMES_HZ
+    assert server.counters.frames + server.counters.too_many == 30_000
 
 
 def test_datagrams_arrive():

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from android_cog.absence_watch import AbsenceWatch
 from android_cog.config import ANDROID
 from android_cog.orientation_input import OrientationInput
-from android_cog.phone_link import PhoneLink
+from android_cog.phone_link import PhoneLink, host_of
 from android_cog.phone_route import PhoneRoute
 from android_cog.ports import Ports
 from android_cog.telemetry_forward import TelemetryForward
@@ -32,6 +32,8 @@ from up.system.plain_peers import PlainPeers
 
 LINK = "android"
 PRIORITY = 0
+COMPETITOR_S = 10.0
+"""How long telemetry shows a phone that was rejected; it tries again more often."""
 _LOG_INTERVAL_S = 10.0
 """A phone that comes and goes, or two that replace each other, must not fill the log."""
 
@@ -58,10 +60,11 @@ class AndroidProvider(BaseStartedModule):
             on_malformed=self._on_malformed,
             on_connected=self._on_connected,
             on_lost=self._on_lost,
+            on_rejected=self._on_rejected,
         )
         self._orientation = OrientationInput(
             clock,
-            self._peers,
+            self._permits_orientation,
             on_frame=self._on_orientation,
             on_connected=self._on_orientation_connected,
             on_lost=self._on_orientation_lost,
@@ -79,6 +82,9 @@ class AndroidProvider(BaseStartedModule):
         self._datagram_link = self.up.open_link(
             LINK, Role.SENSOR, self._phone.datagrams.send, priority=PRIORITY
         )
+        self._competitor = ""
+        self._competitor_s = 0.0
+        self._orientation_rejected = 0
         self._speaker: GeneralMessageLink | None = None
         self._panic: PanicCommand | None = None
         self._is_connected = False
@@ -111,16 +117,23 @@ class AndroidProvider(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return whether the phone is there, and the counters."""
+        """Return whether the phone is there, another phone that was rejected, and the counters."""
         counters = {
             **self._orientation.counters,
+            "orientation_rejected": self._orientation_rejected,
             "refused_peers": self._peers.refused,
+            "rejected": self._phone.rejected,
+            "foreign": self._phone.datagrams.foreign,
+            "too_many": self._phone.bucket.refused,
             "replaced": self._phone.replaced,
             "too_long": self._phone.dropped_too_long,
             "unasked_answers": self._route.unasked_answers,
             "telemetry_faults": self._telemetry_faults,
         }
-        return {"android": {"connected": self.connected}, "counters": {"android": counters}}
+        age_s = self.context.reactor.seconds() - self._competitor_s
+        competitor = self._competitor if age_s <= COMPETITOR_S else ""
+        android = {"connected": self.connected, "competitor": competitor or None}
+        return {"android": android, "counters": {"android": counters}}
 
     def send_command(self, command: BaseCommand, command_id: str | None = None) -> bool:
         """Send a Command to the phone; return whether it left or waits in order to leave."""
@@ -175,7 +188,27 @@ class AndroidProvider(BaseStartedModule):
     def _command_link_of(self, link: GeneralMessageLink) -> Any:
         return self._stream_link if self._phone.is_stream(link) else self._datagram_link
 
+    def _permits_orientation(self, host: str) -> bool:
+        """Return whether a host may send orientation: the phone's, any while there is none."""
+        if not self._peers.permits(host):
+            return False
+        is_phone = self._phone.host in ("", host)
+        self._orientation_rejected += not is_phone
+        return is_phone
+
+    def _on_rejected(self, peer: str) -> None:
+        self._competitor, self._competitor_s = host_of(peer), self.context.reactor.seconds()
+        owner = self._phone.current
+        self._said.log(
+            self.logger.warn,
+            "the phone {peer} is rejected ({code}): {owner} is connected",
+            peer=peer,
+            code=Code.TAKEN.value,
+            owner="another" if owner is None else owner.peer,
+        )
+
     def _on_connected(self, link: GeneralMessageLink) -> None:
+        self._orientation.judge_again()
         self._said.log(self.logger.info, "the phone is connected from {peer}", peer=link.peer)
         self._forward.forget()
         if self._panic is not None:

@@ -66,6 +66,7 @@ class GroundListener(BaseStartedModule):
         counters = {
             "stations": len(self._grounds),
             "not_holder": self._grounds.dropped,
+            "too_many": self._grounds.too_many,
             "refused_peers": self._peers.refused,
         }
         return {"counters": {"ground": counters}}

@@ -89,9 +89,10 @@ class MissionControlProvider(BaseMissionControlProvider):
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
         """Return the counters of the link, and what a ground may do over it."""
-        connects = 0 if self._uplink is None else self._uplink.connects
+        uplink = self._uplink
         counters = {
-            "connects": connects,
+            "connects": 0 if uplink is None else uplink.connects,
+            "too_many": 0 if uplink is None else uplink.bucket.refused,
             "unsent": self.unsent,
             "telemetry_faults": self._telemetry_faults,
         }

@@ -39,7 +39,8 @@ public final class Airborne {
     /**
      * Takes its surroundings; nothing begins before {@link #start}.
      *
-     * @param random seeded by whoever makes it: waits and ids vary by it
+     * @param random seeded by whoever makes it: waits vary by it, and the identity by which
+     *     the Raspberry Pi tells this phone from another
      */
     public Airborne(Loop loop, AirborneSettings settings, Sensors sensors, Speaker speaker,
             AirborneListener listener, Random random) {

@@ -30,7 +30,7 @@ final class AnswerWatch {
     /**
      * Makes a watch.
      *
-     * @param prefix begins the ids; another one for each run of the program
+     * @param prefix begins the ids, up to 8 hexadecimal digits and a dot: it identifies the phone (protocols 4)
      */
     AnswerWatch(Loop loop, String prefix, Runnable onDead) {
         this.loop = loop;

@@ -20,6 +20,8 @@ public enum NackCode {
     REFUSED,
     /** Whoever would carry it out is absent. */
     UNAVAILABLE,
+    /** Another phone is connected. */
+    TAKEN,
     /** No answer from whoever carries it out. */
     TIMEOUT,
     /** Carrying it out failed inside. */

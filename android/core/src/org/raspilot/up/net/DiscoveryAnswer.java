@@ -11,7 +11,7 @@ final class DiscoveryAnswer {
 
     /**
      * Returns the address in an answer; of an empty answer the address that it came from; null when
-     * it is no answer: another text, or an address that no host can have.
+     * it is no answer.
      */
     static String read(byte[] bytes, int length, String source) {
         if (length > LONGEST) {
@@ -21,24 +21,24 @@ final class DiscoveryAnswer {
         if (text.isEmpty()) {
             return source;
         }
-        if (!text.matches("[0-9]{1,3}(\\.[0-9]{1,3}){3}")) {
-            return null;
-        }
-        final String[] words = text.split("\\.");
-        final StringBuilder address = new StringBuilder();
-        for (String word : words) {
-            final int number = Integer.parseInt(word);
-            if (number > 255 || word.length() > 1 && word.charAt(0) == '0') {
-                // With a leading zero some systems read another number.
-                return null;
-            }
-            address.append(address.length() == 0 ? "" : ".").append(number);
-        }
-        return isHost(Integer.parseInt(words[0]), source) ? address.toString() : null;
+        return text.matches("[0-9]{1,3}(\\.[0-9]{1,3}){3}") ? text : null;
     }
 
-    /** Neither nowhere, nor many, nor this phone itself unless it answered. */
-    private static boolean isHost(int first, String source) {
-        return first != 0 && first < 224 && (first != 127 || source.startsWith("127."));
+    /**
+     * Returns whether the phone may connect to an address: it is the sender's own, and private,
+     * link-local, of a provider's NAT (RFC 6598), or this computer's.
+     */
+    static boolean isUsable(String address, String source) {
+        if (!address.equals(source)) {
+            return false;
+        }
+        final String[] words = source.split("\\.");
+        final int first = Integer.parseInt(words[0]);
+        final int second = Integer.parseInt(words[1]);
+        return first == 10 || first == 127
+                || first == 172 && second >= 16 && second < 32
+                || first == 192 && second == 168
+                || first == 169 && second == 254
+                || first == 100 && second >= 64 && second < 128;
     }
 }

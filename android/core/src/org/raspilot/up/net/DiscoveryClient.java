@@ -25,6 +25,7 @@ public final class DiscoveryClient implements PlaceFinder {
     private final int generalPort;
     private final int orientationPort;
     private long wrongAnswers;
+    private long foreignAnswers;
 
     /**
      * Makes a client.
@@ -55,6 +56,11 @@ public final class DiscoveryClient implements PlaceFinder {
         return wrongAnswers;
     }
 
+    /** Returns how many answers named another address than the sender's, or a public one. */
+    public long foreignAnswers() {
+        return foreignAnswers;
+    }
+
     /** One search. */
     private final class Question implements Cancellable, UdpListener {
         private final FindListener listener;
@@ -63,6 +69,7 @@ public final class DiscoveryClient implements PlaceFinder {
         private UdpPort udp;
         private Cancellable repeat;
         private Cancellable limit;
+        private String refused = "";
 
         Question(FindListener listener) {
             this.listener = listener;
@@ -108,6 +115,12 @@ public final class DiscoveryClient implements PlaceFinder {
                 wrongAnswers++;
                 return;
             }
+            if (!DiscoveryAnswer.isUsable(found, host)) {
+                foreignAnswers++;
+                refused = "; refused " + found + " from " + host
+                        + ": not the sender's own address in a private network";
+                return;
+            }
             cancel();
             listener.onFound(new Place(found, generalPort, orientationPort));
         }
@@ -128,7 +141,7 @@ public final class DiscoveryClient implements PlaceFinder {
             cancel();
             final List<String> asked = addresses.current();
             final String where = asked + " port " + port;
-            listener.onNotFound(wasSent ? "no answer from Discovery at " + where
+            listener.onNotFound(wasSent ? "no answer from Discovery at " + where + refused
                     : "no network to ask for Discovery in: " + where);
         }
     }

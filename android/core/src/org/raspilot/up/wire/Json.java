@@ -10,6 +10,8 @@ package org.raspilot.up.wire;
 public final class Json {
     /** How deep objects and lists may be nested; the outermost counts as one. */
     public static final int DEEPEST_NESTING = 32;
+    /** Keys of one object; it bounds the work per message. */
+    public static final int MAX_KEYS = 512;
 
     private Json() {
     }
@@ -18,7 +20,8 @@ public final class Json {
      * Returns the one value that the text is.
      *
      * @throws MalformedException when it is not JSON, has NaN, infinity or a number beyond a
-     *     double, a key twice in one object, a lone surrogate, or is nested deeper than 32
+     *     double, a key twice or more than 512 keys in one object, a lone surrogate,
+     *     or is nested deeper than 32
      */
     public static Object parse(String text) throws MalformedException {
         return new JsonReader(text, true).read();

@@ -71,6 +71,10 @@ final class JsonReader {
             if (peek() != '"') {
                 throw notJson("a key in double quotes is missing");
             }
+            if (isStrict && fields.size() == Json.MAX_KEYS) {
+                throw new MalformedException(
+                        "an object with more than " + Json.MAX_KEYS + " keys");
+            }
             String key = readText();
             skipSpace();
             expect(':', "a colon is missing");

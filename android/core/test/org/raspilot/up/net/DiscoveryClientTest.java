@@ -61,11 +61,24 @@ public final class DiscoveryClientTest implements BroadcastAddresses {
         final ScriptedNetwork.Port port = network.ports.get(0);
         port.come("where is everybody?", "192.168.43.9", 3001);
         port.come("192.168.43.66", "192.168.43.66", 4000);
-        port.come("0.0.0.0", "192.168.43.9", 3001);
         assertTrue(found.told.isEmpty());
-        assertEquals(3, client.wrongAnswers());
+        assertEquals(2, client.wrongAnswers());
         port.come("", "192.168.43.7", 3001);
         assertEquals(Arrays.asList("192.168.43.7:50001:50000"), found.told);
+    }
+
+    @Test
+    public void anAddressThatIsNotTheSendersOrIsPublicIsRefusedCountedAndNamed() {
+        client.find(found);
+        final ScriptedNetwork.Port port = network.ports.get(0);
+        port.come("203.0.113.9", "203.0.113.9", 3001);
+        port.come("", "203.0.113.9", 3001);
+        port.come("0.0.0.0", "192.168.43.9", 3001);
+        port.come("203.0.113.9", "192.168.43.9", 3001);
+        assertEquals(4, client.foreignAnswers());
+        loop.advance(1500);
+        assertEquals(1, found.told.size());
+        assertTrue(found.told.get(0), found.told.get(0).contains("203.0.113.9 from 192.168.43.9"));
     }
 
     @Test

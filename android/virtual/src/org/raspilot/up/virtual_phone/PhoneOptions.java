@@ -30,7 +30,7 @@ final class PhoneOptions {
             + "                                         wing, down to right edge, top edge, out\n"
             + "                                         of the screen; default flat, top ahead\n"
             + "  --record                               it passes \"record\" on to the black box\n"
-            + "  --seed N                               of what it does at random; default 1\n"
+            + "  --seed N                               of what a stepped phone draws; default 1\n"
             + "  --stepped                              time and network are the simulator's\n"
             + "  --help                                 this text\n"
             + "\n"

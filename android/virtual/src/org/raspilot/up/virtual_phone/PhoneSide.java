@@ -25,8 +25,9 @@ final class PhoneSide implements LoopProgram.Part {
     @Override
     public void start(Loop loop) {
         sensors = new SimulatedSensors(loop, words);
-        airborne = new Airborne(
-                loop, options.settings, sensors, events, events, new Random(options.seed));
+        // Two phones with one seed are two phones, but a stepped one repeats its run.
+        Random random = options.isStepped ? new Random(options.seed) : new Random();
+        airborne = new Airborne(loop, options.settings, sensors, events, events, random);
         if (options.isRecording) {
             record = new SimulatedSource<Map<?, ?>>("record", words);
             airborne.providers().register(new RecordProvider(record));
