@@ -24,3 +24,7 @@ class Allowance:
             return False
         self._left -= 1
         return True
+
+    def give_back(self) -> None:
+        """Count one less."""
+        self._left += 1
