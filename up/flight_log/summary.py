@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from up.flight_log import board_status
 from up.flight_log.facts import TELEMETRY, Facts
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.followed import Followed
 from up.flight_log.json_message import number_at
 from up.flight_log.spans import Span
 from up.flight_log.way import way_of
@@ -102,7 +103,7 @@ def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
     facts = facts or Facts(log)
     flight = log.metadata.get("flight", {})
     way = way_of(log)
-    altitudes_m = list(_altitudes_m(log)) or [
+    heights_m = list(altitudes_m(log)) or [
         each for each in (way.lowest_m, way.highest_m) if each is not None
     ]
     levels = [line.level for line in facts.log_lines]
@@ -115,8 +116,8 @@ def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
         flight_controller=flight.get("flight_controller", ""),
         armed=facts.armed,
         modes=list(_modes(facts)),
-        highest_m=max(altitudes_m, default=None),
-        lowest_m=min(altitudes_m, default=None),
+        highest_m=max(heights_m, default=None),
+        lowest_m=min(heights_m, default=None),
         top_speed_m_s=way.top_speed_m_s,
         track_m=way.length_m,
         farthest_m=way.farthest_m,
@@ -144,11 +145,14 @@ def _modes(facts: Facts) -> Iterator[ModeSpan]:
         yield ModeSpan(mode, begin_s, facts.log.length_s)
 
 
-def _altitudes_m(log: FlightLog) -> Iterator[float]:
+def altitudes_m(log: FlightLog) -> Iterator[float]:
+    """Yield the altitudes (m) of the source that was followed, not those that were required."""
+    followed = Followed(log)
     for message in log.messages(ALTITUDE):
         altitude_m = number_at(message.data, ("altitude",))
-        # What is required is not where it was.
-        if altitude_m is not None and message.data.get("mode", "actual") == "actual":
+        if message.data.get("mode", "actual") != "actual" or altitude_m is None:
+            continue
+        if followed.accepts("altitude", message.time_s, message.data):
             yield altitude_m
 
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from up.flight_log.flight_log import FlightLog, LoggedMessage
+from up.flight_log.followed import Followed
 from up.flight_log.frame_state import TOPICS, FrameState, place_of
 
 TELEMETRY = "up.telemetry.update"
@@ -41,7 +42,7 @@ def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Itera
         for message in log.messages(TELEMETRY, since_s=since_s):
             yield _logged(message)
         return
-    state = FrameState(_home_of(log))
+    state = FrameState(Followed(log), _home_of(log))
     step_s = max(period_s, _SHORTEST_S)
     due_s = newest_s = logged_s = -1.0
     for message in log.messages(TELEMETRY, *TOPICS, since_s=max(0.0, since_s - _WARM_UP_S)):

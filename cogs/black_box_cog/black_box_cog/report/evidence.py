@@ -12,6 +12,7 @@ from black_box_cog.pictures.chart import Band
 from black_box_cog.report.demand import Demand
 from black_box_cog.report.series import Columns, Series, columns
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.followed import Followed
 from up.flight_log.origin_text import KEY, link_and_role
 from up.flight_log.telemetry_frames import frames
 
@@ -62,9 +63,10 @@ def evidence_of(log: FlightLog) -> Evidence:
     """Read it; raises FlightLogError when a file cannot be read any more."""
     told = partial(_told, log)
     known, states, held_up = _from_frames(log)
-    attitude = columns(told(ORIENTATION), ANGLES, _best_source(log, ORIENTATION))
+    followed = partial(_followed, log)
+    attitude = columns(followed("orientation", ORIENTATION), ANGLES)
     sticks, servos = columns(told(STICKS), INPUTS), columns(told(SERVOS), CHANNELS)
-    altitude = columns(told(ALTITUDE), ("altitude",), lambda data: data.get("mode") != "required")
+    altitude = columns(followed("altitude", ALTITUDE), ("altitude",))
     required = columns(told(ALTITUDE), ("altitude",), lambda data: data.get("mode") == "required")
     return Evidence(
         log=log,
@@ -76,7 +78,7 @@ def evidence_of(log: FlightLog) -> Evidence:
         frames=known,
         altitude=altitude["altitude"] or known["altitude"],
         required_altitude=required["altitude"],
-        speed=columns(told(LOCATION), ("speed",))["speed"],
+        speed=columns(followed("location", LOCATION), ("speed",))["speed"],
         truth=columns(told(TRUTH), TRUTHS),
         bands=list(_bands(log, states)),
         held_up=held_up,
@@ -96,17 +98,14 @@ def _told(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, An
             yield message.time_s, message.data
 
 
-def _best_source(log: FlightLog, topic: str) -> Any:
-    """Return what accepts one source alone: the board's, else the one that speaks first."""
-    links = []
-    for _, data in _told(log, topic):
-        link, role = link_and_role(data.get(KEY))
-        if role == "board":
-            return lambda data: link_and_role(data.get(KEY))[0] == link
-        if link not in links:
-            links.append(link)
-    first = links[0] if links else ""
-    return lambda data: link_and_role(data.get(KEY))[0] == first
+def _followed(
+    log: FlightLog, reading: str, topic: str
+) -> Iterator[tuple[float, Mapping[str, Any]]]:
+    """Yield what a reading's provider used of a topic; what is required is no reading."""
+    sources = Followed(log)
+    for time_s, data in _told(log, topic):
+        if data.get("mode") != "required" and sources.accepts(reading, time_s, data):
+            yield time_s, data
 
 
 def _from_frames(log: FlightLog) -> tuple[dict[str, Series], list[tuple[float, str]], Series]:
