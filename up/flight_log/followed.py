@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from up.commands.roles import Role
@@ -56,3 +56,12 @@ class Followed:
             return link in self._links[reading][max(now - 1, 0) : soon]
         priority = _BOARD_PRIORITY if role == Role.BOARD.value else 0
         return self._arbiters[reading].accepts(link, priority, time_s)
+
+
+def followed(log: FlightLog, reading: str, topic: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
+    """Yield time (s) and data of the messages that a provider used; what is required is none."""
+    sources = Followed(log)
+    for each in log.messages(topic) if topic in log.topics else ():
+        is_reading = each.data.get("mode") != "required"
+        if is_reading and sources.accepts(reading, each.time_s, each.data):
+            yield each.time_s, each.data

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from up.flight_log import board_status
+from up.flight_log.estimate_error import EstimateError
 from up.flight_log.facts import TELEMETRY, Facts
 from up.flight_log.flight_log import FlightLog
-from up.flight_log.followed import Followed
+from up.flight_log.followed import followed
 from up.flight_log.json_message import number_at
 from up.flight_log.spans import Span
 from up.flight_log.way import way_of
@@ -75,6 +76,7 @@ class FlightSummary:
     track_m: float | None
     farthest_m: float | None
     lowest_battery_percent: float | None
+    estimate_errors: list[EstimateError]
     gaps_s: dict[str, float]
     failsafes: list[Span]
     vetoes: list[str]
@@ -122,6 +124,7 @@ def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
         track_m=way.length_m,
         farthest_m=way.farthest_m,
         lowest_battery_percent=min(log.series(BATTERY, "level")[1], default=None),
+        estimate_errors=facts.estimate_errors,
         gaps_s=dict(_gaps_s(log)),
         failsafes=facts.spans((each.time_s, each.is_failsafe is True) for each in facts.states),
         vetoes=_vetoes(facts),
@@ -147,12 +150,9 @@ def _modes(facts: Facts) -> Iterator[ModeSpan]:
 
 def altitudes_m(log: FlightLog) -> Iterator[float]:
     """Yield the altitudes (m) of the source that was followed, not those that were required."""
-    followed = Followed(log)
-    for message in log.messages(ALTITUDE):
-        altitude_m = number_at(message.data, ("altitude",))
-        if message.data.get("mode", "actual") != "actual" or altitude_m is None:
-            continue
-        if followed.accepts("altitude", message.time_s, message.data):
+    for _, data in followed(log, "altitude", ALTITUDE):
+        altitude_m = number_at(data, ("altitude",))
+        if altitude_m is not None:
             yield altitude_m
 
 

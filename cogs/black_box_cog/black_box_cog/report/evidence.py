@@ -10,14 +10,15 @@ from typing import Any
 
 from black_box_cog.pictures.chart import Band
 from black_box_cog.report.demand import Demand
-from black_box_cog.report.series import Columns, Series, columns
+from up.flight_log.estimate_error import ORIENTATION, TRUTH
 from up.flight_log.flight_log import FlightLog
-from up.flight_log.followed import Followed
+from up.flight_log.followed import followed
 from up.flight_log.origin_text import KEY, link_and_role
+from up.flight_log.series import Columns, Series, columns
 from up.flight_log.telemetry_frames import frames
 
-ORIENTATION, STICKS, SERVOS = "up.orientation.update", "up.rx.update", "up.servo.update"
-STATUS, STATE, TRUTH = "arduino.status", "up.flight.state", "simulator.truth"
+STICKS, SERVOS = "up.rx.update", "up.servo.update"
+STATUS, STATE = "arduino.status", "up.flight.state"
 ALTITUDE, LOCATION, LINK_STATE = "up.altitude.change", "up.location.update", "up.link.state"
 ANGLES = ("roll", "pitch", "yaw")
 CHANNELS = ("ailerons", "elevator", "throttle", "rudder")
@@ -63,10 +64,10 @@ def evidence_of(log: FlightLog) -> Evidence:
     """Read it; raises FlightLogError when a file cannot be read any more."""
     told = partial(_told, log)
     known, states, held_up = _from_frames(log)
-    followed = partial(_followed, log)
-    attitude = columns(followed("orientation", ORIENTATION), ANGLES)
+    followed_by = partial(followed, log)
+    attitude = columns(followed_by("orientation", ORIENTATION), ANGLES)
     sticks, servos = columns(told(STICKS), INPUTS), columns(told(SERVOS), CHANNELS)
-    altitude = columns(followed("altitude", ALTITUDE), ("altitude",))
+    altitude = columns(followed_by("altitude", ALTITUDE), ("altitude",))
     required = columns(told(ALTITUDE), ("altitude",), lambda data: data.get("mode") == "required")
     return Evidence(
         log=log,
@@ -78,7 +79,7 @@ def evidence_of(log: FlightLog) -> Evidence:
         frames=known,
         altitude=altitude["altitude"] or known["altitude"],
         required_altitude=required["altitude"],
-        speed=columns(followed("location", LOCATION), ("speed",))["speed"],
+        speed=columns(followed_by("location", LOCATION), ("speed",))["speed"],
         truth=columns(told(TRUTH), TRUTHS),
         bands=list(_bands(log, states)),
         held_up=held_up,
@@ -96,16 +97,6 @@ def _told(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, An
     if known:
         for message in log.messages(*known):
             yield message.time_s, message.data
-
-
-def _followed(
-    log: FlightLog, reading: str, topic: str
-) -> Iterator[tuple[float, Mapping[str, Any]]]:
-    """Yield what a reading's provider used of a topic; what is required is no reading."""
-    sources = Followed(log)
-    for time_s, data in _told(log, topic):
-        if data.get("mode") != "required" and sources.accepts(reading, time_s, data):
-            yield time_s, data
 
 
 def _from_frames(log: FlightLog) -> tuple[dict[str, Series], list[tuple[float, str]], Series]:

@@ -1,6 +1,6 @@
 import tracemalloc
 
-from black_box_cog.report.series import Series
+from up.flight_log.series import Series
 
 COUNT = 50_000
 
