@@ -91,14 +91,6 @@ class FlightSummary:
         """Return for how long it was armed, s."""
         return sum(span.length_s for span in self.armed)
 
-    @property
-    def mode_times_s(self) -> dict[str, float]:
-        """Return for how long each mode was flown, s, the longest first."""
-        times_s: dict[str, float] = {}
-        for span in self.modes:
-            times_s[span.mode] = times_s.get(span.mode, 0.0) + span.end_s - span.begin_s
-        return dict(sorted(times_s.items(), key=lambda item: -item[1]))
-
 
 def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
     """Return the summary of a flight; ``facts`` spares a second look (see `wrongs`)."""

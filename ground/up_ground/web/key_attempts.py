@@ -22,8 +22,8 @@ class KeyAttempts:
         self._clock = clock
         self._allowances: dict[str, Allowance] = {}
 
-    def take(self, host: str) -> bool:
-        """Count an attempt before its key is looked at; False: too many wrong ones came."""
+    def permits(self, host: str, is_right: bool) -> bool:
+        """Count a key; False: too many wrong ones came, and it must not matter what it was."""
         peer = neighbourhood(host)
         allowance = self._allowances.pop(peer, None)
         if allowance is None:
@@ -31,10 +31,7 @@ class KeyAttempts:
         self._allowances[peer] = allowance
         if len(self._allowances) > ADDRESSES_KEPT:
             del self._allowances[next(iter(self._allowances))]
-        return allowance.take()
-
-    def give_back(self, host: str) -> None:
-        """Take an attempt back: its key was the right one."""
-        allowance = self._allowances.get(neighbourhood(host))
-        if allowance is not None:
+        is_permitted = allowance.take()
+        if is_permitted and is_right:
             allowance.give_back()
+        return is_permitted

@@ -230,16 +230,14 @@ class Pages:
             old.is_alive(ALIVE_S, decide)
 
     def _why_not(self, link: PageConnection, key: str | None, former: Page | None) -> str:
+        why_not = self._access.why_not(key)
         # A page that may control has shown before that it knows the key.
         is_known = former is not None and former.may_control
         if key is None or not self._access.has_key or is_known:
-            return self._access.why_not(key)
-        if not self._attempts.take(link.host):
-            return "too many wrong keys came from this address: load the page again in a minute"
-        why_not = self._access.why_not(key)
-        if not why_not:
-            self._attempts.give_back(link.host)
-        return why_not
+            return why_not
+        if self._attempts.permits(link.host, not why_not):
+            return why_not
+        return "too many wrong keys came from this address: load the page again in a minute"
 
     def _with_token(self, token: str) -> Page | None:
         given = token.encode("utf-8", "replace")

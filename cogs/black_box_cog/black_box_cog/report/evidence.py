@@ -68,7 +68,7 @@ def evidence_of(log: FlightLog) -> Evidence:
     attitude = columns(followed_by("orientation", ORIENTATION), ANGLES)
     sticks, servos = columns(told(STICKS), INPUTS), columns(told(SERVOS), CHANNELS)
     altitude = columns(followed_by("altitude", ALTITUDE), ("altitude",))
-    required = columns(told(ALTITUDE), ("altitude",), lambda data: data.get("mode") == "required")
+    wanted = (each for each in told(ALTITUDE) if each[1].get("mode") == "required")
     return Evidence(
         log=log,
         attitude={name: attitude[name] or known[f"orientation.{name}"] for name in ANGLES},
@@ -78,7 +78,7 @@ def evidence_of(log: FlightLog) -> Evidence:
         status=columns(told(STATUS), ("loop_us", "late_us")),
         frames=known,
         altitude=altitude["altitude"] or known["altitude"],
-        required_altitude=required["altitude"],
+        required_altitude=columns(wanted, ("altitude",))["altitude"],
         speed=columns(followed_by("location", LOCATION), ("speed",))["speed"],
         truth=columns(told(TRUTH), TRUTHS),
         bands=list(_bands(log, states)),
