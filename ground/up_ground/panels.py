@@ -70,7 +70,10 @@ def draw_power(pen: Pen, row: int, column: int) -> int:
     text = f"battery {number_text(level, 0)} %"
     end = pen.value(row, column, text, "battery", style)
     phone = flag_text(telemetry.flag("android", "connected"), "connected", "absent")
-    pen.value(row, end + 1, f"phone {phone}")
+    if telemetry.text("android", "competitor") is None:
+        pen.value(row, end + 1, f"phone {phone}")
+    else:
+        pen.value(row, end + 1, "2nd phone refused", style=Style.WARNING)
     cpu = number_text(telemetry.number("load", "cpu"), 0)
     ram = number_text(telemetry.number("load", "ram"), 0)
     end = pen.value(row + 1, column, f"load {cpu} % memory {ram} %")

@@ -34,6 +34,9 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
         parts.append(f"{word}: {'; '.join(vetoes)}"[:200])
     if telemetry.flag("load", "panic"):
         parts.append("PANIC")
+    competitor = telemetry.text("android", "competitor")
+    if competitor is not None:
+        parts.append(f"a second phone is refused: {competitor}")
     return " | ".join(parts)
 
 
