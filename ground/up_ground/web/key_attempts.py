@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from up.system.addresses import neighbourhood
 from up.system.clock import Clock
-from up_ground.web.allowance import Allowance
+from up.system.token_bucket import TokenBucket
 
 ATTEMPTS_MOST = 10
 ATTEMPTS_RATE_HZ = 0.1
@@ -12,26 +12,25 @@ ADDRESSES_KEPT = 1024
 
 
 class KeyAttempts:
-    """An allowance of wrong keys for each IPv4 address and each IPv6 /64 network.
+    """A bucket of wrong keys for each IPv4 address and each IPv6 /64 network.
 
-    Right keys cost nothing, so pages behind one address do not use up each other's. Of more than
-    ``ADDRESSES_KEPT`` addresses the one that tried least recently is forgotten.
+    Right keys take nothing from it, so pages behind one address do not use up each other's. Of more
+    than ``ADDRESSES_KEPT`` addresses the one that tried least recently is forgotten.
     """
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
-        self._allowances: dict[str, Allowance] = {}
+        self._known: dict[str, tuple[TokenBucket, float]] = {}
 
     def permits(self, host: str, is_right: bool) -> bool:
         """Count a key; False: too many wrong ones came, and it must not matter what it was."""
-        peer = neighbourhood(host)
-        allowance = self._allowances.pop(peer, None)
-        if allowance is None:
-            allowance = Allowance(self._clock, ATTEMPTS_RATE_HZ, ATTEMPTS_MOST)
-        self._allowances[peer] = allowance
-        if len(self._allowances) > ADDRESSES_KEPT:
-            del self._allowances[next(iter(self._allowances))]
-        is_permitted = allowance.take()
-        if is_permitted and is_right:
-            allowance.give_back()
+        now_s, peer = self._clock.seconds(), neighbourhood(host)
+        fresh = TokenBucket(self._clock, ATTEMPTS_RATE_HZ, ATTEMPTS_MOST), now_s
+        bucket, closed_until_s = self._known.pop(peer, fresh)
+        is_permitted = now_s >= closed_until_s if is_right else bucket.take()
+        if not is_permitted and not is_right:
+            closed_until_s = now_s + 1 / ATTEMPTS_RATE_HZ
+        self._known[peer] = bucket, closed_until_s
+        if len(self._known) > ADDRESSES_KEPT:
+            del self._known[next(iter(self._known))]
         return is_permitted

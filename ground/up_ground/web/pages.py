@@ -10,10 +10,10 @@ from typing import Any
 from twisted.internet.defer import Deferred
 
 from up.system.clock import Clock, Timer
+from up.system.token_bucket import TokenBucket
 from up.version import VERSION
 from up_ground.safe_text import safe_text
 from up_ground.web.access import Access
-from up_ground.web.allowance import Allowance
 from up_ground.web.key_attempts import KeyAttempts
 from up_ground.web.messages import message_bytes
 from up_ground.web.page import Page, PageConnection
@@ -42,7 +42,7 @@ class _Visit:
         self.timer = timer
         self.is_greeting = False
         self.faults = 0
-        self.allowance = Allowance(clock, rate_hz=100.0, most=300.0)
+        self.bucket = TokenBucket(clock, rate_hz=100.0, burst=300.0)
 
 
 class Pages:
@@ -133,7 +133,7 @@ class Pages:
         visit = self._visits.get(link)
         if visit is None or self._all_closed is not None:
             return
-        if not visit.allowance.take():
+        if not visit.bucket.take():
             link.close(VIOLATION, "too many messages")
             return
         try:

@@ -7,6 +7,7 @@ from typing import Any
 
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Timer
+from up.system.token_bucket import TokenBucket
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
 from up_ground.safe_text import safe_text
@@ -14,7 +15,6 @@ from up_ground.settings import Settings
 from up_ground.telemetry import Telemetry
 from up_ground.token_store import TokenStore
 from up_ground.web.alarms import LinkFacts
-from up_ground.web.allowance import Allowance
 from up_ground.web.command_desk import CommandDesk
 from up_ground.web.commands import Checks
 from up_ground.web.control import Control
@@ -68,7 +68,7 @@ class Station:
         self._track = Track()
         self._home = Home()
         # What pages do is worth an event, but not a flood of them.
-        self._notes = Allowance(reactor, rate_hz=1.0, most=20.0)
+        self._notes = TokenBucket(reactor, rate_hz=1.0, burst=20.0)
         self._tick: Timer | None = None
         self._has_board: bool | None = None
         self._was_open = False

@@ -378,7 +378,7 @@ def test_addresses_without_end_take_no_memory_without_end():
     attempts = KeyAttempts(Clock())
     for number in range(3 * ADDRESSES_KEPT):
         assert attempts.permits(f"10.0.{number // 256}.{number % 256}", False)
-    assert len(attempts._allowances) == ADDRESSES_KEPT
+    assert len(attempts._known) == ADDRESSES_KEPT
 
 
 def test_links_that_say_nothing_keep_nobody_out(bench):
