@@ -132,7 +132,7 @@ def test_a_second_phone_that_is_refused_is_shown():
     competed = state(frame(android={"connected": True, "competitor": "192.0.2.7"}))
     assert style_at(render(competed, 100.0, (80, 24)), "2nd phone refused") == "\x1b[0;33m"
     line = plain_line(competed.status, competed.telemetry, 100.0)
-    assert line.endswith(" | a second phone is refused: 192.0.2.7")
+    assert "a second phone is refused: 192.0.2.7" in line.split(" | ")
     for android in ({"connected": True}, {"connected": True, "competitor": None}):
         single = state(frame(android=android))
         assert "phone connected" in text_of(single)
