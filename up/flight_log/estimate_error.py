@@ -14,7 +14,7 @@ TRUTH = "simulator.truth"
 ORIENTATION = "up.orientation.update"
 AXES = ("roll", "pitch")
 _APART_S = 0.05
-"""Estimate and truth come on two ways: so far apart in time they are still compared."""
+"""Truth and estimate reach the log with different delays: the truth within this time counts."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -49,11 +49,6 @@ class Access:
         match = _ORIGIN.fullmatch(origin)
         return match is not None and host is not None and match[1].casefold() == host.casefold()
 
-    @property
-    def has_key(self) -> bool:
-        """Say whether a page controls only with the right key."""
-        return self.key is not None and not self.is_watch_only
-
     def why_not(self, key: object) -> str:
         """Return why a page that brings ``key`` may not control; empty: it may."""
         if self.is_watch_only:

@@ -11,7 +11,7 @@ from twisted.python.failure import Failure
 from up.system.addresses import neighbourhood
 
 WAITING_LIMIT = 128
-"""Connections of nobody that has been welcomed; those of welcomed pages are not among them."""
+"""Connections that are not a welcomed page's."""
 PER_PEER_LIMIT = 48
 """The same, of one IPv4 address or one IPv6 /64 network."""
 HEADER_S = 5.0
@@ -27,7 +27,7 @@ class Connection(ProtocolWrapper):
     factory: Any
     peer = ""
     has_asked = False
-    """Whether a whole request came."""
+    """Whether a complete request came."""
 
     def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
         """Begin to wait for the first request."""
@@ -36,13 +36,13 @@ class Connection(ProtocolWrapper):
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
 
     def on_request(self) -> None:
-        """Note that a whole request came."""
+        """Note that a complete request came."""
         if not self.has_asked:
             self.has_asked = True
             self._timer.reset(HTTP_LIMIT_S - HEADER_S)
 
     def admit(self) -> None:
-        """Count it no longer: it is a welcomed page's."""
+        """Exclude it from the limits: its page is welcomed."""
         self.factory.forget(self)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
@@ -58,10 +58,10 @@ class Connection(ProtocolWrapper):
 
 
 class Connections(WrappingFactory):
-    """Takes every connection; beyond the limits another one that still waits leaves for it.
+    """Accepts every connection; at a limit an older one that is not a welcomed page's is closed.
 
-    The address with the most loses one: the oldest without a whole request, otherwise its oldest.
-    A page that comes from elsewhere gets in while one address, or a few, hold all they can.
+    It is one of the address that has the most: the oldest without a complete request, otherwise the
+    oldest. So a page gets in although a few other addresses have all the connections they may.
     """
 
     protocol = Connection

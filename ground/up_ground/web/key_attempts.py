@@ -23,7 +23,7 @@ class KeyAttempts:
         self._known: dict[str, tuple[TokenBucket, float]] = {}
 
     def permits(self, host: str, is_right: bool) -> bool:
-        """Count a key; False: too many wrong ones came, and it must not matter what it was."""
+        """Count a key and return whether it is judged; False after too many wrong ones."""
         now_s, peer = self._clock.seconds(), neighbourhood(host)
         fresh = TokenBucket(self._clock, ATTEMPTS_RATE_HZ, ATTEMPTS_MOST), now_s
         bucket, closed_until_s = self._known.pop(peer, fresh)

@@ -18,7 +18,7 @@ class PageConnection(Interface):
     """The address that it comes from."""
 
     def admit(self) -> None:
-        """Hear that the page is welcome: its limits are those of a page from now on."""
+        """Apply the limits of a welcomed page from now on."""
 
     def close(self, code: int, reason: str) -> None:
         """Close it; ``code`` is 4000 to 4999, as RFC 6455 leaves them to us."""

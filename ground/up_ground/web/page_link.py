@@ -17,7 +17,7 @@ from up_ground.web.page_output import PageOutput
 USER_TIMEOUT_MS = 5000
 PING_S = 5.0
 LONGEST_HELLO = 1024
-"""Until a page is welcome it sends no longer message, bytes."""
+"""Limit of a message before its page is welcomed, bytes."""
 NOT_TEXT = 4003
 TOO_LONG = 4008
 
@@ -60,7 +60,7 @@ class PageLink(WebSocketServerProtocol):
         self._owner.on_opened(self)
 
     def admit(self) -> None:
-        """Take messages of every length that a page may send; count no more as a stranger's."""
+        """Accept messages up to LONGEST_MESSAGE, and leave the limits of strangers."""
         self.maxMessagePayloadSize = self.maxFramePayloadSize = LONGEST_MESSAGE
         self.transport.admit()
 

@@ -233,7 +233,7 @@ class Pages:
         why_not = self._access.why_not(key)
         # A page that may control has shown before that it knows the key.
         is_known = former is not None and former.may_control
-        if key is None or not self._access.has_key or is_known:
+        if key is None or self._access.is_watch_only or is_known:
             return why_not
         if self._attempts.permits(link.host, not why_not):
             return why_not
