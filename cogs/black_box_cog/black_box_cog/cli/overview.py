@@ -12,8 +12,7 @@ from up.flight_log.flights import Flight
 from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.summary import altitudes_m
 
-_ALTITUDES = ("up.location.update", "up.telemetry.update")
-"""Whose altitudes count where no altitude was logged."""
+_ALTITUDES_OTHERWISE = ("up.location.update", "up.telemetry.update")
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +61,7 @@ def is_being_recorded(path: Path) -> bool:
 
 def _highest_m(log: FlightLog) -> float | None:
     heights_m = list(altitudes_m(log))
-    for topic in _ALTITUDES:
+    for topic in _ALTITUDES_OTHERWISE:
         if not heights_m and topic in log.topics:
             heights_m = log.series(topic, "altitude")[1]
     return max(heights_m, default=None)
