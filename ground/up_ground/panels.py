@@ -69,8 +69,10 @@ def draw_power(pen: Pen, row: int, column: int) -> int:
     style = Style.BAD if level is not None and level < 20 else Style.PLAIN
     text = f"battery {number_text(level, 0)} %"
     end = pen.value(row, column, text, "battery", style)
-    phone = flag_text(telemetry.flag("android", "connected"), "connected", "absent")
-    pen.value(row, end + 1, f"phone {phone}")
+    connected = flag_text(telemetry.flag("android", "connected"), "connected", "absent")
+    is_contested = telemetry.text("android", "competitor") is not None
+    phone = "2nd phone refused" if is_contested else f"phone {connected}"
+    pen.value(row, end + 1, phone, style=Style.WARNING if is_contested else Style.PLAIN)
     cpu = number_text(telemetry.number("load", "cpu"), 0)
     ram = number_text(telemetry.number("load", "ram"), 0)
     end = pen.value(row + 1, column, f"load {cpu} % memory {ram} %")

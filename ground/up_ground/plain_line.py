@@ -29,6 +29,9 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
         f"flight mode {telemetry.text('flight_mode') or UNKNOWN}",
         flag_text(telemetry.flag("armed"), "ARMED", "disarmed"),
     ]
+    competitor = telemetry.text("android", "competitor")
+    if competitor is not None:
+        parts.append(f"a second phone is refused: {competitor}")
     if vetoes:
         word = "against arming again" if telemetry.flag("armed") else "vetoes"
         parts.append(f"{word}: {'; '.join(vetoes)}"[:200])

@@ -128,6 +128,17 @@ def test_the_worst_of_the_board_stands_beside_its_loop(flags, word):
     assert line.split(" us")[-1].strip() == word
 
 
+def test_a_second_phone_that_is_refused_is_shown():
+    competed = state(frame(android={"connected": True, "competitor": "192.0.2.7"}))
+    assert style_at(render(competed, 100.0, (80, 24)), "2nd phone refused") == "\x1b[0;33m"
+    line = plain_line(competed.status, competed.telemetry, 100.0)
+    assert "a second phone is refused: 192.0.2.7" in line.split(" | ")
+    for android in ({"connected": True}, {"connected": True, "competitor": None}):
+        single = state(frame(android=android))
+        assert "phone connected" in text_of(single)
+        assert "second phone" not in plain_line(single.status, single.telemetry, 100.0)
+
+
 def test_a_broken_link_says_why_and_since_when():
     broken = state(frame())
     broken.status.failures = 3

@@ -18,7 +18,12 @@ from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValues
 from up.commands.rx_command import RXCommand
 from up.commands.servo_command import ServoCommand
 from up.commands.setpoint_command import SetpointCommand
-from up.commands.system_commands import LinkStateCommand, SystemStateCommand, SystemStopCommand
+from up.commands.system_commands import (
+    LinkStateCommand,
+    SourceSelectedCommand,
+    SystemStateCommand,
+    SystemStopCommand,
+)
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
 
 BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
@@ -42,6 +47,7 @@ BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     RXCommand,
     ServoCommand,
     SetpointCommand,
+    SourceSelectedCommand,
     SystemStateCommand,
     SystemStopCommand,
     TelemetryCommand,

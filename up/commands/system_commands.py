@@ -34,3 +34,12 @@ class LinkStateCommand(BaseCommand):
     NAME: ClassVar[str] = "up.link.state"
     link: str = value(max_length=64)
     connected: bool = value()
+
+
+@dataclass(frozen=True, slots=True)
+class SourceSelectedCommand(BaseCommand):
+    """A provider uses another source from now on; ``source`` is the name of its link."""
+
+    NAME: ClassVar[str] = "up.source.selected"
+    reading: str = value(max_length=64)
+    source: str = value(max_length=64)

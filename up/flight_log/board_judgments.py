@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
+from dataclasses import asdict
 from math import inf
 
 from up.flight_log.board_status import (
@@ -23,6 +24,7 @@ CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 BLINK_S = 0.1
 """What is shorter is not told: one bad pulse is no loss."""
 LATE_US = 1000
+ESTIMATE_LIMIT_DEG = 2.0
 _ALL_VALID = 0b111111
 _FREQUENT = 100
 _RESTORED = 7
@@ -144,6 +146,17 @@ def frames_damaged(facts: Facts) -> Iterator[Wrong]:
         yield Wrong(first_s, "warning" if count >= _FREQUENT else "info", text)
 
 
+def estimate_wrong(facts: Facts) -> Iterator[Wrong]:
+    """The attitude that the board estimates and the true one, of simulated flights."""
+    for error in facts.estimate_errors:
+        if error.worst_deg > ESTIMATE_LIMIT_DEG:
+            text = (
+                f"the estimated {error.axis} was up to {error.worst_deg:.1f} deg from the true one"
+                f" ({error.rms_deg:.1f} deg rms)"
+            )
+            yield Wrong(error.worst_s, "warning", text, code="estimate_error", values=asdict(error))
+
+
 BOARD_JUDGMENTS: tuple[Judge, ...] = (
     receiver_lost,
     failsafe,
@@ -153,4 +166,5 @@ BOARD_JUDGMENTS: tuple[Judge, ...] = (
     raspberry_unheard,
     loop_late,
     frames_damaged,
+    estimate_wrong,
 )

@@ -10,6 +10,7 @@ from typing import Any
 
 from up.flight_log import board_status
 from up.flight_log.board_status import has_bit
+from up.flight_log.estimate_error import EstimateError, estimate_errors
 from up.flight_log.flight_log import FlightLog, LoggedMessage
 from up.flight_log.spans import Span, spans_of
 
@@ -67,6 +68,11 @@ class Facts:
     def log_lines(self) -> list[LogLine]:
         """Return the warnings and errors of the program's log, and what is told of the rest."""
         return [line for line in self._all_lines() if line.level >= 3 or _is_told(line.text)]
+
+    @cached_property
+    def estimate_errors(self) -> list[EstimateError]:
+        """Return how far the attitude was from the truth, of simulated flights."""
+        return list(estimate_errors(self.log))
 
     @cached_property
     def last_telemetry(self) -> dict[str, Any]:

@@ -5,37 +5,26 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from up.commands.roles import Role
 from up.earth import bearing_deg, compass_deg, distance_m
 from up.flight_log import board_status
+from up.flight_log.followed import FRESH_S, Followed
 from up.flight_log.json_message import number_at
 from up.flight_log.origin_text import KEY, link_and_role
-from up.providers.source_arbiter import SourceArbiter
 
 ANGLES = ("yaw", "pitch", "roll")
 STICKS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 SERVOS = STICKS[:4]
-_BOARD_PRIORITY = 10
-_FRESH_S = {
-    "orientation": 0.5,
-    "rx": 0.5,
-    "servo": 0.5,
-    "flight": 0.5,
-    "location": 1.5,
-    "altitude": 1.5,
-    "heading": 1.5,
-    "battery": 120.0,
-}
 
 
 class FrameState:
     """Takes logged Commands in the order of time and gives the telemetry of a moment.
 
-    Of several sources of a reading the board's wins while it is fresh, as it does in flight. A
-    logged frame of telemetry is the ground on which the newer Commands are laid.
+    Of several sources of a reading the one that was followed in flight counts. A logged frame of
+    telemetry is the ground on which the newer Commands are laid.
     """
 
-    def __init__(self, home: tuple[float, float] | None = None) -> None:
+    def __init__(self, followed: Followed, home: tuple[float, float] | None = None) -> None:
+        self._followed = followed
         self._home = home
         self._tree: dict[str, Any] = {
             "orientation": dict.fromkeys(ANGLES),
@@ -48,9 +37,6 @@ class FrameState:
         }
         self._times_s: dict[str, float] = {}
         self._sources: dict[str, str] = {}
-        self._arbiters = {
-            reading: SourceArbiter(fresh_s, _ignore) for reading, fresh_s in _FRESH_S.items()
-        }
 
     def take(self, topic: str, time_s: float, data: Mapping[str, Any]) -> None:
         """Take one Command; those that telemetry does not show change nothing."""
@@ -62,7 +48,7 @@ class FrameState:
         """Take a logged frame of telemetry: it knows more than the Commands tell."""
         self._tree = {**self._tree, **tree}
         ages, sources = tree.get("age_ms"), tree.get("source")
-        for reading in _FRESH_S:
+        for reading in FRESH_S:
             age_ms = number_at(ages, (reading,))
             if age_ms is not None:
                 self._times_s[reading] = time_s - age_ms / 1000
@@ -74,17 +60,15 @@ class FrameState:
         known = self._times_s
         ages = {
             reading: round((time_s - known[reading]) * 1000) if reading in known else None
-            for reading in _FRESH_S
+            for reading in FRESH_S
         }
         return {**self._tree, "age_ms": ages, "source": dict(self._sources)}
 
     def _accepts(self, reading: str, time_s: float, data: Mapping[str, Any]) -> bool:
-        link, role = link_and_role(data.get(KEY))
-        priority = _BOARD_PRIORITY if role == Role.BOARD.value else 0
-        if not self._arbiters[reading].accepts(link, priority, time_s):
+        if not self._followed.accepts(reading, time_s, data):
             return False
         self._times_s[reading] = time_s
-        self._sources[reading] = link
+        self._sources[reading], _ = link_and_role(data.get(KEY))
         return True
 
     def _update(self, key: str, values: Mapping[str, Any]) -> None:
@@ -189,7 +173,3 @@ def place_of(data: Mapping[str, Any]) -> tuple[float, float] | None:
     if latitude is None or longitude is None or abs(latitude) > 90 or abs(longitude) > 180:
         return None
     return latitude, longitude
-
-
-def _ignore(previous: str, source: str) -> None:
-    """Telemetry shows which source is followed; nobody else asks."""

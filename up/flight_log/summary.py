@@ -6,8 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from up.flight_log import board_status
+from up.flight_log.estimate_error import EstimateError
 from up.flight_log.facts import TELEMETRY, Facts
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.followed import followed
 from up.flight_log.json_message import number_at
 from up.flight_log.spans import Span
 from up.flight_log.way import way_of
@@ -74,6 +76,7 @@ class FlightSummary:
     track_m: float | None
     farthest_m: float | None
     lowest_battery_percent: float | None
+    estimate_errors: list[EstimateError]
     gaps_s: dict[str, float]
     failsafes: list[Span]
     vetoes: list[str]
@@ -88,21 +91,13 @@ class FlightSummary:
         """Return for how long it was armed, s."""
         return sum(span.length_s for span in self.armed)
 
-    @property
-    def mode_times_s(self) -> dict[str, float]:
-        """Return for how long each mode was flown, s, the longest first."""
-        times_s: dict[str, float] = {}
-        for span in self.modes:
-            times_s[span.mode] = times_s.get(span.mode, 0.0) + span.end_s - span.begin_s
-        return dict(sorted(times_s.items(), key=lambda item: -item[1]))
-
 
 def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
     """Return the summary of a flight; ``facts`` spares a second look (see `wrongs`)."""
     facts = facts or Facts(log)
     flight = log.metadata.get("flight", {})
     way = way_of(log)
-    altitudes_m = list(_altitudes_m(log)) or [
+    heights_m = list(altitudes_m(log)) or [
         each for each in (way.lowest_m, way.highest_m) if each is not None
     ]
     levels = [line.level for line in facts.log_lines]
@@ -115,12 +110,13 @@ def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
         flight_controller=flight.get("flight_controller", ""),
         armed=facts.armed,
         modes=list(_modes(facts)),
-        highest_m=max(altitudes_m, default=None),
-        lowest_m=min(altitudes_m, default=None),
+        highest_m=max(heights_m, default=None),
+        lowest_m=min(heights_m, default=None),
         top_speed_m_s=way.top_speed_m_s,
         track_m=way.length_m,
         farthest_m=way.farthest_m,
         lowest_battery_percent=min(log.series(BATTERY, "level")[1], default=None),
+        estimate_errors=facts.estimate_errors,
         gaps_s=dict(_gaps_s(log)),
         failsafes=facts.spans((each.time_s, each.is_failsafe is True) for each in facts.states),
         vetoes=_vetoes(facts),
@@ -144,11 +140,11 @@ def _modes(facts: Facts) -> Iterator[ModeSpan]:
         yield ModeSpan(mode, begin_s, facts.log.length_s)
 
 
-def _altitudes_m(log: FlightLog) -> Iterator[float]:
-    for message in log.messages(ALTITUDE):
-        altitude_m = number_at(message.data, ("altitude",))
-        # What is required is not where it was.
-        if altitude_m is not None and message.data.get("mode", "actual") == "actual":
+def altitudes_m(log: FlightLog) -> Iterator[float]:
+    """Yield the altitudes (m) of the source that was followed, not those that were required."""
+    for _, data in followed(log, "altitude", ALTITUDE):
+        altitude_m = number_at(data, ("altitude",))
+        if altitude_m is not None:
             yield altitude_m
 
 

@@ -8,10 +8,11 @@ from itertools import pairwise
 from typing import Any
 
 from up.flight_log.flight_log import FlightLog, LoggedMessage
-from up.flight_log.frame_state import TOPICS, FrameState, place_of
+from up.flight_log.followed import Followed
+from up.flight_log.frame_state import TOPICS, FrameState
+from up.flight_log.way import fixes
 
 TELEMETRY = "up.telemetry.update"
-LOCATION = "up.location.update"
 MISSING_S = 0.5
 """So long after a logged frame the frames are made from the other topics."""
 _SILENT_S = 1.5
@@ -41,7 +42,8 @@ def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Itera
         for message in log.messages(TELEMETRY, since_s=since_s):
             yield _logged(message)
         return
-    state = FrameState(_home_of(log))
+    home = next(((each.latitude_deg, each.longitude_deg) for each in fixes(log)), None)
+    state = FrameState(Followed(log), home)
     step_s = max(period_s, _SHORTEST_S)
     due_s = newest_s = logged_s = -1.0
     for message in log.messages(TELEMETRY, *TOPICS, since_s=max(0.0, since_s - _WARM_UP_S)):
@@ -79,11 +81,3 @@ def _is_all_there(log: FlightLog) -> bool:
     if len(times_s) == 2:
         return False
     return all(later - each <= MISSING_S for each, later in pairwise(times_s))
-
-
-def _home_of(log: FlightLog) -> tuple[float, float] | None:
-    for message in log.messages(LOCATION):
-        place = place_of(message.data)
-        if place is not None:
-            return place
-    return None

@@ -7,13 +7,11 @@ from dataclasses import dataclass
 
 from up.earth import distance_m
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.followed import Followed
 from up.flight_log.frame_state import place_of
 from up.flight_log.json_message import number_at
-from up.flight_log.origin_text import KEY, link_and_role
-from up.providers.source_arbiter import SourceArbiter
 
 LOCATION = "up.location.update"
-_FRESH_S = 1.5
 _STEP_M = 5.0
 """A smaller step is the receiver's noise: an aircraft that stands has no way."""
 _FASTEST_M_S = 150.0
@@ -45,13 +43,12 @@ class Way:
 
 
 def fixes(log: FlightLog) -> Iterator[Fix]:
-    """Yield the places of the freshest source, one receiver at a time; a repeated one is none."""
-    arbiter = SourceArbiter(_FRESH_S, lambda previous, source: None)
+    """Yield the places of the source that was followed; a repeated one is none."""
+    followed = Followed(log)
     last: tuple[float, float] | None = None
     for message in log.messages(LOCATION):
         place = place_of(message.data)
-        link, _ = link_and_role(message.data.get(KEY))
-        if place is None or not arbiter.accepts(link, 0, message.time_s):
+        if place is None or not followed.accepts("location", message.time_s, message.data):
             continue
         if place != last:
             last = place

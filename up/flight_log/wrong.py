@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -15,13 +15,16 @@ Level = Literal["info", "warning", "alarm"]
 class Wrong:
     """What went wrong, in plain words; ``time_s`` counts from the log's first message.
 
-    ``length_s``: for how long, where it lasted.
+    ``length_s``: for how long, where it lasted. ``code`` and ``values``: the same for programs, of
+    those kinds that have a code.
     """
 
     time_s: float
     level: Level
     text: str
     length_s: float = field(default=0.0, compare=False)
+    code: str = field(default="", compare=False)
+    values: Mapping[str, float | str] = field(default_factory=dict, compare=False)
 
 
 Judge = Callable[[Facts], Iterator[Wrong]]

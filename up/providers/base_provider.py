@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from up.base_started_module import BaseStartedModule
 from up.commands.command import BaseCommand
+from up.commands.system_commands import SourceSelectedCommand
 from up.config.providers import PROVIDERS
 from up.providers.reading import Reading
 from up.providers.source_arbiter import SourceArbiter
@@ -93,6 +94,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         self._on_changed(self._reading)
 
     def _on_switch(self, previous: str, source: str) -> None:
+        self.up.command_executor.execute_command(SourceSelectedCommand(self.READING, source))
         if previous:
             self._log_warning(f"{self.READING} now comes from {source}, no longer from {previous}")
         else:

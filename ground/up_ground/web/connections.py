@@ -1,17 +1,21 @@
-"""Every connection to the server: counted, bounded, cut off when it says nothing."""
+"""Every connection to the server: counted, bounded, closed when it sends no request."""
 
 from __future__ import annotations
 
-from collections import Counter
-from typing import Any
+from typing import Any, cast
 
-from twisted.internet.interfaces import IAddress
 from twisted.internet.protocol import connectionDone
 from twisted.protocols.policies import ProtocolWrapper, WrappingFactory
 from twisted.python.failure import Failure
 
-CONNECTIONS_LIMIT = 128
+from up.system.addresses import neighbourhood
+
+WAITING_LIMIT = 128
+"""Connections that are not a welcomed page's."""
 PER_PEER_LIMIT = 48
+"""The same, of one IPv4 address or one IPv6 /64 network."""
+HEADER_S = 5.0
+"""The first request is complete by then, however its bytes are spread."""
 HTTP_LIMIT_S = 60.0
 """A connection that has not become a page's link by then is closed: nobody dribbles for ever."""
 
@@ -21,19 +25,31 @@ class Connection(ProtocolWrapper):
 
     transport: Any
     factory: Any
+    peer = ""
+    has_asked = False
+    """Whether a complete request came."""
 
     def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
-        """Begin to count and to wait."""
+        """Begin to wait for the first request."""
         self._http = self.wrappedProtocol
-        reactor = self.factory.reactor
-        self._timer = reactor.callLater(HTTP_LIMIT_S, self._on_time_over)
+        self._timer = self.factory.reactor.callLater(HEADER_S, self._on_time_over)
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
+
+    def on_request(self) -> None:
+        """Note that a complete request came."""
+        if not self.has_asked:
+            self.has_asked = True
+            self._timer.reset(HTTP_LIMIT_S - HEADER_S)
+
+    def admit(self) -> None:
+        """Exclude it from the limits: its page is welcomed."""
+        self.factory.forget(self)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
         """Stop counting."""
         if self._timer.active():
             self._timer.cancel()
-        self.factory.peers[_host(self.transport.getPeer())] -= 1
+        self.factory.forget(self)
         super().connectionLost(reason)  # type: ignore[no-untyped-call]
 
     def _on_time_over(self) -> None:
@@ -42,7 +58,11 @@ class Connection(ProtocolWrapper):
 
 
 class Connections(WrappingFactory):
-    """Refuses connections beyond the limits, all told and from one address."""
+    """Accepts every connection; at a limit an older one that is not a welcomed page's is closed.
+
+    It is one of the address that has the most: the oldest without a complete request, otherwise the
+    oldest. So a page gets in although a few other addresses have all the connections they may.
+    """
 
     protocol = Connection
     noisy = False
@@ -50,20 +70,28 @@ class Connections(WrappingFactory):
     def __init__(self, reactor: Any, wrapped: Any) -> None:
         super().__init__(wrapped)  # type: ignore[no-untyped-call]
         self.reactor = reactor
-        self.peers: Counter[str] = Counter()
+        self._waiting: dict[str, dict[Connection, None]] = {}
 
-    def buildProtocol(  # type: ignore[override]  # noqa: N802
-        self, addr: IAddress | None
-    ) -> ProtocolWrapper | None:
-        """Return what carries the connection; None closes it."""
-        peers = self.peers = +self.peers
-        host = _host(addr)
-        if peers.total() >= CONNECTIONS_LIMIT or peers[host] >= PER_PEER_LIMIT:
-            return None
-        peers[host] += 1
-        made: ProtocolWrapper | None = super().buildProtocol(addr)
-        return made
+    def buildProtocol(self, addr: Any) -> ProtocolWrapper:  # noqa: N802 - Twisted's name
+        """Return what carries the connection."""
+        made: Any = super().buildProtocol(addr)
+        made.peer = neighbourhood(addr.host)
+        own = self._waiting.setdefault(made.peer, {})
+        if len(own) >= PER_PEER_LIMIT:
+            self._shed(own)
+        elif sum(map(len, self._waiting.values())) >= WAITING_LIMIT:
+            self._shed(max(self._waiting.values(), key=len))
+        own[made] = None
+        return cast("Connection", made)
 
+    def forget(self, connection: Connection) -> None:
+        """Count a connection no longer."""
+        own = self._waiting.get(connection.peer, {})
+        own.pop(connection, None)
+        if not own:
+            self._waiting.pop(connection.peer, None)
 
-def _host(address: Any) -> str:
-    return str(getattr(address, "host", ""))
+    def _shed(self, crowd: dict[Connection, None]) -> None:
+        leaving = min(crowd, key=lambda each: each.has_asked)
+        del crowd[leaving]
+        leaving.abortConnection()

@@ -14,6 +14,11 @@ class PageConnection(Interface):
     """The WebSocket of a page."""
 
     output: PageOutput
+    host: str
+    """The address that it comes from."""
+
+    def admit(self) -> None:
+        """Apply the limits of a welcomed page from now on."""
 
     def close(self, code: int, reason: str) -> None:
         """Close it; ``code`` is 4000 to 4999, as RFC 6455 leaves them to us."""

@@ -16,6 +16,8 @@ from up_ground.web.page_output import PageOutput
 
 USER_TIMEOUT_MS = 5000
 PING_S = 5.0
+LONGEST_HELLO = 1024
+"""Limit of a message before its page is welcomed, bytes."""
 NOT_TEXT = 4003
 TOO_LONG = 4008
 
@@ -37,6 +39,7 @@ class PageLink(WebSocketServerProtocol):
     """Text messages both ways; what leaves goes by ``output``, past the library's own queue."""
 
     transport: Any
+    host: str
 
     def __init__(self, owner: LinkOwner, clock: Any) -> None:
         super().__init__()
@@ -53,7 +56,13 @@ class PageLink(WebSocketServerProtocol):
         watch_peer(self.transport, USER_TIMEOUT_MS)
         self.output.start(self.transport)
         self._is_open = True
+        self.host = str(self.transport.getPeer().host)
         self._owner.on_opened(self)
+
+    def admit(self) -> None:
+        """Accept messages up to LONGEST_MESSAGE, and leave the limits of strangers."""
+        self.maxMessagePayloadSize = self.maxFramePayloadSize = LONGEST_MESSAGE
+        self.transport.admit()
 
     def onMessage(self, payload: bytes, isBinary: bool) -> None:  # noqa: N802, N803
         """Hand a message on."""
@@ -99,7 +108,7 @@ class PageLink(WebSocketServerProtocol):
         """Say why, where the library would cut the connection without a word."""
         # It stores nothing of what still comes.
         self.failedByMe = True
-        self.close(TOO_LONG, f"a message has at most {LONGEST_MESSAGE} bytes")
+        self.close(TOO_LONG, f"a message has at most {max_msg_size} bytes")
 
     def _on_overrun(self) -> None:
         # It has not read for long: a closing handshake would wait behind all of that.
@@ -118,8 +127,8 @@ class _Factory(WebSocketServerFactory):
         configure(
             webStatus=False,
             versions=[13],
-            maxFramePayloadSize=LONGEST_MESSAGE,
-            maxMessagePayloadSize=LONGEST_MESSAGE,
+            maxFramePayloadSize=LONGEST_HELLO,
+            maxMessagePayloadSize=LONGEST_HELLO,
             openHandshakeTimeout=5.0,
             closeHandshakeTimeout=1.0,
             autoPingInterval=PING_S,

@@ -14,6 +14,7 @@ from up.system.token_bucket import TokenBucket
 from up.version import VERSION
 from up_ground.safe_text import safe_text
 from up_ground.web.access import Access
+from up_ground.web.key_attempts import KeyAttempts
 from up_ground.web.messages import message_bytes
 from up_ground.web.page import Page, PageConnection
 from up_ground.web.page_message import PageFault, Reader, read_message
@@ -23,7 +24,7 @@ from up_ground.web.watched import WatchedAircraft
 
 GREETING_LIMIT = 16
 """Of so many links that have said no hello yet the oldest goes."""
-HELLO_S = 10.0
+HELLO_S = 5.0
 KEPT_S = 5.0
 """A page that vanishes is expected back for so long."""
 ALIVE_S = 1.0
@@ -66,6 +67,7 @@ class Pages:
         self._pages: dict[int, Page] = {}
         self._timers: dict[int, Timer] = {}
         self._number = 0
+        self._attempts = KeyAttempts(clock)
         self._beat: Timer | None = None
         self._all_closed: Deferred[None] | None = None
 
@@ -203,8 +205,8 @@ class Pages:
         token = message.optional_text("token", 64) or ""
         visit.timer.cancel()
         visit.is_greeting = True
-        why_not = self._access.why_not(key)
         former = self._with_token(token)
+        why_not = self._why_not(link, key, former)
         if former is None:
             self._welcome_new(link, name, why_not)
         elif former.link is None:
@@ -226,6 +228,16 @@ class Pages:
                 self._welcome_back(link, former, name, why_not)
 
             old.is_alive(ALIVE_S, decide)
+
+    def _why_not(self, link: PageConnection, key: str | None, former: Page | None) -> str:
+        why_not = self._access.why_not(key)
+        # A page that may control has shown before that it knows the key.
+        is_known = former is not None and former.may_control
+        if key is None or self._access.is_watch_only or is_known:
+            return why_not
+        if self._attempts.permits(link.host, not why_not):
+            return why_not
+        return "too many wrong keys came from this address: load the page again in a minute"
 
     def _with_token(self, token: str) -> Page | None:
         given = token.encode("utf-8", "replace")
@@ -278,6 +290,7 @@ class Pages:
         self._welcome(link, page)
 
     def _welcome(self, link: PageConnection, page: Page) -> None:
+        link.admit()
         page.link = link
         # A page that was loaded anew begins to count anew; its old numbers mean nothing.
         page.asks = {}

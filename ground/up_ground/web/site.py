@@ -119,6 +119,8 @@ class GroundRequest(Request):
 
     def process(self) -> None:
         """Let the resource answer; Twisted itself answers ``*``, in its own name."""
+        channel: Any = self.channel
+        channel.transport.on_request()
         if self.path == b"*":
             self.path = b"/*"
         super().process()  # type: ignore[no-untyped-call]

@@ -8,6 +8,12 @@ from hypothesis import strategies as st
 from twisted.internet.task import Clock
 
 from up_ground.web.access import Access
+from up_ground.web.key_attempts import (
+    ADDRESSES_KEPT,
+    ATTEMPTS_MOST,
+    ATTEMPTS_RATE_HZ,
+    KeyAttempts,
+)
 from up_ground.web.page_message import PageFault, read_message
 from up_ground.web.pages import FAULTS_LIMIT, GREETING_LIMIT, HELLO_S, KEPT_S, Pages
 from up_ground.web.places import PAGES_LIMIT, WATCHERS_LIMIT
@@ -30,8 +36,12 @@ class Output:
 class Link:
     """A page's connection that remembers."""
 
-    def __init__(self):
+    def __init__(self, host="192.0.2.1"):
         self.output, self.closed, self.alive = Output(), None, True
+        self.host, self.is_admitted = host, False
+
+    def admit(self):
+        self.is_admitted = True
 
     def close(self, code, reason):
         self.closed = (code, reason)
@@ -96,8 +106,8 @@ class Bench:
         self.kite = Kite()
         self.pages.fleet["kite"] = self.kite
 
-    def open(self, hello=True, **more):
-        link = Link()
+    def open(self, hello=True, host="192.0.2.1", **more):
+        link = Link(host)
         self.pages.on_opened(link)
         if hello:
             self.say(link, type="hello", name="Ann", **more)
@@ -318,6 +328,57 @@ def test_where_nobody_may_control_all_places_are_for_watchers():
     bench = Bench(is_watch_only=True)
     assert all(bench.open().closed is None for _ in range(PAGES_LIMIT))
     assert bench.open().closed is not None
+
+
+def test_wrong_keys_are_limited_by_address():
+    bench = Bench(key="the-right-key")
+    limited = "too many wrong keys came from this address: load the page again in a minute"
+
+    def why_not(key, host, **more):
+        link = bench.open(key=key, host=host, **more)
+        assert link.is_admitted
+        bench.pages.on_closed(link)
+        return link.told[0]["why_not"]
+
+    pilot = bench.open(key="the-right-key", host="2001:db8::1")
+    for number in range(ATTEMPTS_MOST):
+        # One network of IPv6 is one address.
+        assert "wrong" in why_not(f"guess-{number}", f"2001:db8::{number + 1:x}")
+    assert why_not("guess", "2001:db8::99") == limited
+    # Otherwise whoever guesses on would see which guess was right.
+    assert why_not("the-right-key", "2001:db8::1") == limited
+    assert why_not("the-right-key", "2001:db8:0:1::1") == ""
+    # Who has shown the key before is not limited.
+    bench.pages.on_closed(pilot)
+    assert why_not("the-right-key", "2001:db8::1", token=pilot.told[0]["token"]) == ""
+    bench.clock.advance(1 / ATTEMPTS_RATE_HZ)
+    assert "without the key" in why_not(None, "2001:db8::1")
+    assert why_not("the-right-key", "2001:db8::1") == ""
+
+
+def test_right_keys_of_one_address_use_nothing_up():
+    bench = Bench(key="the-right-key")
+    for _ in range(3 * ATTEMPTS_MOST):
+        link = bench.open(key="the-right-key")
+        assert link.told[0]["may_control"]
+        bench.pages.on_closed(link)
+        bench.clock.advance(KEPT_S)
+
+
+def test_a_wrong_key_by_the_token_of_a_watcher_is_an_attempt_too():
+    bench = Bench(key="the-right-key")
+    link = bench.open()
+    for _ in range(ATTEMPTS_MOST + 1):
+        bench.pages.on_closed(link)
+        link = bench.open(key="guess", token=link.told[0]["token"])
+    assert "too many wrong keys" in link.told[0]["why_not"]
+
+
+def test_addresses_without_end_take_no_memory_without_end():
+    attempts = KeyAttempts(Clock())
+    for number in range(3 * ADDRESSES_KEPT):
+        assert attempts.permits(f"10.0.{number // 256}.{number % 256}", False)
+    assert len(attempts._known) == ADDRESSES_KEPT
 
 
 def test_links_that_say_nothing_keep_nobody_out(bench):

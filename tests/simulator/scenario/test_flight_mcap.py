@@ -12,6 +12,7 @@ from mcap.reader import make_reader
 
 from tests.simulator.scenario.minimal import log_of, scenario
 from tests.support.firmware import build_firmware
+from up.flight_log.estimate_error import estimate_errors
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.telemetry_frames import frames
 from up.flight_log.wrongs import wrongs
@@ -128,6 +129,7 @@ def test_what_went_wrong_and_its_telemetry_can_be_told_from_it(flown):
     told = [wrong.text for wrong in wrongs(log)]
     assert any(text.startswith("the receiver was lost") for text in told), told
     assert any("failsafe acted" in text for text in told), told
+    assert [each.axis for each in estimate_errors(log)] == ["roll", "pitch"]
     newest = list(frames(log))[-1].data
     assert newest["flight_mode"] and newest["arduino"]["failsafe"] is True
     assert newest["location"]["latitude"] == pytest.approx(50.0, abs=0.01)

@@ -61,6 +61,7 @@ SAMPLES = {
         "utilization": 1, "memory": 1, "providers": [], "arduino_connected": True, "mode": "auto"
     },
     "up.link.state": {"link": "arduino", "connected": True},
+    "up.source.selected": {"reading": "location", "source": "android"},
     "up.ack": {"id": "a"},
     "up.nack": {"id": "a", "code": "refused"},
     "up.command.answered": {"link": "ground", "name": "up.arm"},

@@ -66,7 +66,6 @@ def test_modes_are_told_with_their_times(tmp_path):
         ModeSpan("ACRO", 7.0, 8.0),
         ModeSpan("FBW", 9.0, 10.0),
     ]
-    assert found.mode_times_s == {"FBW": 6.0, "ACRO": 3.0}
     assert found.failsafes == [Span(7.0, 8.0)]
 
 
@@ -78,7 +77,7 @@ def test_without_the_boards_word_telemetry_tells_who_flew(tmp_path):
     found = summarise(maker.log(tmp_path))
     assert found.armed == [Span(5.0, 9.0, is_open=True)]
     assert found.failsafes == [Span(6.0, 7.0)]
-    assert found.mode_times_s == {"FBW": 9.0}
+    assert found.modes == [ModeSpan("FBW", 0.0, 9.0)]
 
 
 def test_a_log_that_tells_nothing_is_summarised_too(tmp_path):

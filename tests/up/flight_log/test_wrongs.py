@@ -395,7 +395,7 @@ def test_the_summary_spares_a_second_look(maker, tmp_path):
 
 def test_every_judgment_is_named_once():
     names = [judge.__name__ for judge in JUDGMENTS]
-    assert len(names) == len(set(names)) == 21
+    assert len(names) == len(set(names)) == 22
     assert all(judge.__doc__ for judge in JUDGMENTS)
 
 

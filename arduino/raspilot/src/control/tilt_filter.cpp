@@ -25,21 +25,21 @@ constexpr float MAX_SPEED_M_S = 40;
 
 // Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more in the
 // first minutes, airspeed from gusts.
-constexpr float TILT_WALK = 0.026F * RAD;
-constexpr float BIAS_WALK = 0.012F * RAD;
-constexpr float EARLY_BIAS_WALK = 0.016F * RAD;
-constexpr float SPEED_WALK = 0.3F;
-constexpr uint16_t EARLY_CYCLES = 150;  // 2 minutes
+constexpr float TILT_WALK = 0.05F * RAD;
+constexpr float BIAS_WALK = 0.01F * RAD;
+constexpr float EARLY_BIAS_WALK = 0.025F * RAD;
+constexpr float SPEED_WALK = 0.2F;
+constexpr uint16_t EARLY_CYCLES = 200;  // 2 minutes
 // The bias drifts as it did in the last minute, later in the last two.
-constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 40;
+constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 60;
 constexpr float DRIFT_SHARE = CYCLE_S / 100;
 
 // 1 sigma of what is observed, for one cycle.
-constexpr float FORCE_SIGMA = 0.1F;              // g, across the nose
+constexpr float FORCE_SIGMA = 0.12F;              // g, across the nose
 constexpr float EXCESS_WEIGHT = 10;              // a force is trusted less when it is not 1 g
-constexpr float SPEED_SIGMA = 7;                 // m/s, about its mean
-constexpr float EARLY_SPEED_SIGMA = 10;
-constexpr float MEAN_SPEED_SHARE = CYCLE_S / 120;
+constexpr float SPEED_SIGMA = 8;                 // m/s, about its mean
+constexpr float EARLY_SPEED_SIGMA = 13;
+constexpr float MEAN_SPEED_SHARE = CYCLE_S / 200;
 constexpr float STRAIGHT_SIGMA = 3 * RAD;        // rad/s: below 5 deg/s a turn is mostly bias
 constexpr float STRAIGHT_LIMIT = 5 * RAD;
 

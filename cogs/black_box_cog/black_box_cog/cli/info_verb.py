@@ -79,6 +79,9 @@ def _figures(summary: FlightSummary) -> Iterator[tuple[str, str]]:
     ):
         if value is not None:
             yield name, f"{value:.{1 if unit == 'm/s' else 0}f} {unit}"
+    for error in summary.estimate_errors:
+        worst = f"{error.worst_deg:.1f} at worst, at {clock_text(error.worst_s)}"
+        yield f"error in {error.axis}", f"{error.rms_deg:.1f} deg rms, {worst}"
     if summary.failsafes:
         yield (
             "failsafe",

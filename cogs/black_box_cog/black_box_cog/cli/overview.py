@@ -10,12 +10,9 @@ from up.flight_log.facts import Facts
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.flights import Flight
 from up.flight_log.mcap_format import FlightLogError
+from up.flight_log.summary import altitudes_m
 
-_ALTITUDES = (
-    ("up.altitude.change", "altitude"),
-    ("up.location.update", "altitude"),
-    ("up.telemetry.update", "altitude"),
-)
+_ALTITUDES_OTHERWISE = ("up.location.update", "up.telemetry.update")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,17 +60,8 @@ def is_being_recorded(path: Path) -> bool:
 
 
 def _highest_m(log: FlightLog) -> float | None:
-    for topic, field in _ALTITUDES:
-        if topic == "up.altitude.change":
-            # What is required is not where it was.
-            heights = [
-                message.data["altitude"]
-                for message in log.messages(topic)
-                if message.data.get("mode", "actual") == "actual"
-                and isinstance(message.data.get("altitude"), int | float)
-            ]
-        else:
-            heights = log.series(topic, field)[1] if topic in log.topics else []
-        if heights:
-            return float(max(heights))
-    return None
+    heights_m = list(altitudes_m(log))
+    for topic in _ALTITUDES_OTHERWISE:
+        if not heights_m and topic in log.topics:
+            heights_m = log.series(topic, "altitude")[1]
+    return max(heights_m, default=None)

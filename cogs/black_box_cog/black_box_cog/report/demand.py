@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from black_box_cog.report.series import Series
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.json_message import number_at
+from up.flight_log.series import Series
 
 STATE, STICKS, SETPOINT = "up.flight.state", "up.rx.update", "up.setpoint.set"
 PROFILE = "arduino.profile.values"

@@ -10,13 +10,15 @@ from typing import Any
 
 from black_box_cog.pictures.chart import Band
 from black_box_cog.report.demand import Demand
-from black_box_cog.report.series import Columns, Series, columns
+from up.flight_log.estimate_error import ORIENTATION, TRUTH
 from up.flight_log.flight_log import FlightLog
+from up.flight_log.followed import followed
 from up.flight_log.origin_text import KEY, link_and_role
+from up.flight_log.series import Columns, Series, columns
 from up.flight_log.telemetry_frames import frames
 
-ORIENTATION, STICKS, SERVOS = "up.orientation.update", "up.rx.update", "up.servo.update"
-STATUS, STATE, TRUTH = "arduino.status", "up.flight.state", "simulator.truth"
+STICKS, SERVOS = "up.rx.update", "up.servo.update"
+STATUS, STATE = "arduino.status", "up.flight.state"
 ALTITUDE, LOCATION, LINK_STATE = "up.altitude.change", "up.location.update", "up.link.state"
 ANGLES = ("roll", "pitch", "yaw")
 CHANNELS = ("ailerons", "elevator", "throttle", "rudder")
@@ -62,10 +64,11 @@ def evidence_of(log: FlightLog) -> Evidence:
     """Read it; raises FlightLogError when a file cannot be read any more."""
     told = partial(_told, log)
     known, states, held_up = _from_frames(log)
-    attitude = columns(told(ORIENTATION), ANGLES, _best_source(log, ORIENTATION))
+    followed_by = partial(followed, log)
+    attitude = columns(followed_by("orientation", ORIENTATION), ANGLES)
     sticks, servos = columns(told(STICKS), INPUTS), columns(told(SERVOS), CHANNELS)
-    altitude = columns(told(ALTITUDE), ("altitude",), lambda data: data.get("mode") != "required")
-    required = columns(told(ALTITUDE), ("altitude",), lambda data: data.get("mode") == "required")
+    altitude = columns(followed_by("altitude", ALTITUDE), ("altitude",))
+    wanted = (each for each in told(ALTITUDE) if each[1].get("mode") == "required")
     return Evidence(
         log=log,
         attitude={name: attitude[name] or known[f"orientation.{name}"] for name in ANGLES},
@@ -75,8 +78,8 @@ def evidence_of(log: FlightLog) -> Evidence:
         status=columns(told(STATUS), ("loop_us", "late_us")),
         frames=known,
         altitude=altitude["altitude"] or known["altitude"],
-        required_altitude=required["altitude"],
-        speed=columns(told(LOCATION), ("speed",))["speed"],
+        required_altitude=columns(wanted, ("altitude",))["altitude"],
+        speed=columns(followed_by("location", LOCATION), ("speed",))["speed"],
         truth=columns(told(TRUTH), TRUTHS),
         bands=list(_bands(log, states)),
         held_up=held_up,
@@ -94,19 +97,6 @@ def _told(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, An
     if known:
         for message in log.messages(*known):
             yield message.time_s, message.data
-
-
-def _best_source(log: FlightLog, topic: str) -> Any:
-    """Return what accepts one source alone: the board's, else the one that speaks first."""
-    links = []
-    for _, data in _told(log, topic):
-        link, role = link_and_role(data.get(KEY))
-        if role == "board":
-            return lambda data: link_and_role(data.get(KEY))[0] == link
-        if link not in links:
-            links.append(link)
-    first = links[0] if links else ""
-    return lambda data: link_and_role(data.get(KEY))[0] == first
 
 
 def _from_frames(log: FlightLog) -> tuple[dict[str, Series], list[tuple[float, str]], Series]:

@@ -9,8 +9,8 @@ from black_box_cog.export.log_track import points_of
 from black_box_cog.export.track import TrackPoint, segments_of
 from black_box_cog.pictures.track_picture import Path, TrackView, Wind
 from black_box_cog.report.evidence import Evidence
-from black_box_cog.report.series import Series
 from up.earth import distance_m
+from up.flight_log.series import Series
 
 _METRES_A_DEGREE = 111_194.9
 _MOST_POINTS = 6000

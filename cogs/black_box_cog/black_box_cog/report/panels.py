@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from black_box_cog.pictures.chart import Curve, Panel
 from black_box_cog.report.evidence import CHANNELS, Evidence
-from black_box_cog.report.series import Series, error_of
+from up.flight_log.series import Series, error_of
 
 _COLOURS = dict(zip(CHANNELS, ("blue", "vermilion", "green", "purple"), strict=True))
 _STYLES = dict(zip(CHANNELS, ("-", "--", "-.", ":"), strict=True))

@@ -10,12 +10,12 @@ from black_box_cog.report.findings import Findings
 from black_box_cog.report.gains import GainSet, asked_sets, changes, gain_sets
 from black_box_cog.report.ground_track import place_error_m
 from black_box_cog.report.html_text import Markup, join, table, tag
-from black_box_cog.report.series import error_of
 from black_box_cog.report.verdict import LEVELS
 from black_box_cog.report.wording import clock_text
 from black_box_cog.report.wrong_groups import WrongGroup, groups_of
 from up.flight_log.gain_changes import Key
 from up.flight_log.origin_text import link_and_role
+from up.flight_log.series import error_of
 from up.flight_log.spans import duration_text
 
 _WORDS = {"alarm": "alarm", "warning": "warning", "info": "note"}
@@ -90,14 +90,11 @@ def truth(findings: Findings) -> Markup | None:
     rows = []
     # Where nobody measured a position the log has the true one, and says so.
     has_source = first_link(findings.log, LOCATION) != "simulator"
-    for name, series, true, unit in (
-        ("roll", evidence.attitude["roll"], evidence.truth["roll_deg"], "deg"),
-        ("pitch", evidence.attitude["pitch"], evidence.truth["pitch_deg"], "deg"),
-        ("altitude", evidence.altitude, evidence.truth["altitude_m"], "m"),
-    ):
-        _, found = error_of(series, true, is_angle=unit == "deg")
-        if found is not None and (has_source or unit == "deg"):
-            rows.append([name, f"{found.rms:.2f} {unit}", f"{found.greatest:.2f} {unit}"])
+    for each in findings.summary.estimate_errors:
+        rows.append([each.axis, f"{each.rms_deg:.2f} deg", f"{each.worst_deg:.2f} deg"])
+    _, found = error_of(evidence.altitude, evidence.truth["altitude_m"], is_angle=False)
+    if found is not None and has_source:
+        rows.append(["altitude", f"{found.rms:.2f} m", f"{found.greatest:.2f} m"])
     place = place_error_m(evidence).values if has_source else []
     if place:
         rms = (sum(value * value for value in place) / len(place)) ** 0.5

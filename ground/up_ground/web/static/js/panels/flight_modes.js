@@ -7,6 +7,9 @@ import { modeWords } from "./words.js";
 const MODES = ["RATE", "FBW", "AUTO"];
 const NAME = "up.flight_mode.set";
 
+/** What the board flies when AUTO is selected: the Raspberry Pi's attitude or its servo positions. */
+const FLOWN_AT_AUTO = ["SETPOINT", "OUTPUT"];
+
 /** The buttons of the flight modes; the one that is flown is marked. */
 export class FlightModes {
   #store;
@@ -40,14 +43,16 @@ export class FlightModes {
   update() {
     const store = this.#store;
     const flown = store.freshness(null) === "live" ? store.text("flight_mode") : null;
-    const offered = store.texts("flight_control.offered");
+    const isControllerReady = store.texts("flight_control.offered")?.length !== 0;
+    const selected = FLOWN_AT_AUTO.includes(flown) ? "AUTO" : flown;
     for (const [mode, button] of this.#buttons) {
-      const isOffered = offered === null || offered.includes(mode);
+      // RATE and FBW are the board's own; AUTO is flown by a controller on the Raspberry Pi, if any.
+      const isOffered = mode !== "AUTO" || isControllerReady;
       button.disabled = !isOffered || this.#asker.objection(NAME, { mode }) !== "";
-      setAttribute(button, "aria-pressed", String(mode === flown));
+      setAttribute(button, "aria-pressed", String(mode === selected));
       setAttribute(button, "data-offered", String(isOffered));
     }
-    setText(this.#line, this.#lineText(offered));
+    setText(this.#line, this.#lineText(isControllerReady));
   }
 
   async #select(mode) {
@@ -61,17 +66,16 @@ export class FlightModes {
     await this.#asker.ask(NAME, { mode }, { note: this.#note, question });
   }
 
-  #lineText(offered) {
+  #lineText(isControllerReady) {
     const words = [];
     const selected = switchMode(this.#store);
     if (selected !== null && selected !== "AUTO") {
       words.push(`The pilot's switch stands at ${selected}: the aircraft takes a mode only at AUTO.`);
     }
-    const missing = this.#store.texts("flight_control.missing") ?? [];
-    const lacking = offered === null ? [] : MODES.filter((mode) => !offered.includes(mode));
-    if (lacking.length > 0) {
+    if (!isControllerReady) {
+      const missing = this.#store.texts("flight_control.missing") ?? [];
       const why = missing.length > 0 ? ` (missing: ${missing.join(", ")})` : "";
-      words.push(`Not offered by the aircraft now: ${lacking.join(", ")}${why}.`);
+      words.push(`AUTO is not offered: the Raspberry Pi's flight controller cannot fly now${why}.`);
     }
     return words.join(" ");
   }

@@ -1,6 +1,6 @@
 import tracemalloc
 
-from black_box_cog.report.series import Series
+from up.flight_log.series import Series
 
 COUNT = 50_000
 
@@ -14,4 +14,4 @@ def test_an_hour_of_numbers_does_not_take_what_pythons_floats_would():
     tracemalloc.stop()
     # Two numbers of eight bytes, and what an array that grows holds in reserve.
     assert taken / COUNT < 24
-    assert (series.last_before(10.0), series.at(10.0, 1.0)) == (3000 / 7, 3000 / 7)
+    assert series.at(10.0, 1.0) == 3000 / 7

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from array import array
-from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from bisect import bisect_left
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -49,11 +49,6 @@ class Series:
         low, high = self.values[after - 1], self.values[after]
         return low + (high - low) * (time_s - low_s) / (high_s - low_s)
 
-    def last_before(self, time_s: float) -> float | None:
-        """Return the newest value at a time."""
-        at = bisect_right(self.times_s, time_s)
-        return self.values[at - 1] if at else None
-
 
 class Columns:
     """Collects a series for each field (dotted paths) of the messages that it is given."""
@@ -69,15 +64,12 @@ class Columns:
 
 
 def columns(
-    messages: Iterable[tuple[float, Mapping[str, Any]]],
-    fields: Sequence[str],
-    accepts: Callable[[Mapping[str, Any]], bool] = lambda data: True,
+    messages: Iterable[tuple[float, Mapping[str, Any]]], fields: Sequence[str]
 ) -> dict[str, Series]:
-    """Return a series for each field of the messages that are accepted."""
+    """Return a series for each field of the messages."""
     found = Columns(fields)
     for time_s, data in messages:
-        if accepts(data):
-            found.take(time_s, data)
+        found.take(time_s, data)
     return found.series
 
 

@@ -1,0 +1,68 @@
+// With `flight controller: raspberry` the page selects the modes of the board and of the controller.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { startBrowser } from "./support/browser.mjs";
+import { FakeFlight } from "./support/fake_flight.mjs";
+import { GroundPage } from "./support/ground_page.mjs";
+import { startShowcase } from "./support/showcase.mjs";
+import { until } from "./support/wait.mjs";
+
+/** What the board flies when the ground selects a mode. */
+const FLOWN = { RATE: "RATE", FBW: "FBW", AUTO: "OUTPUT" };
+let showcase;
+let browser;
+let ground;
+
+before(async () => {
+  browser = await startBrowser();
+  showcase = await startShowcase(["--controller", "raspberry"]);
+  ground = await (await GroundPage.open(browser, showcase.address)).isLive();
+  await ground.takeControl();
+});
+
+after(async () => {
+  await browser?.close();
+  await showcase?.stop();
+});
+
+test("every mode is offered and flown, whichever is flown before", async () => {
+  await until(async () => (await ground.frame()).flight_mode === "OUTPUT" || null, "the controller's Outputs");
+  for (const mode of ["RATE", "FBW", "AUTO", "FBW", "RATE", "AUTO"]) {
+    await ground.until(
+      () => [...document.querySelectorAll("[data-mode]")].every((button) => !button.disabled),
+      "three modes offered",
+    );
+    const answer = await ground.answerTo(() => ground.press(`[data-mode="${mode}"]`));
+    assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+    await until(async () => (await ground.frame()).flight_mode === FLOWN[mode] || null, `${mode} in telemetry`);
+    await ground.until(
+      (mode) => document.querySelector(`[data-mode="${mode}"]`).getAttribute("aria-pressed") === "true",
+      `${mode} marked`,
+      mode,
+    );
+  }
+  ground.assertClean();
+});
+
+test("AUTO is not offered while the controller cannot fly, with the reason", async () => {
+  const flight = await FakeFlight.start();
+  try {
+    flight.tell({ data: { flight_control: { mode: null, offered: [], missing: ["rx"] } } });
+    const page = await (await GroundPage.open(browser, flight.address)).isLive();
+    await page.takeControl();
+    await page.until(
+      () => document.querySelector('[data-mode="AUTO"]').dataset.offered === "false",
+      "AUTO not offered",
+    );
+    const disabled = await page.page.evaluate(() =>
+      [...document.querySelectorAll("[data-mode]")].filter((each) => each.disabled).map((each) => each.dataset.mode),
+    );
+    assert.deepEqual(disabled, ["AUTO"]);
+    assert.match(await page.text(".modes + .quiet"), /missing: rx/);
+    page.assertClean();
+  } finally {
+    await GroundPage.closeAll();
+    await flight.stop();
+  }
+});

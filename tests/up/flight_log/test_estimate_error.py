@@ -1,0 +1,105 @@
+"""The attitude against the truth of a simulated flight: figures, and what is told as wrong."""
+
+import math
+
+import pytest
+
+from tests.up.flight_log.flights import BOARD, PHONE, FlightMaker, OrientationCommand
+from up.flight_log.estimate_error import estimate_errors
+from up.flight_log.summary import summarise
+from up.flight_log.wrongs import wrongs
+
+FLOWN_S = 20.0
+
+
+def flown(folder, true, estimate, late_s=0.0):
+    """Return the log of a flight: (roll, pitch) by the time, true and estimated."""
+    maker = FlightMaker()
+    found = []
+    for tick in range(round(FLOWN_S * 50)):
+        time_s = tick / 50
+        found.append((time_s + late_s, OrientationCommand(*estimate(time_s), 0.0, 0, 0, 0)))
+    truth = [(tick / 20, true(tick / 20)) for tick in range(round(FLOWN_S * 20))]
+    for time_s, what in sorted([*found, *truth], key=lambda each: each[0]):
+        if isinstance(what, tuple):
+            maker.add(time_s, "simulator.truth", roll_deg=what[0], pitch_deg=what[1])
+        else:
+            maker.put(time_s, what, BOARD)
+    return maker.log(folder)
+
+
+def level(time_s):
+    return 0.0, 0.0
+
+
+def rolling(time_s):
+    """Up to 100 deg/s."""
+    return 50 * math.sin(2 * time_s), 0.0
+
+
+def test_worst_and_rms_of_each_axis_with_code_and_fields(tmp_path):
+    def estimate(time_s):
+        return 3.0 if 4 <= time_s < 9 else 0.0, -4.0 if time_s > 15 else -1.0
+
+    log = flown(tmp_path, level, estimate)
+    roll, pitch = summarise(log).estimate_errors
+    assert (roll.axis, roll.worst_deg, roll.worst_s) == ("roll", 3.0, 4.0)
+    assert roll.rms_deg == pytest.approx(1.5, abs=0.02)
+    assert (pitch.axis, pitch.worst_deg) == ("pitch", 4.0)
+    found = [each for each in wrongs(log) if each.code == "estimate_error"]
+    assert [(each.level, each.time_s, dict(each.values)) for each in found] == [
+        (
+            "warning",
+            each.worst_s,
+            {
+                "axis": each.axis,
+                "rms_deg": each.rms_deg,
+                "worst_deg": each.worst_deg,
+                "worst_s": each.worst_s,
+            },
+        )
+        for each in (roll, pitch)
+    ]
+
+
+def test_up_to_two_degrees_nothing_is_told_as_wrong(tmp_path):
+    log = flown(tmp_path, level, lambda time_s: (2.0, -1.9))
+    assert [each.worst_deg for each in estimate_errors(log)] == pytest.approx([2.0, 1.9])
+    assert [each for each in wrongs(log) if each.code] == []
+
+
+def test_a_roll_that_is_logged_a_little_late_is_no_error(tmp_path):
+    roll, _ = estimate_errors(flown(tmp_path, rolling, rolling, late_s=0.04))
+    assert roll.worst_deg < 0.1
+    roll, _ = estimate_errors(flown(tmp_path, rolling, rolling, late_s=0.2))
+    assert roll.worst_deg > 10
+
+
+def test_inverted_the_error_goes_the_short_way(tmp_path):
+    log = flown(tmp_path, lambda time_s: (179.5, 0.0), lambda time_s: (-178.5, 0.0))
+    assert [each.worst_deg for each in estimate_errors(log)] == [2.0, 0.0]
+
+
+def test_on_its_back_a_large_error_is_not_taken_for_none(tmp_path):
+    def upside_down(time_s):
+        return 100 * time_s + 180, 0.0
+
+    # The error itself passes 180 deg within the time that is compared.
+    roll, _ = estimate_errors(flown(tmp_path, lambda time_s: (100 * time_s, 0.0), upside_down))
+    assert roll.worst_deg > 170
+
+
+def test_another_source_than_the_one_flown_by_does_not_count(tmp_path):
+    maker = FlightMaker()
+    for tick in range(200):
+        maker.add(tick / 20, "simulator.truth", roll_deg=0.0, pitch_deg=0.0)
+        maker.put(tick / 20, OrientationCommand(1.0, 0.0, 0.0, 0, 0, 0), BOARD)
+        maker.put(tick / 20, OrientationCommand(9.0, 0.0, 0.0), PHONE)
+    roll, _ = estimate_errors(maker.log(tmp_path))
+    assert roll.worst_deg == 1.0
+
+
+def test_a_real_flight_has_no_truth(tmp_path):
+    maker = FlightMaker()
+    maker.quiet_flight()
+    assert list(estimate_errors(maker.log(tmp_path))) == []
