@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from twisted.internet.error import CannotListenError
-from twisted.internet.interfaces import IAddress
 from twisted.internet.protocol import connectionDone
 from twisted.protocols.policies import ProtocolWrapper, WrappingFactory
 from twisted.python.failure import Failure
@@ -99,7 +98,7 @@ class MetricsConnection(ProtocolWrapper):
 
 
 class MetricsFactory(WrappingFactory):
-    """Accepts at most MAX_CONNECTIONS connections; `clock` times them."""
+    """Keeps at most MAX_CONNECTIONS connections, the newest; `clock` times them."""
 
     protocol = MetricsConnection
     noisy = False
@@ -114,14 +113,17 @@ class MetricsFactory(WrappingFactory):
         super().__init__(site)  # type: ignore[no-untyped-call]
         self.clock = clock
 
-    def buildProtocol(  # type: ignore[override]  # noqa: N802
-        self, addr: IAddress | None
-    ) -> ProtocolWrapper | None:
-        """Return what carries the connection; None closes it."""
+    def registerProtocol(self, p: ProtocolWrapper) -> None:  # noqa: N802 - Twisted's name
+        """Make room for a new connection: the oldest is the slowest."""
         if len(self.protocols) >= MAX_CONNECTIONS:
-            return None
-        made: ProtocolWrapper | None = super().buildProtocol(addr)
-        return made
+            oldest = next(iter(self.protocols))
+            self.unregisterProtocol(oldest)
+            oldest.transport.abortConnection()
+        super().registerProtocol(p)  # type: ignore[no-untyped-call]
+
+    def unregisterProtocol(self, p: ProtocolWrapper) -> None:  # noqa: N802 - Twisted's name
+        """Count a connection no longer."""
+        self.protocols.pop(p, None)
 
 
 class TcpReactor(Clock, Protocol):

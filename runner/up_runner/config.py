@@ -99,7 +99,7 @@ class Connections:
     )
     address_limit: int = key(
         32,
-        "Connections at once from one address.",
+        "Connections at once from one address (IPv6: from one /64 network).",
         name="address limit",
         minimum=1,
         maximum=100_000,

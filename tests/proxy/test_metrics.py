@@ -134,15 +134,13 @@ def test_a_slow_request_ends_after_the_limit_however_it_drips():
     assert not clock.getDelayedCalls()
 
 
-def test_connections_are_bounded():
+def test_slow_connections_do_not_keep_another_one_out():
     factory = MetricsFactory(task.Clock(), lambda: "")
-    peers = [factory.buildProtocol(None) for _ in range(MAX_CONNECTIONS)]
-    for peer in peers:
-        peer.makeConnection(StringTransport())
-    assert None not in peers
-    assert factory.buildProtocol(None) is None
-    peers[0].connectionLost(Failure(ConnectionAborted()))
-    assert factory.buildProtocol(None) is not None
+    transports = [StringTransport() for _ in range(2 * MAX_CONNECTIONS)]
+    for transport in transports:
+        factory.buildProtocol(None).makeConnection(transport)
+    kept = [not transport.disconnecting for transport in transports]
+    assert kept == MAX_CONNECTIONS * [False] + MAX_CONNECTIONS * [True]
 
 
 def test_the_page_can_be_switched_off(tmp_path):
