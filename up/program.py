@@ -25,9 +25,11 @@ from up.mode import Mode
 from up.system.forced_end import ForcedEnd
 from up.system.garbage import QuietCollector
 from up.system.notify import Notifier, WatchdogPinger
+from up.system.pid_file import pid_file
 from up.system.reactor_monitor import ReactorMonitor
 from up.system.scheduling import use_realtime_priority
 from up.system.signal_wakeup import SignalWakeup
+from up.system.user_signals import ignore_user_signals
 from up.up import Up
 from up.up_loader import UpLoader
 
@@ -140,6 +142,7 @@ class Program:
         self._reactor.callFromThread(self.stop, signal.Signals(number).name)
 
 
+@pid_file()
 def run_application(
     start: Path, config_folder: Path | None = None, environ: Mapping[str, str] = os.environ
 ) -> int:
@@ -151,6 +154,7 @@ def run_application(
 
     from up.system.clock import use_monotonic_time
 
+    ignore_user_signals()
     use_monotonic_time(reactor)
     application = None
     try:

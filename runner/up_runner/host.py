@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -104,6 +105,7 @@ class Host:
         environ = dict(
             self._environ,
             NOTIFY_SOCKET=str(self._notify_path(name)),
+            UP_PID_FILE=str(self._pid_path(name)),
             UP_INSTANCE=name,
             UP_MODE=application.mode,
             PYTHONUNBUFFERED="1",
@@ -141,6 +143,9 @@ class Host:
     def forget(self, name: str) -> None:
         """Let the next runner not start the instance again."""
         record.forget(self.run_folder.instance(name))
+        with suppress(OSError):
+            # A killed instance leaves it behind.
+            self._pid_path(name).unlink(missing_ok=True)
 
     def load(self, name: str) -> Record | None:
         """Return what the runner before wrote about an instance."""
@@ -167,6 +172,9 @@ class Host:
     def _prepare(self, request: Request) -> tuple[Path, int]:
         config = self._config.build(request, self.folder / request.aircraft)
         return config, self.logs.open(request.aircraft)
+
+    def _pid_path(self, name: str) -> Path:
+        return self.run_folder.instance(name) / "pid"
 
     def _notify_path(self, name: str) -> Path:
         return self.run_folder.instance(name) / NOTIFY

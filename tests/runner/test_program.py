@@ -31,6 +31,26 @@ def test_it_is_a_module_that_runs():
     assert shown.stdout.decode() == f"up-runner {VERSION}\n"
 
 
+def test_what_is_no_request_to_end_ends_nothing(runners):
+    runner = runners().start()
+    for number in (signal.SIGUSR1, signal.SIGUSR2):
+        runner.process.send_signal(number)
+    assert runner.status()["running"] is False
+    assert (runner.run_folder / ".runner.pid").read_text() == f"{runner.process.pid}\n"
+
+
+def test_an_instance_has_its_pid_file(runners):
+    runner = runners().start()
+    pid = runner.run_folder / "glider-1" / "pid"
+    answer = runner.spawn()
+    named, port = answer["pid"], answer["ports"]["general"]
+    assert runner.talk(port).order("environ UP_PID_FILE") == str(pid)
+    # A killed program leaves its file behind; the runner removes it with the instance.
+    pid.write_text(f"{named}\n")
+    os.kill(named, signal.SIGTERM)
+    wait_until(lambda: not pid.exists(), "the pid file is removed")
+
+
 def test_wrong_arguments_are_told():
     for port in ("x", "-1", "65536", "1" * 5000):
         told = run("--port", port)
