@@ -12,6 +12,8 @@ import yaml
 
 from tests.runner.runners import can_connect, is_alive, wait_until
 from tests.runner.test_watching import restarted
+from tests.support.sandbox import service, under
+from tests.support.tools import need_tool
 
 ROOT = Path(__file__).parents[2]
 
@@ -44,6 +46,20 @@ def test_two_instances_run_and_their_phones_find_them(raspilot):
         assert answer["spawned"] is True and set(answer["ports"]) >= {"general", "orientation"}
         assert all(can_connect(port) for port in answer["ports"].values())
     assert len({port for answer in answers for port in answer["ports"].values()}) == 4
+
+
+def test_it_runs_under_the_units_system_call_filter(raspilot):
+    need_tool("systemd-analyze", "systemd")
+    units = "runner/up-runner.service", "raspilot/raspilot.service"
+    filters = [service(unit)["SystemCallFilter"] for unit in units]
+    # An instance inherits the runner's.
+    assert filters[0] == filters[1]
+    runner = raspilot()
+    runner.prefix = under(units[0])
+    runner.start()
+    instance = runner.spawn()
+    assert runner.status()["pid"] == instance["pid"]
+    assert runner.terminate() == 0
 
 
 def test_a_killed_one_comes_back_and_a_new_runner_finds_it(raspilot):
