@@ -25,24 +25,6 @@ from up_runner.request import NAME, Request
 from up_runner.run_folder import RunFolder
 
 NOTIFY = "notify"
-OURS_ALONE = (
-    "NOTIFY_SOCKET",
-    "WATCHDOG_USEC",
-    "WATCHDOG_PID",
-    "INVOCATION_ID",
-    "JOURNAL_STREAM",
-    "LISTEN_FDS",
-    "LISTEN_PID",
-    "LISTEN_FDNAMES",
-    "MAINPID",
-    "RUNTIME_DIRECTORY",
-    "STATE_DIRECTORY",
-    "LOGS_DIRECTORY",
-    "UPSTART_JOB",
-    "UPSTART_EVENTS",
-    "UPSTART_INSTANCE",
-)
-"""What a service manager told the runner about itself and no instance may take for its own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +41,8 @@ class Application:
 class Host:
     """Does for instances what touches the machine; what may wait for the disk, in threads.
 
-    `folder` holds the instances' configuration, `run_folder` their sockets and records.
+    `folder` holds the instances' configuration, `run_folder` their sockets and records; `environ`
+    is what they inherit.
     """
 
     def __init__(
@@ -79,7 +62,7 @@ class Host:
         self.on_change: Callable[[str], None] = lambda name: None
         self._application = application
         self._config = config
-        self._environ = {name: text for name, text in environ.items() if name not in OURS_ALONE}
+        self._environ = dict(environ)
         self._disk = DeferredLock()
         self._log = Logger(namespace="runner")
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.runner.runners import APPLICATION, wait_until
+from tests.support.tools import need_root
 from up.version import VERSION
 
 PROGRAM = Path(sys.executable).with_name("up-runner")
@@ -37,6 +38,13 @@ def test_what_is_no_request_to_end_ends_nothing(runners):
         runner.process.send_signal(number)
     assert runner.status()["running"] is False
     assert (runner.run_folder / ".runner.pid").read_text() == f"{runner.process.pid}\n"
+
+
+def test_root_is_refused_unless_it_is_accepted(runners):
+    need_root()
+    runner = runners(i_accept_root=False).launch()
+    assert runner.wait() == 1
+    assert "i_accept_root" in runner.said and len(runner.said.splitlines()) == 1
 
 
 def test_an_instance_has_its_pid_file(runners):
