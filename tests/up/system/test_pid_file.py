@@ -47,7 +47,7 @@ def test_a_second_one_is_refused_and_the_first_stays_named(path):
     with holder(path) as first:
         first.stdout.readline()
         with holder(path) as second:
-            assert second.wait() == 1
+            assert second.wait(30) == 1
             assert second.stderr.read() == (f"process {first.pid} runs already (pid file {path})\n")
         assert path.read_text() == f"{first.pid}\n"
 
