@@ -28,9 +28,9 @@ class Telemetry:
     """The newest frame, read with suspicion: a field of a wrong type is a field not known.
 
     Times are the clock's seconds. ``lost`` counts the frames that the beacon's numbers say were
-    sent and did not come, or came too late. ``way_s`` is how long the newest one was on its way, as far as that is
-    known: half of the round trip to the proxy, and by how much it came later than the quickest one
-    by the aircraft's own clock, where it tells one (``system.clock_ms``).
+    sent and did not come, or came too late. ``way_s`` is how long the newest one was on its way, as
+    far as that is known: half of the round trip to the proxy, and by how much it came later than
+    the quickest one by the aircraft's own clock, where it tells one (``system.clock_ms``).
     """
 
     def __init__(self) -> None:

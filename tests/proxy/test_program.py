@@ -55,10 +55,11 @@ def test_what_is_no_request_to_end_ends_nothing(tmp_path, signals):
     with Program(tmp_path, prefix=("nohup",) if signal.SIGHUP in signals else ()) as proxy:
         for number in signals:
             proxy.process.send_signal(number)
-        with accepted(proxy.airborne_port, "UP1 aircraft=a\n")[0] as air:
-            with accepted(proxy.ground_port, "UP1 aircraft=a seat=listen\n")[0] as ground:
-                air.say("telemetry\n")
-                ground.expect("telemetry")
+        air, _ = accepted(proxy.airborne_port, "UP1 aircraft=a\n")
+        ground, _ = accepted(proxy.ground_port, "UP1 aircraft=a seat=listen\n")
+        with air, ground:
+            air.say("telemetry\n")
+            ground.expect("telemetry")
         assert proxy.end() == 0
 
 

@@ -38,10 +38,11 @@ def test_systemd_finds_no_fault(tmp_path):
 def test_it_runs_under_the_units_system_call_filter(tmp_path):
     need_tool("systemd-analyze", "systemd")
     with Program(tmp_path, prefix=under("proxy/up-proxy.service")) as proxy:
-        with accepted(proxy.airborne_port, "UP1 aircraft=a\n")[0] as air:
-            with accepted(proxy.ground_port, "UP1 aircraft=a seat=listen\n")[0] as ground:
-                air.say("telemetry\n")
-                ground.expect("telemetry")
+        air, _ = accepted(proxy.airborne_port, "UP1 aircraft=a\n")
+        ground, _ = accepted(proxy.ground_port, "UP1 aircraft=a seat=listen\n")
+        with air, ground:
+            air.say("telemetry\n")
+            ground.expect("telemetry")
         assert proxy.end() == 0
 
 

@@ -1,7 +1,7 @@
 """Runs a command under the system call filter of a systemd unit: UNIT COMMAND...
 
-The unit's SystemCallFilter, MemoryDenyWriteExecute and NoNewPrivileges, without systemd: a call that
-is not in the filter ends the process by SIGSYS, as under systemd.
+The unit's SystemCallFilter, MemoryDenyWriteExecute and NoNewPrivileges, without systemd: a call
+that is not in the filter ends the process by SIGSYS, as under systemd.
 """
 
 import configparser

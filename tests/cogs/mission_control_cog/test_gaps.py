@@ -128,19 +128,22 @@ def test_after_a_cut_of_one_second_no_late_frame_is_shown(tmp_path, monkeypatch)
             async with Aircraft(tmp_path / "a", proxy.airborne_port, host=THERE) as a:
                 ground = GroundStation(a.up, proxy.ground_port, tmp_path)
                 ground.link.start()
-                await until(lambda: len(ground.shown) > 3)
-                before = len(ground.shown)
-                blackhole(inside)
-                await sleep(1.0)
-                light(inside)
-                await until(lambda: len(ground.shown) > before + 5, 10)
-                assert a.provider.telemetry_content["counters"]["mission_control"]["connects"] == 1
-                late = [age_s for _, age_s in ground.came if age_s > 1]
+                try:
+                    await until(lambda: len(ground.shown) > 3)
+                    before = len(ground.shown)
+                    blackhole(inside)
+                    await sleep(1.0)
+                    light(inside)
+                    await until(lambda: len(ground.shown) > before + 5, 10)
+                finally:
+                    await ground.link.stop()
+                connects = a.provider.telemetry_content["counters"]["mission_control"]["connects"]
+                assert connects == 1
+                late = [age_s for _, age_s in ground.came if age_s > LATE_S]
                 # Those that left in the 200 ms before the kernel repeats one, and one of the proxy.
-                assert 1 <= len(late) <= 6
+                assert 1 <= len(late) <= 5
                 # Two clocks and the reactor's own lateness are in the age.
                 assert max(age_s for _, age_s in ground.shown) < LATE_S + 0.2
-                await ground.link.stop()
 
         run_in_reactor(fly, timeout_s=90)
 

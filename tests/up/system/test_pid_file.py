@@ -86,7 +86,7 @@ def test_a_file_that_was_removed_while_waiting_for_its_lock_is_not_taken(path, m
 
 def test_a_link_is_not_followed(path, tmp_path):
     path.symlink_to(tmp_path / "elsewhere")
-    with pytest.raises(SystemExit, match="it.pid"), pid_file({VARIABLE: str(path)}):
+    with pytest.raises(SystemExit, match=r"it\.pid"), pid_file({VARIABLE: str(path)}):
         pytest.fail("held")
     assert not (tmp_path / "elsewhere").exists()
 
