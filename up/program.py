@@ -26,11 +26,10 @@ from up.protocols.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.system.forced_end import ForcedEnd
 from up.system.garbage import QuietCollector
 from up.system.notify import Notifier, WatchdogPinger
-from up.system.pid_file import pid_file
+from up.system.pid_file import service
 from up.system.reactor_monitor import ReactorMonitor
 from up.system.scheduling import use_realtime_priority
 from up.system.signal_wakeup import SignalWakeup
-from up.system.user_signals import ignore_user_signals
 from up.up import Up
 from up.up_loader import UpLoader
 
@@ -143,7 +142,7 @@ class Program:
         self._reactor.callFromThread(self.stop, signal.Signals(number).name)
 
 
-@pid_file()
+@service()
 def run_application(
     start: Path, config_folder: Path | None = None, environ: Mapping[str, str] = os.environ
 ) -> int:
@@ -155,7 +154,6 @@ def run_application(
 
     from up.system.clock import use_monotonic_time
 
-    ignore_user_signals()
     use_monotonic_time(reactor)
     application = None
     try:

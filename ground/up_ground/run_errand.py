@@ -9,20 +9,18 @@ from typing import Any
 from twisted.internet.defer import Deferred
 
 from up.system.clock import use_monotonic_time
-from up.system.pid_file import pid_file
-from up.system.user_signals import ignore_user_signals
+from up.system.pid_file import service
 from up_ground.errand import EXIT_INTERRUPTED, EXIT_REFUSED, complain
 
 MakeErrand = Callable[[Any], Any]
 
 
-@pid_file()
+@service()
 def run(make: MakeErrand) -> int:
     """Do an errand on the real reactor until it is finished or interrupted."""
     from twisted.internet import reactor
 
     loop: Any = reactor
-    ignore_user_signals()
     use_monotonic_time(loop)
     errand = make(loop)
     status = [EXIT_INTERRUPTED]

@@ -14,8 +14,7 @@ from up.config import ConfigErrors
 from up.log import UpLogger, start_logging
 from up.system.clock import use_monotonic_time
 from up.system.notify import Notifier, WatchdogPinger
-from up.system.pid_file import pid_file
-from up.system.user_signals import ignore_user_signals
+from up.system.pid_file import service
 from up.version import VERSION
 from up_proxy.config import PROXY, ProxyConfig
 from up_proxy.listener import ListenError
@@ -124,10 +123,9 @@ def _say(text: str) -> None:
     sys.stderr.write(f"up-proxy: {text}\n")
 
 
-@pid_file()
+@service()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status."""
-    ignore_user_signals()
     options = parse_arguments(arguments)
     if options.config is not None and not options.config.is_dir():
         sys.stderr.write(f"--config {options.config}: no such folder\n")

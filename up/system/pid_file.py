@@ -1,9 +1,10 @@
-"""The file with a running program's process number, for whoever sends it a signal."""
+"""The process of a running program: the file with its number, the signals that it ignores."""
 
 from __future__ import annotations
 
 import fcntl
 import os
+import signal
 from collections.abc import Iterator, MutableMapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -58,8 +59,14 @@ class PidFile:
 
 
 @contextmanager
-def pid_file(environ: MutableMapping[str, str] = os.environ) -> Iterator[None]:
-    """Keep the file that UP_PID_FILE names, if any; exit with status 1 where that fails."""
+def service(environ: MutableMapping[str, str] = os.environ) -> Iterator[None]:
+    """Run a program's main: ignore SIGUSR1 and SIGUSR2, and keep the file that UP_PID_FILE names.
+
+    Raises SystemExit with a sentence where the file cannot be kept.
+    """
+    for number in (signal.SIGUSR1, signal.SIGUSR2):
+        # A handler, not SIG_IGN, which programs that this one starts would inherit.
+        signal.signal(number, lambda *_: None)
     path = environ.pop(VARIABLE, "")
     file = PidFile(Path(path).absolute())
     if path:

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from up.system.pid_file import VARIABLE, PidFile, PidFileHeld, pid_file
+from up.system.pid_file import VARIABLE, PidFile, PidFileHeld, service
 
 HOLD = (
-    "import os, sys; from up.system.pid_file import pid_file\n"
-    "with pid_file():\n"
+    "import os, sys; from up.system.pid_file import service\n"
+    "with service():\n"
     "    print('UP_PID_FILE' in os.environ, flush=True)\n"
     "    sys.stdin.read()\n"
 )
@@ -57,7 +57,7 @@ def test_a_stale_file_is_written_again(path):
         killed.stdout.readline()
         killed.send_signal(signal.SIGKILL)
     assert path.read_text() == f"{killed.pid}\n"
-    with pid_file({VARIABLE: str(path)}):
+    with service({VARIABLE: str(path)}):
         assert path.read_text() == f"{os.getpid()}\n"
         with pytest.raises(PidFileHeld):
             PidFile(path).take()
@@ -86,12 +86,12 @@ def test_a_file_that_was_removed_while_waiting_for_its_lock_is_not_taken(path, m
 
 def test_a_link_is_not_followed(path, tmp_path):
     path.symlink_to(tmp_path / "elsewhere")
-    with pytest.raises(SystemExit, match=r"it\.pid"), pid_file({VARIABLE: str(path)}):
+    with pytest.raises(SystemExit, match=r"it\.pid"), service({VARIABLE: str(path)}):
         pytest.fail("held")
     assert not (tmp_path / "elsewhere").exists()
 
 
 def test_without_a_name_there_is_no_file(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with pid_file({}):
+    with service({}):
         assert list(tmp_path.iterdir()) == []
