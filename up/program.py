@@ -22,7 +22,7 @@ from up.loading.files import config_files
 from up.loading.plan import BootError
 from up.log import start_logging
 from up.mode import Mode
-from up.protocols.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.system.forced_end import ForcedEnd
 from up.system.garbage import QuietCollector
 from up.system.notify import Notifier, WatchdogPinger

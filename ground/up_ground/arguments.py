@@ -6,7 +6,7 @@ import argparse
 import math
 from collections.abc import Mapping, Sequence
 
-from up.protocols.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.version import VERSION
 from up_ground.page_options import add_page_options
 from up_ground.replay.verb import EPILOG, add_arguments

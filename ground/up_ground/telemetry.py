@@ -73,7 +73,7 @@ class Telemetry:
         return True
 
     def _is_superseded(self, stamp_ms: float | None, held_s: float | None, now_s: float) -> bool:
-        """Say whether the next frame left before this late one came, as in a cut of the link."""
+        """Return whether the next frame left before this late one came, as in a cut of the link."""
         before_ms, self._stamp_ms = self._stamp_ms, stamp_ms
         period_s = (stamp_ms - before_ms) / 1000 if stamp_ms and before_ms else math.inf
         if held_s is None or held_s <= max(LATE_S, period_s):

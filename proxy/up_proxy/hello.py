@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from enum import Enum
 
-from up.protocols.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 HELLO_MAX_BYTES = 512
 """A hello is at most this long, its LF included."""

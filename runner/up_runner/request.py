@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, NoReturn
 
-from up.protocols.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 MAX_LINE = 64 * 1024
 """Longest request in bytes, its line feed not counted."""

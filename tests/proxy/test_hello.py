@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from up.protocols.aircraft_name import AIRCRAFT_NAME
+from up.system.aircraft_name import AIRCRAFT_NAME
 from up_proxy.hello import (
     CODES,
     HELLO_MAX_BYTES,

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from up.config import ConfigFile, key, section
-from up.protocols.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.system.addresses import is_wildcard
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 _HOST = re.compile(r"[A-Za-z0-9_.:%-]*", re.ASCII)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from up.protocols.aircraft_name import AIRCRAFT_NAME
+from up.system.aircraft_name import AIRCRAFT_NAME
 from up_ground.settings import Seat, Settings
 
 AIRCRAFT_LIMIT = 16
