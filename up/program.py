@@ -22,9 +22,11 @@ from up.loading.files import config_files
 from up.loading.plan import BootError
 from up.log import start_logging
 from up.mode import Mode
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.system.forced_end import ForcedEnd
 from up.system.garbage import QuietCollector
 from up.system.notify import Notifier, WatchdogPinger
+from up.system.pid_file import service
 from up.system.reactor_monitor import ReactorMonitor
 from up.system.scheduling import use_realtime_priority
 from up.system.signal_wakeup import SignalWakeup
@@ -140,6 +142,7 @@ class Program:
         self._reactor.callFromThread(self.stop, signal.Signals(number).name)
 
 
+@service()
 def run_application(
     start: Path, config_folder: Path | None = None, environ: Mapping[str, str] = os.environ
 ) -> int:
@@ -202,7 +205,10 @@ def make_context(
     folder = application.config_folder if config_folder is None else config_folder.resolve()
     if config_folder is not None and not folder.is_dir():
         raise BootError(f"--config {config_folder}: no such folder")
-    context = Context(reactor, Mode.AUTO, folder, instance=environ.get("UP_INSTANCE", ""))
+    instance = environ.get("UP_INSTANCE", "")
+    if instance and not AIRCRAFT_NAME.fullmatch(instance):
+        raise BootError(f"UP_INSTANCE={instance!r}: must be {AIRCRAFT_NAME_RULE}")
+    context = Context(reactor, Mode.AUTO, folder, instance=instance)
     wanted = environ.get("UP_MODE") or context.application.mode
     try:
         context.mode = Mode(wanted.strip().lower())

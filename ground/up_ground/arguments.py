@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import argparse
 import math
-import re
 from collections.abc import Mapping, Sequence
 
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.version import VERSION
 from up_ground.page_options import add_page_options
 from up_ground.replay.verb import EPILOG, add_arguments
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
 
-_AIRCRAFT = re.compile(r"[A-Za-z0-9_.-]{1,32}", re.ASCII)
 _LONGEST_S = 1e7
 
 _EPILOG = """\
@@ -247,9 +246,9 @@ def _port(text: str) -> int:
 
 
 def _aircraft(text: str) -> str:
-    if not _AIRCRAFT.fullmatch(text):
+    if not AIRCRAFT_NAME.fullmatch(text):
         raise argparse.ArgumentTypeError(
-            f"an aircraft's name is 1 to 32 letters, digits, _ . or -, not {text!r}"
+            f"an aircraft's name must be {AIRCRAFT_NAME_RULE}: {text!r}"
         )
     return text
 

@@ -9,11 +9,13 @@ from typing import Any
 from twisted.internet.defer import Deferred
 
 from up.system.clock import use_monotonic_time
+from up.system.pid_file import service
 from up_ground.errand import EXIT_INTERRUPTED, EXIT_REFUSED, complain
 
 MakeErrand = Callable[[Any], Any]
 
 
+@service()
 def run(make: MakeErrand) -> int:
     """Do an errand on the real reactor until it is finished or interrupted."""
     from twisted.internet import reactor

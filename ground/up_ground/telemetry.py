@@ -13,6 +13,9 @@ from up_ground.safe_text import safe_text
 NAME = "up.telemetry.update"
 SILENT_S = 0.9
 """A frame that is older looks old on the screen, before the second is over."""
+LATE_S = 0.3
+LATE_FOR_S = 1.0
+"""Late frames that a newer one follows are dropped for so long; then the way itself is late."""
 _STALE_S = {"location": 1.9, "altitude": 1.9, "heading": 1.9, "battery": 120.0}
 """Sources that come once a second or more seldom are stale later than SILENT_S."""
 _LARGEST_GAP = 1000
@@ -25,9 +28,9 @@ class Telemetry:
     """The newest frame, read with suspicion: a field of a wrong type is a field not known.
 
     Times are the clock's seconds. ``lost`` counts the frames that the beacon's numbers say were
-    sent and did not come. ``way_s`` is how long the newest one was on its way, as far as that is
-    known: half of the round trip to the proxy, and by how much it came later than the quickest one
-    by the aircraft's own clock, where it tells one (``system.clock_ms``).
+    sent and did not come, or came too late. ``way_s`` is how long the newest one was on its way, as
+    far as that is known: half of the round trip to the proxy, and by how much it came later than
+    the quickest one by the aircraft's own clock, where it tells one (``system.clock_ms``).
     """
 
     def __init__(self) -> None:
@@ -38,29 +41,47 @@ class Telemetry:
         self._received_s: float | None = None
         self._delay = Delay()
         self._held_s: float | None = None
+        self._stamp_ms: float | None = None
+        self._late_since_s: float | None = None
         self._round_trip_s = 0.0
         self._least_trip_s: float | None = None
         self._times_s: deque[float] = deque(maxlen=32)
 
     def take(self, message: GeneralMessage, now_s: float) -> bool:
-        """Take a frame; False: the message is another one."""
+        """Take a frame; False: it is another message, or a newer frame follows it."""
         if message.name != NAME:
             return False
+        gap = 0
         if message.beacon is not None and self.beacon is not None:
             gap = message.beacon - self.beacon
-            if 1 < gap <= _LARGEST_GAP:
-                self.lost += gap - 1
             if abs(gap) > _ONE_LIFE:
                 self._delay.forget()
+        stamp_ms = _number(_at(message.data, ("system", "clock_ms")))
+        held_s = self._delay.take(stamp_ms, now_s)
+        if self._is_superseded(stamp_ms, held_s, now_s):
+            return False
+        if 1 < gap <= _LARGEST_GAP:
+            self.lost += gap - 1
         self.beacon = message.beacon
         self.data = message.data
         self.frames += 1
-        self._held_s = self._delay.take(self.number("system", "clock_ms"), now_s)
+        self._held_s = held_s
         if self._delay.has_begun:
             self._least_trip_s = self._round_trip_s or None
         self._received_s = now_s
         self._times_s.append(now_s)
         return True
+
+    def _is_superseded(self, stamp_ms: float | None, held_s: float | None, now_s: float) -> bool:
+        """Return whether the next frame left before this late one came, as in a cut of the link."""
+        before_ms, self._stamp_ms = self._stamp_ms, stamp_ms
+        period_s = (stamp_ms - before_ms) / 1000 if stamp_ms and before_ms else math.inf
+        if held_s is None or held_s <= max(LATE_S, period_s):
+            self._late_since_s = None
+            return False
+        if self._late_since_s is None:
+            self._late_since_s = now_s
+        return now_s - self._late_since_s < LATE_FOR_S
 
     def on_round_trip(self, round_trip_ms: float | None) -> None:
         """Take how long it is to the proxy and back now; None: not known."""
@@ -111,32 +132,35 @@ class Telemetry:
 
     def number(self, *path: str) -> float | None:
         """Return a finite number at that key path; None: absent, null or something else."""
-        found = self._at(path)
-        if isinstance(found, bool) or not isinstance(found, int | float):
-            return None
-        return float(found) if math.isfinite(found) and abs(found) < _GREATEST else None
+        return _number(_at(self.data, path))
 
     def flag(self, *path: str) -> bool | None:
         """Return true or false at that key path; None: unknown."""
-        found = self._at(path)
+        found = _at(self.data, path)
         return found if isinstance(found, bool) else None
 
     def text(self, *path: str, limit: int = 40) -> str | None:
         """Return a text at that key path, safe for a terminal; None: unknown."""
-        found = self._at(path)
+        found = _at(self.data, path)
         return safe_text(found, limit) if isinstance(found, str) else None
 
     def texts(self, *path: str, limit: int = 80) -> list[str] | None:
         """Return a list of texts, safe for a terminal; None: unknown."""
-        found = self._at(path)
+        found = _at(self.data, path)
         if not isinstance(found, list):
             return None
         return [safe_text(each, limit) for each in found[:32] if isinstance(each, str)]
 
-    def _at(self, path: tuple[str, ...]) -> Any:
-        found: Any = self.data
-        for key in path:
-            if not isinstance(found, dict):
-                return None
-            found = found.get(key)
-        return found
+
+def _at(found: Any, path: tuple[str, ...]) -> Any:
+    for key in path:
+        if not isinstance(found, dict):
+            return None
+        found = found.get(key)
+    return found
+
+
+def _number(found: Any) -> float | None:
+    if isinstance(found, bool) or not isinstance(found, int | float):
+        return None
+    return float(found) if math.isfinite(found) and abs(found) < _GREATEST else None

@@ -63,8 +63,9 @@ class Watch(Errand):
         """Take telemetry; other messages are mentioned."""
         if self.is_finished:
             return
-        if self.state.telemetry.take(message, self._reactor.seconds()):
-            self.on_frame(message)
+        if message.name == NAME:
+            if self.state.telemetry.take(message, self._reactor.seconds()):
+                self.on_frame(message)
         elif message.name != "up.system.state":
             self.state.notice = f"{safe_text(message.name, 40)} {safe_text(message.data, 120)}"
 

@@ -4,6 +4,8 @@ import re
 from dataclasses import dataclass
 from enum import Enum
 
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
+
 HELLO_MAX_BYTES = 512
 """A hello is at most this long, its LF included."""
 HELLO_TIMEOUT_S = 5.0
@@ -16,7 +18,6 @@ THESIS_AIRCRAFT = "default"
 MALFORMED, TAKEN, FULL, ADDRESS, TOKEN = "malformed", "taken", "full", "address", "token"
 CODES = (MALFORMED, TAKEN, FULL, ADDRESS, TOKEN)
 
-_NAME = re.compile(r"[A-Za-z0-9_.-]{1,32}", re.ASCII)
 _TOKEN = re.compile(r"[0-9A-Fa-f]{32,64}", re.ASCII)
 _KEY = re.compile(r"[A-Za-z0-9_.-]+", re.ASCII)
 
@@ -66,7 +67,7 @@ def _words(line: bytes) -> dict[str, str]:
         text = line.decode("ascii")
     except UnicodeDecodeError:
         raise _malformed("a hello is ASCII") from None
-    first, *rest = text.removesuffix("\n").removesuffix("\r").split(" ")
+    first, *rest = text.removesuffix("\n").split(" ")
     if first != "UP1":
         raise _malformed("the first line must begin with UP1")
     words: dict[str, str] = {}
@@ -87,8 +88,8 @@ def parse_hello(line: bytes, side: Side) -> Hello:
     """
     words = _words(line)
     name = words.get("aircraft", "")
-    if not _NAME.fullmatch(name):
-        raise _malformed("aircraft= must be 1 to 32 letters, digits, _ . or -")
+    if not AIRCRAFT_NAME.fullmatch(name):
+        raise _malformed(f"aircraft= must be {AIRCRAFT_NAME_RULE}")
     token = words.get("token")
     if token is not None and not _TOKEN.fullmatch(token):
         raise _malformed("token= must be 32 to 64 hexadecimal digits")

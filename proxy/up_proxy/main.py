@@ -14,6 +14,7 @@ from up.config import ConfigErrors
 from up.log import UpLogger, start_logging
 from up.system.clock import use_monotonic_time
 from up.system.notify import Notifier, WatchdogPinger
+from up.system.pid_file import service
 from up.version import VERSION
 from up_proxy.config import PROXY, ProxyConfig
 from up_proxy.listener import ListenError
@@ -79,7 +80,7 @@ def raise_descriptor_limit(config: ProxyConfig) -> None:
 
 
 def run(reactor: "ProxyReactor", config: ProxyConfig) -> int:
-    """Serve until SIGTERM or SIGINT; return the exit status."""
+    """Serve until SIGTERM, SIGINT or SIGHUP; return the exit status."""
     from up_proxy.proxy import PlainRefusedError, Proxy
 
     proxy = Proxy(reactor, config)
@@ -110,9 +111,10 @@ def run(reactor: "ProxyReactor", config: ProxyConfig) -> int:
 
     reactor.callWhenRunning(on_running)
     reactor.addSystemEventTrigger("before", "shutdown", on_stop)
-    # Also where SIGINT comes ignored, as to what a script starts in the background.
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: reactor.callFromThread(reactor.stop))
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        # 'nohup' ignores SIGHUP; a shell's background job ignores SIGINT, which still ends it.
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, lambda *_: reactor.callFromThread(reactor.stop))
     reactor.run(installSignalHandlers=False)
     return 0
 
@@ -121,6 +123,7 @@ def _say(text: str) -> None:
     sys.stderr.write(f"up-proxy: {text}\n")
 
 
+@service()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status."""
     options = parse_arguments(arguments)

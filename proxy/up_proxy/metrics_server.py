@@ -4,15 +4,26 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from twisted.internet.error import CannotListenError
+from twisted.internet.protocol import connectionDone
+from twisted.protocols.policies import ProtocolWrapper, WrappingFactory
+from twisted.python.failure import Failure
 from twisted.web.http import Request
 from twisted.web.resource import Resource
+from twisted.web.server import Request as SiteRequest
 from twisted.web.server import Site
 
+from up.system.clock import Clock
+from up.system.http_host import names_this_machine
 from up_proxy.listener import cannot_listen
 from up_proxy.metrics_page import CONTENT_TYPE
 
 HOST = "127.0.0.1"
-_TIMEOUT_S = 10
+MAX_CONNECTIONS = 16
+MAX_REQUEST_BYTES = 8192
+CONNECTION_LIMIT_S = 5.0
+"""From the accepted connection to the end of the lingering close."""
+MISDIRECTED_REQUEST = 421
+_TOO_LARGE = b"HTTP/1.1 431 Request Header Fields Too Large\r\nConnection: close\r\n\r\n"
 
 
 class MetricsPage(Resource):
@@ -25,13 +36,98 @@ class MetricsPage(Resource):
         self._page = page
 
     def render_GET(self, request: Request) -> bytes:  # noqa: N802 - Twisted's name
-        """Return the figures of this moment."""
+        """Return the current figures; a name that is not this machine's is refused."""
+        hosts = request.requestHeaders.getRawHeaders("Host", [])
+        if len(hosts) != 1 or not names_this_machine(hosts[0], {"localhost"}):
+            request.setResponseCode(MISDIRECTED_REQUEST, b"Misdirected Request")
+            return b"open this page as localhost or by its address\n"
         request.setHeader("Content-Type", CONTENT_TYPE)
         return self._page().encode("utf-8")
 
 
-class TcpReactor(Protocol):
-    """What serving asks of the reactor."""
+class OnlyRequest(SiteRequest):
+    """A request that is the only one of its connection."""
+
+    channel: Any
+
+    def gotLength(self, length: int | None) -> None:  # noqa: N802 - Twisted's name
+        """Close the connection after the answer."""
+        self.channel.persistent = 0
+        self.responseHeaders.setRawHeaders(b"Connection", [b"close"])
+        super().gotLength(length)  # type: ignore[no-untyped-call]
+
+
+class MetricsConnection(ProtocolWrapper):
+    """Bounds the size and the time of a request, and closes without losing the answer.
+
+    A close while input is unread resets the connection, and the peer loses the answer. A lingering
+    close ends the output, discards input until the peer closes, and is bounded by the same time.
+    """
+
+    factory: Any
+    transport: Any
+    disconnecting = False
+    _left_bytes = MAX_REQUEST_BYTES
+
+    def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
+        """Start the time limit."""
+        clock: Clock = self.factory.clock
+        self._limit = clock.callLater(CONNECTION_LIMIT_S, transport.abortConnection)
+        super().makeConnection(transport)  # type: ignore[no-untyped-call]
+
+    def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
+        """Pass on a request of bounded size; discard what follows it."""
+        if self.disconnecting:
+            return
+        super().dataReceived(data[: self._left_bytes])  # type: ignore[no-untyped-call]
+        self._left_bytes -= len(data)
+        if self._left_bytes < 0 and not self.disconnecting:
+            self.transport.write(_TOO_LARGE)
+            self.loseConnection()
+
+    def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
+        """Send what is written, then close; the peer closes its own side."""
+        self.disconnecting = True
+        self.transport.loseWriteConnection()
+
+    def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
+        """Stop the time limit."""
+        if self._limit.active():
+            self._limit.cancel()
+        super().connectionLost(reason)  # type: ignore[no-untyped-call]
+
+
+class MetricsFactory(WrappingFactory):
+    """Keeps at most MAX_CONNECTIONS connections, the newest; `clock` times them."""
+
+    protocol = MetricsConnection
+    noisy = False
+
+    def __init__(self, clock: Clock, page: Callable[[], str]) -> None:
+        root: Any = Resource()
+        root.putChild(b"metrics", MetricsPage(page))
+        make: Any = Site
+        site = make(root, requestFactory=OnlyRequest, timeout=None)
+        site.displayTracebacks = False
+        site.noisy = False
+        super().__init__(site)  # type: ignore[no-untyped-call]
+        self.clock = clock
+
+    def registerProtocol(self, p: ProtocolWrapper) -> None:  # noqa: N802 - Twisted's name
+        """Make room for a new connection: the oldest is the slowest."""
+        if len(self.protocols) >= MAX_CONNECTIONS:
+            oldest = next(iter(self.protocols))
+            self.unregisterProtocol(oldest)
+            oldest.transport.abortConnection()
+        super().registerProtocol(p)  # type: ignore[no-untyped-call]
+
+    def unregisterProtocol(self, p: ProtocolWrapper) -> None:  # noqa: N802 - Twisted's name
+        """Count a connection no longer."""
+        self.protocols.pop(p, None)
+
+
+class TcpReactor(Clock, Protocol):
+    """The part of the reactor that serving uses."""
 
     def listenTCP(  # noqa: N802 - Twisted's name
         self, port: int, factory: Any, backlog: int = 50, interface: str = ""
@@ -44,12 +140,7 @@ def serve_metrics(reactor: TcpReactor, port: int, page: Callable[[], str]) -> An
 
     Raises ListenError.
     """
-    root: Any = Resource()
-    root.putChild(b"metrics", MetricsPage(page))
-    site = Site(root, timeout=_TIMEOUT_S)
-    site.displayTracebacks = False
-    site.noisy = False
     try:
-        return reactor.listenTCP(port, site, interface=HOST)
+        return reactor.listenTCP(port, MetricsFactory(reactor, page), interface=HOST)
     except CannotListenError as error:
         raise cannot_listen("metrics port", port, error.socketError) from None

@@ -4,7 +4,6 @@ from typing import Any, Protocol
 
 from up.log import UpLogger
 from up.system.addresses import is_private, is_wildcard
-from up.system.clock import Clock
 from up_proxy.config import ProxyConfig
 from up_proxy.door import Door, DoorLimits
 from up_proxy.fleet import Fleet
@@ -26,7 +25,7 @@ class PlainRefusedError(Exception):
     """The configured address is public, and plain traffic there was not accepted."""
 
 
-class ProxyReactor(Clock, SocketReactor, TcpReactor, Protocol):
+class ProxyReactor(TcpReactor, SocketReactor, Protocol):
     """What the program asks of the reactor."""
 
     def callWhenRunning(self, callable: Any) -> Any:  # noqa: N802 - Twisted's name

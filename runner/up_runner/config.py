@@ -14,6 +14,7 @@ from up_runner.request import NAME
 
 FILE_NAME = Constraint(str, max_length=64)
 KEY_NAME = Constraint(str, max_length=64)
+VARIABLE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\*?", re.ASCII)
 PLAIN_FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.yml", re.ASCII)
 NEVER_SETTABLE = frozenset(
     ("disabled_modules.yml", "external_modules.yml", "registered_modules.yml", "runner.yml")
@@ -25,10 +26,13 @@ NEVER_SETTABLE_KEY = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class ProxyPlace:
-    """Where the ground finds its proxy; the answer to a request repeats it."""
+    """The proxy between the instances and the ground: they use it, and the answers name it."""
 
     host: str = key(
-        "", "Public name or address of the proxy. Empty: the answer names none.", max_length=255
+        "",
+        "Name or address of the proxy, for instances (in place of mission_control.yml: "
+        "remote_server) and grounds. Empty: remote_server holds, and the answers name no proxy.",
+        max_length=255,
     )
     airborne_port: int = key(
         3003, "TCP port of its airborne side.", name="airborne port", minimum=1, maximum=65535
@@ -99,7 +103,7 @@ class Connections:
     )
     address_limit: int = key(
         32,
-        "Connections at once from one address.",
+        "Connections at once from one address (IPv6: from one /64 network).",
         name="address limit",
         minimum=1,
         maximum=100_000,
@@ -127,6 +131,11 @@ class RunnerConfig:
         "Requests are not authenticated: anybody who reaches the port can start instances. Peers "
         "with public addresses are therefore turned away; true lets them in (a server that phones "
         "reach over the mobile network needs it).",
+    )
+    i_accept_root: bool = key(
+        False,
+        "The runner refuses to run as root: its instances would be root too, and anybody who "
+        "reaches the port starts them. true lets it.",
     )
     mode: Literal["black box", "flight controller", "auto"] = key(
         "black box",
@@ -247,6 +256,13 @@ class RunnerConfig:
         },
         max_length=32,
     )
+    environment: tuple[str, ...] = items(
+        KEY_NAME,
+        "Environment variables that an instance inherits; LC_* stands for all that begin with LC_. "
+        "No other one reaches it, so that it sees no secret of the runner's.",
+        default=("PATH", "HOME", "LANG", "LANGUAGE", "LC_*", "TZ", "XDG_STATE_HOME"),
+        max_length=64,
+    )
     learned_files: tuple[str, ...] = items(
         FILE_NAME,
         "Files that an instance learns. They are kept from run to run, as long as the profile is "
@@ -272,6 +288,9 @@ class RunnerConfig:
             for each in keys:
                 if NEVER_SETTABLE_KEY.search(each):
                     yield "settable", f"a request may never set a path, port or address: {each!r}"
+        for variable in self.environment:
+            if not VARIABLE.fullmatch(variable):
+                yield "environment", f"{variable!r} is not the name of an environment variable"
         for attribute, value in (
             ("aircraft", self.autostart.aircraft),
             ("profile", self.autostart.profile),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,24 +25,6 @@ from up_runner.request import NAME, Request
 from up_runner.run_folder import RunFolder
 
 NOTIFY = "notify"
-OURS_ALONE = (
-    "NOTIFY_SOCKET",
-    "WATCHDOG_USEC",
-    "WATCHDOG_PID",
-    "INVOCATION_ID",
-    "JOURNAL_STREAM",
-    "LISTEN_FDS",
-    "LISTEN_PID",
-    "LISTEN_FDNAMES",
-    "MAINPID",
-    "RUNTIME_DIRECTORY",
-    "STATE_DIRECTORY",
-    "LOGS_DIRECTORY",
-    "UPSTART_JOB",
-    "UPSTART_EVENTS",
-    "UPSTART_INSTANCE",
-)
-"""What a service manager told the runner about itself and no instance may take for its own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +41,8 @@ class Application:
 class Host:
     """Does for instances what touches the machine; what may wait for the disk, in threads.
 
-    `folder` holds the instances' configuration, `run_folder` their sockets and records.
+    `folder` holds the instances' configuration, `run_folder` their sockets and records; `environ`
+    is what they inherit.
     """
 
     def __init__(
@@ -78,7 +62,7 @@ class Host:
         self.on_change: Callable[[str], None] = lambda name: None
         self._application = application
         self._config = config
-        self._environ = {name: text for name, text in environ.items() if name not in OURS_ALONE}
+        self._environ = dict(environ)
         self._disk = DeferredLock()
         self._log = Logger(namespace="runner")
 
@@ -104,6 +88,7 @@ class Host:
         environ = dict(
             self._environ,
             NOTIFY_SOCKET=str(self._notify_path(name)),
+            UP_PID_FILE=str(self._pid_path(name)),
             UP_INSTANCE=name,
             UP_MODE=application.mode,
             PYTHONUNBUFFERED="1",
@@ -141,6 +126,9 @@ class Host:
     def forget(self, name: str) -> None:
         """Let the next runner not start the instance again."""
         record.forget(self.run_folder.instance(name))
+        with suppress(OSError):
+            # A killed instance leaves it behind.
+            self._pid_path(name).unlink(missing_ok=True)
 
     def load(self, name: str) -> Record | None:
         """Return what the runner before wrote about an instance."""
@@ -167,6 +155,9 @@ class Host:
     def _prepare(self, request: Request) -> tuple[Path, int]:
         config = self._config.build(request, self.folder / request.aircraft)
         return config, self.logs.open(request.aircraft)
+
+    def _pid_path(self, name: str) -> Path:
+        return self.run_folder.instance(name) / "pid"
 
     def _notify_path(self, name: str) -> Path:
         return self.run_folder.instance(name) / NOTIFY

@@ -31,7 +31,7 @@ class InstanceConfig:
 
     `settable` and `dynamic_ports` map a file to keys: those that a request may set, and those that
     are 0 unless base or profile name a port. `learned` files are kept while the profile is the
-    same.
+    same. `imposed` maps a file to what the runner itself sets, over base and profile.
     """
 
     base: Path
@@ -39,6 +39,7 @@ class InstanceConfig:
     settable: Mapping[str, Sequence[str]] = field(default_factory=dict)
     dynamic_ports: Mapping[str, Sequence[str]] = field(default_factory=dict)
     learned: Sequence[str] = ()
+    imposed: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def check(self, request: Request) -> None:
         """Raise ConfigurationRefused when the request sets what it may not or names no profile."""
@@ -65,7 +66,7 @@ class InstanceConfig:
         target.mkdir(mode=0o700, parents=True, exist_ok=True)
         learned = set(self.learned) if self._same_profile(request, folder) else set()
         names = {name for source in sources for name in _files(source)}
-        names |= set(request.configuration) | set(self.dynamic_ports)
+        names |= set(request.configuration) | set(self.dynamic_ports) | set(self.imposed)
         for name in sorted(names - _NOT_FOR_INSTANCES):
             if name in learned and (target / name).is_file():
                 continue
@@ -79,7 +80,8 @@ class InstanceConfig:
         texts = [(path, text) for path in paths if (text := _read(path)) is not None]
         requested = request.configuration.get(name, {})
         ports = self.dynamic_ports.get(name, ())
-        if len(texts) == 1 and not requested and not ports:
+        imposed = self.imposed.get(name, {})
+        if len(texts) == 1 and not requested and not ports and not imposed:
             return texts[0][1].encode()
         settings: Settings = {}
         for path, text in texts:
@@ -87,6 +89,7 @@ class InstanceConfig:
         for port in ports:
             if settings.get(port) is None:
                 settings[port] = 0
+        _merge(settings, imposed)
         for key, value in requested.items():
             settings[key] = _like(settings.get(key), value, f"{key!a} of {name}")
         return (_HEAD + yaml.safe_dump(settings, sort_keys=False)).encode()

@@ -15,6 +15,7 @@ from typing import Any
 from up.config import ConfigErrors
 from up.log import start_logging
 from up.system.clock import use_monotonic_time
+from up.system.pid_file import service
 from up.version import VERSION
 from up_runner.config import RUNNER
 from up_runner.places import own_root
@@ -40,6 +41,7 @@ def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespac
     return parser.parse_args(arguments)
 
 
+@service()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status: 1 cannot start, 2 wrong configuration."""
     # Until it serves, Ctrl-C just ends it: there is nothing yet to put in order.

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, NoReturn
+
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 MAX_LINE = 64 * 1024
 """Longest request in bytes, its line feed not counted."""
 DEFAULT_NAME = "default"
 """The instance that all nameless clients share."""
-NAME = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9_.-]{0,31}", re.ASCII)
+NAME = AIRCRAFT_NAME
 _MAX_TEXT = 256
 _MAX_WORD = 64
 
@@ -98,9 +99,7 @@ def _name(found: Mapping[str, Any], key: str) -> str | None:
     if value is None:
         return None
     if not isinstance(value, str) or not NAME.fullmatch(value):
-        raise MalformedRequest(
-            f"{key} must be 1 to 32 of A-Z a-z 0-9 _ . - and not begin with a dot"
-        )
+        raise MalformedRequest(f"{key} must be {AIRCRAFT_NAME_RULE}")
     return value
 
 

@@ -11,7 +11,7 @@ from twisted.internet.protocol import Factory
 from twisted.logger import Logger
 
 from up.log import Limited
-from up.system.addresses import is_private, plain
+from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock
 from up_runner.answer import Answer
 from up_runner.request import Request
@@ -51,7 +51,7 @@ class RequestServer(Factory):
         self._accept_public = accept_public
         self._limited = Limited(cast(Any, clock), SAID_AGAIN_S)
         self._connections: set[RequestConnection] = set()
-        self._by_host: Counter[str] = Counter()
+        self._by_source: Counter[str] = Counter()
 
     def __len__(self) -> int:
         return len(self._connections)
@@ -64,7 +64,8 @@ class RequestServer(Factory):
                 "public", host, "is a public address; i_accept_plain: true in runner.yml lets it in"
             )
             return None
-        if self._by_host[host] >= self._address_limit:
+        source = neighbourhood(host)
+        if self._by_source[source] >= self._address_limit:
             self._turn_away("address limit", host, "has too many connections")
             return None
         if len(self._connections) >= self._limit and not self._make_room():
@@ -73,7 +74,7 @@ class RequestServer(Factory):
         connection = RequestConnection(self, host)
         connection.factory = self
         self._connections.add(connection)
-        self._by_host[host] += 1
+        self._by_source[source] += 1
         return connection
 
     def ask(self, connection: RequestConnection, request: Request) -> Deferred[Answer]:
@@ -96,9 +97,10 @@ class RequestServer(Factory):
         """Forget a connection."""
         if connection in self._connections:
             self._connections.discard(connection)
-            self._by_host[connection.host] -= 1
-            if not self._by_host[connection.host]:
-                del self._by_host[connection.host]
+            source = neighbourhood(connection.host)
+            self._by_source[source] -= 1
+            if not self._by_source[source]:
+                del self._by_source[source]
 
     def close(self) -> None:
         """End every connection."""

@@ -1,14 +1,16 @@
-"""The folder that belongs to one runner at a time: its lock, its sockets, its records."""
+"""The folder that belongs to one runner at a time: its pid file, its sockets, its records."""
 
 from __future__ import annotations
 
-import fcntl
 import os
 import stat
 from collections.abc import Mapping
 from pathlib import Path
 
-LOCK = ".lock"
+from up.system.pid_file import PidFile, PidFileHeld
+
+PID_FILE = ".runner.pid"
+"""Begins with a dot, as no name of an instance does."""
 # sun_path holds 108 bytes with the closing zero; the longest path is <folder>/<32>/notify.
 LONGEST = 107 - len("/notify") - 33
 
@@ -29,11 +31,11 @@ def default_run_folder(environ: Mapping[str, str], uid: int) -> Path:
 
 
 class RunFolder:
-    """A private folder held by an exclusive lock until `release` or the end of the process."""
+    """A private folder held by a pid file until `release` or the end of the process."""
 
     def __init__(self, path: Path) -> None:
         self.path = Path(path).absolute()
-        self._lock: int | None = None
+        self._pid_file = PidFile(self.path / PID_FILE)
 
     def take(self) -> None:
         """Make the folder, check that it is ours alone and lock it.
@@ -49,7 +51,11 @@ class RunFolder:
         try:
             self.path.mkdir(mode=0o700, parents=True, exist_ok=True)
             self._check_owner()
-            self._take_lock()
+            self._pid_file.take()
+        except PidFileHeld as held:
+            raise RunFolderError(
+                f"another runner (process {held.holder}) uses the run folder {self.path}"
+            ) from None
         except OSError as error:
             raise RunFolderError(
                 f"the run folder {self.path} cannot be used: {error.strerror or error}"
@@ -69,9 +75,7 @@ class RunFolder:
 
     def release(self) -> None:
         """Give the folder to the next runner."""
-        lock, self._lock = self._lock, None
-        if lock is not None:
-            os.close(lock)
+        self._pid_file.release()
 
     def _check_owner(self) -> None:
         found = os.lstat(self.path)
@@ -83,19 +87,3 @@ class RunFolder:
             raise RunFolderError(
                 f"the run folder {self.path} is open to other users; chmod 700 closes it"
             )
-
-    def _take_lock(self) -> None:
-        lock = os.open(
-            self.path / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600
-        )
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            holder = os.pread(lock, 32, 0).decode("ascii", "replace").strip()
-            os.close(lock)
-            raise RunFolderError(
-                f"another runner (process {holder}) uses the run folder {self.path}"
-            ) from None
-        os.ftruncate(lock, 0)
-        os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
-        self._lock = lock

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
@@ -130,6 +131,7 @@ class Runner:
             # Aboard, the phone knows its Raspberry Pi's ports by heart.
             config.dynamic_ports if black_box else {},
             config.learned_files,
+            self._proxy_settings(),
         )
         logs = LogKeeper(places.logs, config.logs.size, config.logs.keep)
         return Host(
@@ -139,8 +141,18 @@ class Runner:
             places.instances,
             instance_config,
             logs,
-            environ,
+            {
+                name: value
+                for name, value in environ.items()
+                if any(fnmatchcase(name, pattern) for pattern in config.environment)
+            },
         )
+
+    def _proxy_settings(self) -> Mapping[str, Mapping[str, Any]]:
+        """Return what makes an instance use the proxy that the answers name."""
+        proxy = self._config.proxy
+        server = {"url": proxy.host, "port": proxy.airborne_port}
+        return {"mission_control.yml": {"remote_server": server}} if proxy.host else {}
 
     def _check(self) -> None:
         address = self._config.address
@@ -152,6 +164,11 @@ class Runner:
             raise CannotStart(
                 f"{address} is a public address and requests are not authenticated; "
                 "i_accept_plain: true in runner.yml accepts that"
+            )
+        if os.geteuid() == 0 and not self._config.i_accept_root:
+            raise CannotStart(
+                "it runs as root, and so would every instance; start it as another user, or set "
+                "i_accept_root: true in runner.yml"
             )
         if not self._places.script.is_file():
             raise CannotStart(

@@ -24,7 +24,7 @@ from up.flight_log.flight_log import FlightLog
 PAGE = "guide.md"
 FILES = files_of(PAGE)
 TEXT = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
-PROXY = "$(pgrep -f 'up_proxy.main --config .*run/showcase')"
+PROXY = "run/showcase/proxy.pid"
 ADDRESS = r"http://127\.0\.0\.1:\d+/"
 FBW, OUTPUT = (
     "board: FBW, the Arduino holds the attitude",
@@ -49,10 +49,9 @@ def test_the_steps_in_the_page(flight):
         unavailable(installed.stderr.strip())
     # Of all proxies on this machine only this flight's.
     proxy = _child(flight.process.pid, "up_proxy.main")
-    words = Path(f"/proc/{proxy}/cmdline").read_text().replace("\0", " ")
-    assert lines_of(PAGE, "cut") == [f"kill -STOP {PROXY}"]
-    assert lines_of(PAGE, "mend") == [f"kill -CONT {PROXY}"]
-    assert re.search(re.search(r"'(.*)'", PROXY)[1], words), words
+    assert lines_of(PAGE, "cut") == [f"kill -STOP $(cat {PROXY})"]
+    assert lines_of(PAGE, "mend") == [f"kill -CONT $(cat {PROXY})"]
+    assert (flight.tree / PROXY).read_text() == f"{proxy}\n"
     address = re.search(ADDRESS, flight.said.read_text())[0]
     steps = [node, Path(__file__).with_name("guide_page.mjs"), address, str(proxy)]
     done = subprocess.run(
@@ -102,8 +101,10 @@ def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
     make_run = "make run CONTROLLER=raspberry"
     assert all(f"`{words}`" in TEXT for words in (make_run, FBW, OUTPUT))
     with flying(tmp_path / "flight", {}, make_run) as flight:
-        os.kill(_child(flight.process.pid, "up_simulator"), signal.SIGKILL)
+        aircraft = flight.tree / re.search(r"`kill -9 \$\(cat (\S+aircraft.pid)\)`", TEXT)[1]
+        os.kill(int(aircraft.read_text()), signal.SIGKILL)
         assert flight.process.wait(LIMIT_S) == 1
+        assert not list(aircraft.parent.glob("*.pid"))
         said = flight.said.read_text()
         assert "aircraft ended by itself with signal 9; its log " in said
         _look_at_the_flight(flight, said)

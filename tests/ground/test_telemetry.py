@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from tests.ground.aircraft import frame
 from up.protocols.general_message import GeneralMessage
-from up_ground.telemetry import NAME, Telemetry
+from up_ground.telemetry import LATE_S, NAME, Telemetry
 
 
 def told(data=None, now_s=100.0, beacon=None):
@@ -43,13 +43,37 @@ def test_a_frame_that_was_held_up_is_old_when_it_comes():
     telemetry.on_round_trip(40.0)
     assert clocked(telemetry, 1000, 10.0) == pytest.approx(0.02)
     assert not telemetry.is_stale("orientation", 10.0)
-    assert clocked(telemetry, 2000, 14.0) == pytest.approx(3.02, abs=0.001)
-    assert telemetry.is_silent(14.0)
-    assert telemetry.is_late(14.0)
-    assert telemetry.is_stale("orientation", 14.0)
-    assert telemetry.reading_age_s("orientation", 14.0) == pytest.approx(3.032, abs=0.001)
-    assert clocked(telemetry, 5100, 14.1) == pytest.approx(0.02, abs=0.001)
-    assert not telemetry.is_late(14.1)
+    # The next one has not left yet: the period is longer.
+    assert clocked(telemetry, 5000, 17.0) == pytest.approx(3.02, abs=0.001)
+    assert telemetry.is_silent(17.0)
+    assert telemetry.is_late(17.0)
+    assert telemetry.is_stale("orientation", 17.0)
+    assert telemetry.reading_age_s("orientation", 17.0) == pytest.approx(3.032, abs=0.001)
+    assert clocked(telemetry, 8100, 17.1) == pytest.approx(0.02, abs=0.001)
+    assert not telemetry.is_late(17.1)
+
+
+def test_after_a_cut_what_it_held_up_is_dropped():
+    telemetry = Telemetry()
+    # One frame each 100 ms; those of a second come together, 0.4 s after its end.
+    came_s = {1000: 10.0, **{ms: 11.4 for ms in range(1100, 2400, 100)}, 2400: 11.41, 2500: 11.5}
+    shown = []
+    for number, (clock_ms, now_s) in enumerate(came_s.items()):
+        message = GeneralMessage(NAME, frame(system={"clock_ms": clock_ms}), None, number)
+        if telemetry.take(message, now_s):
+            shown.append(clock_ms)
+            assert telemetry.way_s <= LATE_S + 0.001
+    assert shown == [1000, 2100, 2200, 2300, 2400, 2500]
+    assert (telemetry.frames, telemetry.lost) == (6, 10)
+
+
+def test_frames_that_stay_late_are_shown_as_late():
+    telemetry = Telemetry()
+    clocked(telemetry, 1000, 10.0)
+    ages_s = [clocked(telemetry, 1100 + ms, 12.1 + ms / 1000) for ms in range(0, 1500, 100)]
+    shown = [number for number, age_s in enumerate(ages_s) if age_s == pytest.approx(2, abs=0.001)]
+    assert shown == list(range(10, 15))
+    assert telemetry.is_late(13.5)
 
 
 def test_a_queue_before_the_proxy_is_not_counted_twice():
@@ -57,7 +81,7 @@ def test_a_queue_before_the_proxy_is_not_counted_twice():
     telemetry.on_round_trip(40.0)
     clocked(telemetry, 1000, 10.0)
     telemetry.on_round_trip(2040.0)
-    assert clocked(telemetry, 2000, 13.0) == pytest.approx(2.02, abs=0.001)
+    assert clocked(telemetry, 4000, 15.0) == pytest.approx(2.02, abs=0.001)
 
 
 def test_an_aircraft_without_a_clock_is_judged_by_the_round_trip_alone():

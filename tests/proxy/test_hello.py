@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from up.system.aircraft_name import AIRCRAFT_NAME
 from up_proxy.hello import (
     CODES,
     HELLO_MAX_BYTES,
@@ -85,7 +86,7 @@ def test_the_longest_hello_is_512_bytes_with_its_line_feed():
         parse_hello(start + b"y" * (512 - len(start)) + b"\n", Side.GROUND)
 
 
-NAMES = st.from_regex(r"[A-Za-z0-9_.\-]{1,32}", fullmatch=True)
+NAMES = st.from_regex(AIRCRAFT_NAME, fullmatch=True)
 TOKENS = st.from_regex(r"[0-9a-fA-F]{32,64}", fullmatch=True)
 
 

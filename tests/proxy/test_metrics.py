@@ -2,15 +2,19 @@
 
 import re
 import socket
-import urllib.error
 import urllib.request
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from twisted.internet import task
+from twisted.internet.error import ConnectionAborted
+from twisted.internet.testing import StringTransport
+from twisted.python.failure import Failure
 
 from tests.proxy.program import Client, Program, accepted, until
 from up_proxy.metrics_page import CONTENT_TYPE, Metric, Sample, render
+from up_proxy.metrics_server import CONNECTION_LIMIT_S, MAX_CONNECTIONS, MetricsFactory
 
 LINE = re.compile(r'[a-z_]+(\{[a-z]+="(\\.|[^"\\\n])*"(,[a-z]+="(\\.|[^"\\\n])*")*\})? \S+')
 
@@ -72,23 +76,71 @@ def test_what_the_page_tells(tmp_path):
         assert value(scrape(proxy), 'up_proxy_bytes_total{side="airborne"}') == 100
 
 
-def test_the_page_is_local_and_bears_nonsense(tmp_path):
-    with Program(tmp_path) as proxy:
-        with pytest.raises(urllib.error.HTTPError, match="404") as missing:
-            urllib.request.urlopen(f"http://127.0.0.1:{proxy.metrics_port}/other")
-        missing.value.close()
-        for data in (b"\x00" * 10_000, b"GET /metrics\r\n\r\n", b"POST /metrics HTTP/1.1\r\n\r\n"):
-            with socket.create_connection(("127.0.0.1", proxy.metrics_port)) as peer:
-                peer.sendall(data)
-                peer.shutdown(socket.SHUT_WR)
-                try:
-                    while peer.recv(4096):
-                        pass
-                except ConnectionError:
-                    continue
-        assert value(scrape(proxy), "up_proxy_aircraft") == 0
-        proxy.end()
-    assert "Traceback" not in proxy.log
+HEAD = b"GET /metrics HTTP/1.1\r\nHost: localhost\r\n"
+HUGE = b"x" * 20_000_000
+
+
+@pytest.mark.parametrize(
+    ("request_bytes", "status"),
+    [
+        (HEAD + b"\r\n", 200),
+        (HEAD.replace(b"localhost", b"127.0.0.1:9303") + b"\r\n", 200),
+        (HEAD.replace(b"localhost", b"[::1]:9303") + b"\r\n", 200),
+        (HEAD.replace(b"/metrics", b"/other") + b"\r\n", 404),
+        # DNS rebinding: the page of another site whose name points here.
+        (HEAD.replace(b"localhost", b"evil.example") + b"\r\n", 421),
+        (HEAD.replace(b"localhost", b"localhost.evil.example") + b"\r\n", 421),
+        (HEAD + b"Host: evil.example\r\n\r\n", 421),
+        (b"GET /metrics HTTP/1.0\r\n\r\n", 421),
+        (HEAD.replace(b"GET", b"POST") + b"\r\n", 405),
+        (b"\x00\r\n", 400),
+        (b"three wrong words\r\n\r\n", 400),
+        (b"\x00" * 10_000, 431),
+        (b"GET /" + HUGE, 431),
+        (HEAD + b"X: " + HUGE, 431),
+        # The answer survives a body that nobody reads.
+        (HEAD + b"Content-Length: 20000000\r\n\r\n" + HUGE, 431),
+        (HEAD + b"\r\n" + HUGE, 200),
+        # One request a connection.
+        (HEAD + b"\r\n" + HEAD.replace(b"/metrics", b"/other") + b"\r\n", 200),
+    ],
+)
+def test_every_request_is_answered_once_and_the_connection_ends(local_page, request_bytes, status):
+    with socket.create_connection(("127.0.0.1", local_page.metrics_port), timeout=4) as peer:
+        peer.sendall(request_bytes)
+        answer = b"".join(iter(lambda: peer.recv(65536), b""))
+    assert re.findall(rb"^HTTP/1\.[01] (\d+)", answer, re.MULTILINE) == [b"%d" % status]
+    assert (b"up_proxy_aircraft" in answer) == (status == 200)
+    assert "Traceback" not in local_page.log
+
+
+@pytest.fixture(scope="module")
+def local_page(tmp_path_factory):
+    with Program(tmp_path_factory.mktemp("page")) as proxy:
+        yield proxy
+
+
+def test_a_slow_request_ends_after_the_limit_however_it_drips():
+    clock = task.Clock()
+    connection = MetricsFactory(clock, lambda: "").buildProtocol(None)
+    transport = StringTransport()
+    connection.makeConnection(transport)
+    for byte in b"GET /metri":
+        assert not transport.disconnecting
+        connection.dataReceived(bytes([byte]))
+        clock.advance(CONNECTION_LIMIT_S / 10)
+    assert transport.disconnecting
+    connection.connectionLost(Failure(ConnectionAborted()))
+    assert not clock.getDelayedCalls()
+
+
+def test_slow_connections_do_not_keep_another_one_out():
+    factory = MetricsFactory(task.Clock(), lambda: "")
+    transports = [StringTransport() for _ in range(2 * MAX_CONNECTIONS)]
+    for transport in transports:
+        factory.buildProtocol(None).makeConnection(transport)
+    kept = [not transport.disconnecting for transport in transports]
+    assert kept == MAX_CONNECTIONS * [False] + MAX_CONNECTIONS * [True]
 
 
 def test_the_page_can_be_switched_off(tmp_path):

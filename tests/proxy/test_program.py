@@ -25,7 +25,7 @@ def test_it_relays_and_says_its_ports(tmp_path):
     assert "Traceback" not in proxy.log
 
 
-@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT])
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
 def test_it_stops_within_two_seconds_whoever_is_connected(tmp_path, how):
     with Program(tmp_path) as proxy:
         clients = [Client(proxy.ground_port, "{}\n") for _ in range(20)]
@@ -47,6 +47,32 @@ def test_an_interrupt_ends_it_in_the_background_of_a_script_too(tmp_path):
     with Program(tmp_path, prefix=shell) as proxy:
         assert proxy.end(signal.SIGINT) == 0
     assert "stopped" in proxy.log
+
+
+@pytest.mark.parametrize("signals", [[signal.SIGUSR1, signal.SIGUSR2], [signal.SIGHUP]])
+def test_what_is_no_request_to_end_ends_nothing(tmp_path, signals):
+    # 'nohup' starts it with an ignored SIGHUP.
+    with Program(tmp_path, prefix=("nohup",) if signal.SIGHUP in signals else ()) as proxy:
+        for number in signals:
+            proxy.process.send_signal(number)
+        air, _ = accepted(proxy.airborne_port, "UP1 aircraft=a\n")
+        ground, _ = accepted(proxy.ground_port, "UP1 aircraft=a seat=listen\n")
+        with air, ground:
+            air.say("telemetry\n")
+            ground.expect("telemetry")
+        assert proxy.end() == 0
+
+
+def test_its_pid_file_names_it_and_keeps_a_second_one_out(tmp_path):
+    pid = tmp_path / "proxy.pid"
+    environ = {"UP_PID_FILE": str(pid)}
+    with Program(tmp_path, environ=environ) as proxy:
+        assert pid.read_text() == f"{proxy.pid}\n"
+        second = Program(tmp_path, environ=environ)
+        assert second.wait() == 1
+        assert second.log == f"process {proxy.pid} runs already (pid file {pid})\n"
+        assert proxy.end() == 0
+    assert not pid.exists()
 
 
 def test_it_hears_ipv4_and_ipv6(tmp_path):

@@ -5,7 +5,8 @@ import re
 import subprocess
 from pathlib import Path
 
-from tests.proxy.program import UP_PROXY
+from tests.proxy.program import UP_PROXY, Program, accepted
+from tests.support.sandbox import under
 from tests.support.tools import need_tool
 
 FOLDER = Path(__file__).parents[2] / "proxy"
@@ -32,6 +33,17 @@ def test_systemd_finds_no_fault(tmp_path):
         text=True,
     )
     assert (verified.returncode, verified.stderr) == (0, "")
+
+
+def test_it_runs_under_the_units_system_call_filter(tmp_path):
+    need_tool("systemd-analyze", "systemd")
+    with Program(tmp_path, prefix=under("proxy/up-proxy.service")) as proxy:
+        air, _ = accepted(proxy.airborne_port, "UP1 aircraft=a\n")
+        ground, _ = accepted(proxy.ground_port, "UP1 aircraft=a seat=listen\n")
+        with air, ground:
+            air.say("telemetry\n")
+            ground.expect("telemetry")
+        assert proxy.end() == 0
 
 
 def test_it_is_supervised_and_restarted_for_ever():

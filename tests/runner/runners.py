@@ -95,6 +95,7 @@ class RunnerProcess:
         self.settings = {
             "port": 0,
             "script path": str(APPLICATION),
+            "i_accept_root": True,
             "run folder": str(self.run_folder),
             "logs folder": str(self.logs_folder),
             **config,

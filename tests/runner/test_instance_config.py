@@ -1,5 +1,7 @@
 """Base, profile and request make one configuration folder."""
 
+from dataclasses import replace
+
 import pytest
 import yaml
 from hypothesis import given, settings
@@ -42,6 +44,16 @@ def test_an_untouched_file_is_copied_byte_for_byte(config, tmp_path):
     text = "# a comment\nremote_server: {url: 'x'}   # another\n"
     (config.base / "mission_control.yml").write_text(text)
     assert build(config, tmp_path)["mission_control.yml"] == text
+
+
+def test_what_the_runner_imposes_lies_over_base_and_profile(config, tmp_path):
+    imposed = {"mission_control.yml": {"remote_server": {"url": "proxy", "port": 1}}}
+    config = replace(config, imposed=imposed)
+    assert read(build(config, tmp_path)["mission_control.yml"]) == imposed["mission_control.yml"]
+    (config.base / "mission_control.yml").write_text("remote_server: {url: x}\nrole: pilot\n")
+    (config.profiles / "cub" / "mission_control.yml").write_text("remote_server: {port: 2}\n")
+    built = read(build(config, tmp_path, "cub")["mission_control.yml"])
+    assert built == {**imposed["mission_control.yml"], "role": "pilot"}
 
 
 def test_a_configured_port_stays(config, tmp_path):

@@ -101,9 +101,9 @@ def test_the_oldest_traces_are_removed_those_in_use_stay(tmp_path):
             (folder / name / "profile").write_text("")
             os.utime(folder / name, (1000 + age, 1000 + age))
         os.utime(logs.path(name), (1000 + age, 1000 + age))
-    (run / ".lock").write_text("")
+    (run / ".runner.pid").write_text("")
     assert prune([run, state], logs, {"a", "c"}, 1) == ["b", "d"]
-    assert sorted(path.name for path in run.iterdir()) == [".lock", "a", "c", "e"]
+    assert sorted(path.name for path in run.iterdir()) == [".runner.pid", "a", "c", "e"]
     assert sorted(path.name for path in state.iterdir()) == ["a", "c", "e"]
     assert sorted(files(logs.folder)) == ["a.log", "c.log", "e.log"]
     assert prune([run, state], logs, {"a", "c"}, 1) == []

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.runner.runners import APPLICATION, wait_until
+from tests.support.tools import need_root
 from up.version import VERSION
 
 PROGRAM = Path(sys.executable).with_name("up-runner")
@@ -29,6 +30,33 @@ def test_it_says_its_version_and_how_it_is_used():
 def test_it_is_a_module_that_runs():
     shown = subprocess.run([sys.executable, "-m", "up_runner", "--version"], capture_output=True)
     assert shown.stdout.decode() == f"up-runner {VERSION}\n"
+
+
+def test_what_is_no_request_to_end_ends_nothing(runners):
+    runner = runners().start()
+    for number in (signal.SIGUSR1, signal.SIGUSR2):
+        runner.process.send_signal(number)
+    assert runner.status()["running"] is False
+    assert (runner.run_folder / ".runner.pid").read_text() == f"{runner.process.pid}\n"
+
+
+def test_root_is_refused_unless_it_is_accepted(runners):
+    need_root()
+    runner = runners(i_accept_root=False).launch()
+    assert runner.wait() == 1
+    assert "i_accept_root" in runner.said and len(runner.said.splitlines()) == 1
+
+
+def test_an_instance_has_its_pid_file(runners):
+    runner = runners().start()
+    pid = runner.run_folder / "glider-1" / "pid"
+    answer = runner.spawn()
+    named, port = answer["pid"], answer["ports"]["general"]
+    assert runner.talk(port).order("environ UP_PID_FILE") == str(pid)
+    # A killed program leaves its file behind; the runner removes it with the instance.
+    pid.write_text(f"{named}\n")
+    os.kill(named, signal.SIGTERM)
+    wait_until(lambda: not pid.exists(), "the pid file is removed")
 
 
 def test_wrong_arguments_are_told():

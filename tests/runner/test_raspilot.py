@@ -4,6 +4,7 @@ import importlib.util
 import os
 import shutil
 import signal
+import socket
 import time
 from pathlib import Path
 
@@ -12,25 +13,28 @@ import yaml
 
 from tests.runner.runners import can_connect, is_alive, wait_until
 from tests.runner.test_watching import restarted
+from tests.support.sandbox import service, under
+from tests.support.tools import need_tool
 
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
 def raspilot(runners, short_path):
-    """Make a runner of a copy of Raspilot with the Android cog registered and nothing else."""
+    """Make a runner of a copy of Raspilot with some cogs registered and nothing else."""
 
-    def make(**config):
+    def make(cogs=("android_cog",), **config):
         root = short_path / "application"
         ignored = shutil.ignore_patterns("__pycache__", "external_modules.yml")
         shutil.copytree(ROOT / "raspilot", root / "raspilot", ignore=ignored)
         shutil.copy(ROOT / "main.py", root)
-        cog = Path(importlib.util.find_spec("android_cog").origin).parent
-        registered = yaml.safe_load((cog / "registered_modules.yml").read_text())
-        modules = registered["modules"] if isinstance(registered, dict) else registered
-        (root / "raspilot" / "external_modules.yml").write_text(
-            yaml.safe_dump({"android_cog": {"source": "manual", "modules": modules}})
-        )
+        external = {}
+        for cog in cogs:
+            folder = Path(importlib.util.find_spec(cog).origin).parent
+            registered = yaml.safe_load((folder / "registered_modules.yml").read_text())
+            modules = registered["modules"] if isinstance(registered, dict) else registered
+            external[cog] = {"source": "manual", "modules": modules}
+        (root / "raspilot" / "external_modules.yml").write_text(yaml.safe_dump(external))
         settings = {"application root": str(root), "script path": "main.py", "start limit": 60}
         return runners(**(settings | config))
 
@@ -44,6 +48,36 @@ def test_two_instances_run_and_their_phones_find_them(raspilot):
         assert answer["spawned"] is True and set(answer["ports"]) >= {"general", "orientation"}
         assert all(can_connect(port) for port in answer["ports"].values())
     assert len({port for answer in answers for port in answer["ports"].values()}) == 4
+
+
+def test_the_instance_uses_the_proxy_that_the_answer_names(raspilot):
+    with socket.create_server(("127.0.0.1", 0)) as announced:
+        announced.settimeout(60)
+        port = announced.getsockname()[1]
+        proxy = {"host": "127.0.0.1", "airborne port": port}
+        runner = raspilot(("android_cog", "mission_control_cog"), proxy=proxy)
+        # The instance's own configuration names another one.
+        server = {"remote_server": {"url": "127.0.0.2", "port": 1}, "role": "observer"}
+        runner.write("blackbox/mission_control.yml", server)
+        answer = runner.start().spawn("glider-1")
+        assert answer["proxy"] == {"host": "127.0.0.1", "airborne": port, "ground": 3004}
+        peer, _ = announced.accept()
+        with peer, peer.makefile("rb") as lines:
+            assert lines.readline() == b"UP1 aircraft=glider-1\n"
+
+
+def test_it_runs_under_the_units_system_call_filter(raspilot):
+    need_tool("systemd-analyze", "systemd")
+    units = "runner/up-runner.service", "raspilot/raspilot.service"
+    filters = [service(unit)["SystemCallFilter"] for unit in units]
+    # An instance inherits the runner's.
+    assert filters[0] == filters[1]
+    runner = raspilot()
+    runner.prefix = under(units[0])
+    runner.start()
+    instance = runner.spawn()
+    assert runner.status()["pid"] == instance["pid"]
+    assert runner.terminate() == 0
 
 
 def test_a_killed_one_comes_back_and_a_new_runner_finds_it(raspilot):

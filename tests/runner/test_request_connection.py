@@ -185,6 +185,26 @@ def test_the_address_is_written_as_people_write_it():
     assert answers(connection)[0]["myAddress"] == "203.0.113.9"
 
 
+@pytest.mark.parametrize(
+    ("hosts", "is_one_source"),
+    [
+        (("fd00:0:0:1::1", "fd00:0:0:1:ffff::2"), True),
+        (("fd00:0:0:1::1", "fd00:0:0:2::1"), False),
+        (("::ffff:192.168.1.5", "192.168.1.5"), True),
+        (("::ffff:192.168.1.5", "::ffff:192.168.1.6"), False),
+    ],
+)
+def test_an_ipv6_network_is_one_source(hosts, is_one_source):
+    port = Port(address_limit=1)
+    first, second = (port.connect(host) for host in hosts)
+    assert first is not None
+    assert (second is None) == is_one_source
+    assert port.server.counts["address limit"] == is_one_source
+    port.server.on_gone(first)
+    # A source whose connections have ended may come again.
+    assert port.connect(hosts[0]) is not None
+
+
 def test_the_one_that_was_silent_longest_makes_room():
     port = Port(limit=3)
     lines = []

@@ -52,7 +52,7 @@ def test_a_link_or_a_file_is_refused(short_path):
 
 
 def test_a_lock_that_is_a_link_is_not_followed(short_path):
-    (short_path / ".lock").symlink_to(short_path / "elsewhere")
+    (short_path / ".runner.pid").symlink_to(short_path / "elsewhere")
     with pytest.raises(RunFolderError, match="cannot be used"):
         RunFolder(short_path).take()
     assert not (short_path / "elsewhere").exists()

@@ -26,6 +26,20 @@ def test_the_first_request_spawns_and_the_next_finds_it_running(runners):
     assert "started as glider-1 in mode black box" in runner.log()
 
 
+def test_no_secret_reaches_an_instance_by_default(runners):
+    runner = runners()
+    runner.environ = {"UP_GROUND_KEY": "secret", "PYTHONPATH": "/nowhere", "TZ": "UTC"}
+    answer = runner.start().spawn()
+    environ = Path(f"/proc/{answer['pid']}/environ").read_bytes()
+    names = {word.partition(b"=")[0].decode() for word in environ.split(b"\0") if word}
+    own = {"NOTIFY_SOCKET", "UP_INSTANCE", "UP_MODE", "UP_PID_FILE", "WATCHDOG_USEC"}
+    own.add("PYTHONUNBUFFERED")
+    assert own | {"TZ", "PATH"} <= names
+    assert names - own <= {"HOME", "LANG", "LANGUAGE", "PATH", "TZ", "XDG_STATE_HOME"} | {
+        name for name in names if name.startswith("LC_")
+    }
+
+
 def test_the_keys_come_in_the_prototypes_order(runners):
     answer = runners().start().ask(action="status")
     assert list(answer)[:4] == ["message", "spawned", "error", "myAddress"]
@@ -199,15 +213,28 @@ def test_an_asker_who_leaves_does_not_undo_the_start(runners):
 
 
 def test_an_instance_inherits_nothing_and_has_a_session_of_its_own(runners):
-    runner = runners()
-    runner.environ = {"LISTEN_FDS": "1", "RUNTIME_DIRECTORY": str(runner.run_folder)}
+    runner = runners(environment=["PATH", "HOME", "LC_*", "CHOSEN"])
+    runner.environ = {
+        "LISTEN_FDS": "1",
+        "RUNTIME_DIRECTORY": str(runner.run_folder),
+        "AWS_SECRET_ACCESS_KEY": "secret",
+        "HOMELY": "x",
+        "LC_TIME": "C.UTF-8",
+        "CHOSEN": "by the configuration",
+    }
     answer = runner.start().spawn()
     talk = runner.talk(answer["ports"]["general"])
     # Standard streams, two listeners, this connection, and the folder that is being listed.
     assert set(talk.order("descriptors").split()) <= {"0", "1", "2", "3", "4", "5", "6"}
     session, group, _ = talk.order("session").split(" ", 2)
     assert int(session) == int(group) == answer["pid"]
+    assert talk.order("environ PATH") == os.environ["PATH"]
+    assert talk.order("environ LC_TIME") == "C.UTF-8"
+    assert talk.order("environ CHOSEN") == "by the configuration"
     assert talk.order("environ LISTEN_FDS") == "absent"
+    assert talk.order("environ AWS_SECRET_ACCESS_KEY") == "absent"
+    # Not what begins like an allowed name.
+    assert talk.order("environ HOMELY") == "absent"
     assert talk.order("environ INVOCATION_ID") == "absent"
     assert talk.order("environ WATCHDOG_USEC") == "2000000"
     expected = str(runner.run_folder / "glider-1" / "notify")

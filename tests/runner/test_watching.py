@@ -229,7 +229,7 @@ def test_only_the_latest_ended_instances_leave_traces(runners):
         "older ones are removed",
     )
     assert sorted(path.name for path in runner.run_folder.iterdir()) == [
-        ".lock",
+        ".runner.pid",
         "plane-3",
         "plane-4",
     ]

@@ -85,6 +85,18 @@ def test_a_signal_stops_what_was_started_in_reverse_within_two_seconds(number):
         assert "Traceback" not in daemon.text
 
 
+def test_what_is_no_request_to_end_ends_nothing(tmp_path):
+    pid = tmp_path / "raspilot.pid"
+    with Daemon(UP_PID_FILE=str(pid)) as daemon:
+        daemon.expect("modules run")
+        assert pid.read_text() == f"{daemon.process.pid}\n"
+        for number in (signal.SIGUSR1, signal.SIGUSR2):
+            daemon.process.send_signal(number)
+        # An orderly end: neither signal ended it before.
+        assert daemon.end()[0] == 0
+    assert not pid.exists()
+
+
 def test_a_module_may_stop_the_program():
     with Daemon("stop by command") as daemon:
         daemon.expect("before stops")

@@ -7,6 +7,8 @@ from typing import Any
 from twisted.internet.interfaces import IPullProducer
 from zope.interface import implementer
 
+from up.protocols.tcp_options import is_stalled
+
 PENDING_LIMIT = 65536
 
 
@@ -54,15 +56,20 @@ class LinkOutput:
         return True
 
     def send_newest(self, message: bytes) -> bool:
-        """Send `message` in place of one that still waits; False: there is no link."""
+        """Send `message` in place of one that still waits; False: there is no link.
+
+        While the peer acknowledges nothing it waits for the next one, which replaces it: TCP
+        would deliver all that it was given, late and in order.
+        """
         if self._transport is None:
             return False
-        if self._is_drained:
+        if self._newest is not None:
+            self.replaced += 1
+        if self._is_drained and not is_stalled(self._transport):
             self._is_drained = False
+            self._newest = None
             self._transport.write(message)
         else:
-            if self._newest is not None:
-                self.replaced += 1
             self._newest = message
         return True
 

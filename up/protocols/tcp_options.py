@@ -12,6 +12,7 @@ from twisted.python.failure import Failure
 KEEPALIVE_IDLE_S = 3
 KEEPALIVE_INTERVAL_S = 1
 KEEPALIVE_PROBES = 3
+_TCPI_RETRANSMITS = 2
 UNSENT_LIMIT = 4096
 """Bytes that the kernel takes beyond what it can send; the rest waits where it can be replaced."""
 
@@ -42,6 +43,15 @@ def set_option(transport: Any, name: str, value: int) -> None:
         # A peer that has already gone leaves a socket that takes no options.
         with contextlib.suppress(OSError):
             transport.getHandle().setsockopt(socket.IPPROTO_TCP, option, value)
+
+
+def is_stalled(transport: Any) -> bool:
+    """Return whether the kernel repeats sent bytes that the peer has not acknowledged in time."""
+    # Absent: another platform, or a transport without a socket.
+    with contextlib.suppress(OSError, AttributeError):
+        info = transport.getHandle().getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, 3)
+        return bool(info[_TCPI_RETRANSMITS])
+    return False
 
 
 def why_lost(reason: Failure) -> str:

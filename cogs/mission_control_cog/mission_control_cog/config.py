@@ -9,8 +9,8 @@ from typing import Literal
 
 from up.config import ConfigFile, key, section
 from up.system.addresses import is_wildcard
+from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
-_AIRCRAFT = re.compile(r"[A-Za-z0-9_.-]{1,32}", re.ASCII)
 _HOST = re.compile(r"[A-Za-z0-9_.:%-]*", re.ASCII)
 
 
@@ -90,8 +90,8 @@ class MissionControlConfig:
 
     def problems(self) -> Iterator[tuple[str, str]]:
         """Yield what the proxy would refuse."""
-        if self.aircraft and not _AIRCRAFT.fullmatch(self.aircraft):
-            yield "aircraft", "must be 1 to 32 letters, digits, _ . or -"
+        if self.aircraft and not AIRCRAFT_NAME.fullmatch(self.aircraft):
+            yield "aircraft", f"must be {AIRCRAFT_NAME_RULE}"
 
 
 def aircraft_name(config: MissionControlConfig, instance: str) -> str:

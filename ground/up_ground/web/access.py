@@ -7,13 +7,9 @@ import re
 import socket
 from collections.abc import Iterable
 from dataclasses import dataclass
-from ipaddress import ip_address
 
-_AUTHORITY = re.compile(
-    r"(?:\[([0-9A-Fa-f:.]{2,45}(?:%[A-Za-z0-9._-]{1,40})?)\]|([A-Za-z0-9._-]{1,255}))"
-    r"(?::[0-9]{1,5})?",
-    re.ASCII,
-)
+from up.system.http_host import names_this_machine
+
 _ORIGIN = re.compile(r"https?://([^/?#@\\]{1,300})", re.IGNORECASE)
 
 
@@ -34,13 +30,7 @@ class Access:
 
         A page of somebody else that lets its own name point here (DNS rebinding) names another.
         """
-        match = _AUTHORITY.fullmatch(host or "")
-        if match is None:
-            return False
-        address, name = match[1], match[2]
-        if address is not None:
-            return _is_address(address.partition("%")[0])
-        return _is_address(name) or name.casefold().rstrip(".") in self.names
+        return names_this_machine(host, self.names)
 
     def permits_origin(self, origin: str | None, host: str | None) -> bool:
         """Say whether the page that opens a link came from here; a program names no origin."""
@@ -67,11 +57,3 @@ def machine_names(more: Iterable[str] = ()) -> frozenset[str]:
     short = own.partition(".")[0]
     found = {"localhost", own, short, f"{short}.local", *(name.casefold() for name in more)}
     return frozenset(name for name in found if name and name != ".local")
-
-
-def _is_address(text: str) -> bool:
-    try:
-        ip_address(text)
-    except ValueError:
-        return False
-    return True

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 
+from up.system.aircraft_name import AIRCRAFT_NAME
 from up_ground.settings import Seat, Settings
 
 AIRCRAFT_LIMIT = 16
 _ONE = re.compile(
-    r"(?P<name>[A-Za-z0-9_.-]{1,32})"
+    rf"(?P<name>{AIRCRAFT_NAME.pattern})"
     r"(?:@(?P<host>\[[0-9A-Fa-f:.%a-z]+\]|[A-Za-z0-9_.%-]{1,255}):(?P<port>[0-9]{1,5})"
     r"(?P<direct>/direct)?)?",
     re.ASCII,

@@ -12,7 +12,7 @@ from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
 from up_ground.safe_text import safe_text
 from up_ground.settings import Settings
-from up_ground.telemetry import Telemetry
+from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
 from up_ground.web.alarms import LinkFacts
 from up_ground.web.command_desk import CommandDesk
@@ -108,7 +108,7 @@ class Station:
             self._frame = frame
             self._audience.show(self.name, "frame", frame)
             self._look_at(came_s)
-        else:
+        elif message.name != NAME:
             self.desk.on_message(message)
 
     def _look_at(self, now_s: float) -> None:

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import IO
 
+from up.system.pid_file import VARIABLE
 from up_simulator.crew.protocols import CrewError
 
 STOP_LIMIT_S = 5.0
@@ -25,7 +26,8 @@ _PR_SET_PDEATHSIG = 1
 class Child:
     """One process in a session of its own, so that Ctrl-C reaches it through us alone.
 
-    Its words are appended to ``<name>.log`` in ``folder``. On Linux it is told to end, by ``wish``,
+    Its words are appended to ``<name>.log`` in ``folder``; ``<name>.pid`` there has its process
+    number if it is a program that writes it. On Linux it is told to end, by ``wish``,
     when we die without a word. ``in_foreground`` leaves it the terminal; its words are not kept.
     With ``talks`` its standard input and output are ``input`` and ``output``, and only what it
     writes to its error output is kept.
@@ -43,6 +45,7 @@ class Child:
     ) -> None:
         self.name = name
         self.log = folder / f"{name}.log"
+        self._pid_file = folder / f"{name}.pid"
         self._start_at = 0
         output = None
         if not in_foreground:
@@ -55,7 +58,7 @@ class Child:
                 stdin=_input_of(in_foreground, talks),
                 stdout=subprocess.PIPE if talks else output,
                 stderr=output if talks else subprocess.STDOUT if output else None,
-                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+                env={**os.environ, "PYTHONUNBUFFERED": "1", VARIABLE: str(self._pid_file)},
                 start_new_session=not in_foreground,
                 preexec_fn=dying_wish(wish),
             )
@@ -151,6 +154,9 @@ class Child:
         except subprocess.TimeoutExpired:
             self._process.kill()
             return self._process.wait()
+        finally:
+            # A killed process leaves it behind.
+            self._pid_file.unlink(missing_ok=True)
 
     def end(self) -> int:
         """Ask it to end and wait until it has; returns its status."""

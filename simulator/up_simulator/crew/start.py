@@ -11,6 +11,7 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
+from up.system.pid_file import service
 from up_rig.pty_line import PtyLineError
 from up_simulator.aircraft import AirframeError
 from up_simulator.crew.option_parser import WRONG_INPUT
@@ -38,6 +39,7 @@ FOR_THE_USER = (
 )
 
 
+@service()
 def main(arguments: list[str] | None = None) -> int:
     """Fly until SIGINT, SIGTERM or SIGHUP and return the exit status."""
     options = read_options(arguments)

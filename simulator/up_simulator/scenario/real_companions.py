@@ -164,11 +164,10 @@ class RealCompanions(CrewCompanions):
         self._proxy = RealProxy(config, self._folder) if self._has_proxy else None
         if self._through != "runner":
             return RealRaspilot(config, self._folder)
-        uplink = {"url": LOOPBACK, "port": self._ports.airborne}
         role = files["mission_control.yml"].get("role", "operator")
         own: dict[str, dict[str, Any]] = {
             "config.yml": {"mode": "black box"},
-            "mission_control.yml": {"remote_server": uplink, "role": role},
+            "mission_control.yml": {"role": role},
             "black_box.yml": self._black_box(),
         }
         own = merge(own, changes)

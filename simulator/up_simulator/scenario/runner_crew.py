@@ -165,6 +165,7 @@ def write_runner_config(
     runner = {
         "port": 0,
         "address": LOOPBACK,
+        "i_accept_root": True,
         "run folder": str(run_folder),
         "stop instances on exit": True,
         "proxy": {"host": LOOPBACK, **proxy},

@@ -1,9 +1,11 @@
 """The systemd unit of the page."""
 
 import subprocess
+import urllib.request
 from pathlib import Path
 
-from tests.ground.aircraft import UP_GROUND
+from tests.ground.aircraft import UP_GROUND, environment
+from tests.support.sandbox import under
 from tests.support.tools import need_tool
 
 UNIT = Path(__file__).parents[3] / "ground" / "up-ground.service"
@@ -21,3 +23,16 @@ def test_systemd_finds_no_fault(tmp_path):
         text=True,
     )
     assert (verified.returncode, verified.stderr) == (0, "")
+
+
+def test_it_runs_under_the_units_system_call_filter(tmp_path, proxy):
+    need_tool("systemd-analyze", "systemd")
+    command = [*under("ground/up-ground.service"), UP_GROUND, "serve", "--listen", "127.0.0.1:0"]
+    with subprocess.Popen(
+        command, env=environment(tmp_path, proxy.ground_port), stdout=subprocess.PIPE, text=True
+    ) as server:
+        address = next(line for line in server.stdout if line.startswith("open ")).split()[1]
+        with urllib.request.urlopen(address) as page:
+            assert page.status == 200
+        server.terminate()
+        assert server.wait() == 0

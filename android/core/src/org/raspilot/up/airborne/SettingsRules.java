@@ -3,6 +3,7 @@ package org.raspilot.up.airborne;
 import java.util.List;
 import org.raspilot.up.providers.AltitudeProvider;
 import org.raspilot.up.providers.OrientationProvider;
+import org.raspilot.up.wire.Hello;
 
 /** What settings must be; each rule raises IllegalArgumentException with a sentence. */
 final class SettingsRules {
@@ -95,7 +96,7 @@ final class SettingsRules {
 
     private static void aircraft(String name) {
         present("the aircraft's name", name);
-        if (!name.isEmpty() && !name.matches("[A-Za-z0-9_-][A-Za-z0-9_.-]{0,31}")) {
+        if (!name.isEmpty() && !Hello.isAircraftName(name)) {
             throw new IllegalArgumentException(
                     "the aircraft's name is 1 to 32 of A-Z a-z 0-9 _ . - and no dot first");
         }

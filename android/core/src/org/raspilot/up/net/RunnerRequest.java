@@ -3,6 +3,7 @@ package org.raspilot.up.net;
 import java.nio.charset.Charset;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import org.raspilot.up.wire.Hello;
 import org.raspilot.up.wire.Json;
 
 /** What a runner is asked for (protocols 8): an aircraft, by a profile, with a configuration. */
@@ -22,7 +23,7 @@ public final class RunnerRequest {
      *     configuration cannot be written as JSON, or the request is longer than 64 KiB
      */
     public RunnerRequest(String aircraft, String profile, Map<String, ?> configuration) {
-        if (aircraft == null || !aircraft.matches("[A-Za-z0-9_-][A-Za-z0-9_.-]{0,31}")) {
+        if (!Hello.isAircraftName(aircraft)) {
             throw new IllegalArgumentException("the aircraft's name must be 1 to 32 of A-Z a-z 0-9"
                     + " _ . - and not begin with a dot: " + aircraft);
         }

@@ -11,7 +11,7 @@ import java.util.regex.Pattern;
  * <p>Source: docs/protocols.md 9.
  */
 public final class Hello {
-    private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_.-]{1,32}");
+    private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_-][A-Za-z0-9_.-]{0,31}");
     private static final Pattern TOKEN = Pattern.compile("[0-9a-f]{32,64}");
     private static final Pattern KEY = Pattern.compile("[A-Za-z0-9_.-]+");
 
@@ -57,7 +57,7 @@ public final class Hello {
         return new Hello(aircraft, seat, token);
     }
 
-    /** Returns the name of the aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}. */
+    /** Returns the name of the aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}, no dot first. */
     public String aircraft() {
         return aircraft;
     }
@@ -72,7 +72,7 @@ public final class Hello {
         return token;
     }
 
-    /** Says whether a text can be the name of an aircraft. */
+    /** Says whether a text can be the name of an aircraft, for a proxy and for a runner. */
     public static boolean isAircraftName(String text) {
         return text != null && NAME.matcher(text).matches();
     }
@@ -117,9 +117,6 @@ public final class Hello {
     private static String withoutEnd(byte[] line, int length) throws MalformedException {
         int end = length;
         if (end > 0 && line[end - 1] == '\n') {
-            end--;
-        }
-        if (end > 0 && line[end - 1] == '\r') {
             end--;
         }
         String text = Utf8.printableAscii(line, end);

@@ -38,7 +38,7 @@ public final class HelloTest {
 
     @Test
     public void aGroundThatNamesNoSeatAsksToCommand() throws Exception {
-        assertEquals(Seat.COMMAND, read("UP1 aircraft=a\r\n", true).seat());
+        assertEquals(Seat.COMMAND, read("UP1 aircraft=a\n", true).seat());
         assertNull(read("UP1 aircraft=a", false).seat());
     }
 
