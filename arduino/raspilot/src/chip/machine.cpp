@@ -87,10 +87,12 @@ static void blink() {
  */
 static void work(int16_t left) {
   uint8_t byte;
+  // The end of a frame carries its Command out, which takes as long as any other piece.
+  const int16_t byte_ticks = uart::is_next_zero() ? PIECE_TICKS : BYTE_TICKS;
   if (left >= PIECE_TICKS && slots_without_work) {
     slots_without_work = 0;
     autopilot.background(clock::now_us());
-  } else if (left >= BYTE_TICKS && uart::read(byte)) {
+  } else if (left >= byte_ticks && uart::read(byte)) {
     autopilot.link.on_byte(byte, clock::now_us());
   } else if (left >= KEEP_TICKS && !slots_to_keep) {
     slots_to_keep = KEEP_SLOTS;

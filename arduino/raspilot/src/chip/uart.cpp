@@ -30,6 +30,8 @@ void begin() {
   UCSR0B = _BV(RXEN0) | _BV(TXEN0) | _BV(RXCIE0);
 }
 
+bool is_next_zero() { return rx_tail != rx_head && rx[rx_tail] == 0; }
+
 bool read(uint8_t& byte) {
   const uint8_t tail = rx_tail;
   if (tail == rx_head) return false;

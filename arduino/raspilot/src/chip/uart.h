@@ -14,6 +14,8 @@ void begin();
 
 /** Takes the oldest byte received; false when there is none. */
 bool read(uint8_t& byte);
+/** Whether the oldest byte received is zero: in checked framing it ends a frame. */
+bool is_next_zero();
 
 }  // namespace uart
 }  // namespace raspilot

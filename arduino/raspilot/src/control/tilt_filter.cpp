@@ -24,13 +24,13 @@ constexpr float MIN_SPEED_M_S = 5;
 constexpr float MAX_SPEED_M_S = 40;
 
 // Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more in the
-// first minutes, airspeed from gusts.
+// first minute, airspeed from gusts.
 constexpr float TILT_WALK = 0.05F * RAD;
 constexpr float BIAS_WALK = 0.01F * RAD;
 constexpr float EARLY_BIAS_WALK = 0.025F * RAD;
 constexpr float SPEED_WALK = 0.2F;
-constexpr uint16_t EARLY_CYCLES = 200;  // 2 minutes
-// The bias drifts as it did in the last minute, later in the last two.
+constexpr uint16_t EARLY_CYCLES = 200;  // 54 s
+// The bias drifts as it did in the last minute, later in the last 100 s.
 constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 60;
 constexpr float DRIFT_SHARE = CYCLE_S / 100;
 
