@@ -17,6 +17,20 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 
 @pytest.fixture(scope="session", autouse=True)
+def hangup():
+    """Let what tests start end when its terminal closes, also where ``nohup`` started the tests.
+
+    A function is no handler after exec: children get the default, the tests themselves go on. Not
+    at import: xdist's controller keeps ignoring the signal.
+    """
+    before = signal.getsignal(signal.SIGHUP)
+    if before is signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, lambda *_: None)
+    yield
+    signal.signal(signal.SIGHUP, before)
+
+
+@pytest.fixture(scope="session", autouse=True)
 def state_home():
     """Let the programs that tests start keep their flights in a folder that goes with the tests."""
     before = {name: os.environ.pop(name, None) for name in ("XDG_STATE_HOME", "STATE_DIRECTORY")}
