@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from bench.processes import environment
-from bench.table import Row
+from bench.table import LeftOutError, Row
 from bench.timing import percentile
 from up.flight_log.flight_log import FlightLog
 
@@ -49,14 +49,14 @@ class Paints:
 
 
 def set_up() -> None:
-    """See to what the browser needs; raises RuntimeError with a sentence."""
+    """Prepare what the browser needs; raises LeftOutError with a sentence."""
     for program, package in NEEDED.items():
         if shutil.which(program) is None:
-            raise RuntimeError(f"{program} is not installed (Debian package {package})")
+            raise LeftOutError(f"{program} is not installed (Debian package {package})")
     for command in ((ROOT / "tools" / "npm_modules", TESTS), (ROOT / "tools" / "web_assets",)):
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode != 0:
-            raise RuntimeError(done.stderr.strip())
+            raise LeftOutError(done.stderr.strip())
 
 
 def measure(seconds: float, *options: str) -> Paints:
