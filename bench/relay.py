@@ -227,7 +227,9 @@ def relay_rows(rounds: int = ROUNDS, seconds: float = SECONDS) -> Iterable[Row]:
 def added_us(runs: list[Figures], direct: list[Figures], share: str) -> list[float]:
     """Return by how much a relay lengthens the round trip, in each round; none if it never ran."""
     key = f"{share}_us"
-    return [getattr(one, key) - getattr(floor, key) for one, floor in zip(runs, direct)]
+    return [
+        getattr(one, key) - getattr(floor, key) for one, floor in zip(runs, direct, strict=False)
+    ]
 
 
 def dial(port: int, hello: str) -> socket.socket:

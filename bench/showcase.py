@@ -43,7 +43,9 @@ def rows(quick: bool = False) -> Iterable[Row]:
                     figures.append(100 * (cpu_s(pid) - before[pid]) / passed_s)
     for pid, title in titles.items():
         yield compared(f"make run, CPU of {title}", UNIT, shares[pid])
-    yield compared("make run, CPU of all", UNIT, [sum(each) for each in zip(*shares.values())])
+    yield compared(
+        "make run, CPU of all", UNIT, [sum(each) for each in zip(*shares.values(), strict=True)]
+    )
 
 
 def _title(pid: int) -> str:

@@ -37,7 +37,9 @@ def rows(quick: bool = False) -> Iterable[Row]:
     for _ in range(ROUNDS):
         for name, run in flights.items():
             factors[name].append(_factor(run, flown_s))
-    for (name, figures), limit in zip(factors.items(), (CHIP_TARGET, HOST_TARGET, None)):
+    for (name, figures), limit in zip(
+        factors.items(), (CHIP_TARGET, HOST_TARGET, None), strict=True
+    ):
         yield compared(f"simulator, {name}", "x real time", figures, limit=limit)
 
 
@@ -66,4 +68,3 @@ def _factor(run: Callable[[], None], simulated_s: float) -> float:
     start_s = time.process_time()
     run()
     return simulated_s / (time.process_time() - start_s)
-

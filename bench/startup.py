@@ -69,9 +69,7 @@ def start_row(rounds: int) -> Row:
         imports.append(1000 * import_s())
         starts.append(1000 * start_s())
     peer = f"python -c '{IMPORT}'"
-    return compared(
-        "daemon start to ports bound", "ms", starts, peer, imports, Limit(RATIO_TARGET)
-    )
+    return compared("daemon start to ports bound", "ms", starts, peer, imports, Limit(RATIO_TARGET))
 
 
 def memory_row(settle_s: float) -> Row:
