@@ -118,8 +118,8 @@ class Flight:
             self.rig.run_us(min(CHUNK_US, end_us - self.rig.now_us))
             data = self.rig.serial.read()
             self.bytes_from_board += len(data)
-            self.tap.feed(data, self.rig.now_us / 1e6)
-            if self.tap.status is not None:
+            messages = self.tap.feed(data, self.rig.now_us / 1e6)
+            if self.tap.status is not None and any(each.type == "x" for each in messages):
                 self.period_us = max(self.period_us, self.tap.status.loop_us)
                 self.late_us = max(self.late_us, self.tap.status.late_us)
 
@@ -134,6 +134,8 @@ class Flight:
             self.run(BURST_US)
             self.mix = ""
             self.run(LULL_US)
+        if self.period_us == 0:
+            raise RuntimeError("the firmware sent no status")
         return self.late_us
 
     def following(self, channel: str) -> Following:
