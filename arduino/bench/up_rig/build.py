@@ -43,7 +43,8 @@ def missing_toolchain() -> str | None:
 def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
     """Run make in ``arduino/`` and return what it printed.
 
-    Of several processes one builds, the others wait. Raises ``BuildError``, and
+    Of several processes one builds, the others wait, also for compilers that outlive a killed
+    builder: they inherit the lock. Raises ``BuildError``, and
     ``RigUnavailableError`` without make, without the sources, and where nothing can be written.
     """
     program = shutil.which("make")
@@ -51,7 +52,7 @@ def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
         raise RigUnavailableError("building needs make (Debian package make)")
     if not has_sources():
         raise RigUnavailableError(NO_SOURCES)
-    with _lock():
+    with _lock() as lock:
         try:
             done = subprocess.run(
                 [program, "-C", str(ARDUINO), *arguments],
@@ -59,6 +60,7 @@ def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
                 text=True,
                 timeout=timeout_s,
                 check=False,
+                pass_fds=(lock,),
             )
         except subprocess.TimeoutExpired as error:
             raise BuildError(f"make needs more than {timeout_s:g} s") from error
@@ -69,7 +71,7 @@ def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
 
 
 @contextlib.contextmanager
-def _lock() -> Iterator[None]:
+def _lock() -> Iterator[int]:
     build = ARDUINO / "build"
     try:
         build.mkdir(exist_ok=True)
@@ -78,7 +80,7 @@ def _lock() -> Iterator[None]:
         raise RigUnavailableError(f"{build} cannot be written: {error.strerror}") from error
     with lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        yield
+        yield lock.fileno()
 
 
 def build_firmware(*options: str) -> Path:
