@@ -5,7 +5,7 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from importlib import import_module
 
-from bench.table import LeftOutError, Row, print_table
+from bench.table import LeftOutError, Row, format_table
 
 SUBJECTS = {
     "bus": "publishing to 1, 10 and 100 subscribers",
@@ -55,13 +55,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--quick", action="store_true", help="a look in about a minute, with coarse figures"
     )
+    parser.add_argument("--markdown", action="store_true", help="the table for docs/performance.md")
     values = parser.parse_args(arguments)
     unknown = [name for name in values.names if name not in SUBJECTS]
     if unknown:
         parser.error(f"there is no {unknown[0]}; there are {', '.join(SUBJECTS)}")
     names = values.names or list(SUBJECTS)
     rows = measure(names, values.quick, lambda text: print(text, file=sys.stderr, flush=True))
-    print_table(rows)
+    print(format_table(rows, values.markdown))
     return int(any(row.ours == FAILED for row in rows))
 
 

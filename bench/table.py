@@ -1,10 +1,8 @@
 """One table of figures: ours, a peer's, their ratio and the target."""
 
 import math
-import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TextIO
 
 from bench.timing import Limit, Spread
 
@@ -89,14 +87,17 @@ def _cells(row: Row) -> tuple[str, ...]:
     return (row.what, row.ours, row.peer, row.peer_figure, row.ratio, row.target, met)
 
 
-def format_table(rows: Iterable[Row]) -> str:
+def format_table(rows: Iterable[Row], is_markdown: bool = False) -> str:
     """Return the rows as aligned columns under their headings, then what was left out."""
     rows = list(rows)
     lines = [HEADINGS, *(_cells(row) for row in rows if row.ours)]
     widths = [max(len(line[column]) for line in lines) for column in range(len(HEADINGS))]
     rule = tuple("-" * width for width in widths)
+    edge, between = ("| ", " | ") if is_markdown else ("", "  ")
     padded = [
-        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+        edge
+        + between.join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+        + edge[::-1]
         for line in (lines[0], rule, *lines[1:])
     ]
     absent = [
@@ -105,8 +106,3 @@ def format_table(rows: Iterable[Row]) -> str:
         if row.left_out
     ]
     return "\n".join([*padded, *(["left out:", *absent] if absent else [])])
-
-
-def print_table(rows: Iterable[Row], stream: TextIO | None = None) -> None:
-    """Print the rows; a generator's rows appear when all are there."""
-    print(format_table(rows), file=stream or sys.stdout)

@@ -47,7 +47,7 @@ class Spread:
 
 
 def rounds_ns(works: Sequence[Work], rounds: int, calls: int) -> list[list[float]]:
-    """Return the nanoseconds of one call of each work in each of several rounds in turns.
+    """Return the CPU nanoseconds of one call of each work in each of several rounds in turns.
 
     The collector is off, as in the daemon; what the empty loop takes is subtracted.
     """
@@ -75,10 +75,10 @@ def _nothing() -> None:
 
 
 def _loop_ns(work: Work, calls: int) -> float:
-    began = time.perf_counter_ns()
+    began = time.process_time_ns()
     for _ in repeat(None, calls):
         work()
-    return (time.perf_counter_ns() - began) / calls
+    return (time.process_time_ns() - began) / calls
 
 
 def percentile(ordered: Sequence[float], share: float) -> float:

@@ -113,6 +113,7 @@ def test_the_table_marks_noise_and_lists_what_was_left_out():
         "    four: no Chromium",
     ]
     assert "left out" not in format_table(rows[:2])
+    assert [line.count("|") for line in format_table(rows[:2], True).splitlines()] == [8] * 4
 
 
 def test_ours_and_the_peer_take_turns():
