@@ -63,3 +63,16 @@ def test_a_second_build_waits_for_the_first(folder):
         with (folder / "build" / ".lock").open("w") as lock, pytest.raises(BlockingIOError):
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         os.close(end)
+
+
+def test_a_lock_of_its_own_does_not_wait_for_the_firmwares(folder):
+    with builder(folder):
+        end = os.open(folder / "end", os.O_WRONLY)
+        code = BUILD.replace("make('anything')", "make('other', lock_name='.other.lock')")
+        with (folder / "make").open("w") as script:
+            script.write("#!/bin/sh\n")
+        environ = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
+        subprocess.run(
+            [sys.executable, "-c", code, str(folder)], env=environ, check=True, timeout=60
+        )
+        os.close(end)
