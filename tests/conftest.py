@@ -7,8 +7,13 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from tests.support.showcase import Showcase
+
+# No example fails because the machine was busy: neither by its time nor by that of drawing it.
+settings.register_profile("tests", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("tests")
 
 # A shell that starts something in the background lets it ignore Ctrl-C, and every program that it
 # starts as well: then none of the tests' own programs would end by it.
