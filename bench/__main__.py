@@ -4,6 +4,7 @@ import argparse
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from importlib import import_module
+from subprocess import SubprocessError
 
 from bench.table import LeftOutError, Row, format_table
 
@@ -38,7 +39,7 @@ def measure(names: Iterable[str], quick: bool, say: Callable[[str], object]) -> 
         except LeftOutError as error:
             say(f"    left out: {error}")
             rows.append(Row(name, left_out=str(error)))
-        except (RuntimeError, OSError) as error:
+        except (RuntimeError, OSError, SubprocessError) as error:
             say(f"    {error}")
             rows.append(Row(name, FAILED, peer=str(error).splitlines()[0][:80], met=False))
     return rows

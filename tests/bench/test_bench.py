@@ -217,10 +217,14 @@ def test_without_chromium_its_rows_are_left_out_and_the_others_are_there(monkeyp
     assert "cascade of 6 PIDs" in printed and "failed" not in printed
 
 
-def test_one_subject_that_fails_costs_no_other(monkeypatch, capsys):
+@pytest.mark.parametrize(
+    "error",
+    [RuntimeError("there is no daemon"), subprocess.TimeoutExpired("there is no daemon", 1.0)],
+)
+def test_one_subject_that_fails_costs_no_other(monkeypatch, capsys, error):
     def broken(quick):
         yield Row("before", "1")
-        raise RuntimeError("there is no daemon")
+        raise error
 
     monkeypatch.setattr(bus, "rows", broken)
     assert program.main(["bus", "cascade", "--quick"]) == 1
