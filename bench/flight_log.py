@@ -9,6 +9,8 @@ import json
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -37,6 +39,13 @@ TOPICS: dict[str, tuple[int, bytes]] = {
     "up.location.update": (100, json.dumps({"latitude": 50.0, "longitude": 14.0}).encode()),
 }
 """Every how many ticks of 10 ms, and what."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Rounds:
+    ours: list[float] = field(default_factory=list)
+    theirs: list[float] = field(default_factory=list)
+
 
 Put = Callable[[int, int, bytes], object]
 
@@ -111,26 +120,28 @@ def rows(quick: bool = False) -> Iterable[Row]:
         )
     except ImportError:
         official = None
-    write_us, read_s, series_s = (([], []) for _ in range(3))
+    write_us, read_s, series_s = (_Rounds() for _ in range(3))
     with tempfile.TemporaryDirectory(prefix="up-bench-") as folder:
         mine, theirs = Path(folder, "ours.mcap"), Path(folder, "theirs.mcap")
         for _ in range(ROUNDS):
             with mine.open("wb") as file:
                 count, spent_s = write_ours(file.write, minutes)
-            write_us[0].append(spent_s / count * 1e6)
-            read_s[0].append(_cpu_s(lambda: FlightLog.read([mine])))
+            write_us.ours.append(spent_s / count * 1e6)
+            read_s.ours.append(_cpu_s(lambda: FlightLog.read([mine])))
             log = FlightLog.read([mine])
-            series_s[0].append(_cpu_s(lambda log=log: log.series(ROLL, "roll")))
+            series_s.ours.append(_cpu_s(partial(log.series, ROLL, "roll")))
             if official is not None:
                 count, spent_s = write_theirs(official, theirs, min(minutes, 5))
-                write_us[1].append(spent_s / count * 1e6)
-                read_s[1].append(_cpu_s(lambda: read_theirs(stream, mine)))
-                series_s[1].append(_cpu_s(lambda: series_theirs(reader, mine)))
+                write_us.theirs.append(spent_s / count * 1e6)
+                read_s.theirs.append(_cpu_s(lambda: read_theirs(stream, mine)))
+                series_s.theirs.append(_cpu_s(lambda: series_theirs(reader, mine)))
         megabytes = mine.stat().st_size / 1e6
     what = f"flight log of {minutes} min, {megabytes:.0f} MB"
-    yield compared("flight log, a message written", "us", write_us[0], PEER, write_us[1], BETTER)
-    yield compared(f"{what}, read and checked", "s", read_s[0], PEER, read_s[1], BETTER)
-    yield compared(f"{what}, one number of one topic", "s", series_s[0], PEER, series_s[1])
+    yield compared(
+        "flight log, a message written", "us", write_us.ours, PEER, write_us.theirs, BETTER
+    )
+    yield compared(f"{what}, read and checked", "s", read_s.ours, PEER, read_s.theirs, BETTER)
+    yield compared(f"{what}, one number of one topic", "s", series_s.ours, PEER, series_s.theirs)
 
 
 def _put_all(minutes: float, put: Put) -> tuple[int, float]:
