@@ -10,8 +10,8 @@ from typing import Any, ClassVar
 
 from twisted.internet.task import Clock
 
-from bench.table import Row
-from bench.timing import Work, best_ns
+from bench.table import Row, compared
+from bench.timing import Limit, Work, rounds_ns
 from up.commands.command import BaseCommand, value
 from up.commands.command_executor import CommandExecutor
 from up.commands.command_registry import CommandRegistry
@@ -19,8 +19,7 @@ from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.log.limits import Limited
 
-TARGETS = {1: 2.6, 10: 1.6, 100: 1.3}
-PEERS = ("pluggy", "blinker")
+TARGETS = {1: 2.0, 10: 1.4, 100: 1.1}
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,21 +114,8 @@ def rows(quick: bool = False) -> Iterable[Row]:
             peer = make(count)
             if peer is not None:
                 works[name] = peer
-        rounds, calls = (3, 200) if quick else (20, max(500, 20_000 // count))
-        times = dict(zip(works, best_ns(list(works.values()), rounds, calls), strict=True))
-        mine = times["ours"]
+        rounds, calls = (5, 200) if quick else (20, max(500, 20_000 // count))
+        times = dict(zip(works, rounds_ns(list(works.values()), rounds, calls), strict=True))
         for name in ("dict of lists", *makers):
-            if name not in times:
-                yield Row(what, f"{mine:.0f} ns", name, "not installed")
-                continue
-            ratio = mine / times[name]
-            aim = name == "dict of lists"
-            yield Row(
-                what,
-                f"{mine:.0f} ns",
-                name,
-                f"{times[name]:.0f} ns",
-                f"{ratio:.2f}x" if ratio >= 1 else f"{1 / ratio:.1f}x faster",
-                f"<= {target}x" if aim else "",
-                ratio <= target if aim else None,
-            )
+            limit = Limit(target) if name == "dict of lists" else None
+            yield compared(what, "ns", times["ours"], name, times.get(name, ()), limit)

@@ -1,27 +1,29 @@
 """The flight log's writer and reader beside the official ``mcap`` package, in turns.
 
 The log is that of a flight: 300 messages a second, attitude and receiver fastest, telemetry ten
-times a second. CPU time of this process, the best of several rounds.
+times a second. CPU time of this process, in rounds in which both take turns.
 """
 
 import gc
 import json
-import math
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from bench.table import Row
+from bench.table import Row, compared
+from bench.timing import Limit
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.mcap_writer import McapWriter
 
 PEER = "mcap (official)"
-MINUTES, QUICK_MINUTES = 60, 1
-ROUNDS, QUICK_ROUNDS = 3, 1
-WRITE_TARGET, READ_TARGET = 2.0, 2.0
+MINUTES, QUICK_MINUTES = 30, 1
+ROUNDS = 3
+BETTER = Limit(2.0, is_least=True)
 START_NS = 1_700_000_000_000_000_000
 TICK_NS = 10_000_000
 ROLL = "up.orientation.update"
@@ -37,6 +39,13 @@ TOPICS: dict[str, tuple[int, bytes]] = {
     "up.location.update": (100, json.dumps({"latitude": 50.0, "longitude": 14.0}).encode()),
 }
 """Every how many ticks of 10 ms, and what."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Rounds:
+    ours: list[float] = field(default_factory=list)
+    theirs: list[float] = field(default_factory=list)
+
 
 Put = Callable[[int, int, bytes], object]
 
@@ -104,41 +113,35 @@ def series_theirs(reader: Any, path: Path) -> int:
 
 def rows(quick: bool = False) -> Iterable[Row]:
     """Yield what a message costs to write, and how fast a log is read."""
-    minutes, rounds = (QUICK_MINUTES, QUICK_ROUNDS) if quick else (MINUTES, ROUNDS)
+    minutes = QUICK_MINUTES if quick else MINUTES
     try:
         official, stream, reader = map(
             import_module, ("mcap.writer", "mcap.stream_reader", "mcap.reader")
         )
     except ImportError:
         official = None
+    write_us, read_s, series_s = (_Rounds() for _ in range(3))
     with tempfile.TemporaryDirectory(prefix="up-bench-") as folder:
         mine, theirs = Path(folder, "ours.mcap"), Path(folder, "theirs.mcap")
-        write_us, peers_us = math.inf, math.inf
-        for _ in range(rounds):
+        for _ in range(ROUNDS):
             with mine.open("wb") as file:
                 count, spent_s = write_ours(file.write, minutes)
-            write_us = min(write_us, spent_s / count * 1e6)
+            write_us.ours.append(spent_s / count * 1e6)
+            read_s.ours.append(_cpu_s(lambda: FlightLog.read([mine])))
+            log = FlightLog.read([mine])
+            series_s.ours.append(_cpu_s(partial(log.series, ROLL, "roll")))
             if official is not None:
-                count, spent_s = write_theirs(official, theirs, min(minutes, 10))
-                peers_us = min(peers_us, spent_s / count * 1e6)
-        yield _row("flight log, a message written", write_us, peers_us, "us", WRITE_TARGET)
+                count, spent_s = write_theirs(official, theirs, min(minutes, 5))
+                write_us.theirs.append(spent_s / count * 1e6)
+                read_s.theirs.append(_cpu_s(lambda: read_theirs(stream, mine)))
+                series_s.theirs.append(_cpu_s(lambda: series_theirs(reader, mine)))
         megabytes = mine.stat().st_size / 1e6
-        read_s = _best_s(rounds, lambda: FlightLog.read([mine]))
-        log = FlightLog.read([mine])
-        series_s = _best_s(rounds, lambda: log.series(ROLL, "roll"))
-        peer_read_s = peer_series_s = math.inf
-        if official is not None:
-            peer_read_s = _best_s(1, lambda: read_theirs(stream, mine))
-            peer_series_s = _best_s(1, lambda: series_theirs(reader, mine))
     what = f"flight log of {minutes} min, {megabytes:.0f} MB"
-    yield _row(f"{what}, read and checked", read_s, peer_read_s, "s", READ_TARGET)
-    yield Row(
-        "the same, a second",
-        f"{megabytes / read_s:.0f} MB",
-        PEER,
-        f"{megabytes / peer_read_s:.0f} MB" if official is not None else "not installed",
+    yield compared(
+        "flight log, a message written", "us", write_us.ours, PEER, write_us.theirs, BETTER
     )
-    yield _row(f"{what}, one number of one topic", series_s, peer_series_s, "s", None)
+    yield compared(f"{what}, read and checked", "s", read_s.ours, PEER, read_s.theirs, BETTER)
+    yield compared(f"{what}, one number of one topic", "s", series_s.ours, PEER, series_s.theirs)
 
 
 def _put_all(minutes: float, put: Put) -> tuple[int, float]:
@@ -162,28 +165,8 @@ def _spent_s(batch: list[tuple[int, int, bytes]], put: Put) -> float:
     return time.process_time() - began
 
 
-def _best_s(rounds: int, work: Callable[[], object]) -> float:
-    best_s = math.inf
-    for _ in range(rounds):
-        gc.collect()
-        began = time.process_time()
-        work()
-        best_s = min(best_s, time.process_time() - began)
-    return best_s
-
-
-def _row(what: str, ours: float, peers: float, unit: str, target: float | None) -> Row:
-    digits = 2 if unit == "us" else 3
-    wanted = f">= {target:g}x faster" if target is not None else ""
-    if math.isinf(peers):
-        return Row(what, f"{ours:.{digits}f} {unit}", PEER, "not installed", "", wanted)
-    ratio = peers / ours
-    return Row(
-        what,
-        f"{ours:.{digits}f} {unit}",
-        PEER,
-        f"{peers:.{digits}f} {unit}",
-        f"{ratio:.1f}x faster" if ratio >= 1 else f"{1 / ratio:.1f}x slower",
-        wanted,
-        None if target is None else ratio >= target,
-    )
+def _cpu_s(work: Callable[[], object]) -> float:
+    gc.collect()
+    began_s = time.process_time()
+    work()
+    return time.process_time() - began_s

@@ -1,8 +1,8 @@
 """Sensor to actuator: orientation bytes into a pty, Output bytes out, through the running daemon.
 
-Peers, all in one run and in turns: a C program that echoes the same bytes (the floor of the
-machine), the same daemon with Python's own garbage collector (the control run), and the daemon at
-nice 0 beside programs that take every core.
+Peers, measured in turns, a few seconds each: a C program that echoes the same bytes (the floor of
+the machine), the same daemon with Python's own garbage collector (the control run), and the daemon
+at nice 0 beside programs that take every core.
 """
 
 from __future__ import annotations
@@ -12,134 +12,104 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from bench.board import Board, Latency, terminal
 from bench.daemon import CONTROL, MAIN, daemon
 from bench.processes import hogs, running
-from bench.table import Row
+from bench.table import Row, compared
+from bench.timing import Limit
 
 RATE_HZ = 1000
-SECONDS, QUICK_SECONDS = 10.0, 1.0
-ROUNDS = 3
+SECONDS, QUICK_SECONDS = 4.0, 0.5
+ROUNDS, QUICK_ROUNDS = 7, 3
 HOGS = 2
 PRIORITY = 20
 GREET_S = 30.0
-P50_TARGET, P99_TARGET = 1.6, 2.5
+P50_TARGET, P99_TARGET = 2.3, 2.5
 CONTROL_TARGET, HOGS_TARGET = 10.0, 15.0
 FLOOR_SOURCE = Path(__file__).with_name("floor.c")
 WHAT = "sensor to actuator through the daemon, 1 kHz"
 
 
 @contextmanager
-def floor_program() -> Iterator[Path | None]:
-    """Yield the compiled floor; None without a C compiler."""
-    with tempfile.TemporaryDirectory() as folder:
-        compiler = shutil.which("gcc") or shutil.which("cc")
-        if compiler is None:
-            yield None
-            return
+def floor_board() -> Iterator[Board | None]:
+    """Yield the board of the C echo; None without a C compiler."""
+    compiler = shutil.which("gcc") or shutil.which("cc")
+    if compiler is None:
+        yield None
+        return
+    with tempfile.TemporaryDirectory() as folder, terminal() as (board_end, port):
         program = Path(folder, "floor")
         subprocess.run([compiler, "-O2", "-o", program, FLOOR_SOURCE], check=True)
-        yield program
+        with running((program, port)):
+            yield Board(board_end)
 
 
-def measure_floor(program: Path, seconds: float) -> Latency:
-    """Measure the C echo."""
-    with terminal() as (board_end, port), running((program, port)):
-        board = Board(board_end)
-        board.greet(GREET_S)
-        return board.measure(RATE_HZ, seconds)
-
-
-def measure_daemon(seconds: float, program: Path = MAIN, priority: int = 0) -> Latency:
-    """Measure the daemon."""
-    with terminal() as (board_end, port), daemon(port, priority=priority, program=program):
-        board = Board(board_end)
-        board.greet(GREET_S)
-        return board.measure(RATE_HZ, seconds)
-
-
-def quietest(runs: list[Latency]) -> Latency:
-    """Return the least of each figure over several rounds, and all frames and losses."""
-    return Latency(
-        sum(run.sent for run in runs),
-        sum(run.lost for run in runs),
-        min(run.p50_us for run in runs),
-        min(run.p99_us for run in runs),
-        min(run.p999_us for run in runs),
-    )
-
-
-def tail_rows(quick: bool) -> Iterable[Row]:
-    """Yield the rows against the floor and against the control run."""
-    seconds, rounds = (QUICK_SECONDS, 1) if quick else (SECONDS, ROUNDS)
-    floors, ours, controls = [], [], []
-    with floor_program() as program:
-        for _ in range(rounds):
-            if program is not None:
-                floors.append(measure_floor(program, seconds))
-            ours.append(measure_daemon(seconds))
-            controls.append(measure_daemon(seconds, CONTROL))
-    mine = quietest(ours)
-    yield from floor_rows(mine, quietest(floors) if floors else None)
-    control = quietest(controls)
-    gain = control.p999_us / mine.p999_us
-    yield Row(
-        f"{WHAT}, p99.9",
-        f"{mine.p999_us:.0f} us",
-        "control run, Python's collector",
-        f"{control.p999_us:.0f} us",
-        f"{gain:.1f}x better",
-        f">= {CONTROL_TARGET:g}x better",
-        gain >= CONTROL_TARGET,
-    )
-    yield Row(
-        f"{WHAT}, Outputs lost",
-        f"{mine.lost} of {mine.sent}",
-        target="0",
-        met=mine.lost == 0,
-    )
-
-
-def floor_rows(mine: Latency, floor: Latency | None) -> Iterable[Row]:
-    """Yield the middle and the tail beside the floor."""
-    peer = "C floor (epoll echo)"
-    for name, figure, theirs, target in (
-        ("p50", mine.p50_us, floor.p50_us if floor else None, P50_TARGET),
-        ("p99", mine.p99_us, floor.p99_us if floor else None, P99_TARGET),
+@contextmanager
+def daemon_board(
+    program: Path = MAIN, priority: int = 0, is_recorded: bool = True
+) -> Iterator[Board]:
+    """Yield the board of a running daemon."""
+    with (
+        terminal() as (board_end, port),
+        daemon(port, priority=priority, program=program, is_recorded=is_recorded),
     ):
-        what, ours = f"{WHAT}, {name}", f"{figure:.0f} us"
-        if theirs is None:
-            yield Row(what, ours, peer, "no C compiler", "", f"<= {target}x")
-            continue
-        ratio = figure / theirs
-        yield Row(
-            what, ours, peer, f"{theirs:.0f} us", f"{ratio:.2f}x", f"<= {target}x", ratio <= target
+        yield Board(board_end)
+
+
+def in_turns(boards: list[Board], seconds: float, rounds: int) -> list[list[Latency]]:
+    """Measure each board's program in each round, and return the rounds of each."""
+    found: list[list[Latency]] = [[] for _ in boards]
+    for _ in range(rounds):
+        for figures, board in zip(found, boards, strict=True):
+            # A board that was silent in the others' turns is a lost one.
+            board.greet(GREET_S)
+            figures.append(board.measure(RATE_HZ, seconds))
+    return found
+
+
+def tail_rows(seconds: float, rounds: int) -> Iterable[Row]:
+    """Yield the rows against the floor and against the control run."""
+    with floor_board() as floor, daemon_board() as mine, daemon_board(CONTROL) as other:
+        boards = [mine, other] + ([floor] if floor else [])
+        ours, control, *floors = in_turns(boards, seconds, rounds)
+    yield from floor_rows(ours, floors[0] if floors else [])
+    yield compared(
+        f"{WHAT}, p99.9",
+        "us",
+        [each.p999_us for each in ours],
+        "control run, Python's collector",
+        [each.p999_us for each in control],
+        Limit(CONTROL_TARGET, is_least=True),
+    )
+    lost, sent = sum(each.lost for each in ours), sum(each.sent for each in ours)
+    yield Row(f"{WHAT}, Outputs lost", f"{lost} of {sent}", target="0", met=lost == 0)
+
+
+def floor_rows(ours: list[Latency], floors: list[Latency]) -> Iterable[Row]:
+    """Yield the middle and the tail beside the floor."""
+    for name, limit in (("p50", P50_TARGET), ("p99", P99_TARGET)):
+        figures, theirs = ([getattr(run, f"{name}_us") for run in runs] for runs in (ours, floors))
+        peer = "C floor (epoll echo)"
+        yield compared(
+            f"{WHAT}, {name}", "us", figures, peer, theirs, Limit(limit), "no C compiler"
         )
 
 
-def hogs_row(quick: bool) -> Row:
+def hogs_row(seconds: float, rounds: int) -> Row:
     """Return the tail under real-time priority beside that at nice 0, with every core taken."""
-    seconds = QUICK_SECONDS if quick else SECONDS
     what = f"{WHAT}, {HOGS} CPU hogs, SCHED_FIFO {PRIORITY}, p99"
-    target = f">= {HOGS_TARGET:g}x better"
     if not may_be_realtime():
-        return Row(what, "not permitted here", "the same at nice 0", target=target)
-    with hogs(HOGS):
-        nice = measure_daemon(seconds)
-        realtime = measure_daemon(seconds, priority=PRIORITY)
-    gain = nice.p99_us / realtime.p99_us
-    return Row(
-        what,
-        f"{realtime.p99_us:.0f} us",
-        "the same at nice 0",
-        f"{nice.p99_us:.0f} us",
-        f"{gain:.1f}x better",
-        target,
-        gain >= HOGS_TARGET,
-    )
+        return Row(what, left_out="real-time priority is not permitted here")
+    with ExitStack() as stack:
+        boards = [stack.enter_context(daemon_board(priority=each)) for each in (PRIORITY, 0)]
+        stack.enter_context(hogs(HOGS))
+        runs = in_turns(boards, seconds, rounds)
+    realtime, nice = ([each.p99_us for each in run] for run in runs)
+    limit = Limit(HOGS_TARGET, is_least=True)
+    return compared(what, "us", realtime, "the same at nice 0", nice, limit)
 
 
 def may_be_realtime() -> bool:
@@ -155,5 +125,6 @@ def may_be_realtime() -> bool:
 
 def rows(quick: bool = False) -> Iterable[Row]:
     """Yield the latency rows."""
-    yield from tail_rows(quick)
-    yield hogs_row(quick)
+    seconds, rounds = (QUICK_SECONDS, QUICK_ROUNDS) if quick else (SECONDS, ROUNDS)
+    yield from tail_rows(seconds, rounds)
+    yield hogs_row(seconds, rounds)

@@ -25,11 +25,11 @@ def environment() -> dict[str, str]:
 def running(
     command: Sequence[str | Path], log: IO[str] | int = subprocess.DEVNULL, cwd: Path | None = None
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a program, and end it."""
+    """Run a program, its output in a log, and end it."""
     process = subprocess.Popen(
         [str(word) for word in command],
         stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
+        stdout=log,
         stderr=log,
         cwd=cwd,
         env=environment(),
@@ -65,6 +65,15 @@ def wait_until(condition: Callable[[], object], what: str, deadline_s: float = D
         if time.monotonic() > end_s:
             raise RuntimeError(f"not within {deadline_s:.0f} s: {what}")
         time.sleep(0.01)
+
+
+def tree(pid: int) -> list[int]:
+    """Return a process and all its descendants."""
+    found = [pid]
+    for task in Path(f"/proc/{pid}/task").iterdir():
+        for child in (task / "children").read_text().split():
+            found += tree(int(child))
+    return found
 
 
 def cpu_s(pid: int) -> float:

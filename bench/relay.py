@@ -20,18 +20,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from bench.table import Row
+from bench.processes import cpu_s, resident_mib, tree
+from bench.table import LeftOutError, Row, compared
+from bench.timing import Limit
 
 PAIRS = 100
 RATE_HZ = 50
 SIZE = 200
-SECONDS = 5.0
-ROUNDS = 3
-LATENCY_TARGET = 1.5
-CPU_TARGET = 1.3
-PAIR_BYTES_TARGET = 4096
+SECONDS = 3.0
+ROUNDS, QUICK_ROUNDS = 5, 3
+TARGET = Limit(1.2)
+PAIR_BYTES_TARGET = 2048
 MANY_PAIRS = 5000
-STALL_BYTES_TARGET = 5_000_000
+MANY_PAIRS_TARGET = Limit(15.0)
+STALL_MB_TARGET = 5.0
 LOAD = Path(__file__).with_name("relay_load.py")
 DEADLINE_S = 60.0
 LISTENS = r"(airborne|ground) side listens on port (\d+)\n"
@@ -46,27 +48,9 @@ class Figures:
     cpu_us: float
 
 
-def tree(pid: int) -> list[int]:
-    """Return a process and all its descendants."""
-    found = [pid]
-    for task in Path(f"/proc/{pid}/task").iterdir():
-        for child in (task / "children").read_text().split():
-            found += tree(int(child))
-    return found
-
-
-def cpu_s(pid: int) -> float:
+def tree_cpu_s(pid: int) -> float:
     """Return the CPU time of a process with its descendants, all threads, in seconds."""
-    total_ns = 0
-    for each in tree(pid):
-        for task in Path(f"/proc/{each}/task").iterdir():
-            total_ns += int((task / "schedstat").read_text().split()[0])
-    return total_ns / 1e9
-
-
-def resident_bytes(pid: int) -> int:
-    """Return the resident memory of a process."""
-    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    return sum(map(cpu_s, tree(pid)))
 
 
 def cores() -> tuple[int, int]:
@@ -162,9 +146,9 @@ class Load:
         """Wait for the measurement and return it."""
         self.hear("ready")
         self.hear("warm")
-        begin_s = cpu_s(relay_pid) if relay_pid is not None else 0.0
+        begin_s = tree_cpu_s(relay_pid) if relay_pid is not None else 0.0
         self.hear("done")
-        used_s = cpu_s(relay_pid) - begin_s if relay_pid is not None else 0.0
+        used_s = tree_cpu_s(relay_pid) - begin_s if relay_pid is not None else 0.0
         self.tell({})
         end = self.hear("count")
         self._process.wait(10)
@@ -218,50 +202,34 @@ def measure_peer(name: str, seconds: float) -> Figures | None:
         return load.figures(it.pid)
 
 
-def best(rounds: list[Figures]) -> Figures:
-    """Return the quietest figures of several rounds: noise only ever adds."""
-    return Figures(
-        min(each.p50_us for each in rounds),
-        min(each.p99_us for each in rounds),
-        min(each.cpu_us for each in rounds),
-    )
-
-
 def relay_rows(rounds: int = ROUNDS, seconds: float = SECONDS) -> Iterable[Row]:
     """Yield latency and CPU against both peers, the rounds interleaved."""
-    names = [name for name in ("haproxy", "socat") if shutil.which(name)]
-    runs: dict[str, list[Figures]] = {name: [] for name in ("direct", "ours", *names)}
+    peers = {"haproxy": "HAProxy", "socat": "socat"}
+    runs: dict[str, list[Figures]] = {name: [] for name in ("direct", "ours", *peers)}
     for _ in range(rounds):
         runs["direct"].append(measure_direct(seconds))
         runs["ours"].append(measure_ours(seconds))
-        for name in names:
+        for name in peers:
             figures = measure_peer(name, seconds)
             if figures is not None:
                 runs[name].append(figures)
-    direct, ours = best(runs["direct"]), best(runs["ours"])
-    load = f"{PAIRS} pairs x {RATE_HZ}/s x {SIZE} B"
-    for name in ("haproxy", "socat"):
-        label = {"haproxy": "HAProxy", "socat": "socat"}[name]
-        if name not in runs:
-            yield Row(f"relay, {load}", f"{ours.cpu_us:.1f} us CPU", label, "not installed")
-            continue
-        peer = best(runs[name])
-        aim = name == "haproxy"
-        for what, mine, theirs, target in (
-            ("added p50", ours.p50_us - direct.p50_us, peer.p50_us - direct.p50_us, LATENCY_TARGET),
-            ("added p99", ours.p99_us - direct.p99_us, peer.p99_us - direct.p99_us, LATENCY_TARGET),
-            ("CPU a round trip", ours.cpu_us, peer.cpu_us, CPU_TARGET),
-        ):
-            ratio = mine / theirs if theirs > 0 else float("inf")
-            yield Row(
-                f"relay, {load}, {what}",
-                f"{mine:.1f} us",
-                label,
-                f"{theirs:.1f} us",
-                f"{ratio:.2f}x",
-                f"<= {target}x" if aim else "",
-                ratio <= target if aim else None,
-            )
+    load = f"relay, {PAIRS} pairs x {RATE_HZ}/s x {SIZE} B"
+    for name, label in peers.items():
+        limit = TARGET if name == "haproxy" else None
+        for share in ("p50", "p99"):
+            added = {each: added_us(runs[each], runs["direct"], share) for each in ("ours", name)}
+            what = f"{load}, added {share}"
+            yield compared(what, "us", added["ours"], label, added[name], limit)
+        ours, theirs = ([each.cpu_us for each in runs[key]] for key in ("ours", name))
+        yield compared(f"{load}, CPU of a round trip", "us", ours, label, theirs, limit)
+
+
+def added_us(runs: list[Figures], direct: list[Figures], share: str) -> list[float]:
+    """Return by how much a relay lengthens the round trip, in each round; none if it never ran."""
+    key = f"{share}_us"
+    return [
+        getattr(one, key) - getattr(floor, key) for one, floor in zip(runs, direct, strict=False)
+    ]
 
 
 def dial(port: int, hello: str) -> socket.socket:
@@ -282,18 +250,21 @@ def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, 2 * pairs + 200), hard))
     with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
         keep = [dial(air, "UP1 aircraft=warm\n"), dial(ground, "UP1 aircraft=warm\n")]
-        before = resident_bytes(running.pid)
+        before_mib = resident_mib(running.pid)
         for number in range(pairs):
             keep.append(dial(air, f"UP1 aircraft=idle-{number}\n"))
             keep.append(dial(ground, f"UP1 aircraft=idle-{number} seat=command\n"))
             if number % 500 == 0:
                 beat(keep)
-        each = (resident_bytes(running.pid) - before) / pairs
-        begin_s, begin_cpu_s = time.monotonic(), cpu_s(running.pid)
+        each = (resident_mib(running.pid) - before_mib) * 2**20 / pairs
+        shares = []
+        begin_s = time.monotonic()
         for second in range(seconds):
+            began_s, used_s = time.monotonic(), cpu_s(running.pid)
             beat(keep)
             time.sleep(max(0.0, begin_s + second + 1 - time.monotonic()))
-        share = (cpu_s(running.pid) - begin_cpu_s) / (time.monotonic() - begin_s)
+            used_s = cpu_s(running.pid) - used_s
+            shares.append(100 * used_s / (time.monotonic() - began_s))
         for peer in keep:
             peer.close()
     yield Row(
@@ -302,12 +273,9 @@ def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
         target=f"<= {PAIR_BYTES_TARGET} B",
         met=each <= PAIR_BYTES_TARGET,
     )
-    yield Row(
-        f"relay, {pairs} pairs with a heartbeat a second from each end",
-        f"{share:.0%} of a core",
-        target=f"{MANY_PAIRS} pairs on a core",
-        met=pairs >= MANY_PAIRS and share < 1,
-    )
+    what = f"relay, {pairs} pairs with a heartbeat a second from each end"
+    limit = MANY_PAIRS_TARGET if pairs == MANY_PAIRS else None
+    yield compared(what, "% of a core", shares, limit=limit)
 
 
 def beat(peers: list[socket.socket]) -> None:
@@ -324,33 +292,35 @@ def stalled_row(seconds: float = 2.0) -> Row:
     with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
         aircraft = dial(air, "UP1 aircraft=stall\n")
         stalled = dial(ground, "UP1 aircraft=stall seat=command\n")
-        before = resident_bytes(running.pid)
-        peak, sent = before, 0
+        before_mib = peak_mib = resident_mib(running.pid)
+        sent = 0
         line = b"x" * 999 + b"\n"
         end_s = time.monotonic() + seconds
         while time.monotonic() < end_s:
             aircraft.sendall(line * 64)
             sent += 64_000
-            peak = max(peak, resident_bytes(running.pid))
+            peak_mib = max(peak_mib, resident_mib(running.pid))
         aircraft.close()
         stalled.close()
-    grown = peak - before
+    grown_mb = (peak_mib - before_mib) * 2**20 / 1e6
     return Row(
         f"relay, memory behind a stalled ground ({sent / 1e6:.0f} MB sent)",
-        f"{grown / 1e6:.2f} MB",
+        f"{grown_mb:.2f} MB",
         "prototype (seen once)",
         "220 MB in 1 s",
         "",
-        f"<= {STALL_BYTES_TARGET / 1e6:.0f} MB",
-        grown <= STALL_BYTES_TARGET,
+        f"<= {STALL_MB_TARGET:g} MB",
+        grown_mb <= STALL_MB_TARGET,
     )
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
     """Yield the relay's rows of the table."""
+    if shutil.which("taskset") is None:
+        raise LeftOutError("taskset is not installed (Debian package util-linux)")
     if quick:
-        yield from relay_rows(rounds=1, seconds=1.0)
-        yield from many_pairs_rows(pairs=100, seconds=1)
+        yield from relay_rows(QUICK_ROUNDS, seconds=0.5)
+        yield from many_pairs_rows(pairs=100, seconds=3)
         yield stalled_row(seconds=0.5)
         return
     yield from relay_rows()

@@ -1,46 +1,108 @@
 """One table of figures: ours, a peer's, their ratio and the target."""
 
-import sys
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TextIO
+
+from bench.timing import Limit, Spread
+
+NOT_INSTALLED = "not installed"
+
+
+class LeftOutError(Exception):
+    """This machine lacks what a measurement needs; the message says what."""
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One figure; all texts are ready to print, `met` is None where nothing was to be met."""
+    """One figure; all texts are ready to print.
+
+    ``met`` is None without a target and where it cannot be judged. ``left_out``: why there is no
+    figure, of ours or of the peer.
+    """
 
     what: str
-    ours: str
+    ours: str = ""
     peer: str = ""
     peer_figure: str = ""
     ratio: str = ""
     target: str = ""
     met: bool | None = None
+    is_noisy: bool = False
+    left_out: str = ""
 
 
-HEADINGS = ("what", "ours", "peer", "peer's", "ratio", "target", "met")
+HEADINGS = ("what", "ours", "peer", "peer's", "ratio (quartiles)", "target", "met")
 _MET = {True: "yes", False: "NO", None: "-"}
 
 
+def figure(value: float, unit: str = "") -> str:
+    """Return a number with three significant digits and its unit."""
+    size = math.floor(math.log10(abs(value))) if value and math.isfinite(value) else 0
+    return f"{value:.{max(0, 2 - size)}f} {unit}".rstrip()
+
+
+def compared(
+    what: str,
+    unit: str,
+    ours: Sequence[float],
+    peer: str = "",
+    theirs: Sequence[float] = (),
+    limit: Limit | None = None,
+    missing: str = NOT_INSTALLED,
+) -> Row:
+    """Return the row of figures that ours and a peer's had in the same rounds, in turns.
+
+    The ratio is the median of the rounds' ratios. ``limit`` is a limit of the ratio: at most, or
+    at least that many times better; without a peer it is one of the figure. Without figures of
+    the peer, ``missing`` gives the reason.
+    """
+    is_gain = limit is not None and limit.is_least
+    suffix = f" {unit}".rstrip() if not peer else "x better" if is_gain else "x"
+    target = f"{'>=' if is_gain else '<='} {limit.value:g}{suffix}" if limit else ""
+    mine = figure(Spread.of(ours).median, unit)
+    if peer and not theirs:
+        return Row(what, mine, peer, "-", target=target, left_out=missing)
+    ratios = list(ours)
+    if peer:
+        pairs = zip(theirs, ours, strict=True) if is_gain else zip(ours, theirs, strict=True)
+        ratios = [above / below if below > 0 else math.inf for above, below in pairs]
+    spread = Spread.of(ratios)
+    met = spread.meets(limit) if limit else None
+    between = f"{figure(spread.low)} to {figure(spread.high)}" if len(ours) > 1 else ""
+    return Row(
+        what,
+        mine,
+        peer,
+        figure(Spread.of(theirs).median, unit) if peer else "",
+        f"{figure(spread.median)}{suffix} ({between})" if peer else between,
+        target,
+        met,
+        is_noisy=limit is not None and met is None,
+    )
+
+
 def _cells(row: Row) -> tuple[str, ...]:
-    return (
-        row.what, row.ours, row.peer, row.peer_figure, row.ratio, row.target, _MET[row.met]
-    )  # fmt: skip
+    met = "too noisy" if row.is_noisy else _MET[row.met]
+    return (row.what, row.ours, row.peer, row.peer_figure, row.ratio, row.target, met)
 
 
-def format_table(rows: Iterable[Row]) -> str:
-    """Return the rows as aligned columns under their headings."""
-    lines = [HEADINGS, *(_cells(row) for row in rows)]
+def format_table(rows: Iterable[Row], is_markdown: bool = False) -> str:
+    """Return the rows as aligned columns under their headings, then what was left out."""
+    rows = list(rows)
+    lines = [HEADINGS, *(_cells(row) for row in rows if row.ours)]
     widths = [max(len(line[column]) for line in lines) for column in range(len(HEADINGS))]
     rule = tuple("-" * width for width in widths)
-    padded = (
-        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+    edge, between = ("| ", " | ") if is_markdown else ("", "  ")
+    padded = [
+        edge
+        + between.join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+        + edge[::-1]
         for line in (lines[0], rule, *lines[1:])
-    )
-    return "\n".join(padded)
-
-
-def print_table(rows: Iterable[Row], stream: TextIO | None = None) -> None:
-    """Print the rows; a generator's rows appear when all are there."""
-    print(format_table(rows), file=stream or sys.stdout)
+    ]
+    absent = [
+        f"    {row.what}{f', beside {row.peer}' if row.peer else ''}: {row.left_out}"
+        for row in rows
+        if row.left_out
+    ]
+    return "\n".join([*padded, *(["left out:", *absent] if absent else [])])

@@ -1,35 +1,69 @@
-"""Times short functions side by side."""
+"""Times short functions side by side, and judges figures by their spread."""
 
 import gc
 import math
+import statistics
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from itertools import repeat
 
 Work = Callable[[], object]
+NOISY = 0.1
+"""A spread of more than this share of the median cannot be judged at the target."""
 
 
-def best_ns(works: Sequence[Work], rounds: int, calls: int) -> list[float]:
-    """Return the nanoseconds of one call of each, the best of several rounds in turns.
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A target: at most ``value``, or at least."""
 
-    The collector waits meanwhile, as it does in the daemon; what the empty loop takes is taken
-    off.
+    value: float
+    is_least: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """The median of several rounds and their quartiles."""
+
+    median: float
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, values: Sequence[float]) -> "Spread":
+        """Return the spread of one or more figures."""
+        if len(values) == 1:
+            return cls(values[0], -math.inf, math.inf)
+        low, median, high = statistics.quantiles(values, n=4, method="inclusive")
+        return cls(median, low, high)
+
+    def meets(self, limit: Limit) -> bool | None:
+        """Return whether the median meets the limit; None if the rounds are too noisy to judge."""
+        is_narrow = self.high - self.low <= NOISY * abs(self.median)
+        is_clear = self.low > limit.value or self.high < limit.value
+        if not (is_narrow or is_clear):
+            return None
+        return self.median >= limit.value if limit.is_least else self.median <= limit.value
+
+
+def rounds_ns(works: Sequence[Work], rounds: int, calls: int) -> list[list[float]]:
+    """Return the CPU nanoseconds of one call of each work in each of several rounds in turns.
+
+    The collector is off, as in the daemon; what the empty loop takes is subtracted.
     """
-    best = [math.inf] * len(works)
-    empty = math.inf
+    found: list[list[float]] = [[] for _ in works]
     was_on = gc.isenabled()
     gc.collect()
     gc.disable()
     try:
         for _ in range(rounds):
-            empty = min(empty, _loop_ns(_nothing, calls))
-            for index, work in enumerate(works):
-                best[index] = min(best[index], _loop_ns(work, calls))
+            floor = _loop_ns(_nothing, calls) - _CALL_NS
+            for figures, work in zip(found, works, strict=True):
+                figures.append(max(0.0, _loop_ns(work, calls) - floor))
     finally:
         if was_on:
             gc.enable()
-    floor = empty - _CALL_NS
-    return [max(0.0, each - floor) for each in best]
+    return found
 
 
 _CALL_NS = 20.0
@@ -41,10 +75,10 @@ def _nothing() -> None:
 
 
 def _loop_ns(work: Work, calls: int) -> float:
-    began = time.perf_counter_ns()
+    began = time.process_time_ns()
     for _ in repeat(None, calls):
         work()
-    return (time.perf_counter_ns() - began) / calls
+    return (time.process_time_ns() - began) / calls
 
 
 def percentile(ordered: Sequence[float], share: float) -> float:

@@ -7,13 +7,32 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from tests.support.showcase import Showcase
+
+# No example fails because the machine was busy: neither by its time nor by that of drawing it.
+settings.register_profile("tests", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("tests")
 
 # A shell that starts something in the background lets it ignore Ctrl-C, and every program that it
 # starts as well: then none of the tests' own programs would end by it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def hangup():
+    """Let what tests start end when its terminal closes, also where ``nohup`` started the tests.
+
+    A function is no handler after exec: children get the default, the tests themselves go on. Not
+    at import: xdist's controller keeps ignoring the signal.
+    """
+    before = signal.getsignal(signal.SIGHUP)
+    if before is signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, lambda *_: None)
+    yield
+    signal.signal(signal.SIGHUP, before)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 from pathlib import Path
 
@@ -13,6 +14,8 @@ ROOT = ARDUINO.parent
 CORE = build.CORE.parent
 BuildError = build.BuildError
 make = build.make
+# The sources stay as they are while the tests run: make need not look at them for every test.
+_build_once = functools.cache(build.build_firmware)
 
 
 def need_toolchain() -> None:
@@ -30,4 +33,4 @@ def build_firmware(*options: str) -> Path:
     if not options and "RASPILOT_ELF" in os.environ:
         return Path(os.environ["RASPILOT_ELF"])
     need_toolchain()
-    return build.build_firmware(*options)
+    return _build_once(*options)

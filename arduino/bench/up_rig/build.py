@@ -40,10 +40,12 @@ def missing_toolchain() -> str | None:
     return f"building the firmware needs {lacking} (Debian packages {PACKAGES})"
 
 
-def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
+def make(*arguments: str, timeout_s: float = LONGEST_S, lock_name: str = ".lock") -> str:
     """Run make in ``arduino/`` and return what it printed.
 
-    Of several processes one builds, the others wait. Raises ``BuildError``, and
+    Of several processes one builds, the others wait, also for compilers that outlive a killed
+    builder: they inherit the lock. ``lock_name``: another one for what shares no file with the
+    firmware. Raises ``BuildError``, and
     ``RigUnavailableError`` without make, without the sources, and where nothing can be written.
     """
     program = shutil.which("make")
@@ -51,7 +53,7 @@ def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
         raise RigUnavailableError("building needs make (Debian package make)")
     if not has_sources():
         raise RigUnavailableError(NO_SOURCES)
-    with _lock():
+    with _lock(lock_name) as lock:
         try:
             done = subprocess.run(
                 [program, "-C", str(ARDUINO), *arguments],
@@ -59,6 +61,7 @@ def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
                 text=True,
                 timeout=timeout_s,
                 check=False,
+                pass_fds=(lock,),
             )
         except subprocess.TimeoutExpired as error:
             raise BuildError(f"make needs more than {timeout_s:g} s") from error
@@ -69,16 +72,16 @@ def make(*arguments: str, timeout_s: float = LONGEST_S) -> str:
 
 
 @contextlib.contextmanager
-def _lock() -> Iterator[None]:
+def _lock(name: str) -> Iterator[int]:
     build = ARDUINO / "build"
     try:
         build.mkdir(exist_ok=True)
-        lock = (build / ".lock").open("w")
+        lock = (build / name).open("w")
     except OSError as error:
         raise RigUnavailableError(f"{build} cannot be written: {error.strerror}") from error
     with lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        yield
+        yield lock.fileno()
 
 
 def build_firmware(*options: str) -> Path:

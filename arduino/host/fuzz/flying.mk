@@ -23,6 +23,7 @@ fuzz-corpus: $(FUZZ_BUILD)/fuzz_link $(FUZZ_BUILD)/flying_fuzz
 	$(FUZZ_BUILD)/flying_fuzz $(sort $(wildcard $(FLYING_CORPUS)/*))
 
 $(FUZZ_BUILD)/flying_fuzz: $(FLYING_OBJECTS)
-	$(FUZZ_CXX) $(FUZZ_FLAGS) -o $@ $(FLYING_OBJECTS)
+	$(FUZZ_CXX) $(FUZZ_FLAGS) -o $@.new $(FLYING_OBJECTS)
+	@mv $@.new $@
 
 -include $(FUZZ_BUILD)/host/fuzz/flying_fuzz.d

@@ -24,12 +24,15 @@ fuzz-keep: $(FUZZ_BUILD)/fuzz_link
 	cd $(FUZZ_BUILD) && ./fuzz_link -merge=1 -max_len=200 $(abspath host/fuzz/corpus) found
 
 $(FUZZ_BUILD)/fuzz_link: $(FUZZ_OBJECTS)
-	$(FUZZ_CXX) $(FUZZ_FLAGS) -o $@ $(FUZZ_OBJECTS)
+	$(FUZZ_CXX) $(FUZZ_FLAGS) -o $@.new $(FUZZ_OBJECTS)
+	@mv $@.new $@
 
 $(FUZZ_BUILD)/%.o: %.cpp host/fuzz/fuzz.mk
 	@mkdir -p $(@D)
 	@command -v $(FUZZ_CXX) >/dev/null || \
 		{ echo 'Fuzzing needs clang: apt-get install clang' >&2; exit 1; }
+	@[ -d "$$($(FUZZ_CXX) -print-runtime-dir)" ] || \
+		{ echo "Fuzzing needs clang's runtime: apt-get install libclang-rt-dev" >&2; exit 1; }
 	$(FUZZ_CXX) $(FUZZ_FLAGS) -Iraspilot/src -Ihost -MMD -MP -c -o $@ $<
 
 -include $(FUZZ_OBJECTS:.o=.d)

@@ -321,8 +321,16 @@ def test_the_raspberry_flies_by_the_pins_and_panic_leaves_it_its_streams(raspber
     board.gives("ailerons", 1700, 3)
 
 
+def all_neutral(pulses):
+    return all(near(each.width_us, 1500, 1) for each in pulses)
+
+
 class Cut:
-    """Ends a program in the middle of a frame: half of what comes next still goes through."""
+    """Ends a program in the middle of a frame: half of what comes next still goes through.
+
+    It waits for a frame while the program holds the ailerons neutral: on a busy machine the board
+    may be levelling instead, because the last Output has ended.
+    """
 
     def __init__(self, board, pid):
         self.board = board
@@ -333,7 +341,8 @@ class Cut:
         if self.cycle is not None:
             return b""
         # Frames with an Output are 16 bytes; what is shorter is the veto's.
-        if len(data) < 16 or not data.endswith(b"\0"):
+        pulses = self.board._rig.servo.pulses("ailerons")[-5:]
+        if len(data) < 16 or not data.endswith(b"\0") or not all_neutral(pulses):
             return data
         os.kill(self.pid, signal.SIGKILL)
         self.cycle = self.board._rig.cycle
@@ -349,8 +358,7 @@ def test_a_daemon_killed_in_mid_frame_leaves_the_aircraft_to_the_board(raspberry
     assert daemon.end(signal.SIGKILL) == -signal.SIGKILL
     board.pass_us(1_000_000)
     pulses = board.pulses("ailerons")
-    before = [each.width_us for each in pulses if each.rise_cycle <= cut.cycle]
-    assert all(near(width, 1500, 1) for width in before[-5:])
+    assert all_neutral([each for each in pulses if each.rise_cycle <= cut.cycle][-5:])
     # 250 ms, the servo frame in which they end, and the line's last bytes.
     limit = cut.cycle + 275_000 * CYCLES_PER_US
     after = [each for each in pulses if each.rise_cycle > limit]

@@ -20,8 +20,14 @@ from up.cli.names import Name
 LONGEST = "Abcdefghijklmnopqrstuvwx"
 
 
+@pytest.fixture(scope="module")
+def mypy_cache(tmp_path_factory):
+    """One for all, so that mypy reads the framework and its dependencies once."""
+    return tmp_path_factory.mktemp("mypy")
+
+
 @pytest.fixture
-def passes(own_process):
+def passes(own_process, mypy_cache):
     def passes(folder: Path) -> None:
         for check in (
             ("ruff", "check", "."),
@@ -29,7 +35,9 @@ def passes(own_process):
             ("mypy", "--strict", "."),
             ("pytest", "-q"),
         ):
-            done = own_process(*check, cwd=folder, paths=str(folder))
+            done = own_process(
+                *check, cwd=folder, paths=str(folder), MYPY_CACHE_DIR=str(mypy_cache)
+            )
             assert done.returncode == 0, f"{check}: {done.stdout}{done.stderr}"
 
     return passes
