@@ -31,7 +31,6 @@ ROLL_RATE_LIMIT_DEG_S = 120.0
 PITCH_RATE_LIMIT_DEG_S = 80.0
 SHORTEST_STEP_S, LONGEST_STEP_S = 1e-3, 0.1
 ASK_AGAIN_S = 5.0
-FLYING_S = 0.25
 LOWEST_US, HIGHEST_US = 1000, 2000
 STICK_THROTTLE = 0
 _NO_GAINS = Gains(0.0)
@@ -83,9 +82,9 @@ class RaspilotFlightController(BaseFlightController):
 
     @property
     def is_flying(self) -> bool:
-        """Return whether Outputs go to the board now."""
-        now_s = self.context.reactor.seconds()
-        return self._is_board_ready and now_s - self._computed_at_s <= FLYING_S
+        """Return whether Outputs go to the board now: another module may have control."""
+        owner = self.up.command_executor.control.owner
+        return self._is_board_ready and owner == self.class_name
 
     def _execute_initialization(self) -> None:
         super()._execute_initialization()

@@ -24,7 +24,8 @@ class BaseCommand:
 
     ``NAME`` is the name on the wire, ``ALIASES`` older names of the same thing, ``ROLES`` the
     roles that may send it from outside (none: nobody), ``ROUTE`` the link that it is routed to
-    instead of being handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon.
+    instead of being handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon,
+    ``NEEDS_CONTROL`` whether only one module at a time may publish it (``ControlLease``).
     """
 
     NAME: ClassVar[str] = ""
@@ -32,6 +33,7 @@ class BaseCommand:
     ROLES: ClassVar[frozenset[Role]] = frozenset()
     ROUTE: ClassVar[str] = ""
     NEEDS_BEACON: ClassVar[bool] = False
+    NEEDS_CONTROL: ClassVar[bool] = False
 
     def roles(self) -> frozenset[Role]:
         """Return who may send this very Command; override where a field decides."""

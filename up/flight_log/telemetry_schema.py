@@ -65,6 +65,7 @@ PROPERTIES: dict[str, Any] = {
     "flight_mode": _TEXT,
     "flight_controller": _TEXT,
     "flight_control": _object({"mode": _TEXT, "offered": _TEXTS, "missing": _TEXTS}),
+    "control": _object({"publisher": _TEXT}),
     "armed": _FLAG,
     "vetoes": _TEXTS,
     "age_ms": _numbers(READINGS, "ms"),
