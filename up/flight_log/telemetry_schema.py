@@ -67,6 +67,7 @@ PROPERTIES: dict[str, Any] = {
     "flight_control": _object({"mode": _TEXT, "offered": _TEXTS, "missing": _TEXTS}),
     "control": _object({"publisher": _TEXT}),
     "armed": _FLAG,
+    "in_flight": _FLAG,
     "vetoes": _TEXTS,
     "age_ms": _numbers(READINGS, "ms"),
     "source": _object(dict.fromkeys(READINGS, _TEXT)),

@@ -76,7 +76,7 @@ class MissionControlConfig:
     )
     tune_in_flight: bool = key(
         False,
-        "Whether a pilot on the ground may set gains while the aircraft is armed or its switch "
+        "Whether a pilot on the ground may set gains while the aircraft is in flight or its switch "
         "stands at AUTO.",
     )
     i_accept_plain: bool = key(

@@ -79,6 +79,7 @@ class BoardRig(Rig):
         self.flags = AT_AUTO | RECEIVER | IMU | GAINS_STORED
         self.vetoes = 0
         self.uptime_s = 10
+        self.switch = 2
         self.mode = b"f"
         self.on_command = self.answer
 
@@ -123,7 +124,7 @@ class BoardRig(Rig):
             "x",
             struct.pack(
                 ">BcBBBBHHHHHHH",
-                version, self.mode, 2, self.flags, self.vetoes, cause,
+                version, self.mode, self.switch, self.flags, self.vetoes, cause,
                 2000, 48, 3, 1, self.uptime_s, 12, 4,
             ),
         )  # fmt: skip
