@@ -111,7 +111,7 @@ class CommandReceiver:
                 return Code.NO_BEACON, f"{command.NAME} must echo the newest telemetry's beacon"
             return None
         if not self._beacons.is_fresh(message.beacon):
-            return Code.STALE, "the echoed beacon is older than 2 s"
+            return Code.STALE, f"the echoed beacon is older than {self._beacons.limit_s:g} s"
         return None
 
     def _carry_out(self, command: BaseCommand, message: GeneralMessage, link: CommandLink) -> None:

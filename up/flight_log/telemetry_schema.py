@@ -82,6 +82,13 @@ PROPERTIES: dict[str, Any] = {
         }
     ),
     "counters": _ANYTHING,
-    "system": _object({"providers": _TEXTS, "uptime_s": _number("s"), "clock_ms": _number("ms")}),
+    "system": _object(
+        {
+            "providers": _TEXTS,
+            "uptime_s": _number("s"),
+            "clock_ms": _number("ms"),
+            "period_ms": _number("ms"),
+        }
+    ),
 }
 """What a module contributes besides is in the messages and not in the schema."""

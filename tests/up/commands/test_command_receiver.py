@@ -175,24 +175,25 @@ def test_what_is_refused_is_said_once_and_counted():
 
 
 class TestBeacons:
-    """A Command that shows old telemetry is stale; arming must show some."""
+    """A Command that shows old telemetry is stale; arming and disarming must show some."""
 
-    def test_arming_needs_a_fresh_one_of_this_run(self, border):
+    @pytest.mark.parametrize("name", ["up.arm", "up.disarm"])
+    def test_arming_needs_a_fresh_one_of_this_run(self, border, name):
         armed = []
-        border.bus.register_command("up.arm", armed.append)
+        border.bus.register_command(name, armed.append)
         old = border.beacons.draw()
         border.clock.advance(2.001)
         fresh = border.beacons.draw()
-        border.say("up.arm", {}, "none")
-        border.say("up.arm", {}, "old", old)
-        border.say("up.arm", {}, "future", fresh + 1)
-        border.say("up.arm", {}, "another run", old - 1)
-        border.say("up.arm", {}, "negative", -1)
-        border.say("up.arm", {}, "huge", 2**63)
+        border.say(name, {}, "none")
+        border.say(name, {}, "old", old)
+        border.say(name, {}, "future", fresh + 1)
+        border.say(name, {}, "another run", old - 1)
+        border.say(name, {}, "negative", -1)
+        border.say(name, {}, "huge", 2**63)
         assert border.codes == ["no_beacon", *["stale"] * 5]
         assert not armed
         border.clock.advance(2)
-        border.say("up.arm", {}, "fresh", fresh)
+        border.say(name, {}, "fresh", fresh)
         assert border.answers[-1] == ("ack", "fresh")
         assert len(armed) == 1
 
