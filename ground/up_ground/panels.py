@@ -56,8 +56,7 @@ def draw_position(pen: Pen, row: int, column: int) -> int:
     )
     pen.canvas.put(row + 3, end + 1, pen.age("altitude"), Style.DIM)
     actual = number_text(number("heading", "actual"), 0)
-    required = number_text(number("heading", "required"), 0)
-    end = pen.value(row + 4, column, f"heading {actual}, required {required} deg", "heading")
+    end = pen.value(row + 4, column, f"heading {actual} deg", "heading")
     pen.canvas.put(row + 4, end + 1, pen.age("heading"), Style.DIM)
     return row + 5
 

@@ -21,7 +21,7 @@ from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
 from up.flight_controller.gains import Gains, GainSet
-from up.flight_controller.gains_keeper import GainsKeeper
+from up.flight_controller.gains_keeper import GainsKeeper, refuse_unused
 from up.flight_controller.pids_file import PidsFile
 from up.mode import WITH_ARDUINO, Mode
 from up.needs import wants
@@ -192,6 +192,7 @@ class RaspilotFlightController(BaseFlightController):
     def _on_tunings(self, command: PIDTuningsCommand) -> Deferred[None] | None:
         gains = command.gains
         if gains is not None:
+            refuse_unused(gains, self.gains)
             self.gains = gains.completed(self.gains)
             self._roll.tune(self.gains.rate.ailerons, self.gains.stabilize.ailerons)
             self._pitch.tune(self.gains.rate.elevator, self.gains.stabilize.elevator)

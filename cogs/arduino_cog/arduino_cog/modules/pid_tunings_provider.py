@@ -16,7 +16,7 @@ from up.base_module import BaseModule
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller.gains import GainSet
-from up.flight_controller.gains_keeper import GainsKeeper
+from up.flight_controller.gains_keeper import GainsKeeper, refuse_unused
 from up.flight_controller.pids_file import PIDS, PidsFile
 from up.mode import WITH_ARDUINO
 from up.needs import needs, wants
@@ -167,6 +167,7 @@ class PIDTuningsProvider(BaseModule):
             raise CommandRefusedError("an old firmware (framing: thesis) has no rudder gains")
         if self._board.is_setting:
             raise CommandRefusedError("another set of gains is on its way")
+        refuse_unused(gains, (self.held or gains).completed(self._saved))
         return self._transmit(gains).addCallback(self._save, gains)
 
     def _transmit(self, gains: GainSet) -> Deferred[Any]:
