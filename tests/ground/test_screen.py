@@ -63,7 +63,7 @@ def test_everything_that_is_known_is_there():
         "50.075500   14.437800 deg",
         "home 1204 m, bearing 271 deg",
         "altitude    311.4 m",
-        "heading 88, required 90 deg",
+        "heading 88 deg",
         "battery 83 % phone connected",
         "load 12 % memory 31 % panic no",
         "ailerons  1511",

@@ -209,7 +209,7 @@ def test_a_beacon_is_fresh_for_as_long_as_the_ground_waits_for_the_next_frame(ri
     assert rig.frames[-1][1]["system"]["period_ms"] == 100
     rig.period(10_000)
     rig.run(0.1)
-    time_s, content, beacon = rig.frames[-1]
+    _, content, beacon = rig.frames[-1]
     assert content["system"]["period_ms"] == 10_000, "the frame that was due tells the new period"
     for _ in range(10):
         rig.clock.advance(1.0)

@@ -38,7 +38,8 @@ MODULES = [
 ]
 STREAMS = "hbBluSv"
 ARMED, AT_AUTO, RECEIVER, IMU, GAINS_STORED = 1, 2, 4, 8, 64
-FACTORY = tuple(float(each) for each in range(1, 19))
+# The rudder has no angle loop.
+FACTORY = (*(float(each) for each in range(1, 16)), 0.0, 0.0, 0.0)
 PUSHED = "gt"
 # What a new Arduino holds, as the protocols page orders it (2.6).
 PROFILE = (

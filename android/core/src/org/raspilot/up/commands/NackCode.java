@@ -23,7 +23,9 @@ public enum NackCode {
     /** No answer from whoever carries it out. */
     TIMEOUT,
     /** Carrying it out failed inside. */
-    FAILED;
+    FAILED,
+    /** Nothing carries it out yet; the reason says what is missing. */
+    NOT_SUPPORTED;
 
     /** Returns the word that stands on the wire. */
     public String word() {
