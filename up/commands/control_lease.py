@@ -66,7 +66,8 @@ def calling_publisher() -> str:
 
     For the bus. What lies above an outer call of the bus is another publisher.
     """
-    frame: FrameType | None = sys._getframe(1)  # noqa: SLF001 - as logging finds its caller
+    # As logging and twisted.logger find their callers.
+    frame: FrameType | None = sys._getframe(1)
     bus = frame.f_code.co_filename if frame else ""
     while frame is not None and frame.f_code.co_filename == bus:
         frame = frame.f_back

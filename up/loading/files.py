@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from up.base_module import BaseModule
@@ -16,3 +17,10 @@ def config_files(modules: Iterable[BaseModule | type[BaseModule]]) -> list[Confi
     files: list[ConfigFile[Any]] = [APPLICATION, DISABLED_MODULES]
     files += [module.CONFIG for module in modules if module.CONFIG is not None]
     return list(dict.fromkeys(files))
+
+
+def no_configuration(folder: Path, files: Iterable[ConfigFile[Any]]) -> str:
+    """Return the sentence for a folder that has none of the files; empty: it has one."""
+    if any((folder / file.filename).exists() for file in files):
+        return ""
+    return f"{folder}: no configuration file is here; start with --defaults to use the defaults"

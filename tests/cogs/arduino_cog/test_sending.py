@@ -14,7 +14,7 @@ from up.commands.setpoint_command import SetpointCommand
 
 PHONE = Origin("android", Role.SENSOR, 5)
 OTHER = Origin("other", Role.SENSOR, 1)
-SILENCE_S = 3.0
+SILENCE_S = 1.1
 
 
 def test_an_output_carries_the_sequence_of_its_orientation(rig):
