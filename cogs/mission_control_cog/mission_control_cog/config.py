@@ -72,7 +72,7 @@ class MissionControlConfig:
     role: Literal["observer", "operator", "pilot"] = key(
         "operator",
         "What a ground station may do: observer sees telemetry; operator also sets the telemetry "
-        "rate, the flight mode, required heading and altitude; pilot also arms and tunes gains.",
+        "rate and the flight mode; pilot also arms and tunes gains.",
     )
     tune_in_flight: bool = key(
         False,

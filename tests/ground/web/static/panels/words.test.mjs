@@ -26,8 +26,7 @@ test("an answer says what became of it", () => {
   );
   assert.equal(words({ outcome: "nack", code: "stale", reason: "" }), "refused by the aircraft: stale");
   assert.equal(words({ outcome: "nack" }), "refused by the aircraft: no reason given");
-  assert.equal(answerWords({ outcome: "ack", round_trip_ms: 4 }, "noted"), "noted");
-  assert.match(answerWords({ outcome: "nack", reason: "no" }, "noted"), /^refused/);
+  assert.match(answerWords({ outcome: "nack", reason: "no" }), /^refused/);
   assert.equal(
     words({ outcome: "timeout", reason: "no answer in 5 s; it is not known whether it was carried out" }),
     "no answer in 5 s: nobody knows whether it was carried out",
