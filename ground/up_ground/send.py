@@ -20,6 +20,7 @@ from up_ground.token_store import TokenStore
 
 CONNECT_LIMIT_S = 8.0
 TELEMETRY_LIMIT_S = SLOWEST_MS / 1000 + 1.0
+OFFLINE_LIMIT_S = 5.0
 ANSWER_LIMIT_S = 3.0
 CONTENT_LIMIT_S = 2.0
 _CONTENT_OF = {
@@ -102,7 +103,9 @@ class Send(Errand):
             self.forget("connect")
             self.forget("ask")
             if self._sent_s is None and not self._telemetry.frames:
-                self.after(self._reactor, "telemetry", TELEMETRY_LIMIT_S, self._on_no_telemetry)
+                is_offline = status.is_aircraft_online is False
+                limit_s = OFFLINE_LIMIT_S if is_offline else TELEMETRY_LIMIT_S
+                self.after(self._reactor, "telemetry", limit_s, self._on_no_telemetry)
             self._try_to_send()
 
     def _ask(self) -> None:

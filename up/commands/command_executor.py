@@ -166,12 +166,12 @@ class CommandExecutor:
             handlers = self._called[command.NAME]
         except KeyError:
             handlers = self._observing
-            if command.NEEDS_CONTROL:
+            if command.NEEDS_CONTROL and command.NAME in self._handlers:
                 if origin is INTERNAL:
                     origin = Origin(calling_publisher(), Role.INTERNAL)
                 if self.control.refuses(origin.link, command.NAME) is not None:
                     return
-                handlers += self._handlers.get(command.NAME, ())
+                handlers += self._handlers[command.NAME]
             # Nobody has to care for what a module says; from outside, or unknown, it is a mistake.
             elif origin is not INTERNAL or self.registry.get(command.NAME) is None:
                 self._count_unhandled(command.NAME)

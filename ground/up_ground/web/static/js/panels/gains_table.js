@@ -46,7 +46,8 @@ export class GainsTable {
     this.#cells.clear();
     this.element.replaceChildren();
     for (const loop of LOOPS) {
-      const rows = AXES.filter((axis) => isUsed(loop, axis)).map((axis) => this.#row(loop, axis)).filter((row) => row !== null);
+      const used = AXES.filter((axis) => isUsed(loop, axis));
+      const rows = used.map((axis) => this.#row(loop, axis)).filter((row) => row !== null);
       if (rows.length > 0) {
         const head = element("tr", {}, element("th", { scope: "col", text: "" }));
         head.append(...TERMS.map((term) => element("th", { scope: "col", text: term.toUpperCase() })));
