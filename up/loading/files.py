@@ -20,7 +20,7 @@ def config_files(modules: Iterable[BaseModule | type[BaseModule]]) -> list[Confi
 
 
 def no_configuration(folder: Path, files: Iterable[ConfigFile[Any]]) -> str:
-    """Return the sentence for a folder that has none of the files; empty: it has one."""
+    """Return the error for a folder without any of the files, or an empty text."""
     if any((folder / file.filename).exists() for file in files):
         return ""
     return f"{folder}: no configuration file is here; start with --defaults to use the defaults"
