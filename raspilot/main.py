@@ -23,6 +23,9 @@ def main(arguments: Sequence[str], start: Path) -> int:
     parser.add_argument(
         "--config", type=Path, metavar="DIR", help="folder with the YAML files (default: config)"
     )
+    parser.add_argument(
+        "--defaults", action="store_true", help="start with the defaults where no file is found"
+    )
     parser.add_argument("--version", action="version", version=f"Raspilot {VERSION}")
     values = parser.parse_args(arguments)
-    return run_application(start, values.config)
+    return run_application(start, values.config, use_defaults=values.defaults)

@@ -86,8 +86,6 @@ def test_telemetry_has_every_reading_with_source_and_age(flight):
     "command",
     [
         ["up.telemetry.frequency", "frequency=50"],
-        ["up.heading.change", "heading=90", "mode=required"],
-        ["up.altitude.change", "altitude=120.5", "mode=required"],
         ["android.speak", "text=hello"],
         ["up.flight_mode.set", "mode=RATE"],
         ["up.flight_mode.set", "mode=FBW"],
@@ -98,6 +96,15 @@ def test_a_ground_command_is_carried_out_and_acked(flight, command):
     result = flight.ground("send", *command)
     assert result.returncode == 0, result.stdout + result.stderr
     assert "ack" in result.stdout
+
+
+@pytest.mark.parametrize("quantity", ["heading", "altitude"])
+def test_nobody_is_told_that_the_aircraft_navigates(flight, quantity):
+    name, *fields = f"up.{quantity}.change", f"{quantity}=90", "mode=required"
+    assert flight.ground("send", name, *fields).returncode != 0
+    forced = flight.ground("send", "--force", name, *fields)
+    assert forced.returncode != 0
+    assert "(not_supported)" in forced.stderr
 
 
 def test_the_phone_got_what_was_said_to_it(flight):

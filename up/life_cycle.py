@@ -93,6 +93,7 @@ class LifeCycle:
                 self.log.error("{name} did not stop in time", name=module.class_name)
             except _FAULTS:
                 self.log.failure("{name} failed to stop", name=module.class_name)
+            self._up.command_executor.control.release(module.class_name)
         self._up.command_executor.limited.stop()
 
     @property

@@ -13,12 +13,13 @@ from twisted.internet.defer import Deferred
 from twisted.logger import Logger
 
 from up.config import ConfigErrors, load_all
+from up.config.writing import remove_unfinished
 from up.context import Context
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application, NoApplicationError
 from up.loading.checking import check_application
 from up.loading.discovery import CogImportError
-from up.loading.files import config_files
+from up.loading.files import config_files, no_configuration
 from up.loading.plan import BootError
 from up.log import start_logging
 from up.mode import Mode
@@ -144,11 +145,16 @@ class Program:
 
 @service()
 def run_application(
-    start: Path, config_folder: Path | None = None, environ: Mapping[str, str] = os.environ
+    start: Path,
+    config_folder: Path | None = None,
+    environ: Mapping[str, str] = os.environ,
+    *,
+    use_defaults: bool = False,
 ) -> int:
     """Run the application that a folder belongs to; return the exit status.
 
-    What a user can mend is one sentence a problem on stderr, all at once, and exit status 2.
+    A folder without any configuration file is refused unless ``use_defaults``. What a user can
+    mend is one sentence a problem on stderr, all at once, and exit status 2.
     """
     from twisted.internet import reactor
 
@@ -162,7 +168,12 @@ def run_application(
         _start_log(context)
         use_realtime_priority(context.application.realtime_priority)
         plan = UpLoader(application, context).plan()
-        load_all(context.config_folder, config_files(plan.modules))
+        files = config_files(plan.modules)
+        nothing = no_configuration(context.config_folder, files)
+        if nothing and not use_defaults:
+            raise BootError(nothing)
+        load_all(context.config_folder, files)
+        remove_unfinished(context.config_folder)
         up = Up(plan, context)
         up.initialize()
     except USER_ERRORS as error:

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule
+from up.commands.beacon import fresh_s
 from up.commands.panic_command import PanicCommand
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
@@ -48,9 +49,12 @@ class TelemetryController(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the counters of telemetry itself."""
+        """Return the period and the counters of telemetry itself."""
         counters = {"frames": self.frames, "conflicts": self.conflicts, "faults": self.faults}
-        return {"counters": {"telemetry": counters}}
+        return {
+            "counters": {"telemetry": counters},
+            "system": {"period_ms": round(self.period_ms)},
+        }
 
     @property
     def is_wanted(self) -> bool:
@@ -93,7 +97,10 @@ class TelemetryController(BaseStartedModule):
             self._reschedule()
 
     def _reschedule(self) -> None:
-        if self._timer is not None and self._timer.active():
+        if self._timer is None or not self._timer.active():
+            return
+        # A longer period begins after the frame that tells it to the ground.
+        if self._sent_s + self.period_ms / 1000 < self._due_s:
             self._timer.cancel()
             self._schedule()
 
@@ -113,6 +120,7 @@ class TelemetryController(BaseStartedModule):
         self._schedule()
         self.frames += 1
         content = self.collect()
+        self.up.beacons.limit_s = fresh_s(self.period_ms)
         self.up.command_executor.execute_command(TelemetryCommand(content, self.up.beacons.draw()))
 
     def _contents(self) -> Iterator[tuple[str, Mapping[str, Any]]]:

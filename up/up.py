@@ -43,7 +43,10 @@ class Up:
         self.beacons = Beacons(context.reactor, context.random)
         registry = CommandRegistry((*BUILTIN_COMMANDS, *plan.commands))
         self.command_executor = CommandExecutor(
-            registry, context.reactor.callFromThread, Limited(context.reactor, LOG_INTERVAL_S)
+            registry,
+            context.reactor.callFromThread,
+            Limited(context.reactor, LOG_INTERVAL_S),
+            context.reactor.seconds,
         )
         self.command_receiver = CommandReceiver(
             self.command_executor, self.beacons, context.reactor
@@ -108,12 +111,14 @@ class Up:
         now_s = self.context.reactor.seconds()
         return {
             "vetoes": self.vetoes.all,
+            "control": {"publisher": executor.control.owner},
             "system": {
                 "uptime_s": round(now_s - self.started_at_s),
                 "clock_ms": round(now_s * 1000),
             },
             "counters": {
                 "bus": dict(executor.counters),
+                "control": dict(executor.control.refused),
                 "receiver": dict(self.command_receiver.counters),
                 **{part: dict(counters) for part, counters in self._counted.items()},
             },
@@ -169,6 +174,7 @@ class Up:
         """
         self._excluded.append(module)
         self.registrations_of(module).undo()
+        self.command_executor.control.release(module.class_name)
         self._modules = [each for each in self._modules if each is not module]
         for each in self._modules:
             forget_wanted(each, self._excluded)

@@ -41,8 +41,6 @@ The newest beacon is echoed, so that a Command that a bad link holds back is not
 
 examples
   up-ground send up.telemetry.frequency frequency=200
-  up-ground send up.heading.change heading=90 mode=required
-  up-ground send up.altitude.change altitude=120.5 mode=required
   up-ground send up.arm
 
 exit status

@@ -45,8 +45,12 @@ class Catalogue:
         return self._registry.get(name)
 
     def sendable(self) -> list[type[BaseCommand]]:
-        """Return what some ground may send, by name."""
-        return [cls for cls in self._registry if role_of(cls) and cls.NAME not in _ANSWERS]
+        """Return what some ground may send and an aircraft carries out, by name."""
+        return [
+            cls
+            for cls in self._registry
+            if role_of(cls) and not cls.UNSUPPORTED and cls.NAME not in _ANSWERS
+        ]
 
     def suggestions(self, name: str) -> list[str]:
         """Return names that look like a mistyped one, the nearest first."""
@@ -101,10 +105,9 @@ def fault_of(cls: type[BaseCommand], data: Mapping[str, Any]) -> str:
         fields = ", ".join(sorted(known)) or "none"
         return f"{cls.NAME} has no field {strange[0]} (its fields: {fields})"
     try:
-        cls.from_data(data)
+        return cls.from_data(data).unsupported
     except InvalidCommandError as error:
         return str(error)
-    return ""
 
 
 def _names(cls: type[BaseCommand]) -> tuple[str, ...]:

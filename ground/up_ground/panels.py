@@ -6,7 +6,7 @@ import textwrap
 
 from up_ground.canvas import Style
 from up_ground.pen import Pen
-from up_ground.wording import UNKNOWN, flag_text, number_text
+from up_ground.wording import UNKNOWN, busy_text, flag_text, number_text
 
 PANEL_COLUMNS = 38
 _CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
@@ -56,8 +56,7 @@ def draw_position(pen: Pen, row: int, column: int) -> int:
     )
     pen.canvas.put(row + 3, end + 1, pen.age("altitude"), Style.DIM)
     actual = number_text(number("heading", "actual"), 0)
-    required = number_text(number("heading", "required"), 0)
-    end = pen.value(row + 4, column, f"heading {actual}, required {required} deg", "heading")
+    end = pen.value(row + 4, column, f"heading {actual} deg", "heading")
     pen.canvas.put(row + 4, end + 1, pen.age("heading"), Style.DIM)
     return row + 5
 
@@ -75,13 +74,9 @@ def draw_power(pen: Pen, row: int, column: int) -> int:
     pen.value(row, end + 1, phone, style=Style.WARNING if is_contested else Style.PLAIN)
     cpu = number_text(telemetry.number("load", "cpu"), 0)
     ram = number_text(telemetry.number("load", "ram"), 0)
-    end = pen.value(row + 1, column, f"load {cpu} % memory {ram} %")
-    panic = telemetry.flag("load", "panic")
-    if panic:
-        delay = number_text(telemetry.number("load", "delay_ms"), 0)
-        pen.value(row + 1, end + 1, f"PANIC {delay} ms", style=Style.BAD)
-    else:
-        pen.value(row + 1, end + 1, f"panic {flag_text(panic)}")
+    pen.value(row + 1, column, f"load {cpu} % memory {ram} %")
+    if telemetry.flag("load", "panic"):
+        pen.value(row + 1, column, busy_text(telemetry))
     return row + 2
 
 

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from up_ground.link_status import LinkStatus
 from up_ground.telemetry import Telemetry
-from up_ground.wording import UNKNOWN, age_text, flag_text, link_text, number_text, seat_text
+from up_ground.wording import (
+    UNKNOWN,
+    age_text,
+    busy_text,
+    flag_text,
+    link_text,
+    number_text,
+    seat_text,
+)
 
 
 def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
@@ -36,7 +44,7 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
         word = "against arming again" if telemetry.flag("armed") else "vetoes"
         parts.append(f"{word}: {'; '.join(vetoes)}"[:200])
     if telemetry.flag("load", "panic"):
-        parts.append("PANIC")
+        parts.append(busy_text(telemetry))
     return " | ".join(parts)
 
 

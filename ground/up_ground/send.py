@@ -6,6 +6,7 @@ import json
 import secrets
 from typing import Any
 
+from up.commands.telemetry_commands import SLOWEST_MS
 from up.protocols.general_message import GeneralMessage, encode
 from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, Errand, Say
 from up_ground.ground_link import GroundLink
@@ -18,7 +19,8 @@ from up_ground.telemetry import Telemetry
 from up_ground.token_store import TokenStore
 
 CONNECT_LIMIT_S = 8.0
-TELEMETRY_LIMIT_S = 5.0
+TELEMETRY_LIMIT_S = SLOWEST_MS / 1000 + 1.0
+OFFLINE_LIMIT_S = 5.0
 ANSWER_LIMIT_S = 3.0
 CONTENT_LIMIT_S = 2.0
 _CONTENT_OF = {
@@ -34,7 +36,8 @@ _QUIET = (TELEMETRY, "up.system.state")
 class Send(Errand):
     """Waits for the seat and for one telemetry frame, sends, waits for the answer.
 
-    Nothing is sent twice. ``needs_beacon``: without telemetry it cannot be sent at all.
+    Nothing is sent twice, and nothing without the beacon of a frame; an aircraft whose frames have
+    none, as the thesis's, gets what does not need one (``needs_beacon``).
     """
 
     def __init__(
@@ -59,7 +62,6 @@ class Send(Errand):
         self._telemetry = Telemetry()
         self._id = secrets.token_hex(8)
         self._sent_s: float | None = None
-        self._may_do_without = False
         is_asking = name not in _MAY_SET or data.get("request") is True
         self._awaited = _CONTENT_OF.get(name, "") if is_asking else ""
         self._is_acked = False
@@ -101,7 +103,9 @@ class Send(Errand):
             self.forget("connect")
             self.forget("ask")
             if self._sent_s is None and not self._telemetry.frames:
-                self.after(self._reactor, "telemetry", TELEMETRY_LIMIT_S, self._on_no_telemetry)
+                is_offline = status.is_aircraft_online is False
+                limit_s = OFFLINE_LIMIT_S if is_offline else TELEMETRY_LIMIT_S
+                self.after(self._reactor, "telemetry", limit_s, self._on_no_telemetry)
             self._try_to_send()
 
     def _ask(self) -> None:
@@ -109,11 +113,17 @@ class Send(Errand):
         self.after(self._reactor, "ask", ASK_INTERVAL_S, self._ask)
 
     def _try_to_send(self) -> None:
-        if self._sent_s is not None or not (self._telemetry.frames or self._may_do_without):
+        if self._sent_s is not None or not self._telemetry.frames:
             return
         if standing(self.link.status, self._settings.direct) is not Standing.OURS:
             return
         self.forget("telemetry")
+        if self._needs_beacon and self._telemetry.beacon is None:
+            self._fail(
+                f"{self._name} is only taken with a beacon, and this aircraft's telemetry has none",
+                EXIT_REFUSED,
+            )
+            return
         self.link.send(encode(self._name, self._data, self._id, self._telemetry.beacon))
         self._sent_s = self._reactor.seconds()
         self.after(self._reactor, "answer", ANSWER_LIMIT_S, self._on_no_answer)
@@ -147,16 +157,12 @@ class Send(Errand):
                 f"the aircraft {self._settings.aircraft} is not connected to the proxy",
                 EXIT_NO_ANSWER,
             )
-        elif self._needs_beacon:
+        else:
             self._fail(
-                f"no telemetry within {TELEMETRY_LIMIT_S:g} s, and {self._name} is only taken with"
-                " a fresh beacon",
+                f"no telemetry within {TELEMETRY_LIMIT_S:g} s, and {self._name} is only sent with"
+                " its beacon",
                 EXIT_NO_ANSWER,
             )
-        else:
-            self.complain(f"no telemetry within {TELEMETRY_LIMIT_S:g} s; sent without a beacon")
-            self._may_do_without = True
-            self._try_to_send()
 
     def _on_no_answer(self) -> None:
         self._fail(

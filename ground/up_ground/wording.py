@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from up_ground.link_status import LinkState, LinkStatus
+from up_ground.telemetry import Telemetry
 
 UNKNOWN = "--"
 
@@ -33,6 +34,13 @@ def age_text(age_s: float | None) -> str:
 def flag_text(value: bool | None, yes: str = "yes", no: str = "no") -> str:
     """Return the word for a flag."""
     return UNKNOWN if value is None else (yes if value else no)
+
+
+def busy_text(telemetry: Telemetry) -> str:
+    """Return the load and telemetry's period while the Raspberry Pi is busy (Panic Mode)."""
+    percent = number_text(telemetry.number("load", "cpu"), 0)
+    period_ms = telemetry.number("system", "period_ms") or telemetry.number("load", "delay_ms")
+    return f"Raspberry Pi busy ({percent} %): telemetry every {number_text(period_ms, 0)} ms"
 
 
 def seat_text(status: LinkStatus) -> str:

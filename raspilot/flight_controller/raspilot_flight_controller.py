@@ -21,7 +21,7 @@ from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
 from up.flight_controller.gains import Gains, GainSet
-from up.flight_controller.gains_keeper import GainsKeeper
+from up.flight_controller.gains_keeper import GainsKeeper, refuse_unused
 from up.flight_controller.pids_file import PidsFile
 from up.mode import WITH_ARDUINO, Mode
 from up.needs import wants
@@ -31,7 +31,6 @@ ROLL_RATE_LIMIT_DEG_S = 120.0
 PITCH_RATE_LIMIT_DEG_S = 80.0
 SHORTEST_STEP_S, LONGEST_STEP_S = 1e-3, 0.1
 ASK_AGAIN_S = 5.0
-FLYING_S = 0.25
 LOWEST_US, HIGHEST_US = 1000, 2000
 STICK_THROTTLE = 0
 _NO_GAINS = Gains(0.0)
@@ -83,9 +82,9 @@ class RaspilotFlightController(BaseFlightController):
 
     @property
     def is_flying(self) -> bool:
-        """Return whether Outputs go to the board now."""
-        now_s = self.context.reactor.seconds()
-        return self._is_board_ready and now_s - self._computed_at_s <= FLYING_S
+        """Return whether Outputs go to the board now: another module may have control."""
+        owner = self.up.command_executor.control.owner
+        return self._is_board_ready and owner == self.class_name
 
     def _execute_initialization(self) -> None:
         super()._execute_initialization()
@@ -193,6 +192,7 @@ class RaspilotFlightController(BaseFlightController):
     def _on_tunings(self, command: PIDTuningsCommand) -> Deferred[None] | None:
         gains = command.gains
         if gains is not None:
+            refuse_unused(gains, self.gains)
             self.gains = gains.completed(self.gains)
             self._roll.tune(self.gains.rate.ailerons, self.gains.stabilize.ailerons)
             self._pitch.tune(self.gains.rate.elevator, self.gains.stabilize.elevator)

@@ -17,7 +17,7 @@ def sentence_of(event: Mapping[str, Any]) -> str | None:
             return f"says: {event.get('text')!r}"
         case "panic":
             delay_ms = event.get("delay_ms")
-            return f"panic: nothing quicker than {delay_ms} ms" if delay_ms else "panic is over"
+            return f"busy: nothing quicker than {delay_ms} ms" if delay_ms else "not busy any more"
         case "notice":
             return str(event.get("text"))
     return None

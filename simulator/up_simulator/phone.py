@@ -148,7 +148,7 @@ class Phone:
             self._answer(message, "invalid", f"panic: bool, delay_ms: 0 to {LONGEST_DELAY_MS}")
             return
         self.panic_s = delay_ms / 1000 if panic else 0.0
-        self._say(f"panic: nothing quicker than {delay_ms:g} ms" if panic else "panic is over")
+        self._say(f"busy: nothing quicker than {delay_ms:g} ms" if panic else "not busy any more")
         self._answer(message)
 
     def _answer(self, message: GeneralMessage, code: str = "", reason: str = "") -> None:

@@ -85,7 +85,7 @@ test("an aircraft that is not at the proxy says so in sight, and takes no Comman
   assert.equal(await ground.page.isVisible("#aircraft-away"), true);
   await ground.takeControl();
   await ground.until(() => /glider-2 is not connected/.test(document.querySelector("#commands-why").textContent), "why");
-  for (const selector of ['[data-mode="FBW"]', "#wish-heading-send", "#arm-button", "#mark-send"]) {
+  for (const selector of ['[data-mode="FBW"]', "#telemetry-period-send", "#arm-button", "#mark-send"]) {
     assert.equal(await ground.page.isDisabled(selector), true, selector);
   }
   await ground.page.selectOption("#aircraft-select", "glider-1");

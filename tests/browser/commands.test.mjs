@@ -60,18 +60,11 @@ test("who says no to the question sends nothing", async () => {
   assert.equal(await ground.page.isVisible("dialog#confirm"), false);
 });
 
-test("a heading is asked of the aircraft, which tells it back", async () => {
-  await ground.page.fill("#wish-heading", "123");
-  const answer = await ground.answerTo(() => ground.press("#wish-heading-send"));
-  assert.equal(answer.outcome, "ack", JSON.stringify(answer));
-  await flies((frame) => frame.heading.required === 123, "the heading in telemetry");
-});
-
 test("what no aircraft could do is not sent", async () => {
   const before = await answers();
-  await ground.page.fill("#wish-heading", "999");
-  await ground.page.click("#wish-heading-send");
-  assert.match(await ground.text("#wish-heading-note"), /must be 0 to 360 deg/);
+  await ground.page.fill("#telemetry-period", "19");
+  await ground.page.click("#telemetry-period-send");
+  assert.match(await ground.text("#telemetry-period-note"), /must be 20 to 10000 ms/);
   assert.equal(await ground.page.isVisible("dialog#confirm"), false);
   assert.equal(await answers(), before);
 });

@@ -27,7 +27,7 @@ def rows():
 def test_every_command_of_the_page_that_a_ground_may_send_is_listed(catalogue):
     grounds = ("observer", "operator", "pilot", "any")
     wanted = {name for name, _, role in rows() if any(word in role for word in grounds)}
-    assert {"up.arm", "android.speak", "arduino.pids.tunings", "up.heading.change"} <= wanted
+    assert {"up.arm", "android.speak", "arduino.pids.tunings"} <= wanted
     answers = {"up.ack", "up.nack"}
     assert {cls.NAME for cls in catalogue.sendable()} & (wanted | answers) == wanted - answers
 

@@ -63,9 +63,9 @@ def test_everything_that_is_known_is_there():
         "50.075500   14.437800 deg",
         "home 1204 m, bearing 271 deg",
         "altitude    311.4 m",
-        "heading 88, required 90 deg",
+        "heading 88 deg",
         "battery 83 % phone connected",
-        "load 12 % memory 31 % panic no",
+        "load 12 % memory 31 %",
         "ailerons  1511",
         "elevator  1200",
         "Arduino connected, checked",
@@ -103,13 +103,15 @@ def test_a_silent_aircraft_greys_all_within_a_second():
     assert not re.search(r"\x1b\[0;(37;44|30;43|32|33)m", silent)
 
 
-def test_panic_failsafe_and_a_lost_aircraft_are_loud():
-    data = frame(load={"panic": True, "delay_ms": 150}, arduino={"failsafe": True, "switch": "LOW"})
+def test_failsafe_and_a_lost_aircraft_are_loud_and_a_busy_raspberry_pi_is_told():
+    load = {"cpu": 99.4, "ram": 31.0, "panic": True, "delay_ms": 150}
+    data = frame(load=load, arduino={"failsafe": True, "switch": "LOW"})
     loud = state(data)
     loud.status.is_aircraft_online = False
     picture = render(loud, 100.0, (80, 24))
-    for text in ("PANIC 150 ms", "FAILSAFE", "aircraft offline"):
+    for text in ("FAILSAFE", "aircraft offline"):
         assert style_at(picture, text) == "\x1b[0;1;31m", text
+    assert "busy (99 %): telemetry every 150 ms" in render(loud, 100.0, (120, 30))
 
 
 @pytest.mark.parametrize(

@@ -102,12 +102,12 @@ def test_panic_slows_it_until_it_is_over(fly):
 
     before = sent(4.0)
     flying.raspilot.meter.load = 100.0
-    flying.until(lambda: any("panic: nothing quicker" in line for line in flying.phone.said), 30.0)
+    flying.until(lambda: any("busy: nothing quicker" in line for line in flying.phone.said), 30.0)
     delay_ms = flying.ground.telemetry["load"]["delay_ms"]
     flying.fly(1.0)
     slowed = sent(4.0)
     flying.raspilot.meter.load = 5.0
-    flying.until(lambda: any("panic is over" in line for line in flying.phone.said), 60.0)
+    flying.until(lambda: any("not busy any more" in line for line in flying.phone.said), 60.0)
     flying.fly(1.0)
     assert before == pytest.approx(20, abs=1)
     assert slowed <= min(20, 4000 / delay_ms) + 1

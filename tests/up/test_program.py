@@ -16,7 +16,8 @@ ROOT = Path(__file__).parents[2]
 APPLICATION = ROOT / "tests" / "fixtures" / "apps" / "troubled"
 RUN = (
     "import sys, pathlib; from up.program import run_application;"
-    "sys.exit(run_application(pathlib.Path(sys.argv[1])))"
+    "paths = [pathlib.Path(each) for each in sys.argv[1:3]];"
+    "sys.exit(run_application(*paths, use_defaults=sys.argv[3:] == ['--defaults']))"
 )
 DEADLINE_S = 60.0
 
@@ -24,11 +25,11 @@ DEADLINE_S = 60.0
 class Daemon:
     """A running application; its words are read as they come."""
 
-    def __init__(self, trouble="", **environ):
+    def __init__(self, trouble="", *arguments, **environ):
         self.text = ""
         self._words = queue.Queue()
         self.process = subprocess.Popen(
-            [sys.executable, "-W", "error", "-c", RUN, str(APPLICATION)],
+            [sys.executable, "-W", "error", "-c", RUN, str(APPLICATION), *arguments],
             cwd=ROOT,
             env={**os.environ, "TROUBLE": trouble, "PYTHONUNBUFFERED": "1", **environ},
             stdout=subprocess.PIPE,
@@ -194,6 +195,20 @@ def test_the_module_that_holds_the_reactor_is_named():
     with Daemon("run holds") as daemon:
         daemon.expect("holds the reactor for more than 20 ms")
         assert "trouble" in daemon.text
+
+
+def test_a_folder_without_configuration_is_refused_unless_the_defaults_are_wanted(tmp_path):
+    unfinished = tmp_path / ".pids.yml.0123abcd.tmp"
+    unfinished.touch()
+    with Daemon("", str(tmp_path)) as daemon:
+        assert daemon.process.wait(DEADLINE_S) == 2
+        daemon.expect("--defaults")
+        assert daemon.text.count(str(tmp_path)) == 1, daemon.text
+    with Daemon("", str(tmp_path), "--defaults") as daemon:
+        daemon.expect("modules run")
+        assert not unfinished.exists(), "what a killed write left"
+        daemon.process.terminate()
+        assert daemon.process.wait(DEADLINE_S) == 0
 
 
 def test_a_wrong_mode_is_one_sentence():

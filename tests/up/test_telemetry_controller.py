@@ -82,7 +82,7 @@ def test_the_ground_sets_the_period(rig):
     rig.period(1000)
     rig.frames.clear()
     rig.run(3.1)
-    assert len(rig.frames) == 3
+    assert len(rig.frames) == 4, "the one that was due tells the new period"
 
 
 @pytest.mark.parametrize("bad", [-1, 0, 19, 10_001, "100", None, float("nan"), True])
@@ -165,7 +165,7 @@ def test_the_systems_own_part(rig):
     content = rig.frames[0][1]
     assert content["vetoes"] == ["pids.yml: is corrupt"]
     assert content["counters"]["reactor"] == {"SlowModule": 3}
-    assert content["system"] == {"uptime_s": 0, "clock_ms": 110}
+    assert content["system"] == {"uptime_s": 0, "clock_ms": 110, "period_ms": 100}
     assert content["mode"] == "flight controller"
 
 
@@ -201,3 +201,23 @@ def test_one_subscriber_that_says_nothing_of_it_wants_every_frame(rig):
     rig.up.command_executor.register_command(TelemetryCommand, heard.append)
     rig.run(1.05)
     assert len(heard) == 10
+
+
+def test_a_beacon_is_fresh_for_as_long_as_the_ground_waits_for_the_next_frame(rig):
+    """At 10 s a frame, a ground that sees every one is never refused as stale."""
+    rig.run(0.15)
+    assert rig.frames[-1][1]["system"]["period_ms"] == 100
+    rig.period(10_000)
+    rig.run(0.1)
+    _, content, beacon = rig.frames[-1]
+    assert content["system"]["period_ms"] == 10_000, "the frame that was due tells the new period"
+    for _ in range(10):
+        rig.clock.advance(1.0)
+        assert rig.up.beacons.is_fresh(rig.frames[-1][2])
+    assert rig.up.beacons.is_fresh(beacon), "the next frame is on its way"
+    rig.clock.advance(1.1)
+    assert not rig.up.beacons.is_fresh(beacon)
+    rig.period(100)
+    rig.run(2.5)
+    assert not rig.up.beacons.is_fresh(rig.frames[-23][2]), "2 s again"
+    assert rig.up.beacons.is_fresh(rig.frames[-18][2])

@@ -102,6 +102,9 @@ def _add_start(verbs: Any) -> None:
         verbs, "start", "up.cli.start", "run the application until Ctrl-C", aliases=("s",)
     )
     _take_config(start)
+    start.add_argument(
+        "--defaults", action="store_true", help="start with the defaults where no file is found"
+    )
 
 
 def _add_gather(verbs: Any) -> None:

@@ -10,4 +10,4 @@ from up.program import run_application
 
 def run(values: argparse.Namespace) -> int:
     """Run the application until it is stopped."""
-    return run_application(application_of(values).root, values.config)
+    return run_application(application_of(values).root, values.config, use_defaults=values.defaults)

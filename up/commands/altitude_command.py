@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from up.commands.command import BaseCommand, value
+from up.commands.refusal import NO_NAVIGATION
 from up.commands.roles import Role
 
 
@@ -14,9 +15,10 @@ class AltitudeCommand(BaseCommand):
     """An altitude above sea level, measured (``actual``) or asked for (``required``)."""
 
     NAME: ClassVar[str] = "up.altitude.change"
+    UNSUPPORTED: ClassVar[str] = NO_NAVIGATION
     altitude_m: float = value(key="altitude", minimum=-1000, maximum=30000, unit="m")
     mode: str = value("actual", choices=("actual", "required"))
 
     def roles(self) -> frozenset[Role]:
-        """A sensor measures, an operator asks."""
+        """A sensor measures; an operator asks, which is refused (``UNSUPPORTED``)."""
         return frozenset({Role.OPERATOR if self.mode == "required" else Role.SENSOR})

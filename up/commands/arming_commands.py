@@ -20,7 +20,8 @@ class ArmCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class DisarmCommand(BaseCommand):
-    """Disarm; refused unless the throttle has been low for 2 s."""
+    """Disarm; refused without a fresh beacon and unless the throttle has been low for 2 s."""
 
     NAME: ClassVar[str] = "up.disarm"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
+    NEEDS_BEACON: ClassVar[bool] = True

@@ -9,6 +9,13 @@ from up.system.clock import Clock
 
 KEPT = 4096
 FRESH_S = 2.0
+WAY_S = 1.0
+"""What a frame may take to the ground and its Command back, beyond the telemetry period."""
+
+
+def fresh_s(period_ms: float) -> float:
+    """Return how old an echoed beacon may be: a ground that sees every frame is never stale."""
+    return max(FRESH_S, period_ms / 1000 + WAY_S)
 
 
 class Beacons:
@@ -22,6 +29,7 @@ class Beacons:
         self._clock = clock
         self._first = self._next = (random or SystemRandom()).randrange(2**31)
         self._times: deque[float] = deque(maxlen=KEPT)
+        self.limit_s = FRESH_S
 
     def draw(self) -> int:
         """Return the number for a frame that leaves now."""
@@ -39,6 +47,6 @@ class Beacons:
         return self._clock.seconds() - self._times[number - self._first]
 
     def is_fresh(self, number: int) -> bool:
-        """Return whether an echoed number is at most ``FRESH_S`` old."""
+        """Return whether an echoed number is at most ``limit_s`` old."""
         age = self.age_s(number)
-        return age is not None and age <= FRESH_S
+        return age is not None and age <= self.limit_s

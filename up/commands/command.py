@@ -24,7 +24,9 @@ class BaseCommand:
 
     ``NAME`` is the name on the wire, ``ALIASES`` older names of the same thing, ``ROLES`` the
     roles that may send it from outside (none: nobody), ``ROUTE`` the link that it is routed to
-    instead of being handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon.
+    instead of being handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon,
+    ``NEEDS_CONTROL`` whether only one module at a time may publish it (``ControlLease``),
+    ``UNSUPPORTED`` why nothing carries out what a ground may ask by it (empty: something does).
     """
 
     NAME: ClassVar[str] = ""
@@ -32,10 +34,17 @@ class BaseCommand:
     ROLES: ClassVar[frozenset[Role]] = frozenset()
     ROUTE: ClassVar[str] = ""
     NEEDS_BEACON: ClassVar[bool] = False
+    NEEDS_CONTROL: ClassVar[bool] = False
+    UNSUPPORTED: ClassVar[str] = ""
 
     def roles(self) -> frozenset[Role]:
         """Return who may send this very Command; override where a field decides."""
         return self.ROLES
+
+    @property
+    def unsupported(self) -> str:
+        """Return why nothing carries out this very Command; a sensor's reading is always taken."""
+        return "" if Role.SENSOR in self.roles() else self.UNSUPPORTED
 
     @property
     def name(self) -> str:

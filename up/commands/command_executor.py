@@ -8,7 +8,7 @@ from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from functools import update_wrapper
 from inspect import iscoroutinefunction
-from time import perf_counter
+from time import monotonic, perf_counter
 from typing import Any
 from uuid import UUID, uuid4
 
@@ -19,9 +19,11 @@ from twisted.python.failure import Failure
 from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.command import BaseCommand
 from up.commands.command_registry import CommandRegistry
+from up.commands.control_lease import ControlLease, calling_publisher
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
 from up.log.limits import Limited
+from up.commands.roles import Role
 from up.registrations import note_undo
 
 Handler = Callable[[Any], Any]
@@ -39,7 +41,8 @@ class CommandExecutor:
     current Command's handlers are done. ``dispatching_since`` (perf_counter seconds, 0: idle) and
     ``dispatching`` let a monitor thread see who holds the reactor; one look at the clock a Command
     is all that the bus can afford (``up.system.reactor_monitor`` does the rest). An observer sees
-    every Command, and is no handler of any.
+    every Command, and is no handler of any. A Command with ``NEEDS_CONTROL`` is delivered only for
+    the publisher that has control: its origin's link, or the module that calls.
     """
 
     log = Logger()
@@ -55,6 +58,7 @@ class CommandExecutor:
         "_subscribers",
         "_thread",
         "_waiting",
+        "control",
         "counters",
         "dispatching",
         "dispatching_since",
@@ -65,10 +69,15 @@ class CommandExecutor:
     )
 
     def __init__(
-        self, registry: CommandRegistry, call_from_thread: Callable[..., Any], limited: Limited
+        self,
+        registry: CommandRegistry,
+        call_from_thread: Callable[..., Any],
+        limited: Limited,
+        seconds: Callable[[], float] = monotonic,
     ) -> None:
         self.registry = registry
         self.limited = limited
+        self.control = ControlLease(seconds)
         self.origin: Origin = INTERNAL
         self.dispatching_since = 0.0
         self.dispatching: BaseCommand | None = None
@@ -80,8 +89,8 @@ class CommandExecutor:
         self._handlers: dict[str, tuple[Handler, ...]] = {}
         self._observers: tuple[tuple[UUID, Handler], ...] = ()
         self._observing: tuple[Handler, ...] = ()
-        # What a Command calls: without observers the handlers themselves, at no cost.
-        self._called = self._handlers
+        # What a Command calls; one that needs control is not here and takes the longer way.
+        self._called: dict[str, tuple[Handler, ...]] = {}
         self._waiting: deque[tuple[BaseCommand | _Asked, Origin]] = deque()
         self._logged_names: set[str] = set()
         self._faults: Counter[tuple[str, str]] = Counter()
@@ -160,10 +169,16 @@ class CommandExecutor:
         try:
             handlers = self._called[command.NAME]
         except KeyError:
-            # Nobody has to care for what a module says; from outside, or unknown, it is a mistake.
-            if origin is not INTERNAL or self.registry.get(command.NAME) is None:
-                self._count_unhandled(command.NAME)
             handlers = self._observing
+            if command.NEEDS_CONTROL and command.NAME in self._handlers:
+                if origin is INTERNAL:
+                    origin = Origin(calling_publisher(), Role.INTERNAL)
+                if self.control.refuses(origin.link, command.NAME) is not None:
+                    return
+                handlers += self._handlers[command.NAME]
+            # Nobody has to care for what a module says; from outside, or unknown, it is a mistake.
+            elif origin is not INTERNAL or self.registry.get(command.NAME) is None:
+                self._count_unhandled(command.NAME)
             if not handlers:
                 return
         self.origin = origin
@@ -195,6 +210,8 @@ class CommandExecutor:
         handler, the Command waits its turn like any other.
         """
         done: Deferred[None] = Deferred()
+        if command.NEEDS_CONTROL and origin is INTERNAL:
+            origin = Origin(calling_publisher(), Role.INTERNAL)
         if self.dispatching_since:
             self._waiting.append((_Asked(command, done), origin))
         else:
@@ -203,6 +220,10 @@ class CommandExecutor:
 
     def _execute_asked(self, command: BaseCommand, done: Deferred[None], origin: Origin) -> None:
         handlers = self._handlers.get(command.NAME, ())
+        refusal = command.NEEDS_CONTROL and self.control.refuses(origin.link, command.NAME)
+        if refusal:
+            done.errback(CommandRefusedError(refusal))
+            return
         faults: list[Failure] = []
         waiting: list[Deferred[Any]] = []
         if not handlers:
@@ -235,6 +256,8 @@ class CommandExecutor:
             self._drain()
 
     def _postpone(self, command: BaseCommand, origin: Origin) -> None:
+        if command.NEEDS_CONTROL and origin is INTERNAL:
+            origin = Origin(calling_publisher(), Role.INTERNAL)
         if threading.get_ident() == self._thread:
             self._waiting.append((command, origin))
         else:
@@ -282,11 +305,11 @@ class CommandExecutor:
 
     def _rebuild_called(self) -> None:
         observing = self._observing = tuple(call for _, call in self._observers)
-        self._called = (
-            {name: (*observing, *handlers) for name, handlers in self._handlers.items()}
-            if observing
-            else self._handlers
-        )
+        self._called = {
+            name: (*observing, *handlers)
+            for name, handlers in self._handlers.items()
+            if not getattr(self.registry.get(name), "NEEDS_CONTROL", False)
+        }
 
     def _handing_origin(self, call: Observe) -> Handler:
         def observe(command: BaseCommand) -> None:

@@ -92,6 +92,9 @@ class CommandReceiver:
         if reason is not None:
             self._refuse(link, message, Code.FORBIDDEN, f"{command.NAME}: {reason}")
             return
+        if command.unsupported:
+            self._refuse(link, message, Code.NOT_SUPPORTED, command.unsupported)
+            return
         refusal = self._judge_beacon(command, message)
         if refusal is not None:
             self._refuse(link, message, *refusal)
@@ -116,7 +119,7 @@ class CommandReceiver:
                 return Code.NO_BEACON, f"{command.NAME} must echo the newest telemetry's beacon"
             return None
         if not self._beacons.is_fresh(message.beacon):
-            return Code.STALE, "the echoed beacon is older than 2 s"
+            return Code.STALE, f"the echoed beacon is older than {self._beacons.limit_s:g} s"
         return None
 
     def _carry_out(self, command: BaseCommand, message: GeneralMessage, link: CommandLink) -> None:

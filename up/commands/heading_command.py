@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from up.commands.command import BaseCommand, value
+from up.commands.refusal import NO_NAVIGATION
 from up.commands.roles import Role
 
 
@@ -14,9 +15,10 @@ class HeadingCommand(BaseCommand):
     """A heading clockwise from north, measured (``actual``) or asked for (``required``)."""
 
     NAME: ClassVar[str] = "up.heading.change"
+    UNSUPPORTED: ClassVar[str] = NO_NAVIGATION
     heading_deg: float = value(key="heading", minimum=-360, maximum=360, unit="deg")
     mode: str = value(choices=("actual", "required"))
 
     def roles(self) -> frozenset[Role]:
-        """A sensor measures, an operator asks."""
+        """A sensor measures; an operator asks, which is refused (``UNSUPPORTED``)."""
         return frozenset({Role.OPERATOR if self.mode == "required" else Role.SENSOR})

@@ -16,6 +16,7 @@ class OutputCommand(BaseCommand):
     """
 
     NAME: ClassVar[str] = "up.output.set"
+    NEEDS_CONTROL: ClassVar[bool] = True
     ailerons_us: int = value(key="ailerons", minimum=1000, maximum=2000, unit="us")
     elevator_us: int = value(key="elevator", minimum=1000, maximum=2000, unit="us")
     throttle_us: int = value(key="throttle", minimum=0, maximum=2000, unit="us")

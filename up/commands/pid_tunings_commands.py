@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand, value
@@ -39,7 +39,10 @@ class PIDTuningsCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class PIDTuningsValuesCommand(BaseCommand):
-    """The gains that fly now, in full precision, in the form that PIDTuningsCommand takes."""
+    """The gains in use now, in full precision, in the form that PIDTuningsCommand takes.
+
+    Without navigation's, which nothing uses.
+    """
 
     NAME: ClassVar[str] = "arduino.pids.values"
     pids: dict[str, Any] = value()
@@ -47,7 +50,7 @@ class PIDTuningsValuesCommand(BaseCommand):
     @classmethod
     def of(cls, gains: GainSet) -> PIDTuningsValuesCommand:
         """Build the Command of a set."""
-        return cls(gain_set_to_data(gains))
+        return cls(gain_set_to_data(replace(gains, navigation=None)))
 
     @property
     def data(self) -> dict[str, Any]:

@@ -19,6 +19,10 @@ class Code(Enum):
     TAKEN = "taken"
     TIMEOUT = "timeout"
     FAILED = "failed"
+    NOT_SUPPORTED = "not_supported"
+
+
+NO_NAVIGATION = "nothing navigates yet: no module flies to a heading or an altitude"
 
 
 class CommandRefusedError(Exception):

@@ -13,6 +13,7 @@ class SetpointCommand(BaseCommand):
     """An attitude asked of the Arduino; after ``lifetime_ms`` it holds level by itself."""
 
     NAME: ClassVar[str] = "up.setpoint.set"
+    NEEDS_CONTROL: ClassVar[bool] = True
     roll_deg: float = value(key="roll", minimum=-90, maximum=90, unit="deg")
     pitch_deg: float = value(key="pitch", minimum=-90, maximum=90, unit="deg")
     yaw_rate_deg_s: float = value(0.0, key="yaw_rate", minimum=-300, maximum=300, unit="deg/s")

@@ -17,7 +17,7 @@ _END = "# end"
 
 
 class LearnedFile(Generic[T]):
-    """A file of learned values with a last good copy beside it, named `<name>.good`.
+    """A file of learned values; the first save puts a good copy beside it, `<name>.good`.
 
     A set is good as a whole only: a map in it that lacks a value makes the file corrupt, and so
     does a lost end. People may edit the file, and one from elsewhere needs no end.
@@ -81,9 +81,8 @@ class LearnedFile(Generic[T]):
         return None, found[0] + rest
 
     def _keep_good(self, values: T) -> None:
-        """Make what was just read, perhaps edited by hand, the good copy, if the disk permits."""
-        good, _ = self._read(self.good_path)
-        if good != values:
+        """Bring the good copy of a saved set up to date with what people edited since."""
+        if self.good_path.exists() and self._read(self.good_path)[0] != values:
             with contextlib.suppress(OSError):
                 write_atomically(self.good_path, self._render(values))
 

@@ -6,6 +6,7 @@ import contextlib
 import errno
 import json
 import os
+import re
 import secrets
 from collections.abc import Iterable
 from pathlib import Path
@@ -13,6 +14,7 @@ from typing import Any
 
 from up.config.file import ConfigFile
 
+_TEMPORARY = re.compile(r"\..+\.(?:([0-9]{1,9})-)?[0-9a-f]{8}\.tmp")
 _NO_HARD_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)
 
 
@@ -62,6 +64,14 @@ def write_atomically(path: Path, data: bytes) -> None:
     _sync_folder(path.parent)
 
 
+def remove_unfinished(folder: Path) -> None:
+    """Remove what killed programs left of their writes; a running program's stays."""
+    for path in Path(folder).glob(".*.tmp"):
+        found = _TEMPORARY.fullmatch(path.name)
+        if found is not None and not Path("/proc", found[1] or "none").exists():
+            _remove(path)
+
+
 def _create(path: Path, data: bytes) -> bool:
     temporary = _write_temporary(path, data)
     try:
@@ -90,7 +100,7 @@ def _create_exclusively(path: Path, data: bytes) -> bool:
 
 
 def _write_temporary(path: Path, data: bytes) -> Path:
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.tmp")
+    temporary = path.with_name(f".{path.name}.{os.getpid()}-{secrets.token_hex(4)}.tmp")
     try:
         with temporary.open("xb") as file:
             _write_and_sync(file.fileno(), data)

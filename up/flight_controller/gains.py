@@ -54,6 +54,13 @@ class GainSet:
         """Return whether this is the three-axis form."""
         return self.rate.rudder is not None
 
+    @property
+    def unused(self) -> list[tuple[float, ...]]:
+        """Return the gains that no controller uses: the rudder's of the angle loop, navigation."""
+        loop = self.navigation
+        axes = (None,) * len(AXES) if loop is None else (loop.ailerons, loop.elevator, loop.rudder)
+        return [tuple(each or Gains(0.0)) for each in (self.stabilize.rudder, *axes)]
+
     def completed(self, other: GainSet) -> GainSet:
         """Return this set with what it leaves open (rudder, navigation) taken from another."""
         if self.has_rudder:

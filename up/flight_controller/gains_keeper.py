@@ -13,6 +13,13 @@ from up.flight_controller.gains import GainSet
 from up.flight_controller.pids_file import PidsFile
 
 
+def refuse_unused(gains: GainSet, held: GainSet) -> None:
+    """Raise CommandRefusedError where a set changes a gain that no controller uses."""
+    if gains.completed(held).unused != held.unused:
+        text = "no controller uses the rudder's stabilize gains and the navigation gains yet"
+        raise CommandRefusedError(text, Code.NOT_SUPPORTED)
+
+
 def _in_thread(work: Callable[[], None]) -> None:
     """Run on a daemon thread: a disk that hangs keeps no program from ending."""
     threading.Thread(target=work, name="pids.yml writer", daemon=True).start()

@@ -67,7 +67,7 @@ class Rate:
 
 @dataclass(frozen=True, slots=True)
 class Stabilize:
-    """The stabilize loop: angle to rotation rate. The rudder has no angle to hold."""
+    """The stabilize loop: angle to rotation rate. The rudder's are kept and not used."""
 
     ailerons: AileronsStabilize = section(AileronsStabilize)
     elevator: ElevatorStabilize = section(ElevatorStabilize)
@@ -76,7 +76,7 @@ class Stabilize:
 
 @dataclass(frozen=True, slots=True)
 class Navigation:
-    """The navigation loop: heading to angle. It runs on the Raspberry Pi only."""
+    """The navigation loop: heading to angle. Kept and not used: nothing navigates yet."""
 
     ailerons: Controller = section(Controller)
     elevator: Controller = section(Controller)

@@ -67,7 +67,9 @@ PROPERTIES: dict[str, Any] = {
     "flight_mode": _TEXT,
     "flight_controller": _TEXT,
     "flight_control": _object({"mode": _TEXT, "offered": _TEXTS, "missing": _TEXTS}),
+    "control": _object({"publisher": _TEXT}),
     "armed": _FLAG,
+    "in_flight": _FLAG,
     "vetoes": _TEXTS,
     "age_ms": _numbers(READINGS, "ms"),
     "source": _object(dict.fromkeys(READINGS, _TEXT)),
@@ -82,6 +84,13 @@ PROPERTIES: dict[str, Any] = {
         }
     ),
     "counters": _ANYTHING,
-    "system": _object({"providers": _TEXTS, "uptime_s": _number("s"), "clock_ms": _number("ms")}),
+    "system": _object(
+        {
+            "providers": _TEXTS,
+            "uptime_s": _number("s"),
+            "clock_ms": _number("ms"),
+            "period_ms": _number("ms"),
+        }
+    ),
 }
 """What a module contributes besides is in the messages and not in the schema."""

@@ -55,13 +55,17 @@ class Reason(IntEnum):
     IMU_INVALID = 10
     VETO = 11
     NOT_STILL = 12
+    NOT_SUPPORTED = 13
 
+
+IN_FLIGHT = "armed, or no motor and the receiver was heard since power-on"
+"""The states in which the aircraft may be in the air, in words."""
 
 _REASONS = {
     Reason.UNKNOWN_TYPE: "unknown type",
     Reason.WRONG_SIZE: "wrong size",
     Reason.OUT_OF_RANGE: "out of range",
-    Reason.ONLY_DISARMED: "only while disarmed",
+    Reason.ONLY_DISARMED: f"only on the ground (in flight is: {IN_FLIGHT})",
     Reason.NOT_IN_THESIS_FRAMING: "not while in thesis framing",
     Reason.TOO_OLD: "too old",
     Reason.NOT_AT_AUTO: "the switch is not at AUTO",
@@ -70,6 +74,7 @@ _REASONS = {
     Reason.IMU_INVALID: "the IMU is invalid",
     Reason.VETO: "a veto",
     Reason.NOT_STILL: "not still enough",
+    Reason.NOT_SUPPORTED: "nothing on the Arduino uses it",
 }
 
 

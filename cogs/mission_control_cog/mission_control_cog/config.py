@@ -72,11 +72,11 @@ class MissionControlConfig:
     role: Literal["observer", "operator", "pilot"] = key(
         "operator",
         "What a ground station may do: observer sees telemetry; operator also sets the telemetry "
-        "rate, the flight mode, required heading and altitude; pilot also arms and tunes gains.",
+        "rate and the flight mode; pilot also arms and tunes gains.",
     )
     tune_in_flight: bool = key(
         False,
-        "Whether a pilot on the ground may set gains while the aircraft is armed or its switch "
+        "Whether a pilot on the ground may set gains while the aircraft is in flight or its switch "
         "stands at AUTO.",
     )
     i_accept_plain: bool = key(

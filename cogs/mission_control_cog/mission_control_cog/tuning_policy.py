@@ -10,9 +10,9 @@ KEY = "mission_control.yml: tune_in_flight"
 
 
 class TuningPolicy:
-    """Refuses gains in flight unless the configuration accepts them.
+    """Refuses gains in flight and at AUTO unless the configuration accepts them.
 
-    In flight is armed, or the switch at AUTO: a glider without a motor is never armed.
+    The board's link says what in flight is; a board that does not say counts as in flight.
     """
 
     def __init__(self, tunes_in_flight: bool) -> None:
@@ -21,7 +21,7 @@ class TuningPolicy:
 
     def on_flight_state(self, command: FlightStateCommand) -> None:
         """Take what the board says."""
-        self._is_in_flight = command.is_armed or command.is_auto
+        self._is_in_flight = command.is_in_flight is not False or command.is_auto
 
     def __call__(self, command: BaseCommand) -> str | None:
         """Return why a Command is refused, or None."""
@@ -29,4 +29,7 @@ class TuningPolicy:
             return None
         if self._tunes_in_flight or not self._is_in_flight:
             return None
-        return f"gains are not set while armed or at AUTO ({KEY})"
+        return (
+            "gains are not set while armed or at AUTO, nor without a motor once the receiver was"
+            f" heard since power-on ({KEY})"
+        )

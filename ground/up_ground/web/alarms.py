@@ -91,8 +91,6 @@ def _wrong(telemetry: Telemetry, link: LinkFacts, was_low: bool, had_board: bool
         found.append(Alarm("board", ALARM, "the board is gone"))
     if phone_state(telemetry) is False:
         found.append(Alarm("phone", WARNING, "the phone is gone"))
-    if flag("load", "panic"):
-        found.append(Alarm("panic", WARNING, "panic: every sender slows down"))
     level_percent = telemetry.number("android", "batteryLevel")
     if level_percent is not None:
         bound = BATTERY_LOW + (_BATTERY_BACK if was_low else 0.0)

@@ -19,8 +19,6 @@ _WORDS = {
     "up.arm": ("Arm", ""),
     "up.disarm": ("Disarm", ""),
     "up.telemetry.frequency": ("Telemetry every {} ms", "frequency"),
-    "up.heading.change": ("Heading {}°", "heading"),
-    "up.altitude.change": ("Altitude {} m", "altitude"),
     "android.speak": ('Say "{}"', "text"),
     "arduino.profile.request": ("Ask for the profile", ""),
     CALIBRATE: ("Calibrate {}", "what"),

@@ -49,6 +49,8 @@ class Checks:
             near = self._catalogue.suggestions(name)
             more = f"; did you mean {' or '.join(near)}?" if near else ""
             return Answer("refused", "unknown", f"no Command is called {name[:60]}{more}")
+        if cls.UNSUPPORTED:
+            return Answer("refused", "not_supported", cls.UNSUPPORTED)
         if cls not in self._catalogue.sendable():
             return Answer("refused", "forbidden", f"no ground may send {name}")
         fault = fault_of(cls, data)

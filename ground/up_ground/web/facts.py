@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from up_ground.telemetry import Telemetry
+from up_ground.wording import busy_text
 
 INFO, WARNING, ALARM = "info", "warning", "alarm"
 NOT_YET = "not yet"
@@ -109,6 +110,24 @@ def _restored(before: Any, now: Any) -> tuple[str, str] | None:
     return ALARM, "the board was reset in flight and went on as before"
 
 
+@dataclass(frozen=True, slots=True)
+class _Busy:
+    """That the Raspberry Pi is busy: all equal, so that another load is no other event."""
+
+    words: str = field(compare=False)
+
+
+def _read_busy(telemetry: Telemetry) -> Any:
+    is_busy = telemetry.flag("load", "panic")
+    return _Busy(busy_text(telemetry)) if is_busy else is_busy
+
+
+def _busy(before: Any, now: Any) -> tuple[str, str] | None:
+    if now:
+        return INFO, now.words
+    return None if before is None else (INFO, "Raspberry Pi not busy any more")
+
+
 def _source(reading: str) -> Fact:
     def words(before: Any, now: Any) -> tuple[str, str] | None:
         return None if before is None else (WARNING, f"{reading} comes from {now} (was {before})")
@@ -141,7 +160,7 @@ FACTS: tuple[Fact, ...] = (
     _part("phone", phone_state, "here again", WARNING),
     Fact("competitor", "source", lambda t: t.text("android", "competitor"),
          lambda _, now: (WARNING, f"another phone, {now}, is refused: one is connected")),
-    _flag("panic", "panic", "load.panic", True, "panic: every sender slows down", "panic is over"),
+    Fact("panic", "panic", _read_busy, _busy),
     Fact("vetoes", "veto", _read_vetoes, _vetoes),
     Fact("role", "link", lambda t: t.text("ground", "role", limit=12), _role),
     *(_source(each) for each in ("orientation", "location", "altitude", "heading", "battery")),

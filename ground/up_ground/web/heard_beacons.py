@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import deque
 
-from up.commands.beacon import FRESH_S
+from up.commands.beacon import fresh_s
 from up.system.clock import Clock
 from up_ground.telemetry import Telemetry
 
 KEPT = 512
-"""More frames than this within FRESH_S come from no aircraft."""
+"""More frames than this while a beacon is fresh come from no aircraft."""
 
 
 class HeardBeacons:
@@ -42,7 +42,8 @@ class HeardBeacons:
                 return None
             reason = f"not sent: {name} is only sent with the beacon of telemetry that was seen"
             return "no_beacon", reason
-        oldest_s = self._clock.seconds() - FRESH_S
+        limit_s = fresh_s(self._telemetry.number("system", "period_ms") or 0.0)
+        oldest_s = self._clock.seconds() - limit_s
         if any(heard_s >= oldest_s for heard_s, each in self._heard if each == beacon):
             return None
-        return "stale", f"not sent: the telemetry that this page shows is older than {FRESH_S:g} s"
+        return "stale", f"not sent: the telemetry that this page shows is older than {limit_s:g} s"

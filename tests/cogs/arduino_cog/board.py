@@ -38,7 +38,8 @@ MODULES = [
 ]
 STREAMS = "hbBluSv"
 ARMED, AT_AUTO, RECEIVER, IMU, GAINS_STORED = 1, 2, 4, 8, 64
-FACTORY = tuple(float(each) for each in range(1, 19))
+# The rudder has no angle loop.
+FACTORY = (*(float(each) for each in range(1, 16)), 0.0, 0.0, 0.0)
 PUSHED = "gt"
 # What a new Arduino holds, as the protocols page orders it (2.6).
 PROFILE = (
@@ -79,6 +80,7 @@ class BoardRig(Rig):
         self.flags = AT_AUTO | RECEIVER | IMU | GAINS_STORED
         self.vetoes = 0
         self.uptime_s = 10
+        self.switch = 2
         self.mode = b"f"
         self.on_command = self.answer
 
@@ -123,7 +125,7 @@ class BoardRig(Rig):
             "x",
             struct.pack(
                 ">BcBBBBHHHHHHH",
-                version, self.mode, 2, self.flags, self.vetoes, cause,
+                version, self.mode, self.switch, self.flags, self.vetoes, cause,
                 2000, 48, 3, 1, self.uptime_s, 12, 4,
             ),
         )  # fmt: skip

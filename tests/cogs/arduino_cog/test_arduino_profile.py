@@ -56,12 +56,12 @@ def said(monkeypatch):
 
 
 @pytest.mark.parametrize("text", [None, "", "rudder: {trim_us: null}\n"])
-def test_without_a_word_nothing_is_asked_pushed_or_forbidden(make_rig, text):
+def test_without_a_word_the_profile_is_read_and_nothing_pushed_or_forbidden(make_rig, text):
     rig = make_rig("checked", {} if text is None else {NAME: text})
     rig.connect()
     rig.alive(3)
-    assert rig.sent("cC") == []
-    assert rig.up.vetoes.own == {}
+    assert (rig.sent("c"), rig.sent("C")) == ([b""], [])
+    assert rig.up.vetoes.own == {} and rig.arduino.has_motor is True
 
 
 def test_its_limits_of_fbw_are_told_before_the_board_says_who_flies(framed):
@@ -120,7 +120,7 @@ def test_an_armed_board_gets_nothing_and_arming_stays_forbidden(framed, said):
     assert rig.sent("v")[-1] == b"\1"
     told = [text for level, text in said if level == "warning"]
     assert len(told) == 1
-    assert "is armed and flies another profile" in told[0]
+    assert "keeps another profile" in told[0]
     rig.alive(1, armed=False)
     assert rig.sent("C") == [TRIMMED]
     assert rig.sent("v")[-1] == b"\0"

@@ -12,14 +12,14 @@ from up.commands.refusal import Code, CommandRefusedError
     ("what", "number"), [("level", 0), ("receiver_begin", 1), ("receiver_end", 2), ("gyro", 3)]
 )
 def test_each_goes_to_the_board_whose_answer_is_the_answer(rig, what, number):
-    rig.connect(armed=True)
+    rig.connect()
     assert rig.ask(ArduinoCalibrateCommand(what)) == ["done"]
     assert rig.sent("e") == [bytes((number,))]
 
 
 @pytest.mark.parametrize(
     ("reason", "words"),
-    [(Reason.ONLY_DISARMED, "only while disarmed"), (Reason.NOT_STILL, "not still enough")],
+    [(Reason.OUT_OF_RANGE, "out of range"), (Reason.NOT_STILL, "not still enough")],
 )
 def test_a_refusal_is_told_in_words(rig, reason, words):
     rig.connect()

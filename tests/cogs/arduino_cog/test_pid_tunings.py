@@ -22,8 +22,10 @@ def loop(first, axes=AXES):
     return {axis: {"p": first + at, "i": 0.25, "d": 0.125} for at, axis in enumerate(axes)}
 
 
-def tunings(axes=AXES, rate=3.0, stabilize=6.0, **more):
+def tunings(axes=AXES, rate=3.0, stabilize=6.0, rudder_p=0.0, **more):
     pids = {"ratePIDs": loop(rate, axes), "stabPIDs": loop(stabilize, axes), **more}
+    if "rudder" in axes:
+        pids["stabPIDs"]["rudder"] = {"p": rudder_p, "i": 0.0, "d": 0.0}
     return PIDTuningsCommand(pids=pids)
 
 
@@ -269,12 +271,16 @@ def test_a_request_is_answered_with_what_the_board_holds_in_full_precision(tuned
     assert set(message.data) == {"ratePIDs", "stabPIDs"}
 
 
-def test_navigation_gains_are_kept_here_and_told(tuned):
+@pytest.mark.parametrize("changes", [{"rudder_p": 0.5}, {"navPIDs": loop(0.5)}])
+def test_a_gain_that_nothing_uses_is_kept_and_not_changed(tuned, changes):
     rig = tuned()
     rig.connect(armed=True)
-    assert rig.ask(tunings(navPIDs=loop(0.5))) == ["done"]
+    assert refusal(rig.ask(tunings(**changes))).code is Code.NOT_SUPPORTED
+    assert rig.sent(PUSHED) == []
+    zero = {axis: {"p": 0.0, "i": 0.0, "d": 0.0} for axis in AXES}
+    assert rig.ask(tunings(navPIDs=zero)) == ["done"], "as a client of the thesis sends them"
     rig.ask(PIDTuningsCommand(request=True))
-    assert rig.module(Ground).sent[-1].data["navPIDs"] == loop(0.5)
+    assert set(rig.module(Ground).sent[-1].data) == {"ratePIDs", "stabPIDs"}
 
 
 def test_a_request_without_a_ground_or_an_arduino_is_refused(tuned):

@@ -14,6 +14,7 @@ from up.commands.setpoint_command import SetpointCommand
 
 PHONE = Origin("android", Role.SENSOR, 5)
 OTHER = Origin("other", Role.SENSOR, 1)
+SILENCE_S = 1.1
 
 
 def test_an_output_carries_the_sequence_of_its_orientation(rig):
@@ -66,7 +67,9 @@ def test_outputs_that_nobody_reads_are_replaced_by_the_newest(rig):
 
 
 @pytest.mark.parametrize("framing", ["checked", "thesis"])
-def test_where_the_aircraft_is_goes_to_the_arduino(make_rig, framing):
+def test_where_the_aircraft_is_goes_to_the_thesis_firmware_which_has_a_use_for_it(
+    make_rig, framing
+):
     rig = make_rig(framing)
     rig.start()
     rig.say("r", b"\x05\xdc" * 4)
@@ -75,14 +78,23 @@ def test_where_the_aircraft_is_goes_to_the_arduino(make_rig, framing):
     rig.publish(HeadingCommand(-45.0, "actual"), origin=PHONE)
     rig.publish(HeadingCommand(90.6, "required"), origin=PHONE)
     rig.advance(0.3)
-    assert rig.sent("l") == [bytes.fromhex("4248000041680000")]
-    assert rig.sent("h") == [bytes.fromhex("012c")]
-    assert rig.sent("b") == [struct.pack(">h", 315)]
-    assert rig.sent("B") == [bytes.fromhex("005b")]
+    sent = [rig.sent(letter) for letter in "lhb"]
+    places = [bytes.fromhex("4248000041680000")], [b"\x01\x2c"], [struct.pack(">h", 315)]
+    assert sent == (list(places) if framing == "thesis" else [[], [], []])
+    assert rig.sent("B") == [], "nothing flies to a heading"
 
 
-def test_only_what_the_provider_follows_is_forwarded(rig):
-    rig.connect()
+@pytest.fixture
+def old(make_rig):
+    """A board with the thesis's firmware that answers."""
+    rig = make_rig("thesis")
+    rig.start()
+    rig.throttle(1000)
+    return rig
+
+
+def test_only_what_the_provider_follows_is_forwarded(old):
+    rig = old
     rig.publish(AltitudeCommand(100.0), origin=PHONE)
     rig.advance(0.2)
     rig.publish(AltitudeCommand(900.0), origin=OTHER)
@@ -97,15 +109,15 @@ def test_only_what_the_provider_follows_is_forwarded(rig):
     assert rig.sent("b") == [struct.pack(">h", 10)]
 
 
-def test_a_required_altitude_is_not_where_the_aircraft_is(rig):
-    rig.connect()
+def test_a_required_altitude_is_not_where_the_aircraft_is(old):
+    rig = old
     rig.publish(AltitudeCommand(500.0, "required"), origin=PHONE)
     rig.advance(0.2)
     assert rig.sent("h") == []
 
 
-def test_a_stream_of_fixes_is_sent_ten_times_a_second_and_only_on_change(rig):
-    rig.connect()
+def test_a_stream_of_fixes_is_sent_ten_times_a_second_and_only_on_change(old):
+    rig = old
     for each in range(100):
         rig.publish(AltitudeCommand(each * 2.0), origin=PHONE)
         rig.advance(0.02)
@@ -118,28 +130,26 @@ def test_a_stream_of_fixes_is_sent_ten_times_a_second_and_only_on_change(rig):
     assert rig.sent("h") == []
 
 
-def test_a_board_that_was_reset_is_told_anew(rig):
-    rig.connect()
+def test_a_board_that_was_away_is_told_again(old):
+    rig = old
     rig.publish(AltitudeCommand(100.0), origin=PHONE)
-    rig.publish(HeadingCommand(90.0, "required"), origin=PHONE)
-    rig.status(uptime_s=50)
-    rig.advance(0.2)
+    rig.advance(SILENCE_S)
+    assert not rig.arduino.connected
     rig.forget()
-    rig.status(uptime_s=0)
-    assert rig.sent("B") == [struct.pack(">h", 90)]
+    rig.throttle(1000)
     rig.publish(AltitudeCommand(100.0), origin=PHONE)
     assert rig.sent("h") == [struct.pack(">h", 100)]
 
 
-def test_a_source_that_is_not_followed_does_not_bring_an_old_reading_to_a_new_board(rig):
-    rig.connect()
+def test_a_source_that_is_not_followed_does_not_bring_an_old_reading_to_a_new_board(old):
+    rig = old
     rig.publish(AltitudeCommand(100.0), origin=PHONE)
     rig.publish(LocationCommand(50.0, 14.5), origin=PHONE)
     rig.publish(HeadingCommand(10.0, "actual"), origin=PHONE)
-    rig.status(uptime_s=50)
-    rig.advance(0.2)
+    rig.advance(SILENCE_S)
+    assert not rig.arduino.connected
     rig.forget()
-    rig.status(uptime_s=0)
+    rig.throttle(1000)
     rig.publish(AltitudeCommand(900.0), origin=OTHER)
     rig.publish(LocationCommand(-50.0, 14.5), origin=OTHER)
     rig.publish(HeadingCommand(200.0, "actual"), origin=OTHER)

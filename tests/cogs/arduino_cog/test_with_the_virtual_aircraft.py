@@ -6,11 +6,13 @@ import subprocess
 import sys
 
 import pytest
+from twisted.internet.task import LoopingCall
 
 from tests.cogs.arduino_cog.board import MODULES
 from tests.support.firmware import build_firmware
 from tests.support.reactor import reactor, run_in_reactor, sleep, until
 from tests.support.system import build_up, started
+from up.base_started_module import BaseStartedModule
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.flight_mode_command import FlightModeCommand
 from up.commands.orientation_command import OrientationCommand
@@ -18,6 +20,8 @@ from up.commands.origin import INTERNAL
 from up.commands.output_command import OutputCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import CommandRefusedError
+from up.commands.servo_command import ServoCommand
+from up.commands.setpoint_command import SetpointCommand
 from up.flight_controller.pids_file import PIDS
 
 from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand  # isort: skip
@@ -77,6 +81,11 @@ def board(request):
     """What both promise is shown on both."""
     if request.param == "stand-in":
         return STAND_IN
+    return firmware()
+
+
+def firmware():
+    """Return the command of the compiled firmware on a pty."""
     elf = os.environ.get("RASPILOT_ELF") or build_firmware()
     return ("up_rig", str(elf), "--pty")
 
@@ -86,14 +95,14 @@ def aircraft(board, fly_aircraft):
     return lambda: fly_aircraft(*board)
 
 
-def system(tmp_path, framing="checked", controller="arduino"):
+def system(tmp_path, framing="checked", controller="arduino", modules=MODULES):
     config = {
         "arduino.yml": f"port: {tmp_path / 'board'}\nframing: {framing}\n",
         "pids.yml": PIDS.template().replace("p: 2.0", "p: 2.25"),
         "airframe.yml": "fly_by_wire: {roll_deg: 45}\n",
         "config.yml": f"flight controller: {controller}\n",
     }
-    return build_up(MODULES, reactor, tmp_path / "config", config=config)
+    return build_up(modules, reactor, tmp_path / "config", config=config)
 
 
 def profile_of(up):
@@ -132,10 +141,12 @@ def test_readings_arming_modes_and_gains(aircraft, tmp_path):
         await until(lambda: arduino.is_armed)
         assert await ask(up, ArmCommand()) is None
         assert await ask(up, FlightModeCommand("FBW")) is None
-        assert await ask(up, PIDTuningsCommand(pids={"ratePIDs": LOOP, "stabPIDs": LOOP})) is None
+        stabilize = {**LOOP, "rudder": {"p": 0, "i": 0, "d": 0}}
+        pids = {"ratePIDs": LOOP, "stabPIDs": stabilize}
+        assert await ask(up, PIDTuningsCommand(pids=pids)) is None
         assert gains.held.rate.rudder.d == 0.1
-        refusal = await ask(up, ArduinoCalibrateCommand("level"))
-        assert refusal == "the Arduino refused: only while disarmed"
+        assert arduino.is_in_flight
+        assert await ask(up, ArduinoCalibrateCommand("level")) is not None
         # The throttle must have been low for 2 s.
         while await ask(up, DisarmCommand()) is not None:
             await sleep(0.1)
@@ -166,6 +177,52 @@ def test_outputs_move_the_servos_and_those_of_old_frames_do_not(aircraft, tmp_pa
         lag = 60
         await until(lambda: arduino.servo.ailerons_us != 1600)
         assert arduino.counters["refused_frames"]
+        await life.stop()
+
+    run_in_reactor(fly)
+
+
+class FlightMode(BaseStartedModule):
+    """Asks for a bank, 50 times a second."""
+
+    ROLL_DEG = 0.0
+
+    def _execute_start(self):
+        self.loop = LoopingCall(self.step)
+        self.loop.start(0.02)
+
+    def _execute_stop(self):
+        self.loop.stop()
+
+    def step(self):
+        self.up.command_executor.execute_command(SetpointCommand(self.ROLL_DEG, 0.0))
+
+
+class Thermal(FlightMode):
+    ROLL_DEG = 30.0
+
+
+class Glide(FlightMode):
+    ROLL_DEG = -30.0
+
+
+def test_two_modules_that_publish_setpoints_do_not_alternate_on_the_servos(fly_aircraft, tmp_path):
+    async def fly():
+        plane = fly_aircraft(*firmware())
+        await plane.is_there()
+        up = system(tmp_path, modules=[*MODULES, Thermal, Glide])
+        life = await started(up)
+        arduino = up.get_module(ArduinoProvider)
+        await until(lambda: arduino.status is not None and arduino.status.mode == ord("s"))
+        owner = up.command_executor.control.owner
+        ailerons = []
+        up.command_executor.register_command(
+            ServoCommand, lambda servo: ailerons.append(servo.ailerons_us)
+        )
+        await until(lambda: len(ailerons) >= 40)
+        is_right = owner == "Thermal"
+        assert all((each > 1600) is is_right and each != 1500 for each in ailerons), ailerons
+        assert set(up.command_executor.control.refused) == {"Thermal", "Glide"} - {owner}
         await life.stop()
 
     run_in_reactor(fly)

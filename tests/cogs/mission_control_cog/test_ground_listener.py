@@ -16,17 +16,16 @@ from tests.cogs.peers import connect
 from tests.support.reactor import reactor, run_in_reactor, until
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.arming_commands import ArmCommand
-from up.commands.heading_command import HeadingCommand
 from up.commands.system_commands import LinkStateCommand
+from up.commands.telemetry_commands import TelemetryFrequencyCommand
 from up.life_cycle import LifeCycle
 from up.system.plain_peers import PlainPeers
 
 LISTENER = "listener: {port: 0, address: 127.0.0.1}\n"
 
 
-def heading(degrees, id_):
-    data = {"heading": degrees, "mode": "required"}
-    return {"name": "up.heading.change", "data": data, "id": id_}
+def period(ms, id_):
+    return {"name": "up.telemetry.frequency", "data": {"frequency": ms}, "id": id_}
 
 
 async def grounds(aircraft, *hellos):
@@ -45,18 +44,18 @@ async def grounds(aircraft, *hellos):
 def test_the_first_commands_the_others_listen_and_nobody_steals(tmp_path):
     async def fly():
         async with Aircraft(tmp_path, None, LISTENER) as a:
-            a.listen_to(HeadingCommand, LinkStateCommand)
+            a.listen_to(TelemetryFrequencyCommand, LinkStateCommand)
             one, two = await grounds(a, b"", b"")
-            one.say(heading(10, "a"))
+            one.say(period(100, "a"))
             assert (await one.answer("a"))["name"] == "up.ack"
-            two.say(heading(20, "a"))
+            two.say(period(200, "a"))
             refused = await two.answer("a")
             assert refused["data"]["code"] == "forbidden"
             assert "another ground station commands" in refused["data"]["reason"]
-            one.say(heading(30, "b"))
+            one.say(period(300, "b"))
             await one.answer("b")
-            commands = [c.heading_deg for c in a.heard if isinstance(c, HeadingCommand)]
-            assert commands == [10, 30]
+            commands = [c.period_ms for c in a.heard if isinstance(c, TelemetryFrequencyCommand)]
+            assert commands == [100, 300]
             a.provider.send_command(AltitudeCommand(5))
             for each in (one, two):
                 await until(lambda each=each: each.named("up.altitude.change"))
@@ -64,7 +63,7 @@ def test_the_first_commands_the_others_listen_and_nobody_steals(tmp_path):
             assert counters == {"stations": 2, "not_holder": 1, "too_many": 0, "refused_peers": 0}
             # The holder leaves; without a token its seat is free for who speaks next.
             await one.close()
-            two.say(heading(40, "c"))
+            two.say(period(400, "c"))
             assert (await two.answer("c"))["name"] == "up.ack"
             states = [c.connected for c in a.heard if isinstance(c, LinkStateCommand)]
             assert states == [True, False, True]
@@ -84,16 +83,16 @@ def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_the_seat(tmp_pa
             token = one.lines[0].rpartition(b"=")[2]
             await one.close()
             # The seat is kept for its token.
-            two.say(heading(20, "t"))
+            two.say(period(200, "t"))
             assert (await two.answer("t"))["data"]["code"] == "forbidden"
             (again,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
             assert again.lines[0] == b"UP1 ok aircraft=glider seat=command token=" + token
-            again.say(b"UP1 seat release\n", heading(30, "r"))
+            again.say(b"UP1 seat release\n", period(300, "r"))
             assert (await again.answer("r"))["name"] == "up.ack"
             # A half-open holder is displaced by its own token at once.
             (third,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
             await again.closed
-            third.say(heading(33, "s"))
+            third.say(period(330, "s"))
             assert (await third.answer("s"))["name"] == "up.ack"
             for peer in (two, third):
                 await peer.close()
@@ -110,7 +109,7 @@ def test_another_token_takes_no_seat(tmp_path, token):
             (thief,) = await grounds(a, hello.encode())
             assert b"seat=listen" in thief.lines[0]
             assert f"token={token}".encode() not in thief.lines[0].split()
-            holder.say(heading(5, "mine"))
+            holder.say(period(50, "mine"))
             assert (await holder.answer("mine"))["name"] == "up.ack"
             for peer in (holder, thief):
                 await peer.close()
@@ -134,19 +133,19 @@ def test_who_asks_to_listen_does_not_get_the_seat(tmp_path):
 def test_the_role_is_the_links_and_half_lines_die_with_their_connection(tmp_path):
     async def fly():
         async with Aircraft(tmp_path, None, LISTENER) as a:
-            a.listen_to(ArmCommand, HeadingCommand)
+            a.listen_to(ArmCommand, TelemetryFrequencyCommand)
             (one,) = await grounds(a, b"")
             beacon = one.named("up.telemetry.update")[-1]["beacon"]
             one.say({"name": "up.arm", "id": "arm", "beacon": beacon})
             refused = (await one.answer("arm"))["data"]
             assert "mission_control.yml: role" in refused["reason"]
-            one.say(b'{"name": "up.heading.change", "data": {"heading": 1')
+            one.say(b'{"name": "up.telemetry.frequency", "data": {"frequency": 1')
             await one.close()
             (two,) = await grounds(a, b"")
-            two.say(b'5, "mode": "required"}}\n', heading(90, "arm"))
+            two.say(b"50}}\n", period(900, "arm"))
             # An id that another station used is its own.
             assert (await two.answer("arm"))["name"] == "up.ack"
-            assert a.heard == [HeadingCommand(90, "required")]
+            assert a.heard == [TelemetryFrequencyCommand(900)]
             await two.close()
 
     run_in_reactor(fly)
@@ -159,7 +158,7 @@ def test_hostile_stations_are_bounded(tmp_path):
             late = await connect(reactor, a.up.ports["ground"])
             await late.closed
             peers[0].say(b"\xff\xff\n", b"[" * 20000 + b"\n", b"UP1 " + b"x" * 30000 + b"\n")
-            peers[0].say({"name": "up.system.stop", "id": "s"}, heading(5, "end"))
+            peers[0].say({"name": "up.system.stop", "id": "s"}, period(50, "end"))
             assert (await peers[0].answer("s"))["data"]["code"] == "forbidden"
             assert (await peers[0].answer("end"))["name"] == "up.ack"
             for peer in peers:

@@ -7,12 +7,14 @@ from up.commands.pid_tunings_commands import PIDTuningsCommand
 
 LOOP = {axis: {"p": 1.0, "i": 0.0, "d": 0.0} for axis in ("ailerons", "elevator")}
 SET = PIDTuningsCommand(pids={"ratePIDs": LOOP, "stabPIDs": LOOP})
-ARMED = FlightStateCommand("FBW", True, False, False)
-AT_AUTO = FlightStateCommand("OUTPUT", False, True, False)
-ON_GROUND = FlightStateCommand("FBW", False, False, False)
+ARMED = FlightStateCommand("FBW", True, False, False, True)
+AT_AUTO = FlightStateCommand("OUTPUT", False, True, False, False)
+GLIDER = FlightStateCommand("FBW", False, False, False, True)
+NOT_KNOWN = FlightStateCommand(None, False, False, False)
+ON_GROUND = FlightStateCommand("FBW", False, False, False, False)
 
 
-@pytest.mark.parametrize("state", [ARMED, AT_AUTO], ids=["armed", "at AUTO"])
+@pytest.mark.parametrize("state", [ARMED, AT_AUTO, GLIDER, NOT_KNOWN])
 def test_gains_are_refused_in_flight_and_the_key_is_named(state):
     policy = TuningPolicy(tunes_in_flight=False)
     policy.on_flight_state(state)

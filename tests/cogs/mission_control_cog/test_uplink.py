@@ -8,12 +8,11 @@ from tests.cogs.mission_control_cog.system import Aircraft
 from tests.cogs.peers import Server
 from tests.support.reactor import reactor, run_in_reactor, sleep, until
 from up.commands.altitude_command import AltitudeCommand
-from up.commands.heading_command import HeadingCommand
 from up.commands.system_commands import LinkStateCommand, SystemStopCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
 
 OK = b"UP1 ok aircraft=default seat=air token=" + b"ab" * 16 + b"\n"
-HEADING = {"name": "up.heading.change", "data": {"heading": 90, "mode": "required"}}
+PERIOD = {"name": "up.telemetry.frequency", "data": {"frequency": 90}}
 
 
 async def accepted(server, index=0):
@@ -37,7 +36,7 @@ def test_hello_first_then_telemetry_after_the_answer(tmp_path):
             assert not a.provider.connected
             # In two parts, and with a message right behind.
             peer.say(OK[:9])
-            peer.say(OK[9:], {**HEADING, "id": "h"})
+            peer.say(OK[9:], {**PERIOD, "id": "h"})
             assert (await peer.answer("h"))["name"] == "up.ack"
             frames = await until(lambda: peer.named("up.telemetry.update"))
             assert isinstance(frames[0]["beacon"], int)
@@ -52,17 +51,17 @@ def test_the_link_comes_back_with_its_token_and_without_the_half_line(tmp_path):
         server = Server(reactor)
         port = await server.open()
         async with Aircraft(tmp_path, port) as a:
-            a.listen_to(HeadingCommand, LinkStateCommand)
+            a.listen_to(TelemetryFrequencyCommand, LinkStateCommand)
             first = await accepted(server)
             await until(lambda: a.provider.connected)
-            first.say(b'{"name": "up.heading.change", "data": {"heading": 1')
+            first.say(b'{"name": "up.telemetry.frequency", "data": {"frequency": 1')
             await until(lambda: first.named("up.telemetry.update"))
             first.transport.abortConnection()
             second = await accepted(server, 1)
             assert second.received.startswith(b"UP1 aircraft=default token=" + b"ab" * 16 + b"\n")
-            second.say(b'5, "mode": "required"}}\n', {**HEADING, "id": "x"})
+            second.say(b"50}}\n", {**PERIOD, "id": "x"})
             await second.answer("x")
-            assert [c.heading_deg for c in a.heard if isinstance(c, HeadingCommand)] == [90]
+            assert a.heard.count(TelemetryFrequencyCommand(90)) == 1
             states = [c.connected for c in a.heard if isinstance(c, LinkStateCommand)]
             assert states == [True, False, True]
             assert a.up.command_receiver.counters["malformed"] == 1
@@ -99,7 +98,7 @@ def test_a_refused_hello_is_tried_again_without_the_token(tmp_path):
             peer = await server.peer()
             await until(lambda: peer.received)
             peer.say(
-                b'UP1 error code=taken reason="an aircraft of this name is connected"\n', HEADING
+                b'UP1 error code=taken reason="an aircraft of this name is connected"\n', PERIOD
             )
             await peer.closed
             second = await accepted(server, 1)
@@ -210,22 +209,22 @@ def test_hostile_lines_from_the_ground_harm_nothing(tmp_path):
         server = Server(reactor)
         port = await server.open()
         async with Aircraft(tmp_path, port) as a:
-            a.listen_to(SystemStopCommand, HeadingCommand)
+            a.listen_to(SystemStopCommand, TelemetryFrequencyCommand)
             peer = await accepted(server)
             await until(lambda: a.provider.connected)
             peer.say(
                 b"\xff\x00\n",
                 b"[" * 9000 + b"\n",
                 b"z" * 100000 + b"\n",
-                b'{"name": "up.heading.change", "data": {"heading": NaN, "mode": "required"}}\n',
+                b'{"name": "up.telemetry.frequency", "data": {"frequency": NaN}}\n',
                 {"name": "up.system.stop", "id": "stop"},
                 {"name": "android.battery", "data": {"level": 1}, "id": "unknown"},
-                {**HEADING, "id": "end"},
+                {**PERIOD, "id": "end"},
             )
             await peer.answer("end")
             assert (await peer.answer("stop"))["data"]["code"] == "forbidden"
             assert (await peer.answer("unknown"))["data"]["code"] == "unknown"
-            assert a.heard == [HeadingCommand(90, "required")]
+            assert a.heard == [TelemetryFrequencyCommand(90)]
         await server.close()
 
     run_in_reactor(fly)

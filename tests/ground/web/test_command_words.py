@@ -25,13 +25,6 @@ AFTER = {"ratePIDs": {"ailerons": {"p": 2.4, "i": 0.0, "d": 0.0}}}
             "page 2: Disarm refused by the Arduino: the throttle is not low",
         ),
         (
-            "up.altitude.change",
-            {"altitude": 400, "mode": "required"},
-            ACK,
-            "command",
-            "page 2: Altitude 400 m carried out",
-        ),
-        (
             "up.telemetry.frequency",
             {"frequency": 100},
             ACK,

@@ -15,8 +15,8 @@ class Desk:
         self.clock, self.telemetry = Clock(), Telemetry()
         self.heard = HeardBeacons(self.clock, self.telemetry)
 
-    def frame(self, beacon):
-        message = GeneralMessage("up.telemetry.update", {}, None, beacon)
+    def frame(self, beacon, **system):
+        message = GeneralMessage("up.telemetry.update", {"system": system}, None, beacon)
         self.telemetry.take(message, self.clock.seconds())
         self.heard.look()
 
@@ -50,6 +50,17 @@ def test_a_beacon_counts_for_two_seconds(desk):
     desk.clock.advance(1.0)
     assert desk.code(101) == "stale"
     assert desk.code(None) == "no_beacon"
+
+
+def test_a_beacon_counts_for_a_slow_period_and_its_way(desk):
+    desk.frame(100, period_ms=10_000)
+    desk.clock.advance(11.0)
+    assert desk.code(100) is None
+    desk.clock.advance(0.1)
+    assert desk.code(100) == "stale"
+    desk.frame(101, period_ms=100)
+    desk.clock.advance(2.1)
+    assert desk.code(101) == "stale"
 
 
 def test_an_aircraft_without_beacons_takes_commands_without_one(desk):

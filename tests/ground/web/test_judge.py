@@ -76,7 +76,12 @@ def test_a_healthy_aircraft_is_no_news(bench):
         ({"arduino__imu_valid": False}, "source", "alarm", "IMU"),
         ({"arduino__connected": False}, "link", "alarm", "the board is gone"),
         ({"android__connected": False}, "link", "warning", "the phone is gone"),
-        ({"load__panic": True}, "panic", "warning", "panic"),
+        (
+            {"load__panic": True, "load__cpu": 99.4, "load__delay_ms": 150},
+            "panic",
+            "info",
+            "Raspberry Pi busy (99 %): telemetry every 150 ms",
+        ),
         ({"vetoes": ["throttle not low"]}, "veto", "info", "against arming: throttle not low"),
         ({"source__location": "gpsd"}, "source", "warning", "location comes from gpsd"),
         ({"android__batteryLevel": 15}, "battery", "warning", "battery is low"),
@@ -111,6 +116,17 @@ def test_an_alarm_begins_at_once_and_ends_a_little_later(bench):
     assert bench.alarms == [["imu"]]
     bench.wait(1.0)
     assert bench.alarms == [["imu"], []]
+
+
+def test_a_busy_raspberry_pi_is_an_event_and_no_alarm(bench):
+    for percent in (99, 85, 91):
+        bench.see(load__panic=True, load__cpu=percent).wait(1.0)
+    bench.see(load__panic=False).wait(3.0)
+    assert bench.texts == [
+        "Raspberry Pi busy (99 %): telemetry every 100 ms",
+        "Raspberry Pi not busy any more",
+    ]
+    assert bench.alarms == []
 
 
 def test_a_battery_that_wavers_is_one_alarm(bench):

@@ -5,10 +5,10 @@ import pytest
 from tests.cogs.mission_control_cog.system import Aircraft
 from tests.ground.web.page import Page, Serve
 from tests.support.reactor import reactor, run_in_reactor, until
-from up.commands.heading_command import HeadingCommand
+from up.commands.telemetry_commands import TelemetryFrequencyCommand
 
 LISTENER = "listener: {port: 0, address: 127.0.0.1}\nrole: operator\n"
-HEADING = {"heading": 90.0, "mode": "required"}
+PERIOD = {"frequency": 90.0}
 
 
 class LanServe(Serve):
@@ -21,7 +21,7 @@ class LanServe(Serve):
 def test_the_page_commands_an_aircraft_without_a_proxy(tmp_path, way):
     async def fly():
         async with Aircraft(tmp_path / "aircraft", None, LISTENER) as aircraft:
-            aircraft.listen_to(HeadingCommand)
+            aircraft.listen_to(TelemetryFrequencyCommand)
             where = f"kite@127.0.0.1:{aircraft.up.ports['ground']}{way}"
             with LanServe(tmp_path, 1, "--aircraft", where) as server:
                 await until(lambda: "Ctrl-C" in server.said)
@@ -33,7 +33,7 @@ def test_the_page_commands_an_aircraft_without_a_proxy(tmp_path, way):
                 await page.status(lambda each: each["control"]["holder"] == "you")
                 shown = page.newest("frame")
                 answer = await page.command(
-                    "up.heading.change", HEADING, aircraft="kite", beacon=shown["beacon"]
+                    "up.telemetry.frequency", PERIOD, aircraft="kite", beacon=shown["beacon"]
                 )
                 assert answer["outcome"] == "ack"
                 answer = await page.command("up.arm", aircraft="kite", beacon=shown["beacon"])
@@ -43,7 +43,7 @@ def test_the_page_commands_an_aircraft_without_a_proxy(tmp_path, way):
                 await page.leave()
                 server.process.terminate()
                 await until(lambda: server.process.poll() is not None)
-            assert [each.heading_deg for each in aircraft.heard] == [90.0]
+            assert [each.period_ms for each in aircraft.heard] == [90.0]
 
     run_in_reactor(fly)
     assert reactor.getDelayedCalls() == []

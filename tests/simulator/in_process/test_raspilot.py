@@ -203,7 +203,7 @@ def test_the_load_that_is_set_switches_panic_mode(tmp_path):
     bench.raspilot.meter.load = 100.0
     bench.run(10.0)
     assert bench.ground.telemetry["load"]["panic"] is True
-    assert any("panic: nothing quicker" in each for each in phone.said)
+    assert any("busy: nothing quicker" in each for each in phone.said)
 
 
 def test_two_daemons_one_after_the_other_know_nothing_of_each_other(tmp_path):

@@ -29,6 +29,9 @@ def application(tmp_path):
 
 def test_check_of_what_is_in_order(up, application):
     outcome = up("check")
+    assert outcome.status == 0 and "--defaults" in outcome.err
+    write_application(application.root, {"config/config.yml": "log level: info\n"})
+    outcome = up("check")
     assert (outcome.status, outcome.err) == (0, "")
     assert outcome.out.startswith("all is in order: 8 modules in the mode 'auto'")
 

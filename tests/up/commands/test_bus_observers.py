@@ -182,9 +182,9 @@ def test_without_observers_a_bus_calls_what_it_called_before(bus):
     bus.register_command(NumberCommand, lambda _: None)
     recorder = Recorder(bus)
     bus.remove_observer(recorder.handle)
-    assert bus._called is bus._handlers
+    assert bus._called == bus._handlers
     bus.register_command(OtherCommand, lambda _: None)
-    assert bus._called is bus._handlers
+    assert bus._called == bus._handlers
 
 
 def test_one_that_goes_while_a_command_is_delivered_acts_from_the_next_on(bus):

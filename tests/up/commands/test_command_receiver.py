@@ -177,24 +177,25 @@ def test_what_is_refused_is_logged_first_and_then_as_a_count():
 
 
 class TestBeacons:
-    """A Command that shows old telemetry is stale; arming must show some."""
+    """A Command that shows old telemetry is stale; arming and disarming must show some."""
 
-    def test_arming_needs_a_fresh_one_of_this_run(self, border):
+    @pytest.mark.parametrize("name", ["up.arm", "up.disarm"])
+    def test_arming_needs_a_fresh_one_of_this_run(self, border, name):
         armed = []
-        border.bus.register_command("up.arm", armed.append)
+        border.bus.register_command(name, armed.append)
         old = border.beacons.draw()
         border.clock.advance(2.001)
         fresh = border.beacons.draw()
-        border.say("up.arm", {}, "none")
-        border.say("up.arm", {}, "old", old)
-        border.say("up.arm", {}, "future", fresh + 1)
-        border.say("up.arm", {}, "another run", old - 1)
-        border.say("up.arm", {}, "negative", -1)
-        border.say("up.arm", {}, "huge", 2**63)
+        border.say(name, {}, "none")
+        border.say(name, {}, "old", old)
+        border.say(name, {}, "future", fresh + 1)
+        border.say(name, {}, "another run", old - 1)
+        border.say(name, {}, "negative", -1)
+        border.say(name, {}, "huge", 2**63)
         assert border.codes == ["no_beacon", *["stale"] * 5]
         assert not armed
         border.clock.advance(2)
-        border.say("up.arm", {}, "fresh", fresh)
+        border.say(name, {}, "fresh", fresh)
         assert border.answers[-1] == ("ack", "fresh")
         assert len(armed) == 1
 
@@ -293,3 +294,22 @@ def test_a_links_policy_refuses_what_its_role_would_permit(border, numbers):
     border.say("test.number", {"number": 0}, "b")
     assert numbers == [0]
     assert border.answers == [("forbidden", "a", "test.number: not now (x.yml: key)"), ("ack", "b")]
+
+
+@pytest.mark.parametrize("quantity", ["heading", "altitude"])
+def test_what_nothing_carries_out_is_refused_to_everybody_who_may_ask(quantity):
+    """A required heading is parsed as the thesis wrote it, and refused; a sensor's is taken."""
+    name = f"up.{quantity}.change"
+    for role, mode, outcome in (
+        (Role.ADMIN, "required", "not_supported"),
+        (Role.OPERATOR, "required", "not_supported"),
+        (Role.OBSERVER, "required", "forbidden"),
+        (Role.SENSOR, "actual", "ack"),
+    ):
+        border = Border(role)
+        taken = []
+        border.bus.register_command(name, taken.append)
+        border.say(name, {quantity: 90, "mode": mode}, "id")
+        border.say(name, {quantity: 90, "mode": mode})
+        assert border.answers[0][0] == outcome
+        assert len(taken) == (2 if outcome == "ack" else 0)

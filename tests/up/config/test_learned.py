@@ -1,4 +1,6 @@
 import os
+import subprocess
+import sys
 from dataclasses import dataclass
 
 import pytest
@@ -96,6 +98,35 @@ def test_a_file_that_was_edited_by_hand_becomes_the_good_copy(learned):
     assert learned.load() == (LATER, None)
     learned.path.write_bytes(b"x")
     assert learned.load()[0] == LATER
+
+
+def test_loading_alone_writes_nothing(learned):
+    """A configuration that people wrote and keep under version control stays as it is."""
+    learned.path.write_text("ailerons: {p: 1, i: 0}\nelevator: {p: 2, i: 0}\n")
+    assert learned.load() == (Pids(Gains(1, 0), Gains(2, 0)), None)
+    assert list(learned.path.parent.iterdir()) == [learned.path]
+
+
+def test_what_a_killed_write_leaves_is_removed_and_a_running_one_goes_on(learned, tmp_path):
+    program = (
+        "import os, sys, time, pathlib; from up.config import writing;"
+        "os.fsync = lambda _: (print('written', flush=True), time.sleep(60));"
+        "writing.write_atomically(pathlib.Path(sys.argv[1]), b'half')"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", program, str(learned.path)], stdout=subprocess.PIPE
+    ) as writer:
+        try:
+            assert writer.stdout.readline() == b"written\n"
+            (temporary,) = tmp_path.iterdir()
+            writing_module.remove_unfinished(tmp_path)
+            assert temporary.exists(), "its program runs"
+        finally:
+            writer.kill()
+    other = tmp_path / ".notes.tmp"
+    other.touch()
+    writing_module.remove_unfinished(tmp_path)
+    assert list(tmp_path.iterdir()) == [other]
 
 
 def test_a_section_of_the_file_may_not_be_absent(learned):

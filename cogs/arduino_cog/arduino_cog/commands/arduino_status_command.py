@@ -14,6 +14,9 @@ STATUS = Struct(">6B7H")
 VERSION = 1
 """The version of the serial line's page that this program speaks."""
 
+RECEIVER_WAIT_S = 5
+"""A receiver that lost power in the air is heard again within this time."""
+
 _ARMED, _AT_AUTO, _RECEIVER, _IMU, _FAILSAFE, _BIAS_STORED, _GAINS_STORED, _HEARD = (
     1 << bit for bit in range(8)
 )
@@ -52,6 +55,20 @@ class ArduinoStatusCommand(BaseCommand):
     def is_at_auto(self) -> bool:
         """Return whether the pilot's switch stands at AUTO."""
         return bool(self.flags & _AT_AUTO)
+
+    def is_in_flight(self, has_motor: bool | None) -> bool | None:
+        """Return whether the aircraft may be in the air; None while its motor is not known.
+
+        Armed it may. Without a motor it flies disarmed, too: only a receiver that has not been
+        heard since the start, ``RECEIVER_WAIT_S`` ago or more, proves that it does not.
+        """
+        if self.is_armed:
+            return True
+        if has_motor is None:
+            return None
+        if has_motor:
+            return False
+        return self.switch in SWITCH_POSITIONS or self.uptime_s < RECEIVER_WAIT_S
 
     @property
     def is_receiver_valid(self) -> bool:

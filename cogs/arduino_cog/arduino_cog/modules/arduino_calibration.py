@@ -8,7 +8,9 @@ from twisted.internet.defer import Deferred
 
 from arduino_cog.commands.arduino_calibrate_command import CALIBRATIONS, ArduinoCalibrateCommand
 from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.wire import IN_FLIGHT
 from up.base_module import BaseModule
+from up.commands.refusal import CommandRefusedError
 from up.mode import WITH_ARDUINO
 from up.needs import needs
 
@@ -16,7 +18,10 @@ _END = "receiver_end"
 
 
 class ArduinoCalibration(BaseModule):
-    """Passes `arduino.calibrate` to the Arduino, which alone knows whether it may be done now."""
+    """Passes `arduino.calibrate` to the Arduino, unless the aircraft may be in flight.
+
+    The end of the receiver's is always passed on: it was begun on the ground.
+    """
 
     MODES = WITH_ARDUINO
 
@@ -28,6 +33,8 @@ class ArduinoCalibration(BaseModule):
     def on_calibrate(self, command: ArduinoCalibrateCommand) -> Deferred[Any]:
         """Calibrate; the end of the receiver's is asked once: the second time nothing is begun."""
         self.arduino.require_checked("calibrating")
+        if command.what != _END and self.arduino.is_in_flight:
+            raise CommandRefusedError(f"calibrating is not for the air: {IN_FLIGHT}")
         payload = bytes((CALIBRATIONS[command.what],))
         done = self.arduino.request("e", payload, may_repeat=command.what != _END)
         return done.addCallback(self._say, command.what)

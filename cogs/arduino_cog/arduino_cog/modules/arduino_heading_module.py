@@ -1,6 +1,8 @@
-"""Headings on their way to the Arduino."""
+"""The heading on its way to an Arduino with the thesis's firmware."""
 
 from __future__ import annotations
+
+from serial_cog.config import ARDUINO
 
 from arduino_cog.change_sender import ChangeSender
 from arduino_cog.modules.arduino_provider import ArduinoProvider
@@ -14,7 +16,7 @@ from up.providers.up_heading_provider import UpHeadingProvider
 
 
 class ArduinoHeadingModule(BaseStartedModule):
-    """Forwards the actual heading that the provider follows and the required one, whole degrees."""
+    """Forwards the heading that the provider follows, in whole degrees."""
 
     MODES = WITH_ARDUINO
 
@@ -23,37 +25,24 @@ class ArduinoHeadingModule(BaseStartedModule):
 
     _forwarded: Reading[float] | None = None
 
+    def load(self) -> bool:
+        """Return whether the firmware is the thesis's: this project's has no use for it."""
+        return bool(self.context.config(ARDUINO).framing == "thesis")
+
     def _execute_initialization(self) -> None:
-        clock, send = self.context.reactor, self.arduino.send_stream
-        self._actual = ChangeSender(clock, lambda payload: send("b", payload))
-        self._required = ChangeSender(clock, lambda payload: send("B", payload))
-        self.arduino.add_board_listener(self.on_board_begun)
+        self._sender = ChangeSender(
+            self.context.reactor, lambda payload: self.arduino.send_stream("b", payload)
+        )
+        self.arduino.add_board_listener(self._sender.forget)
         self.up.command_executor.register_command(HeadingCommand, self.on_heading)
 
     def _execute_stop(self) -> None:
-        self._actual.stop()
-        self._required.stop()
+        self._sender.stop()
 
     def on_heading(self, command: HeadingCommand) -> None:
-        """Forward what the provider took of the Command: it heard it before."""
-        if not self.started:
-            return
-        if command.mode == "required":
-            self._forward_required()
-            return
+        """Forward the provider's reading when it is a new one: it heard the Command before."""
         reading = self.heading.reading
-        if reading is not None and reading is not self._forwarded:
+        if self.started and reading is not None and reading is not self._forwarded:
             self._forwarded = reading
             if reading.valid:
-                self._actual.offer(pack_heading(reading.value))
-
-    def on_board_begun(self) -> None:
-        """Tell a board that may know nothing yet which heading is required."""
-        self._actual.forget()
-        self._required.forget()
-        self._forward_required()
-
-    def _forward_required(self) -> None:
-        required_deg = self.heading.required_heading
-        if required_deg is not None:
-            self._required.offer(pack_heading(required_deg))
+                self._sender.offer(pack_heading(reading.value))

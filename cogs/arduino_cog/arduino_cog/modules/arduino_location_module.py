@@ -1,6 +1,8 @@
-"""The location on its way to the Arduino."""
+"""The location on its way to an Arduino with the thesis's firmware."""
 
 from __future__ import annotations
+
+from serial_cog.config import ARDUINO
 
 from arduino_cog.change_sender import ChangeSender
 from arduino_cog.modules.arduino_provider import ArduinoProvider
@@ -22,6 +24,10 @@ class ArduinoLocationModule(BaseStartedModule):
     location = needs(UpLocationProvider)
 
     _forwarded: Reading[LocationCommand] | None = None
+
+    def load(self) -> bool:
+        """Return whether the firmware is the thesis's: this project's has no use for it."""
+        return bool(self.context.config(ARDUINO).framing == "thesis")
 
     def _execute_initialization(self) -> None:
         self._sender = ChangeSender(

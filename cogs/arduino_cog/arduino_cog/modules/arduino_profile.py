@@ -17,6 +17,7 @@ from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.profile import Profile, pack_profile, read_profile
 from arduino_cog.profile_data import differences, flat, with_changes
+from arduino_cog.wire import IN_FLIGHT
 from up.base_module import BaseModule
 from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
@@ -33,11 +34,11 @@ _VETO = AIRFRAME.filename
 class ArduinoProfile(BaseModule):
     """Brings what airframe.yml says into the Arduino's profile, whose other values stay.
 
-    It is compared whenever a board answers that may be another one, and sent only while that is
-    disarmed and only where it differs, again and again at growing distances. Until the board holds
-    it, arming is vetoed under the file's name. Its limits of FBW are told on the bus, for a flight
-    controller on the Raspberry Pi. An airframe.yml that says nothing does nothing, and
-    an old firmware (thesis framing) has no profile.
+    It is read whenever a board answers that may be another one: whether it has a motor decides
+    what in flight means. It is sent only on the ground and only where it differs, again and again
+    at growing distances. Until the board holds it, arming is vetoed under the file's name. Its
+    limits of FBW are published for a flight controller on the Raspberry Pi. An airframe.yml that
+    says nothing changes and vetoes nothing, and an old firmware (thesis framing) has no profile.
     """
 
     MODES = WITH_ARDUINO
@@ -63,12 +64,11 @@ class ArduinoProfile(BaseModule):
         self._board = BoardValue(self.arduino, "c", "C", read_profile, "profile", self._tell_bus)
         executor = self.up.command_executor
         executor.register_command(ArduinoProfileRequestCommand, self.on_request)
-        if not self._wishes:
-            return
         if not self.arduino.is_checked:
-            self._log_warning(
-                f"{_VETO} is not used: an old firmware (framing: thesis) keeps no profile"
-            )
+            if self._wishes:
+                self._log_warning(
+                    f"{_VETO} is not used: an old firmware (framing: thesis) keeps no profile"
+                )
             return
         self.arduino.add_board_listener(self.on_board_begun)
         executor.register_command(ArduinoStatusCommand, self.on_status)
@@ -82,17 +82,17 @@ class ArduinoProfile(BaseModule):
 
     def on_board_begun(self) -> None:
         """Compare anew: this board may be another one, or know nothing yet."""
-        self._board.held = None
+        self._board.held = self.arduino.has_motor = None
         self._is_settled = self._is_told = False
         self._wait_s = FIRST_WAIT_S
         self._next_s = float("-inf")
-        self.up.vetoes.set(_VETO, "the Arduino's profile is not known yet")
+        self._veto("the Arduino's profile is not known yet")
         self._tell_limits()
         self._reconcile()
 
     def on_status(self, status: ArduinoStatusCommand) -> None:
         """Go on with what waits: for an answer, for its time, or for the board to be disarmed."""
-        if not status.is_profile_valid and self._board.held is not None:
+        if self._wishes and not status.is_profile_valid and self._board.held is not None:
             self._is_settled = False
         self._reconcile()
 
@@ -109,6 +109,10 @@ class ArduinoProfile(BaseModule):
 
     def _compare(self, held: Profile) -> None:
         """Send the profile where that is needed and harms nothing."""
+        self.arduino.has_motor = held.has_motor
+        if not self._wishes:
+            self._is_settled = True
+            return
         try:
             payload = pack_profile(with_changes(held, self._wishes))
         except ValueError as error:
@@ -125,10 +129,10 @@ class ArduinoProfile(BaseModule):
             return
         text = "; ".join(changes)
         self.up.vetoes.set(_VETO, f"the Arduino has another profile ({text})")
-        if self.arduino.is_armed is None:
+        if self.arduino.is_in_flight is None:
             return
-        if self.arduino.is_armed:
-            self._tell_armed(text)
+        if self.arduino.is_in_flight:
+            self._tell_in_flight(text)
             return
         self._log_info(f"the Arduino gets the profile of {_VETO}, which differs: {text}")
         sent = self._board.send("C", payload, lambda now: now == wanted)
@@ -166,13 +170,17 @@ class ArduinoProfile(BaseModule):
         self._log_error(f"{_VETO} {reason}")
         self.up.vetoes.set(_VETO, reason)
 
-    def _tell_armed(self, changes: str) -> None:
+    def _tell_in_flight(self, changes: str) -> None:
         if not self._is_told:
             self._is_told = True
             self._log_warning(
-                f"the Arduino is armed and flies another profile than {_VETO} has: it stays"
-                f" ({changes})"
+                f"the Arduino keeps another profile than {_VETO} has ({changes}):"
+                f" in flight ({IN_FLIGHT})"
             )
+
+    def _veto(self, reason: str) -> None:
+        if self._wishes:
+            self.up.vetoes.set(_VETO, reason)
 
     def _on_failed(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)
@@ -182,10 +190,11 @@ class ArduinoProfile(BaseModule):
         self._back_off()
         reason = failure.getErrorMessage()
         self._log_warning(f"profile: {reason}")
-        self.up.vetoes.set(_VETO, f"the Arduino's profile is not as it says: {reason}")
+        self._veto(f"the Arduino's profile is not as it says: {reason}")
 
     def _tell_bus(self, held: Profile) -> None:
         """Publish what flies, so that a flight's log has it."""
+        self.arduino.has_motor = held.has_motor
         self.up.command_executor.execute_command(ArduinoProfileValuesCommand.of(held))
 
     def _send_values(self, held: Profile) -> None:

@@ -75,6 +75,7 @@ class ArduinoProvider(BaseStartedModule):
         super().__init__(config, silent)
         self.status: ArduinoStatusCommand | None = None
         self.servo: ServoCommand | None = None
+        self.has_motor: bool | None = None
         self.counters: Counter[str] = Counter()
         self._servo_s = 0.0
         self._status_s = float("-inf")
@@ -113,6 +114,11 @@ class ArduinoProvider(BaseStartedModule):
         return None if self.status is None else self.status.is_armed
 
     @property
+    def is_in_flight(self) -> bool | None:
+        """Return whether the aircraft may be in the air; None while that is not known."""
+        return None if self.status is None else self.status.is_in_flight(self.has_motor)
+
+    @property
     def telemetry_content(self) -> Mapping[str, Any]:
         """Return the state of the Arduino, and the servo outputs."""
         status = self.status
@@ -139,6 +145,7 @@ class ArduinoProvider(BaseStartedModule):
                 "imu_valid": status and status.is_imu_valid,
             },
             "armed": self.is_armed,
+            "in_flight": self.is_in_flight,
             "flight_mode": status and flight_mode_name(status.mode),
             "servo": {axis: servo and getattr(servo, f"{axis}_us") for axis in _AXES},
             "age_ms": ages_ms,
@@ -314,7 +321,7 @@ class ArduinoProvider(BaseStartedModule):
             # It was silent meanwhile, or it is this program that starts: said all the same.
             self._log_warning(f"the Arduino flies after a reset{_causes_of(status)}")
         self._execute(status, ORIGIN)
-        self._execute(flight_state_of(status), ORIGIN)
+        self._execute(flight_state_of(status, self.has_motor), ORIGIN)
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
@@ -377,8 +384,12 @@ def _causes_of(status: ArduinoStatusCommand) -> str:
     return f" ({status.reset_causes}){', and is armed' if status.is_armed else ''}"
 
 
-def flight_state_of(status: ArduinoStatusCommand) -> FlightStateCommand:
+def flight_state_of(status: ArduinoStatusCommand, has_motor: bool | None) -> FlightStateCommand:
     """Return who flies, in the words that flight controllers listen for."""
     return FlightStateCommand(
-        flight_mode_name(status.mode), status.is_armed, status.is_at_auto, status.is_failsafe
+        flight_mode_name(status.mode),
+        status.is_armed,
+        status.is_at_auto,
+        status.is_failsafe,
+        status.is_in_flight(has_motor),
     )

@@ -11,11 +11,12 @@ from arduino_cog.board_value import BoardValue
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from arduino_cog.gains_wire import pack_gains, read_gains, without_rudder
 from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.wire import IN_FLIGHT
 from up.base_module import BaseModule
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller.gains import GainSet
-from up.flight_controller.gains_keeper import GainsKeeper
+from up.flight_controller.gains_keeper import GainsKeeper, refuse_unused
 from up.flight_controller.pids_file import PIDS, PidsFile
 from up.mode import WITH_ARDUINO
 from up.needs import needs, wants
@@ -29,7 +30,7 @@ class PIDTuningsProvider(BaseModule):
     """Keeps the gains of the Arduino and pids.yml together; the Arduino's are the truth.
 
     When a board answers that may know nothing yet its gains are read. A good pids.yml is sent to
-    it once, only while it is disarmed and only where it differs or the EEPROM holds none. A set
+    it once, only on the ground and only where it differs or the EEPROM holds none. A set
     from the ground is taken whole, in flight too, and saved after the Arduino confirmed it. An old
     firmware (thesis framing) says nothing of arming: it gets pids.yml only when it is met for
     the first time and its throttle output is low.
@@ -81,7 +82,7 @@ class PIDTuningsProvider(BaseModule):
         self._board.read().addCallbacks(lambda _: self._reconcile(), self._on_failed)
 
     def on_status(self, status: ArduinoStatusCommand) -> None:
-        """Send pids.yml when a board that was armed, or not known to be disarmed, is disarmed."""
+        """Send pids.yml when a board that was in flight, or not known not to be, is not."""
         if self.held is not None:
             self._reconcile()
 
@@ -130,24 +131,24 @@ class PIDTuningsProvider(BaseModule):
         self._transmit(wanted).addErrback(self._on_failed)
 
     def _may_push(self) -> bool:
-        """Return whether pids.yml may go to the board now: disarmed for certain, and good."""
+        """Return whether pids.yml may go to the board now: on the ground for certain, and good."""
         if self.held is None or not self._is_good or not self._is_saved:
             return False
         if self._is_thesis:
             servo = self.arduino.servo
             return servo is not None and servo.throttle_us <= LOW_THROTTLE_US
-        if self.arduino.is_armed is not False:
-            self._tell_armed()
+        if self.arduino.is_in_flight is not False:
+            self._tell_in_flight()
             return False
         return True
 
-    def _tell_armed(self) -> None:
-        """Say once that an armed board flies other gains than pids.yml."""
-        if self.arduino.is_armed and not self._is_told:
+    def _tell_in_flight(self) -> None:
+        """Log once that a board in flight has other gains than pids.yml."""
+        if self.arduino.is_in_flight and not self._is_told:
             self._is_told = True
             if self._differs(self._in_form(self._saved)):
                 self._log_warning(
-                    "the Arduino is armed and flies other gains than pids.yml has: they stay"
+                    f"the Arduino keeps other gains than pids.yml has: in flight ({IN_FLIGHT})"
                 )
 
     def _in_form(self, gains: GainSet) -> GainSet:
@@ -166,6 +167,7 @@ class PIDTuningsProvider(BaseModule):
             raise CommandRefusedError("an old firmware (framing: thesis) has no rudder gains")
         if self._board.is_setting:
             raise CommandRefusedError("another set of gains is on its way")
+        refuse_unused(gains, (self.held or gains).completed(self._saved))
         return self._transmit(gains).addCallback(self._save, gains)
 
     def _transmit(self, gains: GainSet) -> Deferred[Any]:

@@ -86,9 +86,10 @@ class LoadGuard(BaseStartedModule):
             self._memory_due_s = now_s + MEMORY_EVERY_S
             self.ram = self.meter.memory_percent()
         if self._switch.update(self.meter.load_percent(), now_s):
-            self._log_warning(
-                f"{'enters' if self.in_panic else 'leaves'} Panic Mode at"
-                f" {self.cpu_utilization} % load: send every {self.delay_ms} ms"
+            word = "busy" if self.in_panic else "not busy any more"
+            self._log_info(
+                f"Raspberry Pi {word} ({self.cpu_utilization:.0f} %):"
+                f" every sender may send every {self.delay_ms} ms (Panic Mode)"
             )
             self._publish()
 

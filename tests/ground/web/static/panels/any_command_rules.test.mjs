@@ -26,8 +26,8 @@ test("gains are under the rule of their own panel, and asking for them is not", 
   assert.equal(ruleAgainst(flying(false), asker, GAINS), "");
   assert.equal(ruleAgainst(flying(true), asker, GAINS, { pids: {} }), "");
   const warning = warningOf(flying(true), GAINS, { pids: {} });
-  assert.match(warning, /flies at once/);
-  assert.match(questionOf(GAINS, { pids: {} }, { text: "Sets them." }, warning).text, /flies at once/);
+  assert.match(warning, /flies immediately/);
+  assert.match(questionOf(GAINS, { pids: {} }, { text: "Sets them." }, warning).text, /flies immediately/);
   assert.equal(warningOf(flying(true), "android.speak", { text: "x" }), "");
 });
 

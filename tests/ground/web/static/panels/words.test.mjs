@@ -5,7 +5,6 @@ import { controlWords, offeredActions } from "../../../../../ground/up_ground/we
 import { numberBetween, textUpTo } from "../../../../../ground/up_ground/web/static/js/panels/field.js";
 import { FrameSize } from "../../../../../ground/up_ground/web/static/js/panels/frame_size.js";
 import { profileParts } from "../../../../../ground/up_ground/web/static/js/panels/profile_words.js";
-import { notedWords, wishWords } from "../../../../../ground/up_ground/web/static/js/panels/wishes.js";
 import { objection } from "../../../../../ground/up_ground/web/static/js/panels/why.js";
 import { agoWords, answerWords, clockWords, commandWords, costWords } from "../../../../../ground/up_ground/web/static/js/panels/words.js";
 
@@ -27,8 +26,7 @@ test("an answer says what became of it", () => {
   );
   assert.equal(words({ outcome: "nack", code: "stale", reason: "" }), "refused by the aircraft: stale");
   assert.equal(words({ outcome: "nack" }), "refused by the aircraft: no reason given");
-  assert.equal(answerWords({ outcome: "ack", round_trip_ms: 4 }, "noted"), "noted");
-  assert.match(answerWords({ outcome: "nack", reason: "no" }, "noted"), /^refused/);
+  assert.match(answerWords({ outcome: "nack", reason: "no" }), /^refused/);
   assert.equal(
     words({ outcome: "timeout", reason: "no answer in 5 s; it is not known whether it was carried out" }),
     "no answer in 5 s: nobody knows whether it was carried out",
@@ -144,15 +142,6 @@ test("an aircraft that is not at the proxy is offered nothing, not even a questi
   assert.equal(objection(store, connection, "arduino.profile.request"), away);
   link.aircraft_online = null;
   assert.equal(objection(store, connection, "up.flight_mode.set"), "");
-});
-
-test("a wish says what it does, and that nothing flies by it where nothing does", () => {
-  const store = (mode, freshness = "live") => ({ freshness: () => freshness, text: () => mode });
-  assert.equal(notedWords(store("FBW")), "noted; nothing flies by it in FBW");
-  assert.equal(notedWords(store("SETPOINT")), "");
-  assert.equal(notedWords(store("FBW", "stale")), "");
-  assert.match(wishWords(false, ""), /climbs or sinks to it; in other modes it is only noted\.$/);
-  assert.match(wishWords(true, notedWords(store("RATE"))), /turns to it\. Now it is noted; nothing flies by it in RATE\.$/);
 });
 
 test("a profile reads as a page, and what is not told has no row", () => {

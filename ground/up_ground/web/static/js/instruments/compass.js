@@ -6,22 +6,15 @@ import { drawing, hatch, short, svg } from "./svg.js";
 const RADIUS = 84;
 const LETTERS = { 0: "N", 90: "E", 180: "S", 270: "W" };
 
-/** The rose, north where it is: heading above, the heading asked for and the way home on it. */
+/** The rose, north where it is: heading above, the way home on it. */
 export function mount(element, store) {
   const rose = roseOf();
-  const bug = svg("path", { d: "M-7 -85V-93H7V-85L4 -85 0 -80 -4 -85Z", class: "bug" });
   const home = homeOf();
   const heading = svg("text", {
     x: 0,
     y: -98,
     class: "compass-heading",
     "data-key": "heading.actual",
-  });
-  const asked = svg("text", {
-    x: -106,
-    y: -98,
-    class: "compass-side is-left",
-    "data-key": "heading.required",
   });
   const distance = svg("text", {
     x: 106,
@@ -30,7 +23,7 @@ export function mount(element, store) {
     "data-key": "home.distance",
   });
   const age = svg("text", { x: 0, y: 42, class: "compass-age" });
-  const turning = svg("g", {}, rose, bug, home);
+  const turning = svg("g", {}, rose, home);
   element.append(
     drawing(
       "-108 -114 216 206",
@@ -42,9 +35,7 @@ export function mount(element, store) {
       hatch("compass-hatch", { x: -88, y: -88, width: 176, height: 176 }),
       age,
       heading,
-      asked,
       distance,
-      svg("text", { x: -106, y: -84, class: "compass-name is-left" }, "asked"),
       svg("text", { x: 106, y: -84, class: "compass-name is-right" }, "home"),
     ),
   );
@@ -57,11 +48,7 @@ export function mount(element, store) {
       setText(age, oldText(store, "heading", freshness));
       setText(heading, actual === null ? UNKNOWN : `${headingText(actual)}°`);
       setAttribute(turning, "transform", `rotate(${short(-(actual ?? 0))})`);
-      showMark(store, bug, "heading.required", "heading");
       showMark(store, home, "home.bearing", "location");
-      const required = store.number("heading.required");
-      const askedText = required === null ? UNKNOWN : `${headingText(required)}°`;
-      showSide(asked, askedText, freshnessOf(store, "heading.required", "heading"));
       const away_m = store.number("home.distance");
       showSide(distance, distanceText(away_m), freshnessOf(store, "home.distance", "location"));
     },

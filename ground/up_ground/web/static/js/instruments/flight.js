@@ -12,7 +12,7 @@ const MEANINGS = {
   RTH: "flies home by itself",
 };
 
-/** Who flies, how, and what forbids it: mode, armed, vetoes, panic, failsafe. */
+/** Who flies, how, and what forbids it: mode, armed, vetoes, load, failsafe. */
 export function mount(element, store) {
   const mode = html("span", { id: "flight-mode" });
   const meaning = html("p", { id: "flight-meaning" });
@@ -29,7 +29,7 @@ export function mount(element, store) {
     new Row(list, "Raspilot", "mode", "text"),
     new Row(list, "Switch", "arduino.switch", "text", () => switchText(store)),
     new Row(list, "Failsafe", "arduino.failsafe", "flag", yesNo, alarmIfTrue),
-    new Row(list, "Panic", "load.panic", "flag", (value) => panicText(value, store), warnIfTrue),
+    new Row(list, "Raspberry Pi", "load.panic", "flag", (value) => busyText(value, store)),
   ];
   return {
     update() {
@@ -49,10 +49,6 @@ function yesNo(value) {
 
 function alarmIfTrue(value) {
   return value === true ? "alarm" : "";
-}
-
-function warnIfTrue(value) {
-  return value === true ? "warning" : "";
 }
 
 const HOLDERS = {
@@ -77,9 +73,10 @@ export function holderText(mode, store) {
   return Object.hasOwn(HOLDERS, mode) ? HOLDERS[mode] : UNKNOWN;
 }
 
-function panicText(value, store) {
-  const delay_ms = store.number("load.delay_ms");
-  return value === true ? `YES, ${numberText(delay_ms)} ms` : flagText(value);
+function busyText(value, store) {
+  const period_ms = store.number("system.period_ms") ?? store.number("load.delay_ms");
+  const busy = `busy (${numberText(store.number("load.cpu"))} %): telemetry every ${numberText(period_ms)} ms`;
+  return flagText(value, busy, "not busy");
 }
 
 function showVetoes(place, store) {

@@ -28,13 +28,12 @@ export class Asker {
   /**
    * @param {string} name of the Command
    * @param {object} data
-   * @param {{note: HTMLElement, question?: object|null, isForced?: boolean, isDone?: string}} where
+   * @param {{note: HTMLElement, question?: object|null, isForced?: boolean}} where
    *   note: says how it goes; question: for dialog.js, null: nothing is asked; isForced: a name that
-   *   the server does not know is sent all the same; isDone: what an ack means, where it is less
-   *   than that it was carried out
+   *   the server does not know is sent all the same
    * @returns {Promise<object|null>} the answer; null: it was not sent
    */
-  async ask(name, data, { note, question = null, isForced = false, isDone = "" }) {
+  async ask(name, data, { note, question = null, isForced = false }) {
     const { aircraft } = this.#store;
     if (question !== null && !(await confirm(question))) {
       this.#notes.tell(note, "not sent: you said no", "plain");
@@ -53,8 +52,8 @@ export class Asker {
     const answer = await this.#connection.command(name, data, { aircraft, isForced });
     // An answer of another aircraft than the one that is looked at is no news of this one.
     if (!this.#moved(aircraft)) {
-      this.#notes.tell(note, answerWords(answer, isDone), answerLook(answer));
-      this.#tellLast(words, answerWords(answer, isDone), answerLook(answer));
+      this.#notes.tell(note, answerWords(answer), answerLook(answer));
+      this.#tellLast(words, answerWords(answer), answerLook(answer));
     }
     return answer;
   }

@@ -1,11 +1,10 @@
 /** The greatest gain; the least is 0 (docs/protocols.md 5). */
 export const GREATEST = 50;
 
-/** The loops of a set, in the order of the wire. */
+/** The loops of a set that a controller uses, in the order of the wire. */
 export const LOOPS = [
   { key: "ratePIDs", word: "rate", unit: "1.25 us of servo per deg/s" },
   { key: "stabPIDs", word: "stabilize", unit: "deg/s per deg" },
-  { key: "navPIDs", word: "navigation", unit: "on the Raspberry Pi" },
 ];
 
 /** The axes of a loop. */
@@ -14,6 +13,15 @@ export const AXES = [
   { key: "elevator", word: "pitch" },
   { key: "rudder", word: "yaw" },
 ];
+
+/**
+ * @param {{key: string}} loop
+ * @param {{key: string}} axis
+ * @returns {boolean} whether a controller uses its gains; the others are sent as they came
+ */
+export function isUsed(loop, axis) {
+  return loop.key !== "stabPIDs" || axis.key !== "rudder";
+}
 
 /** The gains of an axis. */
 export const TERMS = ["p", "i", "d"];

@@ -1,6 +1,6 @@
 import { setAttribute, setText } from "../readout.js";
 import { element } from "./element.js";
-import { AXES, GREATEST, LOOPS, TERMS, cellWords, gainText, readGain } from "./gain_set.js";
+import { AXES, GREATEST, LOOPS, TERMS, cellWords, gainText, isUsed, readGain } from "./gain_set.js";
 
 /** The fields of a set of gains: a table for each loop, a row for each axis. */
 export class GainsTable {
@@ -46,7 +46,8 @@ export class GainsTable {
     this.#cells.clear();
     this.element.replaceChildren();
     for (const loop of LOOPS) {
-      const rows = AXES.map((axis) => this.#row(loop, axis)).filter((row) => row !== null);
+      const used = AXES.filter((axis) => isUsed(loop, axis));
+      const rows = used.map((axis) => this.#row(loop, axis)).filter((row) => row !== null);
       if (rows.length > 0) {
         const head = element("tr", {}, element("th", { scope: "col", text: "" }));
         head.append(...TERMS.map((term) => element("th", { scope: "col", text: term.toUpperCase() })));

@@ -25,7 +25,9 @@ export function gainsObjection(store, asker) {
       ? "the aircraft is armed"
       : switchMode(store) === "AUTO"
         ? "the pilot's switch stands at AUTO"
-        : "";
+        : store.flag("in_flight") === true
+          ? "the aircraft has no motor and its receiver was heard since power-on"
+          : "";
   if (!state) {
     return "";
   }
@@ -39,10 +41,10 @@ export function gainsObjection(store, asker) {
  * @returns {string} what is to be known before changing gains in flight; empty: nothing
  */
 export function gainsWarning(store) {
-  if (store.flag("armed") !== true) {
+  if (store.flag("armed") !== true && store.flag("in_flight") !== true) {
     return "";
   }
   return store.status?.tune_in_flight === true
-    ? "The aircraft is armed: what you send flies at once."
-    : "The aircraft is armed: it may refuse gains.";
+    ? "The aircraft may be in flight: what you send flies immediately."
+    : "The aircraft may be in flight: it may refuse gains.";
 }

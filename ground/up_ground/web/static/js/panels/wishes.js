@@ -1,4 +1,3 @@
-import { ageText, headingText, numberText } from "../state/format.js";
 import { setText } from "../readout.js";
 import { element } from "./element.js";
 import { Field, numberBetween, textUpTo } from "./field.js";
@@ -9,13 +8,11 @@ import { costWords } from "./words.js";
 /** As long as the aircraft takes them (android.speak, black_box.mark). */
 const LONGEST_TEXT = 200;
 
-/** Heading and altitude asked for, telemetry's period, the phone's voice, a mark in the log. */
+/** Telemetry's period, the phone's voice, a mark in the log. */
 export class Wishes {
   #store;
   #asker;
   #size = new FrameSize();
-  #heading;
-  #altitude;
   #period;
   #speak;
   #mark;
@@ -24,16 +21,6 @@ export class Wishes {
   constructor(store, asker) {
     this.#store = store;
     this.#asker = asker;
-    this.#heading = this.#number("wish-heading", "Heading, degrees", [0, 360], "deg", (value) =>
-      this.#fly("up.heading.change", { heading: value, mode: "required" }, this.#heading),
-    );
-    this.#altitude = this.#number(
-      "wish-altitude",
-      "Altitude (sea level), m",
-      [-1000, 30000],
-      "m",
-      (value) => this.#fly("up.altitude.change", { altitude: value, mode: "required" }, this.#altitude),
-    );
     this.#period = this.#number(
       "telemetry-period",
       "Telemetry every so many ms",
@@ -51,7 +38,7 @@ export class Wishes {
     this.element = element(
       "section.part.wishes",
       {},
-      heading("Where to, and what to tell"),
+      heading("Telemetry, voice, mark"),
       ...this.#fields.map(([field]) => field.element),
     );
     for (const field of [this.#period, this.#speak, this.#mark]) {
@@ -70,25 +57,11 @@ export class Wishes {
     }
     const store = this.#store;
     this.#size.look(store.data, store.frames);
-    this.#showNow(this.#heading, "heading.actual", "heading.required", (value) => `${headingText(value)}°`);
-    this.#showNow(this.#altitude, "altitude", "altitude_required", (value) => `${numberText(value, 0)} m`);
     this.#showCost();
-  }
-
-  // What is not of now never reads as if it were.
-  #showNow(field, path, wanted, format) {
-    const value = this.#store.number(path);
-    const isLive = this.#store.freshnessAt(path) === "live";
-    const age = ageText(this.#store.age_s(path.split(".")[0]));
-    const was = value === null ? "not known" : `was ${format(value)}, ${age} ago`;
-    const asked = this.#store.number(wanted);
-    setText(field.hint, `${isLive ? `now ${format(value)}` : was}${asked === null ? "" : `, asked ${format(asked)}`}`);
   }
 
   get #fields() {
     return [
-      [this.#heading, "up.heading.change", { mode: "required" }],
-      [this.#altitude, "up.altitude.change", { mode: "required" }],
       [this.#period, "up.telemetry.frequency", {}],
       [this.#speak, "android.speak", {}],
       [this.#mark, "black_box.mark", {}],
@@ -109,19 +82,6 @@ export class Wishes {
     }
   }
 
-  #fly(name, data, field) {
-    const isHeading = name === "up.heading.change";
-    const what = isHeading ? `heading ${data.heading}°` : `altitude ${data.altitude} m`;
-    const noted = notedWords(this.#store);
-    const question = {
-      title: `Ask for ${what}?`,
-      text: wishWords(isHeading, noted),
-      yes: "Ask for it",
-      no: "Leave it",
-    };
-    return this.#asker.ask(name, data, { note: field.note, question, isDone: noted });
-  }
-
   #send(name, data, field) {
     return this.#asker.ask(name, data, { note: field.note });
   }
@@ -136,23 +96,4 @@ export class Wishes {
     const input = { type: "text", autocomplete: "off" };
     return new Field({ id, label, button, input, read: textUpTo(LONGEST_TEXT), send });
   }
-}
-
-/**
- * @param {object} store
- * @returns {string} that a wish is noted only; empty: the aircraft navigates, or nobody knows
- */
-export function notedWords(store) {
-  const mode = store.freshness(null) === "live" ? store.text("flight_mode") : null;
-  return ["ACRO", "RATE", "FBW"].includes(mode) ? `noted; nothing flies by it in ${mode}` : "";
-}
-
-/**
- * @param {boolean} isHeading or it is an altitude
- * @param {string} noted as notedWords() tells it
- * @returns {string} what a wish does
- */
-export function wishWords(isHeading, noted) {
-  const flown = `An aircraft that navigates by itself ${isHeading ? "turns to it" : "climbs or sinks to it"}`;
-  return noted === "" ? `${flown}; in other modes it is only noted.` : `${flown}. Now it is ${noted}.`;
 }

@@ -1,7 +1,7 @@
 const MODES = {
   RATE: "the sticks ask for rotation",
   FBW: "the sticks ask for attitude, within limits",
-  AUTO: "the aircraft flies by itself",
+  AUTO: "modules on the Raspberry Pi may fly; without one the sticks ask for attitude",
 };
 
 /**
@@ -27,10 +27,6 @@ export function commandWords(name, data = {}) {
       return "Disarm";
     case "up.telemetry.frequency":
       return `Telemetry every ${data.frequency} ms`;
-    case "up.heading.change":
-      return `Heading ${data.heading}°`;
-    case "up.altitude.change":
-      return `Altitude ${data.altitude} m`;
     case "android.speak":
       return `Say "${data.text}"`;
     case "black_box.mark":
@@ -48,10 +44,9 @@ export function commandWords(name, data = {}) {
 
 /**
  * @param {{outcome: string, code?: ?string, reason?: ?string, round_trip_ms?: ?number}} answer
- * @param {string} [isDone] what an ack means, where it is less than that it was carried out
  * @returns {string} what became of a Command, in plain words
  */
-export function answerWords(answer, isDone = "") {
+export function answerWords(answer) {
   const reason = String(answer.reason ?? "")
     .replace(/^not sent: /, "")
     .replace(/; it is not known whether it was carried out$/, "")
@@ -61,9 +56,6 @@ export function answerWords(answer, isDone = "") {
     case "ack":
       if (reason) {
         return reason;
-      }
-      if (isDone) {
-        return isDone;
       }
       return Number.isFinite(after_ms)
         ? `carried out after ${Math.round(after_ms)} ms`

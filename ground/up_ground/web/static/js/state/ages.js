@@ -27,6 +27,7 @@ const READING_OF = {
   heading: "heading",
   flight_mode: "flight",
   armed: "flight",
+  in_flight: "flight",
   arduino: "flight",
 };
 /** What the Raspberry Pi knows of the Arduino by itself. */

@@ -12,9 +12,9 @@ public enum NackCode {
     INVALID,
     /** The link's role or its configuration does not permit it. */
     FORBIDDEN,
-    /** The echoed beacon is older than 2 s. */
+    /** The echoed beacon is older than 2 s, or than a longer period of telemetry and 1 s. */
     STALE,
-    /** Arming needs an echoed beacon. */
+    /** Arming and disarming need an echoed beacon. */
     NO_BEACON,
     /** Understood, permitted, and refused by whoever carries it out. */
     REFUSED,
@@ -25,7 +25,9 @@ public enum NackCode {
     /** No answer from whoever carries it out. */
     TIMEOUT,
     /** Carrying it out failed inside. */
-    FAILED;
+    FAILED,
+    /** Nothing carries it out yet; the reason says what is missing. */
+    NOT_SUPPORTED;
 
     /** Returns the word that stands on the wire. */
     public String word() {

@@ -16,8 +16,6 @@ public final class Alarm {
         BOARD,
         /** The airborne phone is gone. */
         PHONE,
-        /** Every sender slows down. */
-        PANIC,
         /** The airborne phone's battery is low. */
         BATTERY
     }
@@ -49,7 +47,7 @@ public final class Alarm {
 
     /** Says whether a phone should sound and vibrate for it. */
     public boolean isLoud() {
-        return level == EventLevel.ALARM || kind == Kind.PANIC || kind == Kind.BATTERY;
+        return level == EventLevel.ALARM || kind == Kind.BATTERY;
     }
 
     @Override

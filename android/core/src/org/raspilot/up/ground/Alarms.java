@@ -134,10 +134,6 @@ public final class Alarms {
         if (Boolean.FALSE.equals(Fact.phone(telemetry))) {
             found.add(new Alarm(Alarm.Kind.PHONE, EventLevel.WARNING, "the phone is gone"));
         }
-        if (isTrue(telemetry, "load.panic")) {
-            found.add(new Alarm(Alarm.Kind.PANIC, EventLevel.WARNING,
-                    "panic: every sender slows down"));
-        }
         final Double percent = telemetry.number("android.batteryLevel");
         final double low = BATTERY_LOW
                 + (known.containsKey(Alarm.Kind.BATTERY) ? BATTERY_BACK : 0);

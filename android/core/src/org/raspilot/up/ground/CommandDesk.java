@@ -2,6 +2,7 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.commands.ArmCommand;
 import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.DisarmCommand;
 import org.raspilot.up.commands.TelemetryFrequencyCommand;
 import org.raspilot.up.loop.Loop;
 
@@ -91,7 +92,8 @@ final class CommandDesk {
     /** Nobody commands what they do not see: the screen may hang, or what it shows be late. */
     private Answer beaconFault(BaseCommand command, Long shown) {
         if (shown == null) {
-            if (beacons.areNoneSent() && !command.name().equals(ArmCommand.NAME)) {
+            if (beacons.areNoneSent() && !command.name().equals(ArmCommand.NAME)
+                    && !command.name().equals(DisarmCommand.NAME)) {
                 // A thesis aircraft's telemetry has no beacons.
                 return null;
             }
@@ -100,7 +102,7 @@ final class CommandDesk {
         }
         if (!beacons.isFresh(shown, loop.nowMs())) {
             return Answer.refused(command.name(), "stale", "the telemetry on the screen is older"
-                    + " than " + SeenBeacons.FRESH_MS / 1000 + " s");
+                    + " than " + beacons.limitMs() / 1000 + " s");
         }
         return null;
     }

@@ -16,8 +16,6 @@ final class CommandWords {
         put("up.arm", "arm", "");
         put("up.disarm", "disarm", "");
         put("up.telemetry.frequency", "telemetry every %s ms", "frequency");
-        put("up.heading.change", "heading %s deg", "heading");
-        put("up.altitude.change", "altitude %s m", "altitude");
         put("android.speak", "say \"%s\"", "text");
         put("black_box.mark", "mark \"%s\"", "text");
         put("arduino.calibrate", "calibrate %s", "what");

@@ -33,8 +33,23 @@ final class Facts {
                     return phone(telemetry);
                 }
             },
-            new Flag("panic", "panic", "load.panic", true, EventLevel.WARNING,
-                    "panic: every sender slows down", "panic is over"),
+            new Fact("panic", "panic") {
+                @Override
+                Object read(Telemetry telemetry) {
+                    return Busy.of(telemetry);
+                }
+
+                @Override
+                String words(Object before, Object now) {
+                    return now instanceof Busy ? now.toString()
+                            : before == null ? null : "Raspberry Pi not busy any more";
+                }
+
+                @Override
+                EventLevel level(Object before, Object now) {
+                    return EventLevel.INFO;
+                }
+            },
             new Vetoes(),
             new Named("role", "link", "ground.role", "the ground is now", EventLevel.WARNING),
             source("orientation"), source("location"), source("altitude"), source("heading"),

@@ -60,6 +60,11 @@ public final class GainKey {
         return LOOP_WORDS[loop] + " " + AXIS_WORDS[axis] + " " + term().toUpperCase(Locale.ROOT);
     }
 
+    /** Says whether a controller uses it: none holds a yaw angle, none navigates yet. */
+    public boolean isUsed() {
+        return loop == 0 || loop == 1 && axis < 2;
+    }
+
     /** Says whether it is the rudder's, which a set may leave out. */
     boolean isRudder() {
         return axis == 2;

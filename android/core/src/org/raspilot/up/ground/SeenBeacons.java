@@ -5,9 +5,11 @@ import java.util.Iterator;
 
 /** The beacons that telemetry brought: whether the pilot has seen what flies now. */
 final class SeenBeacons {
-    /** A beacon that the aircraft sent longer ago, ms, is stale (docs/protocols.md 4). */
-    static final long FRESH_MS = 2000;
-    /** More frames than this within FRESH_MS come from no aircraft. */
+    /** A beacon that the aircraft sent longer ago, ms, is stale (docs/protocols.md 4)... */
+    private static final long FRESH_MS = 2000;
+    /** ...unless the period of telemetry, and this for the way, are longer. */
+    private static final long WAY_MS = 1000;
+    /** More frames than this while a beacon is fresh come from no aircraft. */
     private static final int KEPT = 512;
 
     private static final class Heard {
@@ -24,10 +26,14 @@ final class SeenBeacons {
     private Heard seen;
     private boolean hasFrames;
     private boolean hasBeacons;
+    private long limitMs = FRESH_MS;
 
     /** Remembers a frame's beacon; null: it has none. */
     void onFrame(Telemetry frame) {
         hasFrames = true;
+        final Double periodMs = frame.number("system.period_ms");
+        limitMs = periodMs == null ? FRESH_MS
+                : Math.max(FRESH_MS, Math.round(periodMs) + WAY_MS);
         if (frame.beacon() == null) {
             return;
         }
@@ -67,7 +73,12 @@ final class SeenBeacons {
     /** Says whether the aircraft would take that beacon as fresh. */
     boolean isFresh(Long beacon, long nowMs) {
         final Heard found = find(beacon);
-        return found != null && nowMs - found.sentMs <= FRESH_MS;
+        return found != null && nowMs - found.sentMs <= limitMs;
+    }
+
+    /** Returns the age, ms, from which on a beacon is stale now. */
+    long limitMs() {
+        return limitMs;
     }
 
     private Heard find(Long beacon) {

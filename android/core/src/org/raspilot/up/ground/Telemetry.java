@@ -124,7 +124,8 @@ public final class Telemetry {
         if (first.equals("home")) {
             return "location";
         }
-        if (first.equals("armed") || first.equals("flight_mode") || first.equals("arduino")) {
+        if (first.equals("armed") || first.equals("in_flight") || first.equals("flight_mode")
+                || first.equals("arduino")) {
             return path.equals("arduino.connected") ? path : "flight";
         }
         if (path.equals("android.batteryLevel")) {

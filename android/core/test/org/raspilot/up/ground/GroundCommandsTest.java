@@ -89,6 +89,19 @@ public final class GroundCommandsTest {
     }
 
     @Test
+    public void aBeaconStaysFreshForASlowPeriod() {
+        bench.open(Seat.COMMAND);
+        bench.frame(1, "{\"system\": {\"period_ms\": 10000}}");
+        bench.ground.seen(1L);
+        bench.loop.advance(10999);
+        send(new DisarmCommand());
+        assertEquals(Long.valueOf(1), bench.sent(DisarmCommand.NAME).beacon());
+        bench.loop.advance(2);
+        send(new DisarmCommand());
+        mustBeRefused("stale");
+    }
+
+    @Test
     public void theHoldUpOnTheWayCountsForTheBeaconToo() {
         bench.open(Seat.COMMAND);
         bench.frame(1, "{\"system\": {\"clock_ms\": 0}}");
@@ -178,10 +191,13 @@ public final class GroundCommandsTest {
     public void armingNeedsABeaconEvenWhereTheAircraftHasNone() {
         bench.open(Seat.COMMAND);
         bench.say("{\"name\": \"up.telemetry.update\", \"data\": {}}");
-        send(new DisarmCommand());
-        assertNull("a thesis aircraft tells no beacons", bench.sent(DisarmCommand.NAME).beacon());
-        send(new ArmCommand());
-        mustBeRefused("no_beacon");
+        send(new FlightModeCommand("FBW"));
+        assertNull("a thesis aircraft tells no beacons",
+                bench.sent(FlightModeCommand.NAME).beacon());
+        for (BaseCommand command : new BaseCommand[] {new ArmCommand(), new DisarmCommand()}) {
+            send(command);
+            mustBeRefused("no_beacon");
+        }
     }
 
     @Test

@@ -1,7 +1,6 @@
 package org.raspilot.app.commands;
 
 import android.content.res.Resources;
-import java.util.Locale;
 import java.util.Map;
 import org.raspilot.app.R;
 import org.raspilot.app.ground.Picture;
@@ -75,12 +74,6 @@ final class CommandWords {
 
     /** Returns what is to be known of now beside the form of a Command; empty: nothing. */
     static String now(Resources words, String name, Picture picture) {
-        if (name.equals("up.heading.change")) {
-            return now(words, picture, "heading.actual", "heading.required", "\u00b0");
-        }
-        if (name.equals("up.altitude.change")) {
-            return now(words, picture, "altitude", "altitude_required", " m");
-        }
         if (name.equals("up.flight_mode.set")) {
             return words.getString(R.string.commands_now, mode(words, picture));
         }
@@ -98,27 +91,11 @@ final class CommandWords {
         return "";
     }
 
-    private static String now(Resources words, Picture picture, String actual, String required,
-            String unit) {
-        Double value = picture.telemetry.number(actual);
-        Double asked = picture.telemetry.number(required);
-        boolean isLive = picture.telemetry.freshness(actual, picture.nowMs) == Freshness.LIVE;
-        // What is not of now never reads as if it were.
-        String text = value == null || !isLive ? words.getString(R.string.commands_not_known)
-                : number(value) + unit;
-        return asked == null ? words.getString(R.string.commands_now, text)
-                : words.getString(R.string.commands_now_asked, text, number(asked) + unit);
-    }
-
     private static String mode(Resources words, Picture picture) {
         String mode = picture.telemetry.text("flight_mode");
         boolean isLive = picture.telemetry.freshness("flight_mode", picture.nowMs)
                 == Freshness.LIVE;
         return isLive && mode != null ? mode : words.getString(R.string.commands_not_known);
-    }
-
-    private static String number(double value) {
-        return String.format(Locale.ROOT, "%.0f", value);
     }
 
     private static int titleOf(String name) {
@@ -128,10 +105,6 @@ final class CommandWords {
             return R.string.title_disarm;
         } else if (name.equals("up.flight_mode.set")) {
             return R.string.title_mode;
-        } else if (name.equals("up.heading.change")) {
-            return R.string.title_heading;
-        } else if (name.equals("up.altitude.change")) {
-            return R.string.title_altitude;
         } else if (name.equals("up.telemetry.frequency")) {
             return R.string.title_period;
         } else if (name.equals("arduino.pids.tunings")) {

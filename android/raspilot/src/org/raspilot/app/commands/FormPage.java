@@ -9,7 +9,6 @@ import android.widget.Button;
 import android.widget.TextView;
 import java.util.ArrayList;
 import java.util.Collections;
-import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
@@ -21,14 +20,11 @@ import org.raspilot.up.commands.InvalidCommandException;
 
 /** The form of any Command, made from its description. */
 final class FormPage implements Page, View.OnClickListener {
-    private static final String MODE = "mode";
-    private static final String REQUIRED = "required";
     private static final int[] PERIODS_MS = {50, 100, 200, 500, 1000, 2000};
 
     private final CommandForm form;
     private final Desk desk;
     private final Map<String, String> draft;
-    private final Map<String, String> fixed;
     private final View element;
     private final List<FieldView> fields = new ArrayList<FieldView>();
     private final List<View> presets = new ArrayList<View>();
@@ -42,7 +38,6 @@ final class FormPage implements Page, View.OnClickListener {
         this.form = form;
         this.desk = desk;
         draft = desk.memory().draft(form.name());
-        fixed = fixed(form);
         LayoutInflater inflater = LayoutInflater.from(desk.context());
         element = inflater.inflate(R.layout.page_form, null);
         Resources words = desk.context().getResources();
@@ -57,9 +52,7 @@ final class FormPage implements Page, View.OnClickListener {
         send.setOnClickListener(this);
         ViewGroup list = (ViewGroup) element.findViewById(R.id.page_fields);
         for (CommandField field : form.fields()) {
-            if (!fixed.containsKey(field.name())) {
-                fields.add(new FieldView(list, field, draft));
-            }
+            fields.add(new FieldView(list, field, draft));
         }
         if (form.name().equals("up.telemetry.frequency") && fields.size() == 1) {
             addPresets((ViewGroup) element.findViewById(R.id.page_presets));
@@ -75,7 +68,7 @@ final class FormPage implements Page, View.OnClickListener {
     @Override
     public void update() {
         Resources words = desk.context().getResources();
-        String objection = desk.objectionText(form, fixed);
+        String objection = desk.objectionText(form, Collections.<String, String>emptyMap());
         Texts.showOrHide(why, objection);
         Texts.showOrHide(now, CommandWords.now(words, form.name(), desk.picture()));
         boolean isOffered = objection.isEmpty();
@@ -102,11 +95,9 @@ final class FormPage implements Page, View.OnClickListener {
     }
 
     private void ask() {
-        Map<String, String> inputs = new LinkedHashMap<String, String>(draft);
-        inputs.putAll(fixed);
         final BaseCommand command;
         try {
-            command = form.command(inputs);
+            command = form.command(draft);
         } catch (InvalidCommandException wrong) {
             Texts.showOrHide(problem, wrong.getMessage());
             return;
@@ -142,17 +133,5 @@ final class FormPage implements Page, View.OnClickListener {
             presets.add(preset);
         }
         row.setVisibility(View.VISIBLE);
-    }
-
-    /** What a ground always says of these two: it asks, it does not measure. */
-    private static Map<String, String> fixed(CommandForm form) {
-        boolean isWish = form.name().equals("up.heading.change")
-                || form.name().equals("up.altitude.change");
-        CommandField mode = form.field(MODE);
-        if (isWish && mode != null && mode.choices() != null
-                && mode.choices().contains(REQUIRED)) {
-            return Collections.singletonMap(MODE, REQUIRED);
-        }
-        return Collections.emptyMap();
     }
 }

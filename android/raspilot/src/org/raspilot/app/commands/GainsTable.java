@@ -15,10 +15,10 @@ import org.raspilot.app.view.Inks;
 import org.raspilot.app.view.Texts;
 import org.raspilot.up.ground.GainKey;
 
-/** The cells of a set of gains: a heading for each loop, a row for each axis, P, I and D in it. */
+/** The cells of the gains that are used: a heading a loop, a row an axis, P, I and D in it. */
 final class GainsTable {
     private static final int[] LOOPS = {
-        R.string.gains_rate, R.string.gains_stabilize, R.string.gains_navigation
+        R.string.gains_rate, R.string.gains_stabilize
     };
     private static final int[] AXES = {
         R.string.gains_roll, R.string.gains_pitch, R.string.gains_yaw
@@ -50,7 +50,9 @@ final class GainsTable {
             ((TextView) heading.findViewById(R.id.gains_loop)).setText(LOOPS[loop]);
             list.addView(heading);
             for (int axis = 0; axis < AXES.length; axis++) {
-                addRow(inflater, list, loop, axis);
+                if (GainKey.ALL.get(9 * loop + 3 * axis).isUsed()) {
+                    addRow(inflater, list, loop, axis);
+                }
             }
         }
         refill();

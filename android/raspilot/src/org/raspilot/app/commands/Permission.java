@@ -82,7 +82,10 @@ final class Permission {
             return Objection.SILENT;
         }
         boolean isLive = telemetry.freshness("armed", nowMs) == Freshness.LIVE;
-        return ofMotor(name, isLive ? telemetry.flag("armed") : null, tuneInFlight);
+        boolean isForAir = name.equals(PidTuningsCommand.NAME)
+                && telemetry.flag("in_flight") != null;
+        Boolean flag = telemetry.flag(isForAir ? "in_flight" : "armed");
+        return ofMotor(name, isLive ? flag : null, tuneInFlight);
     }
 
     /** Returns why nothing can be sent at all. */
@@ -107,7 +110,7 @@ final class Permission {
         }
     }
 
-    /** Returns what stands against a Command in the motor's state; null: that is not known. */
+    /** Returns what stands against a Command while armed, gains: in flight; null: not known. */
     static Objection ofMotor(String name, Boolean isArmed, Boolean tuneInFlight) {
         if (isArmed == null) {
             return Objection.NONE;

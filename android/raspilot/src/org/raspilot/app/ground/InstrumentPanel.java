@@ -53,13 +53,12 @@ final class InstrumentPanel {
         showSpeed(picture);
         Double metres = telemetry.number("altitude");
         if (metres != null) {
-            altitude.setValue(metres, telemetry.number("altitude_required"));
+            altitude.setValue(metres);
         }
         age(altitude, picture, "altitude", metres != null);
         Double heading = telemetry.number("heading.actual");
         if (heading != null) {
-            compass.setHeading(heading, telemetry.number("heading.required"),
-                    telemetry.number("home.bearing"));
+            compass.setHeading(heading, telemetry.number("home.bearing"));
         }
         age(compass, picture, "heading.actual", heading != null);
         showBars(sticks, picture, "rx", CHANNELS.length);
@@ -76,7 +75,7 @@ final class InstrumentPanel {
         }
         Double now = groundSpeed.metresPerSecond();
         if (now != null) {
-            speed.setValue(now, null);
+            speed.setValue(now);
         }
         age(speed, picture, "location.latitude", now != null);
     }

@@ -11,6 +11,7 @@ import java.util.List;
 import java.util.Locale;
 import org.raspilot.app.R;
 import org.raspilot.app.view.Inks;
+import org.raspilot.up.ground.Busy;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
 
@@ -107,17 +108,11 @@ final class StatePanel {
 
     private void showPanic(Picture picture) {
         Boolean isPanic = picture.telemetry.flag("load.panic");
-        Double delayMs = picture.telemetry.number("load.delay_ms");
         String text = null;
         if (isPanic != null) {
-            text = words.getString(R.string.state_no);
-            if (isPanic) {
-                text = delayMs == null ? words.getString(R.string.state_yes)
-                        : words.getString(R.string.state_panic_delay, Math.round(delayMs));
-            }
+            text = isPanic ? Busy.words(picture.telemetry) : words.getString(R.string.state_no);
         }
-        show(panic, picture, "load.panic", text,
-                Boolean.TRUE.equals(isPanic) ? Row.Look.WARNING : Row.Look.PLAIN);
+        show(panic, picture, "load.panic", text, Row.Look.PLAIN);
     }
 
     private void showLoad(Picture picture) {

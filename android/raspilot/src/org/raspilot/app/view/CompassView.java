@@ -7,7 +7,7 @@ import android.util.AttributeSet;
 
 import org.raspilot.app.R;
 
-/** The heading on a lying tape, with the heading asked for and the way home. */
+/** The heading on a lying tape, with the way home. */
 public final class CompassView extends Instrument {
     private static final int STEP_DEG = 5;
     private static final int LABEL_EACH = 3;
@@ -16,12 +16,9 @@ public final class CompassView extends Instrument {
     private final TapeGeometry geometry = new TapeGeometry(STEP_DEG);
     private final String[] names = new String[360 / STEP_DEG / LABEL_EACH];
     private final Path pointer = new Path();
-    private final Path bug = new Path();
     private float headingDeg;
-    private float requiredDeg = Float.NaN;
     private float homeDeg = Float.NaN;
     private String figures = UNKNOWN;
-    private String requiredFigures = "";
     private final String homeLetter;
 
     /** Makes the view as a layout asks for it. */
@@ -37,22 +34,17 @@ public final class CompassView extends Instrument {
      * Takes directions, degrees clockwise from north.
      *
      * @param heading where the nose points
-     * @param required the heading asked for; null: none
      * @param home where home lies; null: not known
      */
-    public void setHeading(double heading, Double required, Double home) {
-        float requiredNow = required == null ? Float.NaN : required.floatValue();
+    public void setHeading(double heading, Double home) {
         float homeNow = home == null ? Float.NaN : home.floatValue();
         if (figures != UNKNOWN && (float) heading == headingDeg
-                && Float.compare(requiredNow, requiredDeg) == 0
                 && Float.compare(homeNow, homeDeg) == 0) {
             return;
         }
         headingDeg = CompassGeometry.wrapped((float) heading);
-        requiredDeg = requiredNow;
         homeDeg = homeNow;
         figures = CompassGeometry.figures(headingDeg);
-        requiredFigures = required == null ? "" : CompassGeometry.figures(requiredNow);
         invalidate();
     }
 
@@ -66,11 +58,6 @@ public final class CompassView extends Instrument {
         pointer.lineTo(0, height - dp(11));
         pointer.lineTo(dp(7), height);
         pointer.close();
-        bug.reset();
-        bug.moveTo(0, dp(10));
-        bug.lineTo(-dp(7), 0);
-        bug.lineTo(dp(7), 0);
-        bug.close();
     }
 
     @Override
@@ -82,7 +69,6 @@ public final class CompassView extends Instrument {
             drawMark(canvas, place);
         }
         drawHome(canvas);
-        drawBug(canvas);
         canvas.drawPath(pointer, area(inks().ink));
         drawWindow(canvas);
         canvas.restore();
@@ -96,11 +82,7 @@ public final class CompassView extends Instrument {
     @Override
     protected String describe() {
         String point = CompassGeometry.point(headingDeg);
-        if (Float.isNaN(requiredDeg)) {
-            return getContext().getString(R.string.view_heading, figures, point);
-        }
-        return getContext().getString(R.string.view_heading_required, figures, point,
-                requiredFigures);
+        return getContext().getString(R.string.view_heading, figures, point);
     }
 
     @Override
@@ -124,15 +106,6 @@ public final class CompassView extends Instrument {
         float top = getHeight() - dp(11) - sp(20);
         canvas.drawRect(-half, top, half, top + sp(19), area(inks().ground));
         centred(canvas, figures, 0, top + sp(9.5f), 17, inks().ink);
-    }
-
-    private void drawBug(Canvas canvas) {
-        if (!Float.isNaN(requiredDeg)) {
-            canvas.save();
-            canvas.translate(xOf(requiredDeg), 0);
-            canvas.drawPath(bug, area(inks().accent));
-            canvas.restore();
-        }
     }
 
     private void drawHome(Canvas canvas) {

@@ -21,13 +21,10 @@ public final class TapeView extends Instrument {
     private final boolean isLeft;
     private final boolean hasLeast;
     private final Path window = new Path();
-    private final Path bug = new Path();
     private String[] labels = new String[0];
     private long labelledFrom = Long.MIN_VALUE;
     private float value;
-    private float required = Float.NaN;
     private String valueText = UNKNOWN;
-    private String requiredText = "";
 
     /** Makes the view as a layout asks for it, with the attributes of TapeView. */
     public TapeView(Context context, AttributeSet attributes) {
@@ -45,24 +42,13 @@ public final class TapeView extends Instrument {
         }
     }
 
-    /**
-     * Takes a value.
-     *
-     * @param now in the tape's unit
-     * @param asked the value asked for; null: none
-     */
-    public void setValue(double now, Double asked) {
-        float askedNow = asked == null ? Float.NaN : asked.floatValue();
-        if ((float) now == value && Float.compare(askedNow, required) == 0
-                && valueText != UNKNOWN) {
+    /** Takes a value, in the tape's unit. */
+    public void setValue(double now) {
+        if ((float) now == value && valueText != UNKNOWN) {
             return;
         }
         value = (float) now;
         valueText = Long.toString(Math.round(now));
-        if (Float.compare(askedNow, required) != 0) {
-            required = askedNow;
-            requiredText = asked == null ? "" : Long.toString(Math.round(asked));
-        }
         label();
         invalidate();
     }
@@ -85,11 +71,6 @@ public final class TapeView extends Instrument {
         window.lineTo(back, half);
         window.lineTo(far, half);
         window.close();
-        bug.reset();
-        bug.moveTo(edge, -dp(7));
-        bug.lineTo(isLeft ? edge - dp(8) : dp(8), 0);
-        bug.lineTo(edge, dp(7));
-        bug.close();
     }
 
     @Override
@@ -100,7 +81,6 @@ public final class TapeView extends Instrument {
         for (int place = 0; place < labels.length; place++) {
             drawMark(canvas, place);
         }
-        drawBug(canvas);
         canvas.drawPath(window, area(inks().ground));
         canvas.drawPath(window, line(inks().ink, 1.5f));
         centred(canvas, valueText, getWidth() / 2f, 0, 18, inks().ink);
@@ -116,11 +96,7 @@ public final class TapeView extends Instrument {
 
     @Override
     protected String describe() {
-        if (Float.isNaN(required)) {
-            return getContext().getString(R.string.view_tape, title, valueText, unit);
-        }
-        return getContext().getString(R.string.view_tape_required, title, valueText, unit,
-                requiredText);
+        return getContext().getString(R.string.view_tape, title, valueText, unit);
     }
 
     @Override
@@ -150,19 +126,6 @@ public final class TapeView extends Instrument {
         }
     }
 
-    private void drawBug(Canvas canvas) {
-        if (Float.isNaN(required)) {
-            return;
-        }
-        // What is asked for beyond the tape stays visible at its end.
-        float most = getHeight() / 2f - dp(8);
-        float y = Math.max(-most, Math.min(most, -geometry.distance(required, value)));
-        canvas.save();
-        canvas.translate(0, y);
-        canvas.drawPath(bug, area(inks().accent));
-        canvas.restore();
-    }
-
     private void drawCaps(Canvas canvas) {
         float high = capHeight();
         float middle = getWidth() / 2f;
@@ -173,11 +136,7 @@ public final class TapeView extends Instrument {
         }
         float foot = getHeight() - high;
         canvas.drawRect(0, foot, getWidth(), getHeight(), area(inks().ground));
-        if (requiredText.length() > 0) {
-            centred(canvas, requiredText, middle, foot + high / 2, 11, inks().accent);
-        } else {
-            centred(canvas, unit, middle, foot + high / 2, 11, inks().dim);
-        }
+        centred(canvas, unit, middle, foot + high / 2, 11, inks().dim);
     }
 
     private float capHeight() {

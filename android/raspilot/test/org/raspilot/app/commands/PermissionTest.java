@@ -93,6 +93,15 @@ public final class PermissionTest {
         assertEquals(Objection.NONE, Permission.ofMotor(name, true, true));
         assertEquals(Objection.NONE, Permission.ofMotor(name, true, null));
         assertEquals(Objection.NONE, Permission.ofMotor(name, false, false));
+        Map<String, Object> data = new HashMap<String, Object>();
+        data.put("armed", false);
+        data.put("in_flight", true);
+        data.put("age_ms", Collections.singletonMap("flight", 100L));
+        Telemetry glider = Telemetry.of(data, 7L, 10000, 0);
+        assertEquals(Objection.ARMED,
+                Permission.ofAircraft(name, NOTHING, false, glider, 10500));
+        assertEquals(Objection.NONE,
+                Permission.ofAircraft("up.arm", NOTHING, false, glider, 10500));
     }
 
     @Test

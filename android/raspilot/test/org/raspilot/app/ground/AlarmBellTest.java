@@ -36,7 +36,7 @@ public final class AlarmBellTest {
 
     @Test
     public void aWarningIsRepeatedSeldom() {
-        wrong("PANIC", AlarmBell.Ring.WARNING);
+        wrong("PHONE", AlarmBell.Ring.WARNING);
         assertEquals(AlarmBell.Ring.WARNING, bell.look(0));
         assertEquals(AlarmBell.Ring.NONE, bell.look(9999));
         assertEquals(AlarmBell.Ring.WARNING, bell.look(10000));
@@ -44,11 +44,11 @@ public final class AlarmBellTest {
 
     @Test
     public void whatIsNewSoundsAtOnceBesideWhatSoundsAlready() {
-        wrong("PANIC", AlarmBell.Ring.WARNING);
+        wrong("PHONE", AlarmBell.Ring.WARNING);
         bell.look(0);
-        wrong("PANIC", AlarmBell.Ring.WARNING, "BATTERY", AlarmBell.Ring.WARNING);
+        wrong("PHONE", AlarmBell.Ring.WARNING, "BATTERY", AlarmBell.Ring.WARNING);
         assertEquals(AlarmBell.Ring.WARNING, bell.look(100));
-        wrong("PANIC", AlarmBell.Ring.WARNING, "BATTERY", AlarmBell.Ring.ALARM);
+        wrong("PHONE", AlarmBell.Ring.WARNING, "BATTERY", AlarmBell.Ring.ALARM);
         assertEquals(AlarmBell.Ring.ALARM, bell.look(200));
     }
 

@@ -1,0 +1,80 @@
+"""Who controls the servos: one publisher of set-points and Outputs at a time."""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from collections.abc import Callable
+from types import FrameType
+
+from twisted.logger import Logger
+
+from up.log.limits import Once
+
+SILENCE_S = 0.25
+"""Silence after which the owner loses control: the longest life of a set-point and an Output."""
+
+
+class ControlLease:
+    """Grants control to the first publisher, until it stops or is silent for ``SILENCE_S``.
+
+    Other publishers are refused, logged once per pair, and counted by name in ``refused``.
+    """
+
+    log = Logger()
+
+    def __init__(self, seconds: Callable[[], float]) -> None:
+        self.refused: Counter[str] = Counter()
+        self._seconds = seconds
+        self._owner = ""
+        self._renewed_at_s = float("-inf")
+        self._logged = Once()
+
+    @property
+    def owner(self) -> str | None:
+        """Return the publisher that has control now, or None."""
+        is_held = self._seconds() - self._renewed_at_s <= SILENCE_S
+        return self._owner if is_held else None
+
+    def refuses(self, publisher: str, command: str) -> str | None:
+        """Return why a publisher is refused; otherwise None, and it has control."""
+        owner = self.owner
+        if owner is None or owner == publisher:
+            self._owner, self._renewed_at_s = publisher, self._seconds()
+            return None
+        self.refused[publisher] += 1
+        reason = f"{publisher} may not publish {command}: {owner} has control"
+        if self._logged.first((publisher, owner)):
+            self.log.warn(
+                "{reason} (logged once, then counted)",
+                reason=reason,
+                code="control_taken",
+                publisher=publisher,
+                owner=owner,
+                command=command,
+            )
+        return reason
+
+    def release(self, publisher: str) -> None:
+        """Take control from a publisher that stops."""
+        if publisher == self._owner:
+            self._renewed_at_s = float("-inf")
+
+
+def calling_publisher() -> str:
+    """Return the class of the module that called the bus, or its function's name.
+
+    For the bus. What lies above an outer call of the bus is another publisher.
+    """
+    # As logging and twisted.logger find their callers.
+    frame: FrameType | None = sys._getframe(1)
+    bus = frame.f_code.co_filename if frame else ""
+    while frame is not None and frame.f_code.co_filename == bus:
+        frame = frame.f_back
+    function = "unknown" if frame is None else frame.f_code.co_qualname
+    while frame is not None and frame.f_code.co_filename != bus:
+        name = getattr(frame.f_locals.get("self"), "class_name", None)
+        if name is not None:
+            return str(name)
+        frame = frame.f_back
+    return function
