@@ -22,8 +22,8 @@ from up.commands.command_registry import CommandRegistry
 from up.commands.control_lease import ControlLease, calling_publisher
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
-from up.log.limits import Limited
 from up.commands.roles import Role
+from up.log.limits import Limited
 from up.registrations import note_undo
 
 Handler = Callable[[Any], Any]

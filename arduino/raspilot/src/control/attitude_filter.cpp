@@ -43,6 +43,8 @@ constexpr int16_t ONE_Q14 = 1 << 14;
 constexpr int16_t LEAST_COSINE_SQUARED_Q14 = 820;  // pitch of 77 degrees: yaw means little above
 constexpr uint16_t YAW_PER_Q17 = 5215;             // 2^32 / (2 pi) / 2^17
 constexpr int16_t HALF_CIRCLE_CDEG = 18000;
+// Straight up or down a bank means nothing: 0.2.
+constexpr int16_t MIN_COS_PITCH = 3277;
 
 // Four samples are collected for one look at the accelerometer, each at most 2 g an axis: halved
 // and turned in any way they stay within 16 bits.
@@ -105,7 +107,7 @@ OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
   if (phase_ == 0) {
     correct();
     normalize();
-  } else if (tilt_.step(down_, correction)) {
+  } else if (tilt_.step(attitude_, correction)) {
     apply(correction);
   }
   if ((phase_ & 1) != 0) {
@@ -331,15 +333,13 @@ OUT_OF_LINE void AttitudeFilter::find_roll_and_yaw() {
 OUT_OF_LINE void AttitudeFilter::find_pitch() {
   const uint32_t level_square = static_cast<uint32_t>(product(down_[1], down_[1])) +
                                 static_cast<uint32_t>(product(down_[2], down_[2]));
-  const int16_t level = static_cast<int16_t>(square_root(level_square));
-  attitude_.pitch_cdeg = arc_tangent_cdeg(negative(down_[0]), level);
-  attitude_.cos_bank_q14 = attitude_.tan_bank_q13 = 0;
-  if (down_[2] <= 0) return;
-  const int16_t sine = static_cast<int16_t>(product(down_[1], ONE_Q14) / level);
-  const int16_t cosine = static_cast<int16_t>(product(down_[2], ONE_Q14) / level);
-  attitude_.cos_bank_q14 = cosine;
-  attitude_.tan_bank_q13 = static_cast<int16_t>(
-      cosine < ONE_Q14 / 2 ? shifted(product(sine, cosine), 13) : product(sine, 8192) / cosine);
+  int16_t level = static_cast<int16_t>(square_root(level_square));
+  attitude_.sin_pitch = negative(down_[0]);
+  attitude_.pitch_cdeg = arc_tangent_cdeg(attitude_.sin_pitch, level);
+  if (level < MIN_COS_PITCH) level = MIN_COS_PITCH;
+  attitude_.cos_pitch = level;
+  attitude_.sin_roll = static_cast<int16_t>(product(down_[1], ONE_Q14) / level);
+  attitude_.cos_roll = static_cast<int16_t>(product(down_[2], ONE_Q14) / level);
 }
 
 OUT_OF_LINE void AttitudeFilter::find_angles() {

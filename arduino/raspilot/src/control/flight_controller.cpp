@@ -32,6 +32,8 @@ constexpr int32_t RATE_TO_UPPER_HALF = 8;
 constexpr int16_t CDEG_TO_128THS = 20972;
 constexpr int16_t HALF_CIRCLE_CDEG = 18000;
 constexpr int32_t CIRCLE_CDEG = 36000;
+constexpr int16_t ONE_Q14 = 16384;
+constexpr int16_t HALF_Q14 = 8192;
 
 // The yaw damper's mean follows by a 1024th a slot: 2.05 s.
 constexpr int32_t ONE_Q16 = 1L << 16;
@@ -152,14 +154,18 @@ int16_t FlightController::wanted_rate_16(Channel channel, const Demand& demand,
 }
 
 /**
- * The rate about the pitch axis that changes pitch by `wanted_16`, sixteenths of a deg/s: banked,
- * the nose stays where it is only while it turns with the yaw rate. Beyond 90 degrees of bank the
- * elevator waits: it would pull the nose down.
+ * The rate about the pitch axis that changes pitch by `wanted_16`, sixteenths of a deg/s. Banked,
+ * the nose stays where it is only while it pitches with the turn: by the yaw rate times the tangent
+ * of the bank, which beyond 60 degrees falls to 0 at 90. Beyond 90 degrees the elevator waits: it
+ * would pull the nose down.
  */
 int16_t FlightController::pitch_rate_in_turn_16(int16_t wanted_16, const Attitude& attitude) {
-  const int16_t turning_16 =
-      to_int16(shifted(product(attitude.yaw_rate_16, attitude.tan_bank_q13), 13));
-  return sum_of(times_q14(wanted_16, attitude.cos_bank_q14), turning_16);
+  const int16_t cosine = attitude.cos_roll;
+  if (cosine <= 0) return 0;
+  const int16_t sideways_16 = times_q14(attitude.yaw_rate_16, attitude.sin_roll);
+  const int32_t turning_16 = cosine < HALF_Q14 ? shifted(product(sideways_16, cosine), 12)
+                                               : product(sideways_16, ONE_Q14) / cosine;
+  return sum_of(times_q14(wanted_16, cosine), to_int16(turning_16));
 }
 
 /** The failsafe's, the Raspberry Pi's or the stick's bank or pitch. */

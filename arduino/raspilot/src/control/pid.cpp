@@ -1,7 +1,5 @@
 #include "pid.h"
 
-#include <string.h>
-
 #include "fixed_point.h"
 
 namespace raspilot {
@@ -17,8 +15,6 @@ constexpr uint16_t I_FACTOR = 1049;
 constexpr uint8_t D_BITS = 14;
 constexpr uint8_t D_FACTOR = 125;
 constexpr uint32_t GREATEST_D = 65535;
-constexpr uint32_t MANTISSA = 0x7FFFFF;
-constexpr uint32_t IMPLIED_ONE = 0x800000;
 
 constexpr uint8_t INTEGRAL_BITS = 6;
 // Six times every limit when it is a derivative, and the greatest P still fits beside it.
@@ -26,23 +22,17 @@ constexpr int32_t GREATEST_SLOPE = 50000000L;
 // No aircraft turns by this much in a slot: the angle went round the circle.
 constexpr int16_t GREATEST_CHANGE = 1000;
 
-/** A gain of 0 to 50 times 2^bits, rounded down: its bits as IEEE 754 has them, moved. */
-OUT_OF_LINE uint32_t to_fixed(float gain, uint8_t bits) {
-  uint32_t code;
-  memcpy(&code, &gain, sizeof code);
-  const uint8_t exponent = static_cast<uint8_t>(code >> 23);
-  const uint8_t shift = static_cast<uint8_t>(127 + 23 - bits - exponent);
-  // Below the least step, zero among them; a gain of 50 is far from the other end.
-  if (exponent < 127 - bits || shift > 31) return 0;
-  return ((code & MANTISSA) | IMPLIED_ONE) >> shift;
+/** A gain of 0 to 50 times 2^bits, rounded down. */
+OUT_OF_LINE int32_t to_fixed(float gain, uint8_t bits) {
+  return static_cast<int32_t>(gain * static_cast<float>(1L << bits));
 }
 
 }  // namespace
 
 OUT_OF_LINE void Pid::tune(const PidGains& gains) {
   p_ = static_cast<uint16_t>(to_fixed(gains.p, P_BITS));
-  i_ = static_cast<uint16_t>(to_fixed(gains.i, I_BITS) * I_FACTOR >> I_BITS);
-  const uint32_t d = to_fixed(gains.d, D_BITS) * D_FACTOR >> 7;
+  i_ = static_cast<uint16_t>(static_cast<uint32_t>(to_fixed(gains.i, I_BITS)) * I_FACTOR >> I_BITS);
+  const uint32_t d = static_cast<uint32_t>(to_fixed(gains.d, D_BITS)) * D_FACTOR >> 7;
   d_ = static_cast<uint16_t>(d > GREATEST_D ? GREATEST_D : d);
   if (i_ == 0) integral_ = 0;
 }

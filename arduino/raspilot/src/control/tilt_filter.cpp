@@ -13,7 +13,6 @@ constexpr float GRAVITY_M_S2 = 9.81F;
 
 // A cycle: 64 slots of samples, then these pieces in three of four slots.
 constexpr uint8_t GROUPS = 16;
-constexpr uint8_t FIRST_PREDICTION = 2;
 constexpr uint8_t PREDICTIONS = 7;
 constexpr uint8_t PIECES_AN_UPDATE = 14;
 constexpr uint8_t SUBJECTS = 3;
@@ -23,11 +22,10 @@ constexpr float DEFAULT_SPEED_M_S = 13;
 constexpr float MIN_SPEED_M_S = 5;
 constexpr float MAX_SPEED_M_S = 40;
 
-// Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more in the
-// first minute, airspeed from gusts.
+// Random walks in a cycle: tilt from rates that are rounded, bias from temperature,
+// airspeed from gusts.
 constexpr float TILT_WALK = 0.05F * RAD;
 constexpr float BIAS_WALK = 0.01F * RAD;
-constexpr float EARLY_BIAS_WALK = 0.025F * RAD;
 constexpr float SPEED_WALK = 0.2F;
 constexpr uint16_t EARLY_CYCLES = 200;  // 54 s
 // The bias drifts as it did in the last minute, later in the last 100 s.
@@ -56,8 +54,6 @@ constexpr int16_t MAX_EXCESS_Q13 = 819;
 /** Nothing but a wrong attitude differs from a force of 1 g by so much, 30 degrees. */
 constexpr int16_t FAR_OFF_Q13 = 4096;
 constexpr float FAR_OFF_TILT = 10 * RAD;
-/** Bank means nothing straight up or down: the cosine of pitch counts as at least 0.2. */
-constexpr int16_t MIN_COS_PITCH = 3277;
 constexpr float MAX_TILT_VARIANCE = 900 * RAD * RAD;
 
 OUT_OF_LINE void add_product(float* sum, const float* a, float b) { *sum += *a * b; }
@@ -130,34 +126,24 @@ OUT_OF_LINE void TiltFilter::add(uint8_t to, uint8_t from, float factor) {
   add_product(&covariance(to, to), &covariance(to, from), factor);
 }
 
-OUT_OF_LINE void TiltFilter::find_bank(const int16_t* down_q14) {
-  const uint16_t level =
-      square_root(static_cast<uint32_t>(product(down_q14[1], down_q14[1])) +
-                  static_cast<uint32_t>(product(down_q14[2], down_q14[2])));
-  cos_pitch_ = level > MIN_COS_PITCH ? static_cast<int16_t>(level) : MIN_COS_PITCH;
-  sin_pitch_ = negative(down_q14[0]);
-  sin_bank_ = static_cast<int16_t>(product(down_q14[1], ONE_Q14) / cos_pitch_);
-  cos_bank_ = static_cast<int16_t>(product(down_q14[2], ONE_Q14) / cos_pitch_);
-}
-
 /** Mean of a sum of forces, Q13, with the centripetal force added. */
 OUT_OF_LINE int16_t TiltFilter::force(Sum across, int32_t turning) const {
   return clamped16(to_int16(shifted(sums_[across], 4) + shifted(turning, 9)), TWO_G_Q13);
 }
 
 /** The attitude's errors as they were in this cycle, and how far they can be trusted. */
-OUT_OF_LINE void TiltFilter::find_errors() {
+OUT_OF_LINE void TiltFilter::find_errors(const Attitude& attitude) {
   int16_t pitch_rate = to_int16(shifted(sums_[PITCH_RATE], 4));
   int16_t yaw_rate = to_int16(shifted(sums_[YAW_RATE], 4));
   const int16_t per_rate = to_fixed(speed_, SPEED_TO_FORCE);
   int16_t x = force(X, 0);
   int16_t y = force(Y, product(yaw_rate, per_rate));
   int16_t z = force(Z, -product(pitch_rate, per_rate));
-  turn(yaw_rate, pitch_rate, sin_bank_, cos_bank_);
+  turn(yaw_rate, pitch_rate, attitude.sin_roll, attitude.cos_roll);
   turn_rate_ = from_fixed(yaw_rate, RAD / 16);
-  turn(z, y, sin_bank_, cos_bank_);
+  turn(z, y, attitude.sin_roll, attitude.cos_roll);
   roll_error_ = y;
-  turn(x, z, sin_pitch_, cos_pitch_);
+  turn(x, z, attitude.sin_pitch, attitude.cos_pitch);
   pitch_error_ = negative(x);
   // Half of what the square of the force exceeds 1 g by: a tilt error does not change it.
   const int16_t parts[3] = {static_cast<int16_t>(x / 2), static_cast<int16_t>(y / 2),
@@ -173,45 +159,46 @@ OUT_OF_LINE void TiltFilter::find_errors() {
 }
 
 /** Tilt errors turn with the heading and grow with the bias; speed follows the force. */
-OUT_OF_LINE void TiltFilter::predict(uint8_t piece) {
+OUT_OF_LINE void TiltFilter::predict(uint8_t piece, const Attitude& attitude) {
   float factor = turn_rate_ * CYCLE_S;
   uint8_t to = ROLL;
   uint8_t from = PITCH;
   switch (piece) {
-    case 0:
+    case 0: return;
+    case 1:
       from = BIAS_X;
       factor = -CYCLE_S;
       break;
-    case 1: break;
-    case 2:
+    case 2: break;
+    case 3:
       to = PITCH;
       from = ROLL;
       factor = -factor;
       break;
-    case 3:
-      to = PITCH;
-      from = BIAS_Y;
-      factor = from_fixed(cos_bank_, -CYCLE_S / ONE_Q14);
-      break;
     case 4:
       to = PITCH;
-      from = BIAS_Z;
-      factor = from_fixed(sin_bank_, CYCLE_S / ONE_Q14);
+      from = BIAS_Y;
+      factor = from_fixed(attitude.cos_roll, -CYCLE_S / ONE_Q14);
       break;
     case 5:
+      to = PITCH;
+      from = BIAS_Z;
+      factor = from_fixed(attitude.sin_roll, CYCLE_S / ONE_Q14);
+      break;
+    case 6:
       to = SPEED;
       factor = -GRAVITY_M_S2 * CYCLE_S;
       speed_ -= from_fixed(pitch_error_, -GRAVITY_M_S2 * CYCLE_S * FORCE_UNIT);
       break;
     default:
-      add_noise(is_far_off_ ? FAR_OFF_TILT : TILT_WALK, cycles_ < EARLY_CYCLES ? EARLY_BIAS_WALK : BIAS_WALK, SPEED_WALK);
+      add_noise(is_far_off_ ? FAR_OFF_TILT : TILT_WALK, BIAS_WALK, SPEED_WALK);
       return;
   }
   add(to, from, factor);
 }
 
 /** Speed near its mean, roll by the force across the nose, no turn in straight flight. */
-OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject) {
+OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& attitude) {
   float per_bias = 1 / static_cast<float>(ONE_Q14);
   if (subject == 0) {
     weights_[SPEED] = 1;
@@ -234,8 +221,8 @@ OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject) {
     innovation_ = turn_rate_;
     variance_ = square(STRAIGHT_SIGMA + STRAIGHT_SIGMA * 8 * steep);
   }
-  weights_[BIAS_Y] = from_fixed(sin_bank_, per_bias);
-  weights_[BIAS_Z] = from_fixed(cos_bank_, per_bias);
+  weights_[BIAS_Y] = from_fixed(attitude.sin_roll, per_bias);
+  weights_[BIAS_Z] = from_fixed(attitude.cos_roll, per_bias);
 }
 
 /** A part of an update by one observation. */
@@ -265,23 +252,20 @@ OUT_OF_LINE void TiltFilter::update(uint8_t piece) {
   }
 }
 
-OUT_OF_LINE bool TiltFilter::step(const int16_t* down_q14, TiltCorrection& correction) {
+OUT_OF_LINE bool TiltFilter::step(const Attitude& attitude, TiltCorrection& correction) {
   if (groups_ < GROUPS) return false;
   uint8_t piece = piece_++;
-  if (piece == 0) find_bank(down_q14);
-  if (piece == 1) find_errors();
-  if (piece < FIRST_PREDICTION) return false;
-  piece = static_cast<uint8_t>(piece - FIRST_PREDICTION);
-  if (piece < PREDICTIONS) {
-    predict(piece);
+  if (piece == 0) find_errors(attitude);
+  if (piece <= PREDICTIONS) {
+    predict(piece, attitude);
     return false;
   }
-  piece = static_cast<uint8_t>(piece - PREDICTIONS);
+  piece = static_cast<uint8_t>(piece - PREDICTIONS - 1);
   const uint8_t subject = piece / PIECES_AN_UPDATE;
-  if (subject == SUBJECTS) return finish(correction);
+  if (subject == SUBJECTS) return finish(attitude, correction);
   piece %= PIECES_AN_UPDATE;
   if (piece == 0) {
-    begin_observation(subject);
+    begin_observation(subject, attitude);
   } else if (variance_ != 0) {
     update(static_cast<uint8_t>(piece - 1));
   }
@@ -289,7 +273,7 @@ OUT_OF_LINE bool TiltFilter::step(const int16_t* down_q14, TiltCorrection& corre
 }
 
 /** Gives the correction; starts over when rounding has spoilt the covariance. */
-OUT_OF_LINE bool TiltFilter::finish(TiltCorrection& correction) {
+OUT_OF_LINE bool TiltFilter::finish(const Attitude& attitude, TiltCorrection& correction) {
   restart();
   for (uint8_t state = 0; state < STATES; ++state) {
     if (covariance(state, state) > 0) continue;
@@ -299,7 +283,7 @@ OUT_OF_LINE bool TiltFilter::finish(TiltCorrection& correction) {
   correction.rotation_q17[0] = to_fixed(change_[ROLL], ONE_Q17);
   correction.rotation_q17[1] = to_fixed(change_[PITCH], ONE_Q17);
   correction.rotation_q17[2] = 0;
-  turn(correction.rotation_q17[1], correction.rotation_q17[2], sin_bank_, cos_bank_);
+  turn(correction.rotation_q17[1], correction.rotation_q17[2], attitude.sin_roll, attitude.cos_roll);
   float share = DRIFT_SHARE;
   if (cycles_ < EARLY_CYCLES) {
     ++cycles_;

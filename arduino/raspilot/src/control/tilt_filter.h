@@ -43,8 +43,8 @@ class TiltFilter {
    * body rates, sixteenths of a deg/s.
    */
   void collect(const int16_t* difference_q13, int16_t pitch_rate_16, int16_t yaw_rate_16);
-  /** One piece of a cycle; true when a correction is ready. `down` is the estimate, Q14. */
-  bool step(const int16_t* down_q14, TiltCorrection& correction);
+  /** One piece of a cycle; true when a correction of the attitude is ready. */
+  bool step(const Attitude& attitude, TiltCorrection& correction);
 
  private:
   enum State : uint8_t { ROLL, PITCH, BIAS_X, BIAS_Y, BIAS_Z, SPEED, STATES };
@@ -54,13 +54,12 @@ class TiltFilter {
   void restart();
   void add_noise(float tilt, float bias, float speed);
   void add(uint8_t to, uint8_t from, float factor);
-  void find_bank(const int16_t* down_q14);
-  void find_errors();
+  void find_errors(const Attitude& attitude);
   int16_t force(Sum across, int32_t turning) const;
-  void predict(uint8_t piece);
-  void begin_observation(uint8_t subject);
+  void predict(uint8_t piece, const Attitude& attitude);
+  void begin_observation(uint8_t subject, const Attitude& attitude);
   void update(uint8_t piece);
-  bool finish(TiltCorrection& correction);
+  bool finish(const Attitude& attitude, TiltCorrection& correction);
 
   // All zero at first, by its owner; begin() comes before anything else. The chip reaches the
   // first 64 bytes by short instructions.
@@ -68,10 +67,6 @@ class TiltFilter {
   uint8_t groups_;
   int16_t roll_error_;  // Q13
   int16_t pitch_error_;
-  int16_t sin_bank_;  // Q14
-  int16_t cos_bank_;
-  int16_t sin_pitch_;
-  int16_t cos_pitch_;
   bool is_far_off_;
   uint16_t cycles_;
   float innovation_;

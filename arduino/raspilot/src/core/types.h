@@ -43,9 +43,7 @@ enum class Reason : uint8_t {
  * Attitude and rotation in body axes (x forward, y right, z down): roll right wing down, pitch
  * nose up, yaw clockwise from above. Angles in hundredths of a degree (yaw and roll -18000 to
  * 18000, pitch -9000 to 9000), rates in sixteenths of a degree per second.
- *
- * Of the bank the cosine (Q14, 0 beyond 90 degrees) and the tangent (Q13, up to 60 degrees; beyond
- * that it falls to 0 at 90): they lead from a turning aircraft's pitch to its pitch rate.
+ * Sines and cosines are Q14; the cosine of pitch is at least 0.2.
  */
 struct Attitude {
   int16_t roll_cdeg;
@@ -54,8 +52,10 @@ struct Attitude {
   int16_t roll_rate_16;
   int16_t pitch_rate_16;
   int16_t yaw_rate_16;
-  int16_t cos_bank_q14;
-  int16_t tan_bank_q13;
+  int16_t sin_roll;
+  int16_t cos_roll;
+  int16_t sin_pitch;
+  int16_t cos_pitch;
 };
 
 /** What the Raspberry Pi asks for in `S`; throttle 0 is the stick's. */

@@ -37,13 +37,11 @@ class WireWriter {
   void i16(int16_t value) { u16(static_cast<uint16_t>(value)); }
   void u32(uint32_t value);
   void f32(float value);
-  /** `value` / 100 and `value` / 16 as the nearest single, without floating point. */
+  /** `value` / 100 and `value` / 16 as the nearest single. */
   void hundredths(int16_t value);
   void sixteenths(int16_t value);
 
  private:
-  void fraction(int16_t value, uint32_t unit, uint8_t halvings);
-
   uint8_t* next_;
 };
 
