@@ -161,7 +161,7 @@ def test_a_daemon_with_a_wrong_configuration_says_so(raspilot, tmp_path):
 def test_a_proxy_and_a_runner_tell_their_ports(tmp_path, short_path):
     (tmp_path / "proxy.yml").write_text("airborne port: 0\nground port: 0\nmetrics: false\n")
     (tmp_path / "runner.yml").write_text(
-        f"port: 0\nrun folder: {short_path}\nstop instances on exit: true\n"
+        f"port: 0\nrun folder: {short_path}\nstop instances on exit: true\ni_accept_root: true\n"
     )
     for server in (RealProxy(tmp_path, tmp_path), RealRunner(tmp_path, tmp_path)):
         server.start()
