@@ -91,7 +91,7 @@ TEST_CASE("a bias of the yaw gyro locks nothing out: level and still, attitude c
     flight.filter.restore(state, flight.now_us);
     flight.fly(60);
     CHECK(flight.tilt_error_deg() <= 8.0);
-    flight.fly(180);
+    flight.fly(240);
     CHECK(flight.tilt_error_deg() <= 2.0);
   }
 }

@@ -14,12 +14,13 @@ constexpr int SLOTS_TO_TUNE = 5;
 
 /** As the attitude filter gives it: hundredths of a degree, sixteenths of a deg/s. */
 Attitude attitude_of(int roll, int pitch, int yaw, int p, int q, int r) {
-  const double cosine = std::cos(roll / 100.0 * PI / 180);
-  const double sine = std::sin(roll / 100.0 * PI / 180);
-  const double tangent = cosine >= 0.5 ? sine / cosine : cosine > 0 ? 4 * sine * cosine : 0;
+  const auto part = [](double value) { return static_cast<int16_t>(std::lround(value * 16384)); };
+  const double bank = roll / 100.0 * DEG;
+  const double nose = pitch / 100.0 * DEG;
   return {static_cast<int16_t>(roll), static_cast<int16_t>(pitch), static_cast<int16_t>(yaw),
-          static_cast<int16_t>(p), static_cast<int16_t>(q), static_cast<int16_t>(r),
-          static_cast<int16_t>(std::fmax(0, cosine) * 16384), static_cast<int16_t>(tangent * 8192)};
+          static_cast<int16_t>(p),    static_cast<int16_t>(q),     static_cast<int16_t>(r),
+          part(std::sin(bank)),       part(std::cos(bank)),        part(std::sin(nose)),
+          part(std::cos(nose))};
 }
 
 /** A controller with sticks and an attitude that the test moves. */

@@ -24,10 +24,10 @@ def test_every_variant_fits_the_board(options):
     assert RAM - (firmware.symbols["_end"].address - 0x100) >= LEAST_STACK
 
 
-def test_it_fits_as_the_arduino_ide_compiles_it():
+def test_it_fits_behind_optiboot_as_the_arduino_ide_compiles_it():
     need_toolchain()
     make("SMALLER=", "FOLDER=build-ide", "build-ide/raspilot.elf")
-    assert read_firmware(ARDUINO / "build-ide" / "raspilot.elf").size <= CLASSIC_NANO_ROOM
+    assert read_firmware(ARDUINO / "build-ide" / "raspilot.elf").size <= OPTIBOOT_ROOM
 
 
 def test_there_is_no_heap():

@@ -15,7 +15,7 @@ struct AttitudeState {
   int32_t gravity_q30[3];  // direction of down in body axes
   int32_t bias_q36[3];     // of the gyro, rad per slot
   uint32_t yaw;            // a full circle is 2^32
-  uint8_t speed_m_s;       // the airspeed that turns have shown
+  float speed_m_s;         // the airspeed that turns have shown
   bool has_bias;           // measured at some time: since power-on, or kept in EEPROM
   bool has_own_bias;       // measured since power-on
   bool has_ended_search;   // for a still second

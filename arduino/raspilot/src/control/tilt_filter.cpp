@@ -22,12 +22,13 @@ constexpr float DEFAULT_SPEED_M_S = 13;
 constexpr float MIN_SPEED_M_S = 5;
 constexpr float MAX_SPEED_M_S = 40;
 
-// Random walks in a cycle: tilt from rates that are rounded, bias from temperature,
-// airspeed from gusts.
+// Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more in the
+// first minute, airspeed from gusts.
 constexpr float TILT_WALK = 0.05F * RAD;
 constexpr float BIAS_WALK = 0.01F * RAD;
+constexpr float EARLY_BIAS_WALK = 0.025F * RAD;
 constexpr float SPEED_WALK = 0.2F;
-constexpr uint16_t EARLY_CYCLES = 200;  // 54 s
+constexpr uint8_t EARLY_CYCLES = 200;  // 54 s
 // The bias drifts as it did in the last minute, later in the last 100 s.
 constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 60;
 constexpr float DRIFT_SHARE = CYCLE_S / 100;
@@ -54,7 +55,6 @@ constexpr int16_t MAX_EXCESS_Q13 = 819;
 /** Nothing but a wrong attitude differs from a force of 1 g by so much, 30 degrees. */
 constexpr int16_t FAR_OFF_Q13 = 4096;
 constexpr float FAR_OFF_TILT = 10 * RAD;
-constexpr float MAX_TILT_VARIANCE = 900 * RAD * RAD;
 
 OUT_OF_LINE void add_product(float* sum, const float* a, float b) { *sum += *a * b; }
 
@@ -93,18 +93,17 @@ OUT_OF_LINE void TiltFilter::add_noise(float tilt, float bias, float speed) {
   }
 }
 
-OUT_OF_LINE void TiltFilter::begin(uint8_t tilt_deg, uint8_t bias_10, uint8_t speed_m_s) {
+OUT_OF_LINE void TiltFilter::begin(uint8_t tilt_deg, uint8_t bias_10, float speed_m_s) {
   // Zero, and no piece of a cycle: as its owner made it.
   uint8_t* const bytes = reinterpret_cast<uint8_t*>(this);
   for (uint8_t at = 0; at < sizeof *this; ++at) bytes[at] = 0;
   add_noise(from_fixed(tilt_deg, RAD), from_fixed(bias_10, RAD / 10), 7);
-  const bool is_speed = speed_m_s >= MIN_SPEED_M_S && speed_m_s <= MAX_SPEED_M_S;
-  speed_ = mean_speed_ = is_speed ? speed_m_s : DEFAULT_SPEED_M_S;
+  speed_ = mean_speed_ = speed_m_s >= MIN_SPEED_M_S ? speed_m_s : DEFAULT_SPEED_M_S;
 }
 
 OUT_OF_LINE void TiltFilter::widen(uint8_t tilt_deg) {
   restart();
-  if (covariance(ROLL, ROLL) < MAX_TILT_VARIANCE) add_noise(from_fixed(tilt_deg, RAD), 0, 0);
+  add_noise(from_fixed(tilt_deg, RAD), 0, 0);
 }
 
 void TiltFilter::collect(const int16_t* difference_q13, int16_t pitch_rate_16,
@@ -191,7 +190,8 @@ OUT_OF_LINE void TiltFilter::predict(uint8_t piece, const Attitude& attitude) {
       speed_ -= from_fixed(pitch_error_, -GRAVITY_M_S2 * CYCLE_S * FORCE_UNIT);
       break;
     default:
-      add_noise(is_far_off_ ? FAR_OFF_TILT : TILT_WALK, BIAS_WALK, SPEED_WALK);
+      add_noise(is_far_off_ ? FAR_OFF_TILT : TILT_WALK,
+                cycles_ < EARLY_CYCLES ? EARLY_BIAS_WALK : BIAS_WALK, SPEED_WALK);
       return;
   }
   add(to, from, factor);
@@ -215,8 +215,8 @@ OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& 
     innovation_ = from_fixed(roll_error_, FORCE_UNIT);
     variance_ = noise_;
   } else {
-    const float steep = square(turn_rate_ * (1 / STRAIGHT_LIMIT));
     variance_ = 0;
+    const float steep = square(turn_rate_ * (1 / STRAIGHT_LIMIT));
     if (steep > 1) return;
     innovation_ = turn_rate_;
     variance_ = square(STRAIGHT_SIGMA + STRAIGHT_SIGMA * 8 * steep);

@@ -30,13 +30,13 @@ class TiltFilter {
  public:
   /**
    * Starts over with these uncertainties (1 sigma): tilt in degrees, gyro bias in tenths of a
-   * deg/s. A speed in m/s that is out of range becomes the default.
+   * deg/s. A speed in m/s that is no flying speed becomes the default.
    */
-  void begin(uint8_t tilt_deg, uint8_t bias_10, uint8_t speed_m_s);
+  void begin(uint8_t tilt_deg, uint8_t bias_10, float speed_m_s);
   /** Samples are missing: the tilt may have changed by `tilt_deg`. The cycle starts over. */
   void widen(uint8_t tilt_deg);
   /** Mean airspeed. */
-  uint8_t speed_m_s() const { return static_cast<uint8_t>(mean_speed_ + 0.5F); }
+  float speed_m_s() const { return mean_speed_; }
 
   /**
    * Takes a group: measured less estimated direction of down (Q13 of 1 g) in body axes, and the
@@ -68,7 +68,7 @@ class TiltFilter {
   int16_t roll_error_;  // Q13
   int16_t pitch_error_;
   bool is_far_off_;
-  uint16_t cycles_;
+  uint8_t cycles_;
   float innovation_;
   float variance_;
   float turn_rate_;  // about the vertical, rad/s

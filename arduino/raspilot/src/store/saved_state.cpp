@@ -12,7 +12,7 @@ inline void settle() { __asm__ volatile("" ::: "memory"); }
 
 }  // namespace
 
-uint16_t SavedStates::crc_of(const SavedState& state, uint8_t sequence) {
+OUT_OF_LINE uint16_t SavedStates::crc_of(const SavedState& state, uint8_t sequence) {
   const uint8_t* bytes = reinterpret_cast<const uint8_t*>(&state);
   Crc16 crc;
   crc.put(sequence);
@@ -30,7 +30,7 @@ OUT_OF_LINE uint8_t SavedStates::newest() const {
   return static_cast<int8_t>(ahead) > 0;
 }
 
-void SavedStates::write(const SavedState& state) {
+OUT_OF_LINE void SavedStates::write(const SavedState& state) {
   const uint8_t newer = newest();
   Copy& copy = copies_[newer ^ 1];
   // A reset from here on finds the other copy, which is as old as one write. The sequence changes
