@@ -58,7 +58,7 @@ def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
     board = choose_board(
         scenario.board,
         seed=scenario.seed,
-        imu_errors=scenario.imu.errors(airframe.imu),
+        imu_errors=scenario.imu.errors(airframe.imu, scenario.seed),
         eeprom=eeprom,
         say=say,
     )

@@ -10,11 +10,10 @@ from up.config import items, key, section
 from up.fields import Constraint
 from up_rig.imu import NOISE_DEG_S, NOISE_M_S2
 from up_simulator.aircraft.airframe_file import ImuConfig
-from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.imu_errors import ZERO, ImuErrors, drawn_errors
 from up_simulator.link.settings import LinkSettings
 
 _RATE = Constraint(float, minimum=-500, maximum=500, unit="deg/s")
-_ZERO = (0.0, 0.0, 0.0)
 _FORCE = Constraint(float, minimum=-50, maximum=50, unit="m/s^2")
 
 
@@ -89,16 +88,22 @@ class ImuPart:
         NOISE_M_S2, "Standard deviation of each sample.", unit="m/s^2", minimum=0, maximum=50
     )
     gyro_bias_deg_s: tuple[float, ...] = items(
-        _RATE, "Constant error of the rates: roll, pitch, yaw.", default=_ZERO, max_length=3
+        _RATE,
+        "Constant error of the rates: roll, pitch, yaw. Empty: 2 to 4 deg/s each, drawn by the"
+        " seed.",
+        max_length=3,
     )
     accel_bias_m_s2: tuple[float, ...] = items(
-        _FORCE, "Constant error of the forces: x, y, z.", default=_ZERO, max_length=3
+        _FORCE, "Constant error of the forces: x, y, z.", default=ZERO, max_length=3
     )
     gyro_drift_deg_s: tuple[float, ...] = items(
-        _RATE, "What the bias changes by until the IMU is warm.", default=_ZERO, max_length=3
+        _RATE,
+        "What the bias changes by until the IMU is warm. Empty: up to 4 deg/s each, drawn by the"
+        " seed.",
+        max_length=3,
     )
     warm_up_s: float = key(
-        60.0, "Time constant of the warming, from power-on.", unit="s", minimum=0.1, maximum=3600
+        300.0, "Time constant of the warming, from power-on.", unit="s", minimum=0.1, maximum=3600
     )
     vibration_deg_s: float | None = key(
         None,
@@ -122,16 +127,16 @@ class ImuPart:
     def problems(self) -> Iterator[tuple[str, str]]:
         """Yield what does not fit together."""
         for name in ("gyro_bias_deg_s", "accel_bias_m_s2", "gyro_drift_deg_s"):
-            if len(getattr(self, name)) != 3:
+            if getattr(self, name) and len(getattr(self, name)) != 3:
                 yield name, "must have three numbers, one for each axis"
 
-    def errors(self, imu: ImuConfig) -> ImuErrors:
-        """Return what the board's IMU is to be set to in an airframe that shakes it so."""
+    def errors(self, imu: ImuConfig, seed: int) -> ImuErrors:
+        """Return the errors of the board's IMU in this airframe, in a flight with this seed."""
         values = {name: getattr(self, name) for name in self.__slots__}
         for name in ("vibration_deg_s", "vibration_m_s2"):
             if values[name] is None:
                 values[name] = getattr(imu, name)
-        return ImuErrors(**values)
+        return drawn_errors(seed, **{name: each for name, each in values.items() if each != ()})
 
 
 @dataclass(frozen=True, slots=True)

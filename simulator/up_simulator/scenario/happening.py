@@ -11,10 +11,12 @@ from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
 
 
-def happen(event: Event, board: LineBoard, companions: Companions, imu: ImuConfig) -> None:
+def happen(
+    event: Event, board: LineBoard, companions: Companions, imu: ImuConfig, seed: int
+) -> None:
     """Let one event happen now: to the board and its wires, or to the crew.
 
-    ``imu`` is how the airframe carries its IMU. Raises CrewError.
+    ``imu`` is how the airframe carries its IMU, ``seed`` the flight's. Raises CrewError.
     """
     match event.kinds[0]:
         case "mark":
@@ -23,7 +25,7 @@ def happen(event: Event, board: LineBoard, companions: Companions, imu: ImuConfi
             board.imu.set_fault(cast(ImuFault, event.imu))
         case "imu_errors":
             assert event.imu_errors is not None
-            board.imu.errors = event.imu_errors.errors(imu)
+            board.imu.errors = event.imu_errors.errors(imu, seed)
         case "receiver":
             board.set_receiver(event.receiver == "back")
         case "channel_lost":
