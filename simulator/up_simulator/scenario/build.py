@@ -62,7 +62,8 @@ def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
         eeprom=eeprom,
         say=say,
     )
-    return LineBoard(board, SerialWires(scenario.seed))
+    delay_us = scenario.receiver.delay_ms * 1000
+    return LineBoard(board, SerialWires(scenario.seed), delay_us)
 
 
 def _companions(

@@ -78,6 +78,16 @@ class WeatherPart:
 
 
 @dataclass(frozen=True, slots=True)
+class ReceiverPart:
+    """The radio link between the pilot's sticks and the board's inputs."""
+
+    delay_ms: float = key(20.0, "From the stick to the pulses.", unit="ms", minimum=0, maximum=1000)
+    failsafe_throttle_us: float = key(
+        890.0, "Its own throttle when it hears no radio.", unit="us", minimum=800, maximum=2200
+    )
+
+
+@dataclass(frozen=True, slots=True)
 class ImuPart:
     """What is wrong with the IMU although it works: noise, bias, warming up, vibration."""
 
