@@ -129,7 +129,7 @@ def fly(
     aircraft = FirmwareAircraft(
         flight, board, line, CirclingPilot(), clock, "circle", lambda _text: None
     )
-    found = []
+    found: list[Errors] = []
     for minute in range(1, minutes + 1):
         while aircraft.real_time.world.time_s < 60.0 * minute:
             clock.tick()

@@ -34,8 +34,9 @@ class PhoneSensors:
     GPS errors wander slowly about the truth (some metres) and jitter a little, as real ones do;
     a seed makes them repeatable. A fix is at least ``gps_delay_s`` old, 0.3 to 1.5 s drawn by the
     seed; without ``has_gps`` there is none. The battery falls from ``battery_percent``, which it
-    had at ``battery_time_s`` of the flight. What a phone's software makes Commands of is there raw,
-    too: pressure, rotation and rate, of a phone that lies as ``mounting`` says (aircraft to device).
+    had at ``battery_time_s`` of the flight. What a phone's software makes Commands of is there
+    raw, too: pressure, rotation and rate, of a phone that lies as ``mounting`` says (aircraft to
+    device).
     """
 
     def __init__(self, seed: int = 1, mounting: Quaternion = MOUNTING) -> None:

@@ -12,7 +12,7 @@ from up_simulator.world import BYTES_A_STEP, STEP_S, World
 LATEST_S = 0.25
 SAY_AGAIN_S = 5.0
 STICK_STEPS = 10
-"""A receiver sends a frame every 20 ms: sticks that are read more often cost a sixth of the load."""
+"""A receiver sends a frame every 20 ms: nobody sees sticks that are read more often."""
 STEPS_MOST = 25
 """Steps at a time: a world that has to catch up leaves the sockets their turn."""
 

@@ -50,9 +50,9 @@ def failure_of(name: str, root: Path) -> str:
     folders = [root, *sorted(each for each in parents if not (each / "__init__.py").is_file())]
     output = root / "run" / "flights"
     shutil.rmtree(output / name, ignore_errors=True)
+    command = [sys.executable, "-m", "up_simulator.cli", "fly", name, "--no-picture", "--quiet"]
     done = subprocess.run(
-        [sys.executable, "-m", "up_simulator.cli", "fly", name, "--no-picture", "--quiet"]
-        + ["--output", str(output)],
+        [*command, "--output", str(output)],
         cwd=root,
         env=os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))},
         capture_output=True,
