@@ -31,7 +31,7 @@ class ImuErrors:
     gyro_bias_deg_s: Vector = ZERO
     accel_bias_m_s2: Vector = ZERO
     gyro_drift_deg_s: Vector = ZERO
-    warm_up_s: float = 300.0
+    warm_up_s: float = 600.0
     vibration_deg_s: float = 0.0
     vibration_m_s2: float = 0.0
     vibration_hz: float = 150.0
@@ -41,7 +41,8 @@ def drawn_errors(seed: int, **known: Any) -> ImuErrors:
     """Return the errors of one sensor of many: what is not ``known`` is drawn by the seed.
 
     An MPU6050 may read 20 deg/s at rest (PS-MPU-6000A-00, 6.1). Drawn on each axis: a bias of 2 to
-    4 deg/s with either sign, and a drift of up to 4 deg/s with the time constant ``warm_up_s``.
+    4 deg/s with either sign, and a drift of up to 4 deg/s with the time constant ``warm_up_s``:
+    never faster than 4 deg/s in 10 minutes.
     """
     chance = random.Random(f"imu bias {seed}")
     bias = tuple(chance.choice((-1, 1)) * chance.uniform(*DRAWN_BIAS_DEG_S) for _ in range(3))

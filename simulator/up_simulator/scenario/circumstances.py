@@ -113,7 +113,7 @@ class ImuPart:
         max_length=3,
     )
     warm_up_s: float = key(
-        300.0, "Time constant of the warming, from power-on.", unit="s", minimum=0.1, maximum=3600
+        600.0, "Time constant of the warming, from power-on.", unit="s", minimum=0.1, maximum=3600
     )
     vibration_deg_s: float | None = key(
         None,
