@@ -10,7 +10,7 @@ import math
 import random
 from collections.abc import Iterable
 
-from bench.table import Row
+from bench.table import LeftOutError, Row
 from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
 from up_simulator.crew.firmware_aircraft import FirmwareAircraft
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
@@ -29,13 +29,13 @@ Errors = tuple[float, float]
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the worst of all flights; ``RuntimeError`` says what is missing to fly them."""
+    """Yield the worst of all flights; raises LeftOutError without what flies them."""
     flights, minutes = (2, 1) if quick else (FLIGHTS, MINUTES)
     try:
         with Workers(MOST_PROCESSES) as workers:
             found = workers.fly(fly, [(seed, minutes) for seed in range(1, flights + 1)])
     except (BoardUnavailableError, FlightUnavailableError, PreparationError) as error:
-        raise RuntimeError(str(error)) from error
+        raise LeftOutError(str(error)) from error
     errors_deg = worst(each for flight in found for each in flight)
     yield Row(
         f"attitude error with drawn gyro errors, worst of {flights} flights of {minutes} min",

@@ -7,7 +7,7 @@ from tests.support.firmware import build_firmware
 from up_simulator.firmware.imu_errors import ImuErrors
 
 MOST_DEG = 5.0
-"""The benchmark's target is 2 deg; a filter that learns no bias is beyond 40 in this flight."""
+"""The benchmark's target is 2 deg; a filter that learns no bias reaches 11 in this flight."""
 
 
 @pytest.fixture(scope="module", autouse=True)
