@@ -111,7 +111,7 @@ def test_the_receiver_one_channel_and_a_reset():
 
 def test_telemetry_that_waited_is_told_to_be_as_old_as_it_is():
     text = (
-        HEAD.replace("duration_s: 4", "duration_s: 8")
+        HEAD.replace("duration_s: 4", "duration_s: 12")
         + LEVEL
         + (
             "raspilot: {runs: in process}\nground: {period_ms: 50}\n"
@@ -126,7 +126,7 @@ def test_telemetry_that_waited_is_told_to_be_as_old_as_it_is():
             "  - {name: b, signal: ground.latency_s, after: the end, becomes_above: 0.15,"
             " within_s: 0.1}\n"
             "  - {name: c, signal: ground.latency_s, from_s: 4.4, to_s: 4.6, below: 0.1}\n"
-            "  - {name: d, signal: ground.latency_s, from_s: 7.2, between: [1.2, 2.1]}\n"
+            "  - {name: d, signal: ground.latency_s, from_s: 10, between: [1.2, 2.3]}\n"
         )
     )
     assert broken(fly(text)) == []
