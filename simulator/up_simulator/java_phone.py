@@ -32,6 +32,7 @@ class JvmHandset:
 
     def __init__(self, feed: SensorFeed, clock: Clock, say: Callable[[str], None]) -> None:
         self._feed = feed
+        self.sensors = feed.sensors
         self._clock = clock
         self._say = say
         self._process: JavaPhoneProcess | None = None

@@ -30,7 +30,7 @@ class SensorFeed:
 
     def __init__(self, flight: Flight, *, seed: int = 1, record: Record | None = None) -> None:
         self._flight = flight
-        self._sensors = sensors = PhoneSensors(seed)
+        self.sensors = sensors = PhoneSensors(seed)
         self._measure: dict[str, Callable[[FlightState], Any]] = {
             "fix": sensors.location,
             "pressure": sensors.pressure_hpa,
@@ -56,8 +56,8 @@ class SensorFeed:
 
     def set_battery(self, percent: float, now_s: float) -> None:
         """Let the battery have this level now, and tell it at once."""
-        self._sensors.battery_percent = percent
-        self._sensors.battery_time_s = self._flight.state.time_s
+        self.sensors.battery_percent = percent
+        self.sensors.battery_time_s = self._flight.state.time_s
         if "battery" in self._wanted:
             self._wanted["battery"].due_s = now_s
 
@@ -70,7 +70,9 @@ class SensorFeed:
                 # A late one does not shift those after it.
                 due_s = stream.due_s + stream.period_s
                 stream.due_s = due_s if due_s > now_s else now_s + stream.period_s
-                found[sensor] = measure(self._flight.state)
+                reading = measure(self._flight.state)
+                if reading is not None:
+                    found[sensor] = reading
         return found
 
     def forget(self) -> None:

@@ -33,7 +33,7 @@ class _Stream:
 
     name: str
     period_s: float
-    data: Callable[..., dict[str, Any]]
+    data: Callable[..., dict[str, Any] | None]
     due_s: float = 0.0
 
 
@@ -66,7 +66,7 @@ class Phone:
         self.send: Callable[[bytes], None] | None = None
         self.send_orientation: Callable[[bytes], None] | None = None
         self.panic_s = 0.0
-        self._sensors = sensors = PhoneSensors(seed)
+        self.sensors = sensors = PhoneSensors(seed)
         self._streams = [
             _Stream("up.location.update", 0.5, sensors.location),
             _Stream("up.altitude.change", 0.2, sensors.altitude),
@@ -79,8 +79,8 @@ class Phone:
 
     def set_battery(self, percent: float) -> None:
         """Let the battery have this level now, and say so at once."""
-        self._sensors.battery_percent = percent
-        self._sensors.battery_time_s = self._flight.state.time_s
+        self.sensors.battery_percent = percent
+        self.sensors.battery_time_s = self._flight.state.time_s
         for stream in self._streams:
             if stream.name == "android.battery":
                 stream.due_s = 0.0
@@ -107,8 +107,9 @@ class Phone:
                 if now_s >= stream.due_s - SLACK_S:
                     stream.due_s = _next(stream.due_s, period_s, now_s)
                     data = stream.data(self._flight.state)
-                    id_, self._id = self._id, None
-                    self.send(write_message(GeneralMessage(stream.name, data, id_)))
+                    if data is not None:
+                        id_, self._id = self._id, None
+                        self.send(write_message(GeneralMessage(stream.name, data, id_)))
         if self.send_orientation is not None and now_s >= self._orientation_due_s - SLACK_S:
             period_s = max(ORIENTATION_S, self.panic_s)
             self._orientation_due_s = _next(self._orientation_due_s, period_s, now_s)

@@ -9,6 +9,7 @@ from up_simulator.flight import Flight, FlightState
 from up_simulator.phone import Phone
 from up_simulator.phone_address import RaspberryPi
 from up_simulator.phone_link import OrientationBy, PhoneLink
+from up_simulator.phone_sensors import PhoneSensors
 
 Record = Callable[[FlightState], dict[str, Any]]
 """What the phone has the black box write: the data of ``black_box.record``."""
@@ -21,6 +22,7 @@ class Handset(Protocol):
     """
 
     loss: str | None
+    sensors: PhoneSensors
 
     def start(self) -> None:
         """Switch it on: it connects, and connects again after every loss."""
@@ -54,6 +56,7 @@ class PythonHandset:
     ) -> None:
         self._phone = Phone(flight, reactor, seed=seed, identity=identity, say=say, record=record)
         self._link = PhoneLink(reactor, self._phone, find, orientation, say)
+        self.sensors = self._phone.sensors
         self.tick = self._phone.tick
         self.set_battery = self._phone.set_battery
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import random
+from collections import deque
 from typing import Any
 
 from up_simulator.flight import FlightState
 from up_simulator.phone_mounting import MOUNTING, Quaternion, body_to_world
 
 METRES_PER_DEG = 111_320.0
+GPS_DELAY_S = (0.3, 1.5)
 GPS_WANDER_M = 1.5
 GPS_JITTER_M = 0.3
 GPS_ALTITUDE_M = 3.0
@@ -30,13 +32,18 @@ class PhoneSensors:
     """Turns the true state into the data of the Commands that a phone sends.
 
     GPS errors wander slowly about the truth (some metres) and jitter a little, as real ones do;
-    a seed makes them repeatable. The battery falls from ``battery_percent``, which it had at
-    ``battery_time_s`` of the flight. What a phone's software makes Commands of is there raw, too:
-    pressure, rotation and rate, of a phone that lies as ``mounting`` says (aircraft to device).
+    a seed makes them repeatable. A fix is at least ``gps_delay_s`` old, 0.3 to 1.5 s drawn by the
+    seed; without ``has_gps`` there is none. The battery falls from ``battery_percent``, which it
+    had at ``battery_time_s`` of the flight. What a phone's software makes Commands of is there
+    raw, too: pressure, rotation and rate, of a phone that lies as ``mounting`` says (aircraft to
+    device).
     """
 
     def __init__(self, seed: int = 1, mounting: Quaternion = MOUNTING) -> None:
         self._noise = random.Random(seed)
+        self.gps_delay_s = random.Random(f"gps {seed}").uniform(*GPS_DELAY_S)
+        self.has_gps = True
+        self._past: deque[FlightState] = deque()
         self._mounting = mounting
         self._wander_m = [0.0, 0.0, 0.0]
         self._compass_deg = 0.0
@@ -44,8 +51,12 @@ class PhoneSensors:
         self.battery_percent = BATTERY_FULL
         self.battery_time_s = 0.0
 
-    def location(self, state: FlightState) -> dict[str, Any]:
-        """Return the data of ``up.location.update``."""
+    def location(self, state: FlightState) -> dict[str, Any] | None:
+        """Return the data of ``up.location.update``; None without a fix."""
+        if not self.has_gps:
+            return None
+        self._remember(state)
+        state = self._past[0]
         grow = math.sqrt(1 - GPS_MEMORY**2)
         spreads_m = (GPS_WANDER_M, GPS_WANDER_M, GPS_ALTITUDE_M)
         self._wander_m = [
@@ -67,6 +78,7 @@ class PhoneSensors:
 
     def altitude(self, state: FlightState) -> dict[str, Any]:
         """Return the data of ``up.altitude.change``, by the barometer."""
+        self._remember(state)
         return {"altitude": round(state.altitude_m + self._noise.gauss(0.0, BAROMETER_M), 2)}
 
     def heading(self, state: FlightState) -> dict[str, Any]:
@@ -82,6 +94,7 @@ class PhoneSensors:
 
     def pressure_hpa(self, state: FlightState) -> float:
         """Return what the barometer has, by the standard atmosphere."""
+        self._remember(state)
         altitude_m = state.altitude_m + self._noise.gauss(0.0, BAROMETER_M)
         part = 1 - LAPSE_K_M * altitude_m / SEA_LEVEL_K
         return round(SEA_LEVEL_HPA * math.pow(part, PRESSURE_POWER), 4)
@@ -97,6 +110,11 @@ class PhoneSensors:
         yaw_deg = state.yaw_deg + self._compass_deg
         body = body_to_world(state.roll_deg, state.pitch_deg, yaw_deg)
         return [round(each, 9) for each in body.times(self._mounting.conjugate())]
+
+    def _remember(self, state: FlightState) -> None:
+        self._past.append(state)
+        while len(self._past) > 1 and self._past[1].time_s <= state.time_s - self.gps_delay_s:
+            self._past.popleft()
 
     def rate_rad_s(self, state: FlightState) -> list[float]:
         """Return what the gyroscope has about the device's axes, rad/s."""

@@ -51,6 +51,7 @@ def _lines(summaries: dict[str, dict[str, Any]]) -> Iterator[str]:
 def _scenario(name: str, scenario: Scenario, summary: dict[str, Any]) -> Iterator[str]:
     yield f"### {name}\n"
     yield f"**{scenario.title}** ({scenario.duration_s:g} s). {' '.join(scenario.about.split())}\n"
+    yield f"Guards: {scenario.guards}.\n"
     yield "| what must be true | figure | limit |"
     yield "|---|---|---|"
     for verdict in summary["expectations"]:

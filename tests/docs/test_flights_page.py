@@ -32,6 +32,7 @@ def test_its_expectations_and_limits_are_those_of_the_file(name):
     scenario, text = SCENARIOS[name], sections()[name]
     assert f"**{scenario.title}** ({scenario.duration_s:g} s)" in text
     assert " ".join(scenario.about.split()) in text
+    assert f"Guards: {scenario.guards}." in text
     rows = [(what, limit) for what, _figure, limit in _ROW.findall(text)][1:]
     wanted = [(each.name, limit_text(each)) for each in scenario.expect]
     assert rows[: len(wanted)] == wanted

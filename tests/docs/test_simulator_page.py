@@ -20,6 +20,7 @@ SAID = {
     "imu": "frozen, unplugged, holding its bus, garbage",
     "imu_errors": "noise, bias, drift while it warms up, vibration",
     "receiver": "lost and back",
+    "gps": "outage of the GPS",
     "channel_lost": "one wire",
     "channel_back": "one wire",
     "reset": "reset by watchdog, power, button or brown-out",

@@ -274,3 +274,33 @@ def test_orientation_is_24_bytes_at_50_hz():
     bench.run(2.0)
     assert len(bench.frames) == 100
     assert struct.unpack(">6f", bench.frames[0]) == (3.25, -5.5, 10.5, 0.5, -0.25, 1.0)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_fix_is_late_by_what_the_seed_draws(seed):
+    bench = Bench(seed=seed)
+    sensors = bench.phone.sensors
+    assert 0.3 <= sensors.gps_delay_s <= 1.5
+    found = []
+    for at in range(200):
+        time_s = at * 0.1
+        # 111 m a second to the north: what a fix wanders and jitters by is 0.05 s of it.
+        state = replace(bench.flight.state, time_s=time_s, latitude_deg=50 + time_s / 1000)
+        sensors.altitude(state)
+        found.append(time_s - (sensors.location(state)["latitude"] - 50) * 1000)
+    late = found[20:]
+    assert min(late) > sensors.gps_delay_s - 0.1
+    assert max(late) < sensors.gps_delay_s + 0.1 + 0.1
+
+
+def test_without_satellites_there_is_no_fix_and_all_else_goes_on():
+    bench = Bench()
+    bench.run(1)
+    bench.take()
+    bench.phone.sensors.has_gps = False
+    bench.run(2)
+    names = {each["name"] for each in bench.take()}
+    assert "up.location.update" not in names and "up.altitude.change" in names
+    bench.phone.sensors.has_gps = True
+    bench.run(1)
+    assert bench.take("up.location.update")

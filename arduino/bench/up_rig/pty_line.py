@@ -36,6 +36,8 @@ class PtyLine:
         # is no hang-up that would have to be polled.
         self._own, self._other = os.openpty()
         tty.setraw(self._other)
+        # A lock of the process, not of the file as a serial port's user takes it (flock).
+        fcntl.lockf(self._other, fcntl.LOCK_EX | fcntl.LOCK_NB)
         os.set_blocking(self._own, False)
         self.name = os.ttyname(self._other)
         self._link: Path | None = None
@@ -102,6 +104,8 @@ class PtyLine:
         """Let ``link`` point here in one step; an old link is replaced, nothing else is."""
         if link.exists() and not link.is_symlink():
             raise PtyLineError(f"{link} exists and is no symbolic link: left alone")
+        if _is_live(link):
+            raise PtyLineError(f"{link} is the line of another board that runs: end it first")
         temporary = link.with_name(f".{link.name}.{os.getpid()}")
         try:
             temporary.symlink_to(self.name)
@@ -111,3 +115,18 @@ class PtyLine:
                 temporary.unlink()
             raise PtyLineError(f"cannot make the link {link}: {error.strerror}") from error
         self._link = link
+
+
+def _is_live(link: Path) -> bool:
+    """Return whether a link leads to the pty of a ``PtyLine`` of another process."""
+    try:
+        descriptor = os.open(link, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
+    except OSError as error:
+        return error.errno == errno.EBUSY
+    try:
+        fcntl.lockf(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return True
+    finally:
+        os.close(descriptor)
+    return False

@@ -48,6 +48,8 @@ class ServosConfig:
 
     slew_us_s: float = _number(6000.0, "Fastest move.", "us/s", 100, 100000)
     lag_ms: float = _number(15.0, "Time constant near the pulse.", "ms", 0, 500)
+    dead_band_us: float = _number(3.0, "They rest while the pulse is so near.", "us", 0, 100)
+    play_us: float = _number(8.0, "Play between servo and surface.", "us", 0, 200)
     ailerons: ServoConfig = section(ServoConfig, "Output D9; with mix: elevon an elevon.")
     elevator: ServoConfig = section(ServoConfig, "Output D10; with mix: elevon the other one.")
     rudder: ServoConfig = section(ServoConfig, "Output D11.")

@@ -84,8 +84,13 @@ class FlightDynamics:
         self._state: FlightState | None = None
         self._motion: Motion | None = None
         self._read: dict[str, Callable[[], float]] = {}
+        servos = airframe.servos
         self._servos = ServoRack(
-            airframe.servos.slew_us_s, airframe.servos.lag_ms / 1000, self.STEP_S
+            servos.slew_us_s,
+            servos.lag_ms / 1000,
+            self.STEP_S,
+            servos.dead_band_us,
+            servos.play_us,
         )
         self.launch(start or Start())
 

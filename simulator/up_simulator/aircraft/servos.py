@@ -10,17 +10,27 @@ _THROTTLE = 2
 
 
 class ServoRack:
-    """Three servos and a speed controller, which follows at once.
+    """Three servos and a speed controller, which follows immediately.
 
     A servo approaches its pulse as a first-order lag (``lag_s``), at most at ``slew_us_s``: a
-    digital 9 g servo takes 0.12 s for 60 degrees, which are about 700 us. ``positions_us`` is where
-    ailerons, elevator, throttle and rudder stand.
+    digital 9 g servo takes 0.12 s for 60 degrees, which are about 700 us. It rests while its pulse
+    is within ``dead_band_us``; its surface follows with a play of ``play_us`` altogether.
+    ``positions_us`` is where the surfaces of ailerons, elevator and rudder stand, and the throttle.
     """
 
-    def __init__(self, slew_us_s: float, lag_s: float, step_s: float) -> None:
+    def __init__(
+        self,
+        slew_us_s: float,
+        lag_s: float,
+        step_s: float,
+        dead_band_us: float = 0.0,
+        play_us: float = 0.0,
+    ) -> None:
         self._reach_us = slew_us_s * step_s
         self._share = 1.0 - math.exp(-step_s / lag_s) if lag_s > 0 else 1.0
+        self._dead_band_us, self._half_play_us = dead_band_us, play_us / 2
         self._wanted_us: tuple[float, ...] = NEUTRAL
+        self._arms_us: list[float] = [float(each) for each in NEUTRAL]
         self.positions_us: list[float] = [float(each) for each in NEUTRAL]
 
     def set(self, pulses_us: tuple[float, float, float, float]) -> None:
@@ -28,24 +38,34 @@ class ServoRack:
         self._wanted_us = pulses_us
 
     def jump(self, pulses_us: tuple[float, float, float, float]) -> None:
-        """Put the servos at these pulses at once."""
+        """Put the servos at these pulses immediately."""
         self._wanted_us = pulses_us
+        self._arms_us[:] = pulses_us
         self.positions_us[:] = pulses_us
 
     def step(self) -> None:
         """Move for one step."""
-        positions_us, reach_us = self.positions_us, self._reach_us
+        arms_us, positions_us, reach_us = self._arms_us, self.positions_us, self._reach_us
+        half_us = self._half_play_us
         for index, wanted_us in enumerate(self._wanted_us):
-            way_us = wanted_us - positions_us[index]
+            way_us = wanted_us - arms_us[index]
             if not way_us:
                 continue
             if index != _THROTTLE:
+                if -self._dead_band_us < way_us < self._dead_band_us:
+                    continue
                 way_us *= self._share
                 if way_us > reach_us:
                     way_us = reach_us
                 elif way_us < -reach_us:
                     way_us = -reach_us
-            positions_us[index] += way_us
+            arms_us[index] += way_us
+            if index == _THROTTLE:
+                positions_us[index] = arms_us[index]
+            elif positions_us[index] < arms_us[index] - half_us:
+                positions_us[index] = arms_us[index] - half_us
+            elif positions_us[index] > arms_us[index] + half_us:
+                positions_us[index] = arms_us[index] + half_us
 
     @property
     def rounded_us(self) -> Servos:

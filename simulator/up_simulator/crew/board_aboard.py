@@ -13,6 +13,7 @@ from up_rig.build import ARDUINO
 from up_simulator.aircraft import Airframe
 from up_simulator.firmware.board import FirmwareBoard
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.imu_errors import drawn_errors
 from up_simulator.firmware.preparation import prepared_eeprom
 from up_simulator.firmware.settings_wire import SettingsError
 
@@ -32,8 +33,18 @@ def board_aboard(
         say("building the firmware: that takes a minute, the first time")
     try:
         eeprom = _eeprom(options, airframe, say)
+        errors = drawn_errors(
+            options.seed,
+            vibration_deg_s=airframe.imu.vibration_deg_s,
+            vibration_m_s2=airframe.imu.vibration_m_s2,
+        )
         board = choose_board(
-            options.board, seed=options.seed, eeprom=eeprom, elf=options.elf, say=say
+            options.board,
+            seed=options.seed,
+            imu_errors=errors,
+            eeprom=eeprom,
+            elf=options.elf,
+            say=say,
         )
     except BoardUnavailableError as error:
         if options.board != "auto" or options.elf is not None:

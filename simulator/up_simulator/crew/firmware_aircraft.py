@@ -15,6 +15,7 @@ from up_simulator.world import World
 
 LIES_S = 3.0
 BATTERY_LEAST_PERCENT = 12.0
+BATTERY_PERIOD_S = 1.0
 
 
 class FirmwareAircraft:
@@ -42,6 +43,7 @@ class FirmwareAircraft:
         self._say = say
         self._arms = is_armed_at_first(radio_name)
         self._crashed_s: float | None = None
+        self._battery_s = 0.0
         self._who = who
         self._why = ""
         world = World(flight, board)
@@ -65,6 +67,10 @@ class FirmwareAircraft:
             self._say(f"launched again in the air, after the crash{self._why}")
 
     def _watch_battery(self) -> None:
+        # Reading the whole state costs more than a step of the flight.
+        if self.real_time.world.time_s < self._battery_s:
+            return
+        self._battery_s = self.real_time.world.time_s + BATTERY_PERIOD_S
         state = self._flight.state
         if state.battery_percent < BATTERY_LEAST_PERCENT:
             self._flight.change_battery()

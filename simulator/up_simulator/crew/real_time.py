@@ -11,6 +11,8 @@ from up_simulator.world import BYTES_A_STEP, STEP_S, World
 
 LATEST_S = 0.25
 SAY_AGAIN_S = 5.0
+STICK_STEPS = 10
+"""A receiver sends a frame every 20 ms: nobody sees sticks that are read more often."""
 STEPS_MOST = 25
 """Steps at a time: a world that has to catch up leaves the sockets their turn."""
 
@@ -29,8 +31,8 @@ class RealTimeWorld:
     """Flies a world for as long as a clock ran, and never after it.
 
     What was missed by more than 250 ms is skipped, not flown in a heap: it is counted in
-    ``skipped_s`` and said at most every 5 s. Each step moves the sticks and passes the serial
-    line's bytes, then ``watchers`` are called. ``clock`` only rises; ``say`` takes one line for
+    ``skipped_s`` and said at most every 5 s. Each step passes the serial line's bytes, every tenth
+    moves the sticks, then ``watchers`` are called. ``clock`` only rises; ``say`` takes one line for
     the user.
     """
 
@@ -51,6 +53,7 @@ class RealTimeWorld:
         self._clock = clock
         self._say = say
         self._said_s = -SAY_AGAIN_S
+        self._steps = 0
         self._transmitter = Transmitter(world.board)
         self._start_s = clock.seconds() - world.time_s
 
@@ -72,7 +75,9 @@ class RealTimeWorld:
     def step(self) -> None:
         """Fly for one step, whatever the clock says. Raises ``BoardCrashedError``."""
         world = self.world
-        self._transmitter.send(self.radio.sticks(world.time_s, world.state))
+        if self._steps % STICK_STEPS == 0:
+            self._transmitter.send(self.radio.sticks(world.time_s, world.state))
+        self._steps += 1
         data = self._line.read(0.0, BYTES_A_STEP)
         if data:
             world.board.write(data)

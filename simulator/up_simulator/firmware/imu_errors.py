@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 import random
 from dataclasses import dataclass
+from typing import Any
 
 from up_rig.imu import NOISE_DEG_S, NOISE_M_S2, Motion
 
 Vector = tuple[float, float, float]
 ZERO: Vector = (0.0, 0.0, 0.0)
+DRAWN_BIAS_DEG_S = (2.0, 4.0)
+DRAWN_DRIFT_DEG_S = 4.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,10 +31,23 @@ class ImuErrors:
     gyro_bias_deg_s: Vector = ZERO
     accel_bias_m_s2: Vector = ZERO
     gyro_drift_deg_s: Vector = ZERO
-    warm_up_s: float = 60.0
+    warm_up_s: float = 600.0
     vibration_deg_s: float = 0.0
     vibration_m_s2: float = 0.0
     vibration_hz: float = 150.0
+
+
+def drawn_errors(seed: int, **known: Any) -> ImuErrors:
+    """Return the errors of one sensor of many: what is not ``known`` is drawn by the seed.
+
+    An MPU6050 may read 20 deg/s at rest (PS-MPU-6000A-00, 6.1). Drawn on each axis: a bias of 2 to
+    4 deg/s with either sign, and a drift of up to 4 deg/s with the time constant ``warm_up_s``:
+    never faster than 4 deg/s in 10 minutes.
+    """
+    chance = random.Random(f"imu bias {seed}")
+    bias = tuple(chance.choice((-1, 1)) * chance.uniform(*DRAWN_BIAS_DEG_S) for _ in range(3))
+    drift = tuple(chance.uniform(-DRAWN_DRIFT_DEG_S, DRAWN_DRIFT_DEG_S) for _ in range(3))
+    return ImuErrors(**{"gyro_bias_deg_s": bias, "gyro_drift_deg_s": drift, **known})
 
 
 class ImuModel:

@@ -57,6 +57,7 @@ class InProcessPhone:
         self._machine = reactor.machine("phone")
         make = self._in_python if java is None else self._in_java(java)
         self.handset: Handset = make(flight, orientation, seed)
+        self.sensors = self.handset.sensors
         self._is_started = False
 
     @property

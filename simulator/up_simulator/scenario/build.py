@@ -58,11 +58,12 @@ def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
     board = choose_board(
         scenario.board,
         seed=scenario.seed,
-        imu_errors=scenario.imu.errors(airframe.imu),
+        imu_errors=scenario.imu.errors(airframe.imu, scenario.seed),
         eeprom=eeprom,
         say=say,
     )
-    return LineBoard(board, SerialWires(scenario.seed))
+    delay_us = scenario.receiver.delay_ms * 1000
+    return LineBoard(board, SerialWires(scenario.seed), delay_us)
 
 
 def _companions(

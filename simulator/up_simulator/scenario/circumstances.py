@@ -10,11 +10,10 @@ from up.config import items, key, section
 from up.fields import Constraint
 from up_rig.imu import NOISE_DEG_S, NOISE_M_S2
 from up_simulator.aircraft.airframe_file import ImuConfig
-from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.imu_errors import ZERO, ImuErrors, drawn_errors
 from up_simulator.link.settings import LinkSettings
 
 _RATE = Constraint(float, minimum=-500, maximum=500, unit="deg/s")
-_ZERO = (0.0, 0.0, 0.0)
 _FORCE = Constraint(float, minimum=-50, maximum=50, unit="m/s^2")
 
 
@@ -79,6 +78,16 @@ class WeatherPart:
 
 
 @dataclass(frozen=True, slots=True)
+class ReceiverPart:
+    """The radio link between the pilot's sticks and the board's inputs."""
+
+    delay_ms: float = key(20.0, "From the stick to the pulses.", unit="ms", minimum=0, maximum=1000)
+    failsafe_throttle_us: float = key(
+        890.0, "Its own throttle when it hears no radio.", unit="us", minimum=800, maximum=2200
+    )
+
+
+@dataclass(frozen=True, slots=True)
 class ImuPart:
     """What is wrong with the IMU although it works: noise, bias, warming up, vibration."""
 
@@ -89,16 +98,22 @@ class ImuPart:
         NOISE_M_S2, "Standard deviation of each sample.", unit="m/s^2", minimum=0, maximum=50
     )
     gyro_bias_deg_s: tuple[float, ...] = items(
-        _RATE, "Constant error of the rates: roll, pitch, yaw.", default=_ZERO, max_length=3
+        _RATE,
+        "Constant error of the rates: roll, pitch, yaw. Empty: 2 to 4 deg/s each, drawn by the"
+        " seed.",
+        max_length=3,
     )
     accel_bias_m_s2: tuple[float, ...] = items(
-        _FORCE, "Constant error of the forces: x, y, z.", default=_ZERO, max_length=3
+        _FORCE, "Constant error of the forces: x, y, z.", default=ZERO, max_length=3
     )
     gyro_drift_deg_s: tuple[float, ...] = items(
-        _RATE, "What the bias changes by until the IMU is warm.", default=_ZERO, max_length=3
+        _RATE,
+        "What the bias changes by until the IMU is warm. Empty: up to 4 deg/s each, drawn by the"
+        " seed.",
+        max_length=3,
     )
     warm_up_s: float = key(
-        60.0, "Time constant of the warming, from power-on.", unit="s", minimum=0.1, maximum=3600
+        600.0, "Time constant of the warming, from power-on.", unit="s", minimum=0.1, maximum=3600
     )
     vibration_deg_s: float | None = key(
         None,
@@ -122,16 +137,16 @@ class ImuPart:
     def problems(self) -> Iterator[tuple[str, str]]:
         """Yield what does not fit together."""
         for name in ("gyro_bias_deg_s", "accel_bias_m_s2", "gyro_drift_deg_s"):
-            if len(getattr(self, name)) != 3:
+            if getattr(self, name) and len(getattr(self, name)) != 3:
                 yield name, "must have three numbers, one for each axis"
 
-    def errors(self, imu: ImuConfig) -> ImuErrors:
-        """Return what the board's IMU is to be set to in an airframe that shakes it so."""
+    def errors(self, imu: ImuConfig, seed: int) -> ImuErrors:
+        """Return the errors of the board's IMU in this airframe, in a flight with this seed."""
         values = {name: getattr(self, name) for name in self.__slots__}
         for name in ("vibration_deg_s", "vibration_m_s2"):
             if values[name] is None:
                 values[name] = getattr(imu, name)
-        return ImuErrors(**values)
+        return drawn_errors(seed, **{name: each for name, each in values.items() if each != ()})
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ from typing import Protocol
 from up_simulator.crew.protocols import CrewError, Ground, Raspilot
 from up_simulator.crew.protocols import Phone as PluggedPhone
 from up_simulator.link.model import LinkModel
+from up_simulator.phone_sensors import PhoneSensors
 from up_simulator.scenario.circumstances import LinkPart
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
@@ -30,7 +31,9 @@ class Daemon(Raspilot, Protocol):
 
 
 class AboardPhone(PluggedPhone, Protocol):
-    """A phone whose battery can be set."""
+    """A phone whose battery and GPS can be set."""
+
+    sensors: PhoneSensors
 
     def set_battery(self, percent: float) -> None:
         """Let its battery have this level from now on."""
@@ -100,6 +103,8 @@ class CrewCompanions(ABC):
             case "phone" if self.phone is not None:
                 move_cable = self.phone.plug if event.phone == "back" else self.phone.unplug
                 move_cable()
+            case "gps" if self.phone is not None:
+                self.phone.sensors.has_gps = event.gps == "back"
             case "phone_battery" if self.phone is not None and event.phone_battery is not None:
                 self.phone.set_battery(event.phone_battery)
             case "link":

@@ -73,7 +73,11 @@ class Event:
     imu_errors: ImuPart | None = section(
         ImuPart, "The IMU's noise, bias and vibration from now on.", optional=True
     )
-    receiver: Literal["lost", "back"] | None = key(None, "All channels of the receiver.")
+    receiver: Literal["lost", "failsafe", "back"] | None = key(
+        None,
+        "lost: no pulses on any channel. failsafe: it hears no radio, holds its pulses and sends"
+        " its own failsafe on the throttle.",
+    )
     channel_lost: _CHANNEL | None = key(None, "One wire of the receiver breaks.")
     channel_back: _CHANNEL | None = key(None, "That wire is mended.")
     reset: Literal["watchdog", "power", "button", "brown-out"] | None = key(
@@ -86,6 +90,7 @@ class Event:
         SerialNoise, "Noise on the serial line.", optional=True
     )
     phone: Literal["unplugged", "back"] | None = key(None, "The cable of the phone aboard.")
+    gps: Literal["lost", "back"] | None = key(None, "The fixes of the phone's GPS.")
     phone_battery: float | None = key(
         None, "The phone's battery from now on.", unit="%", minimum=0, maximum=100
     )

@@ -229,7 +229,7 @@ class ScenarioFlight:
                 if event.command is not None:
                     self._ask(event, time_s)
                 else:
-                    happen(event, self._board, self.companions, self._imu)
+                    happen(event, self._board, self.companions, self._imu, self._scenario)
             except CrewError as error:
                 self._fail(str(error))
 

@@ -9,9 +9,12 @@ from up_simulator.firmware.board import Channel, ImuFault, ResetCause
 from up_simulator.scenario.companions import Companions
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.scenario import Scenario
 
 
-def happen(event: Event, board: LineBoard, companions: Companions, imu: ImuConfig) -> None:
+def happen(
+    event: Event, board: LineBoard, companions: Companions, imu: ImuConfig, scenario: Scenario
+) -> None:
     """Let one event happen now: to the board and its wires, or to the crew.
 
     ``imu`` is how the airframe carries its IMU. Raises CrewError.
@@ -23,9 +26,13 @@ def happen(event: Event, board: LineBoard, companions: Companions, imu: ImuConfi
             board.imu.set_fault(cast(ImuFault, event.imu))
         case "imu_errors":
             assert event.imu_errors is not None
-            board.imu.errors = event.imu_errors.errors(imu)
+            board.imu.errors = event.imu_errors.errors(imu, scenario.seed)
         case "receiver":
-            board.set_receiver(event.receiver == "back")
+            if event.receiver == "failsafe":
+                board.lose_radio(scenario.receiver.failsafe_throttle_us)
+            else:
+                board.set_receiver(event.receiver == "back")
+                board.find_radio()
         case "channel_lost":
             board.set_channel(cast(Channel, event.channel_lost), False)
         case "channel_back":

@@ -18,10 +18,12 @@ class LineBoard:
 
     After each slice ``after_slice`` is called: there the daemon's bytes are exchanged, in flight
     and while the board boots. The tap hears what leaves the board before any noise, ``on_command``
-    gets what the board hears after it.
+    gets what the board hears after it. Sticks reach the board through a receiver, with its delay.
     """
 
-    def __init__(self, board: FirmwareBoard, wires: SerialWires) -> None:
+    def __init__(
+        self, board: FirmwareBoard, wires: SerialWires, receiver_delay_us: float = 0.0
+    ) -> None:
         self._board = board
         self.wires = wires
         self.tap = BoardTap()
@@ -29,6 +31,10 @@ class LineBoard:
         self.on_command: Callable[[Command], None] = lambda _command: None
         self.stalest_us = 0.0
         self._heard = CheckedReader()
+        self._receiver_delay_us = receiver_delay_us
+        self._sticks_us: dict[Channel, float] = {}
+        self._has_radio = True
+        self._coming: list[tuple[float, Channel, float]] = []
 
     @property
     def title(self) -> str:
@@ -61,6 +67,8 @@ class LineBoard:
         while left_us > 1e-6:
             slice_us = min(left_us, SLICE_US)
             left_us -= slice_us
+            while self._coming and self._coming[0][0] <= self.now_us:
+                self._board.set_stick(*self._coming.pop(0)[1:])
             self._board.run_us(slice_us)
             self.stalest_us = max(self.stalest_us, *self._board.pulse_ages_us())
             self.after_slice()
@@ -71,8 +79,21 @@ class LineBoard:
         return stalest_us
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
-        """Set the receiver's pulse of a channel."""
-        self._board.set_stick(channel, width_us)
+        """Move a stick: the receiver passes it on after its delay, unless it hears no radio."""
+        self._sticks_us[channel] = width_us
+        if self._has_radio:
+            self._coming.append((self.now_us + self._receiver_delay_us, channel, width_us))
+
+    def lose_radio(self, throttle_us: float) -> None:
+        """Let the receiver hold its pulses and send its own failsafe on the throttle."""
+        self._has_radio = False
+        self._coming = [(self.now_us, "throttle", throttle_us)]
+
+    def find_radio(self) -> None:
+        """Let the receiver pass all sticks on again."""
+        self._has_radio = True
+        for channel, width_us in self._sticks_us.items():
+            self.set_stick(channel, width_us)
 
     def set_receiver(self, is_on: bool) -> None:
         """Switch all channels of the receiver on or off."""

@@ -8,7 +8,13 @@ from typing import Any, Literal
 
 from up.config import items, key, mapping, section
 from up.fields import Constraint
-from up_simulator.scenario.circumstances import ImuPart, LinkPart, StartPart, WeatherPart
+from up_simulator.scenario.circumstances import (
+    ImuPart,
+    LinkPart,
+    ReceiverPart,
+    StartPart,
+    WeatherPart,
+)
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.expectation import Expectation
 from up_simulator.scenario.sticks import StickPoint
@@ -109,6 +115,7 @@ class Scenario:
 
     title: str = key("", "A few words, for lists and pictures.", max_length=100)
     about: str = key("", "What it shows, in a sentence or two.", max_length=2000)
+    guards: str = key("", "The rule without which it fails.", max_length=200)
     tags: tuple[str, ...] = items(
         Constraint(str, max_length=40), "Words to choose scenarios by.", max_length=20
     )
@@ -135,6 +142,7 @@ class Scenario:
     start: StartPart = section(StartPart)
     weather: WeatherPart = section(WeatherPart)
     imu: ImuPart = section(ImuPart)
+    receiver: ReceiverPart = section(ReceiverPart)
     switch: SwitchPart = section(SwitchPart)
     profile: dict[str, Any] = mapping(
         _NAME, _TEXT, "What differs from the airframe's own profile, as in config/airframe.yml."

@@ -25,7 +25,7 @@ def main(arguments: Sequence[str]) -> int:
     """List scenarios; return the exit status."""
     parser = OptionParser(
         prog="up-sim list",
-        description="Lists scenarios: name, how long, title, tags.",
+        description="Lists scenarios: name, how long, title, tags, and the rule that each guards.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
@@ -58,6 +58,8 @@ def main(arguments: Sequence[str]) -> int:
             line = f"{name_of(path):<{width}}  {scenario.duration_s:>5g} s  {title}"
             more = "; ".join(part for part in (", ".join(scenario.tags), pace) if part)
             sys.stdout.write(printable(f"{line}  [{more}]" if more else line) + "\n")
+            if scenario.guards:
+                sys.stdout.write(printable(f"{'':<{width}}  guards: {scenario.guards}") + "\n")
     if is_empty and options.tag:
         raise no_such_tag(options.tag, tags)
     return status

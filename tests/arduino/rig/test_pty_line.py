@@ -5,6 +5,8 @@ import os
 import select
 import stat
 import struct
+import subprocess
+import sys
 import termios
 import time
 
@@ -91,7 +93,7 @@ def test_a_reader_may_come_and_go(line):
         line.write(b"hello")
         assert read_all(file) == b"hello"
         os.close(file)
-        line.read(20.0, 4096)
+        line.read(0.0, 4096)
 
 
 def is_exclusive(file):
@@ -153,3 +155,25 @@ def test_a_file_in_the_way_is_left_alone(tmp_path):
 def test_a_link_that_cannot_be_made_is_one_sentence(tmp_path):
     with pytest.raises(PtyLineError, match="No such file"):
         PtyLine(tmp_path / "missing" / "board")
+
+
+def test_the_line_of_another_process_that_runs_is_left_alone(tmp_path):
+    link = tmp_path / "board"
+    hold = (
+        "import sys; from pathlib import Path; from up_rig.pty_line import PtyLine\n"
+        "line = PtyLine(Path(sys.argv[1])); print('open', flush=True); sys.stdin.read()"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", hold, link], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as other:
+        assert other.stdout.readline() == "open\n"
+        name = link.readlink()
+        with pytest.raises(PtyLineError, match="another board"):
+            PtyLine(link)
+        assert link.readlink() == name
+        # What ends without a word leaves a link that leads nowhere.
+        other.kill()
+        other.wait()
+        line = PtyLine(link)
+        assert str(link.readlink()) == line.name
+        line.close()

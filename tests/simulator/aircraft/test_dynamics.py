@@ -12,6 +12,7 @@ from up_simulator.aircraft import (
     airframe_names,
     load_airframe,
 )
+from up_simulator.aircraft.servos import ServoRack
 from up_simulator.flight import NEUTRAL
 
 NAMES = airframe_names()
@@ -320,12 +321,30 @@ def test_from_any_attitude_the_state_stays_finite_and_the_nose_comes_down(name):
 
 @pytest.mark.parametrize("pulses_us", [(1500, 1500, 1000, 1500)])
 def test_servos_go_no_faster_than_they_can_and_arrive(pulses_us):
-    flight = flying()
-    flight.set_servos((2000, 1500, 1000, 1490))
-    flight.step()
-    assert flight.servos == (1512, 1500, 1000, 1499)
-    flight.advance(0.2)
-    assert flight.servos == (2000, 1500, 1000, 1490)
-    flight.set_servos(pulses_us)
-    flight.advance(0.5)
-    assert flight.servos == pulses_us
+    servos = ServoRack(6000.0, 0.015, 0.002)
+    servos.set((2000, 1500, 1000, 1490))
+    servos.step()
+    assert servos.rounded_us == (1512, 1500, 1000, 1499)
+    for _ in range(100):
+        servos.step()
+    assert servos.rounded_us == (2000, 1500, 1000, 1490)
+    servos.set(pulses_us)
+    for _ in range(250):
+        servos.step()
+    assert servos.rounded_us == pulses_us
+
+
+def test_a_servo_rests_in_its_dead_band_and_its_surface_follows_with_play():
+    def settled(pulse_us):
+        servos.set((pulse_us, 1500, 1500, 1500))
+        for _ in range(250):
+            servos.step()
+        return servos.positions_us[0]
+
+    servos = ServoRack(6000.0, 0.015, 0.002, dead_band_us=3.0, play_us=8.0)
+    assert settled(1502.9) == 1500.0
+    # Short of its pulse by the dead band, and the surface by half of the play.
+    assert settled(1600) == pytest.approx(1600 - 3 - 4, abs=0.5)
+    assert settled(1592) == pytest.approx(1593, abs=0.5)
+    assert settled(1500) == pytest.approx(1500 + 3 + 4, abs=0.5)
+    assert servos.positions_us[2] == 1500.0

@@ -7,7 +7,7 @@ import statistics
 import pytest
 
 from up_rig.imu import Motion
-from up_simulator.firmware.imu_errors import ImuErrors, ImuModel
+from up_simulator.firmware.imu_errors import ImuErrors, ImuModel, drawn_errors
 
 STILL = Motion()
 QUIET = {"gyro_noise_deg_s": 0.0, "accel_noise_m_s2": 0.0}
@@ -78,3 +78,20 @@ def test_the_same_seed_errs_alike():
     assert rolls(samples(errors, seed=3, seconds=0.1)) != rolls(
         samples(errors, seed=4, seconds=0.1)
     )
+
+
+def test_each_seed_draws_the_bias_and_the_drift_of_another_sensor():
+    drawn = [drawn_errors(seed) for seed in range(50)]
+    assert drawn == [drawn_errors(seed) for seed in range(50)]
+    for axis in range(3):
+        biases = [each.gyro_bias_deg_s[axis] for each in drawn]
+        assert all(2 <= abs(each) <= 4 for each in biases)
+        assert min(biases) < -3.5 and max(biases) > 3.5
+        drifts = [each.gyro_drift_deg_s[axis] for each in drawn]
+        assert -4 <= min(drifts) < -3.5 and 3.5 < max(drifts) <= 4
+
+
+def test_what_is_known_of_a_sensor_is_not_drawn():
+    known = drawn_errors(3, gyro_bias_deg_s=(0.0, 1.0, 0.0), vibration_hz=99.0)
+    assert (known.gyro_bias_deg_s, known.vibration_hz) == ((0.0, 1.0, 0.0), 99.0)
+    assert known.gyro_drift_deg_s == drawn_errors(3).gyro_drift_deg_s

@@ -6,6 +6,7 @@ import pytest
 
 from tests.simulator.scenario.minimal import HEAD
 from tests.support.firmware import build_firmware
+from up_simulator.firmware.imu_errors import drawn_errors
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.file import parse_scenario, read_scenario
 from up_simulator.scenario.result import Result, control_scenario, control_verdicts, verdicts_of
@@ -110,7 +111,7 @@ def test_the_receiver_one_channel_and_a_reset():
 
 def test_telemetry_that_waited_is_told_to_be_as_old_as_it_is():
     text = (
-        HEAD.replace("duration_s: 4", "duration_s: 8")
+        HEAD.replace("duration_s: 4", "duration_s: 12")
         + LEVEL
         + (
             "raspilot: {runs: in process}\nground: {period_ms: 50}\n"
@@ -118,14 +119,14 @@ def test_telemetry_that_waited_is_told_to_be_as_old_as_it_is():
             "  - {at_s: 0.5, name: killed, raspilot: killed}\n"
             "  - {at_s: 0.6, name: started, raspilot: started}\n"
             "  - {at_s: 3, name: the stall, link: stall}\n"
-            "  - {at_s: 4.2, name: the end, link: restore}\n"
+            "  - {at_s: 3.2, name: the end, link: restore}\n"
             "  - {at_s: 4.6, name: slow, link_settings: {up: {delay_ms: 1300}}}\n"
             "expect:\n"
-            "  - {name: a, signal: ground.latency_s, to_s: 4.18, below: 0.1}\n"
-            "  - {name: b, signal: ground.latency_s, after: the end, becomes_above: 1,"
+            "  - {name: a, signal: ground.latency_s, to_s: 3.18, below: 0.1}\n"
+            "  - {name: b, signal: ground.latency_s, after: the end, becomes_above: 0.15,"
             " within_s: 0.1}\n"
             "  - {name: c, signal: ground.latency_s, from_s: 4.4, to_s: 4.6, below: 0.1}\n"
-            "  - {name: d, signal: ground.latency_s, from_s: 7.2, between: [1.2, 2.1]}\n"
+            "  - {name: d, signal: ground.latency_s, from_s: 10, between: [1.2, 2.3]}\n"
         )
     )
     assert broken(fly(text)) == []
@@ -202,3 +203,59 @@ def test_a_control_run_that_does_not_fail_is_no_control_run():
     )  # fmt: skip
     verdicts = control_verdicts(calm, build_flight(control_scenario(calm)).fly())
     assert any(not verdict.is_held and "shows nothing" in verdict.why for verdict in verdicts)
+
+
+def test_the_bias_is_drawn_by_the_seed_unless_it_is_stated():
+    def bias(text):
+        return build_flight(parse_scenario(HEAD + text + LEVEL + HELD))._board.imu.errors
+
+    assert bias("").gyro_bias_deg_s == drawn_errors(1).gyro_bias_deg_s
+    assert bias("seed: 2\n").gyro_bias_deg_s == drawn_errors(2).gyro_bias_deg_s
+    assert bias("imu: {gyro_bias_deg_s: [0, 0, 0]}\n").gyro_bias_deg_s == (0, 0, 0)
+
+
+def test_a_stick_reaches_the_board_after_the_receivers_delay():
+    def moved_s(delay_ms):
+        record = fly(
+            HEAD.replace("4", "1.5")
+            + f"board: direct\nreceiver: {{delay_ms: {delay_ms}}}\n"
+            + "sticks: [{at_s: 1, ailerons: 0.5}]\n"
+            + "expect: [{name: It moves, signal: servo.ailerons_us, below: 2000}]\n"
+        )
+        pulses = record.log.numbers("servo.ailerons_us")
+        assert max(record.log.numbers("stick.ailerons_us")) == 1750
+        return record.log.numbers("time_s")[next(at for at, us in enumerate(pulses) if us > 1700)]
+
+    assert moved_s(200) - moved_s(0) == pytest.approx(0.2, abs=0.001)
+
+
+def test_a_receiver_without_radio_holds_the_sticks_and_sends_its_own_throttle():
+    record = fly(
+        HEAD + "board: direct\nreceiver: {failsafe_throttle_us: 890}\n"
+        "sticks: [{at_s: 0, throttle: 0.5}, {at_s: 2, ailerons: 0.5}]\n"
+        "events: [{at_s: 1, receiver: failsafe}, {at_s: 3, receiver: back}]\n"
+        "expect: [{name: It flies, signal: time_s, above: 0}]\n"
+    )
+    rows = dict(zip(record.log.numbers("time_s"), range(201), strict=True))
+    throttle = record.log.numbers("servo.throttle_us")
+    ailerons = record.log.numbers("servo.ailerons_us")
+    pulses = [(throttle[rows[at_s]], ailerons[rows[at_s]]) for at_s in (0.9, 2.9, 3.9)]
+    assert pulses == [(1500, 1500), (890, 1500), (1500, 1750)]
+
+
+def test_the_firmware_knows_the_throttle_of_a_receiver_without_radio():
+    record = fly(
+        HEAD + LEVEL + "events: [{at_s: 1, receiver: failsafe}, {at_s: 3, receiver: back}]\n" + HELD
+    )
+    failsafe = record.log.numbers("board.failsafe")
+    assert failsafe[45] == 0.0 and failsafe[140] == 1.0 and failsafe[-1] == 0.0
+
+
+def test_without_gps_the_position_grows_old_and_the_altitude_does_not():
+    record = fly(
+        HEAD + "raspilot: {runs: in process}\nground: {period_ms: 50}\nphone: {program: python}\n"
+        "events: [{at_s: 0.5, gps: lost}, {at_s: 3, gps: back}]\n" + LEVEL + HELD
+    )
+    ages_ms = record.log.numbers("ground.age_ms.location")
+    assert ages_ms[145] > 2000 > max(record.log.numbers("ground.age_ms.altitude"))
+    assert ages_ms[-1] < 1000

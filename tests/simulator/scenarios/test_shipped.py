@@ -4,6 +4,7 @@ import dataclasses
 
 import pytest
 
+from tests.simulator.scenarios.mutate import ROOT, mutations
 from tests.simulator.scenarios.shipped import ALONE, REAL, SCENARIOS, WITH_DAEMON, fly
 from up_simulator.scenario.measures import limit_text
 from up_simulator.verbs.shelf import shipped_paths
@@ -26,6 +27,16 @@ def test_it_says_what_it_shows_and_by_which_figures(name):
     assert len(scenario.expect) >= LEAST_EXPECTATIONS
     assert any(any(each.isdigit() for each in limit_text(limit)) for limit in scenario.expect)
     assert scenario.board in ("auto", "direct") and not scenario.may_crash
+
+
+def test_each_guards_a_rule_and_was_seen_to_fail_without_it():
+    rules = mutations()
+    assert {name for name, each in SCENARIOS.items() if not each.guards} == set()
+    assert {name for name, each in SCENARIOS.items() if each.control is None} <= set(rules)
+    for name, parts in rules.items():
+        assert name in SCENARIOS
+        for path, find, _ in parts:
+            assert (ROOT / path).read_text(encoding="utf-8").count(find) == 1, (name, path)
 
 
 def test_titles_differ():

@@ -1,0 +1,159 @@
+"""How far the firmware's attitude is from the truth, with the gyro errors that each seed draws.
+
+``python -m bench.attitude --help`` flies other flights than the table's.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import random
+from collections.abc import Iterable
+
+from bench.table import LeftOutError, Row
+from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
+from up_simulator.crew.firmware_aircraft import FirmwareAircraft
+from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.imu_errors import ImuErrors, drawn_errors
+from up_simulator.firmware.preparation import PreparationError, prepared_eeprom
+from up_simulator.firmware.tap import BoardTap
+from up_simulator.flight import FlightUnavailableError
+from up_simulator.radio.circling_pilot import CirclingPilot
+from up_simulator.tuning.workers import MOST_PROCESSES, Workers
+
+FLIGHTS, MINUTES = 20, 10
+TARGET_DEG = 2.0
+TICK_S = 0.004
+STARVED_EVERY_S, STARVED_S = 2.0, (0.05, 1.5)
+Errors = tuple[float, float]
+
+
+def rows(quick: bool = False) -> Iterable[Row]:
+    """Yield the worst of all flights; raises LeftOutError without what flies them."""
+    flights, minutes = (2, 1) if quick else (FLIGHTS, MINUTES)
+    try:
+        with Workers(MOST_PROCESSES) as workers:
+            found = workers.fly(fly, [(seed, minutes) for seed in range(1, flights + 1)])
+    except (BoardUnavailableError, FlightUnavailableError, PreparationError) as error:
+        raise LeftOutError(str(error)) from error
+    errors_deg = worst(each for flight in found for each in flight)
+    yield Row(
+        f"attitude error with drawn gyro errors, worst of {flights} flights of {minutes} min",
+        _text(errors_deg),
+        target=f"<= {TARGET_DEG:.1f} deg",
+        met=max(errors_deg) <= TARGET_DEG,
+    )
+
+
+def worst(errors: Iterable[Errors]) -> Errors:
+    """Return the greatest of each axis."""
+    roll_deg, pitch_deg = zip(*errors, strict=True)
+    return max(roll_deg), max(pitch_deg)
+
+
+class StarvedClock:
+    """The clock of a process that is held up every few seconds, or never."""
+
+    def __init__(self, seed: int, is_starved: bool) -> None:
+        self._chance = random.Random(f"starved {seed}")
+        self._now_s = 0.0
+        self._next_s = STARVED_EVERY_S if is_starved else math.inf
+
+    def seconds(self) -> float:
+        """Return the time."""
+        return self._now_s
+
+    def tick(self) -> None:
+        """Pass the time until the process runs again."""
+        self._now_s += TICK_S
+        if self._now_s >= self._next_s:
+            self._now_s += self._chance.uniform(*STARVED_S)
+            self._next_s = self._now_s + STARVED_EVERY_S
+
+
+class ComparingLine:
+    """A serial line that compares the board's attitude with the truth."""
+
+    def __init__(self, flight: FlightDynamics) -> None:
+        self._flight = flight
+        self._waiting = BoardTap().start_bytes()
+        self._tap = BoardTap()
+        self.worst_deg: Errors = (0.0, 0.0)
+
+    def read(self, timeout_s: float, most: int) -> bytes:
+        """Return a Start Command, once."""
+        waiting, self._waiting = self._waiting, b""
+        return waiting
+
+    def write(self, data: bytes) -> None:
+        """Take what the board sends."""
+        if any(each.type == "O" for each in self._tap.feed(data, 0.0)):
+            told, true = self._tap.orientation, self._flight.state
+            assert told is not None
+            roll_deg = abs((told.roll_deg - true.roll_deg + 180.0) % 360.0 - 180.0)
+            self.worst_deg = worst(
+                [self.worst_deg, (roll_deg, abs(told.pitch_deg - true.pitch_deg))]
+            )
+
+
+def fly(
+    seed: int, minutes: int, is_starved: bool = False, errors: ImuErrors | None = None
+) -> list[Errors]:
+    """Return the worst errors of roll and pitch, deg, in each minute of a flight of ``make run``.
+
+    Wind, bias, drift and vibration are drawn by the seed. A crash is an infinite error and ends
+    the flight. Raises ``BoardUnavailableError``, ``FlightUnavailableError``, ``PreparationError``.
+    """
+    chance = random.Random(f"attitude {seed}")
+    airframe = load_airframe("glider")
+    weather = Weather(wind_m_s=chance.uniform(0, 6), turbulence="moderate")
+    flight = FlightDynamics(airframe, Start(), weather, seed)
+    drawn = drawn_errors(
+        seed,
+        vibration_deg_s=chance.uniform(1, 10),
+        vibration_m_s2=chance.uniform(1, 6),
+        vibration_hz=chance.uniform(100, 300),
+    )
+    eeprom = prepared_eeprom("host", airframe.profile, airframe.gains)
+    board = choose_board("host", seed=seed, eeprom=eeprom, imu_errors=errors or drawn)
+    clock, line = StarvedClock(seed, is_starved), ComparingLine(flight)
+    pilot = CirclingPilot()
+    aircraft = FirmwareAircraft(flight, board, line, pilot, clock, "circle", lambda _text: None)
+    found: list[Errors] = []
+    for minute in range(1, minutes + 1):
+        while aircraft.real_time.world.time_s < 60.0 * minute:
+            clock.tick()
+            aircraft.keep()
+            if flight.crash is not None:
+                return [*found, (math.inf, math.inf)]
+        found.append(line.worst_deg)
+        line.worst_deg = (0.0, 0.0)
+    return found
+
+
+def main() -> None:
+    """Fly what is asked for and print the worst errors, also those of each minute."""
+    parser = argparse.ArgumentParser(prog="python -m bench.attitude", description=__doc__)
+    parser.add_argument("--flights", type=int, default=FLIGHTS)
+    parser.add_argument("--minutes", type=int, default=MINUTES)
+    parser.add_argument("--first", type=int, default=1, metavar="SEED", help="of the first flight")
+    parser.add_argument("--starved", action="store_true", help="hold the process up at times")
+    parser.add_argument("--no-errors", action="store_true", help="of the gyro, but its noise")
+    options = parser.parse_args()
+    errors = ImuErrors() if options.no_errors else None
+    seeds = range(options.first, options.first + options.flights)
+    flights = [(seed, options.minutes, options.starved, errors) for seed in seeds]
+    with Workers(MOST_PROCESSES) as workers:
+        found = workers.fly(fly, flights)
+    for seed, flight in zip(seeds, found, strict=True):
+        minutes = " ".join(f"{roll_deg:.1f}/{pitch_deg:.1f}" for roll_deg, pitch_deg in flight)
+        print(f"seed {seed:3}  worst {_text(worst(flight))}  {minutes}")
+    print(f"all       worst {_text(worst(each for flight in found for each in flight))}")
+
+
+def _text(errors_deg: Errors) -> str:
+    return f"roll {errors_deg[0]:.2f}, pitch {errors_deg[1]:.2f} deg"
+
+
+if __name__ == "__main__":
+    main()
