@@ -53,6 +53,13 @@ OUT_OF_LINE int16_t radians_q14(int16_t angle_cdeg) {
 
 }  // namespace
 
+OUT_OF_LINE int16_t ratio_q14(int16_t part, int16_t whole) {
+  const uint16_t size = magnitude(part);
+  const uint16_t most = static_cast<uint16_t>(whole);
+  const int16_t ratio = static_cast<int16_t>(ratio_q15(size < most ? size : most, most) >> 1);
+  return part < 0 ? static_cast<int16_t>(-ratio) : ratio;
+}
+
 OUT_OF_LINE int16_t arc_tangent_cdeg(int16_t y, int16_t x) {
   const uint16_t across = magnitude(y);
   const uint16_t along = magnitude(x);

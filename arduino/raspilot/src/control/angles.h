@@ -14,4 +14,7 @@ uint16_t square_root(uint32_t square);
 int16_t small_sine_q14(int16_t angle_cdeg);
 int16_t small_cosine_q14(int16_t angle_cdeg);
 
+/** `part` / `whole`, -1 to 1 in Q14; `whole` is positive. */
+int16_t ratio_q14(int16_t part, int16_t whole);
+
 }  // namespace raspilot

@@ -338,8 +338,8 @@ OUT_OF_LINE void AttitudeFilter::find_pitch() {
   attitude_.pitch_cdeg = arc_tangent_cdeg(attitude_.sin_pitch, level);
   if (level < MIN_COS_PITCH) level = MIN_COS_PITCH;
   attitude_.cos_pitch = level;
-  attitude_.sin_roll = static_cast<int16_t>(product(down_[1], ONE_Q14) / level);
-  attitude_.cos_roll = static_cast<int16_t>(product(down_[2], ONE_Q14) / level);
+  attitude_.sin_roll = ratio_q14(down_[1], level);
+  attitude_.cos_roll = ratio_q14(down_[2], level);
 }
 
 OUT_OF_LINE void AttitudeFilter::find_angles() {

@@ -1,5 +1,6 @@
 #include "flight_controller.h"
 
+#include "angles.h"
 #include "fixed_point.h"
 #include "servo_stage.h"
 
@@ -32,7 +33,6 @@ constexpr int32_t RATE_TO_UPPER_HALF = 8;
 constexpr int16_t CDEG_TO_128THS = 20972;
 constexpr int16_t HALF_CIRCLE_CDEG = 18000;
 constexpr int32_t CIRCLE_CDEG = 36000;
-constexpr int16_t ONE_Q14 = 16384;
 constexpr int16_t HALF_Q14 = 8192;
 
 // The yaw damper's mean follows by a 1024th a slot: 2.05 s.
@@ -162,10 +162,12 @@ int16_t FlightController::wanted_rate_16(Channel channel, const Demand& demand,
 int16_t FlightController::pitch_rate_in_turn_16(int16_t wanted_16, const Attitude& attitude) {
   const int16_t cosine = attitude.cos_roll;
   if (cosine <= 0) return 0;
-  const int16_t sideways_16 = times_q14(attitude.yaw_rate_16, attitude.sin_roll);
-  const int32_t turning_16 = cosine < HALF_Q14 ? shifted(product(sideways_16, cosine), 12)
-                                               : product(sideways_16, ONE_Q14) / cosine;
-  return sum_of(times_q14(wanted_16, cosine), to_int16(turning_16));
+  const int16_t sine = attitude.sin_roll;
+  // Half the tangent, or twice sine times cosine, which meet at 60 degrees.
+  const int16_t tangent = cosine < HALF_Q14 ? static_cast<int16_t>(times_q14(sine, cosine) * 2)
+                                            : ratio_q14(static_cast<int16_t>(sine / 2), cosine);
+  const int16_t turning_16 = times_q14(attitude.yaw_rate_16, tangent);
+  return sum_of(times_q14(wanted_16, cosine), sum_of(turning_16, turning_16));
 }
 
 /** The failsafe's, the Raspberry Pi's or the stick's bank or pitch. */

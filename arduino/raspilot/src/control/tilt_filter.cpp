@@ -13,10 +13,11 @@ constexpr float GRAVITY_M_S2 = 9.81F;
 
 // A cycle: 64 slots of samples, then these pieces in three of four slots.
 constexpr uint8_t GROUPS = 16;
-constexpr uint8_t PREDICTIONS = 7;
-constexpr uint8_t PIECES_AN_UPDATE = 14;
+constexpr uint8_t FIRST_OBSERVATION = 9;
+constexpr uint8_t FIRST_ROW = 8;
+constexpr uint8_t PIECES_AN_UPDATE = 15;
 constexpr uint8_t SUBJECTS = 3;
-constexpr float CYCLE_S = 0.268F;
+constexpr float CYCLE_S = 0.286F;
 
 constexpr float DEFAULT_SPEED_M_S = 13;
 constexpr float MIN_SPEED_M_S = 5;
@@ -130,16 +131,22 @@ OUT_OF_LINE int16_t TiltFilter::force(Sum across, int32_t turning) const {
   return clamped16(to_int16(shifted(sums_[across], 4) + shifted(turning, 9)), TWO_G_Q13);
 }
 
-/** The attitude's errors as they were in this cycle, and how far they can be trusted. */
-OUT_OF_LINE void TiltFilter::find_errors(const Attitude& attitude) {
+/** The forces across the nose without the turn's, and the turn. */
+OUT_OF_LINE void TiltFilter::find_turn(const Attitude& attitude) {
   int16_t pitch_rate = to_int16(shifted(sums_[PITCH_RATE], 4));
   int16_t yaw_rate = to_int16(shifted(sums_[YAW_RATE], 4));
   const int16_t per_rate = to_fixed(speed_, SPEED_TO_FORCE);
-  int16_t x = force(X, 0);
-  int16_t y = force(Y, product(yaw_rate, per_rate));
-  int16_t z = force(Z, -product(pitch_rate, per_rate));
+  roll_error_ = force(Y, product(yaw_rate, per_rate));
+  pitch_error_ = force(Z, -product(pitch_rate, per_rate));
   turn(yaw_rate, pitch_rate, attitude.sin_roll, attitude.cos_roll);
   turn_rate_ = from_fixed(yaw_rate, RAD / 16);
+}
+
+/** The attitude's errors as they were in this cycle, and how far they can be trusted. */
+OUT_OF_LINE void TiltFilter::find_errors(const Attitude& attitude) {
+  int16_t x = force(X, 0);
+  int16_t y = roll_error_;
+  int16_t z = pitch_error_;
   turn(z, y, attitude.sin_roll, attitude.cos_roll);
   roll_error_ = y;
   turn(x, z, attitude.sin_pitch, attitude.cos_pitch);
@@ -163,28 +170,29 @@ OUT_OF_LINE void TiltFilter::predict(uint8_t piece, const Attitude& attitude) {
   uint8_t to = ROLL;
   uint8_t from = PITCH;
   switch (piece) {
-    case 0: return;
-    case 1:
+    case 0:
+    case 1: return;
+    case 2:
       from = BIAS_X;
       factor = -CYCLE_S;
       break;
-    case 2: break;
-    case 3:
+    case 3: break;
+    case 4:
       to = PITCH;
       from = ROLL;
       factor = -factor;
       break;
-    case 4:
+    case 5:
       to = PITCH;
       from = BIAS_Y;
       factor = from_fixed(attitude.cos_roll, -CYCLE_S / ONE_Q14);
       break;
-    case 5:
+    case 6:
       to = PITCH;
       from = BIAS_Z;
       factor = from_fixed(attitude.sin_roll, CYCLE_S / ONE_Q14);
       break;
-    case 6:
+    case 7:
       to = SPEED;
       factor = -GRAVITY_M_S2 * CYCLE_S;
       speed_ -= from_fixed(pitch_error_, -GRAVITY_M_S2 * CYCLE_S * FORCE_UNIT);
@@ -234,17 +242,19 @@ OUT_OF_LINE void TiltFilter::update(uint8_t piece) {
     }
     return;
   }
-  if (piece == STATES) {
+  if (piece < FIRST_ROW) {
     for (uint8_t state = 0; state < STATES; ++state) {
-      const float weight = weights_[state];
-      add_product(&variance_, &gains_[state], weight);
-      add_product(&innovation_, &change_[state], -weight);
-      weights_[state] = 0;
+      if (piece == STATES) {
+        add_product(&variance_, &gains_[state], weights_[state]);
+      } else {
+        add_product(&innovation_, &change_[state], -weights_[state]);
+        weights_[state] = 0;
+      }
     }
-    variance_ = 1 / variance_;
+    if (piece != STATES) variance_ = 1 / variance_;
     return;
   }
-  const uint8_t row = static_cast<uint8_t>(piece - STATES - 1);
+  const uint8_t row = static_cast<uint8_t>(piece - FIRST_ROW);
   const float gain = gains_[row] * variance_;
   add_product(&change_[row], &innovation_, gain);
   for (uint8_t column = 0; column <= row; ++column) {
@@ -255,15 +265,16 @@ OUT_OF_LINE void TiltFilter::update(uint8_t piece) {
 OUT_OF_LINE bool TiltFilter::step(const Attitude& attitude, TiltCorrection& correction) {
   if (groups_ < GROUPS) return false;
   uint8_t piece = piece_++;
-  if (piece == 0) find_errors(attitude);
-  if (piece <= PREDICTIONS) {
+  if (piece == 0) find_turn(attitude);
+  if (piece == 1) find_errors(attitude);
+  if (piece < FIRST_OBSERVATION) {
     predict(piece, attitude);
     return false;
   }
-  piece = static_cast<uint8_t>(piece - PREDICTIONS - 1);
+  piece = static_cast<uint8_t>(piece - FIRST_OBSERVATION);
   const uint8_t subject = piece / PIECES_AN_UPDATE;
-  if (subject == SUBJECTS) return finish(attitude, correction);
   piece %= PIECES_AN_UPDATE;
+  if (subject == SUBJECTS) return finish(piece, attitude, correction);
   if (piece == 0) {
     begin_observation(subject, attitude);
   } else if (variance_ != 0) {
@@ -272,33 +283,41 @@ OUT_OF_LINE bool TiltFilter::step(const Attitude& attitude, TiltCorrection& corr
   return false;
 }
 
-/** Gives the correction; starts over when rounding has spoilt the covariance. */
-OUT_OF_LINE bool TiltFilter::finish(const Attitude& attitude, TiltCorrection& correction) {
-  restart();
-  for (uint8_t state = 0; state < STATES; ++state) {
-    if (covariance(state, state) > 0) continue;
-    begin(10, 10, 0);
-    return false;
+/** Gives the correction part by part; starts over when rounding has spoilt the covariance. */
+OUT_OF_LINE bool TiltFilter::finish(uint8_t piece, const Attitude& attitude,
+                                    TiltCorrection& correction) {
+  for (uint8_t axis = 0; axis < 3; ++axis) {
+    correction.rotation_q17[axis] = correction.bias_q28[axis] = 0;
   }
-  correction.rotation_q17[0] = to_fixed(change_[ROLL], ONE_Q17);
-  correction.rotation_q17[1] = to_fixed(change_[PITCH], ONE_Q17);
-  correction.rotation_q17[2] = 0;
-  turn(correction.rotation_q17[1], correction.rotation_q17[2], attitude.sin_roll, attitude.cos_roll);
-  float share = DRIFT_SHARE;
-  if (cycles_ < EARLY_CYCLES) {
+  if (piece == 0) {
+    for (uint8_t state = 0; state < STATES; ++state) {
+      if (covariance(state, state) > 0) continue;
+      begin(10, 10, 0);
+      return false;
+    }
+    correction.rotation_q17[0] = to_fixed(change_[ROLL], ONE_Q17);
+    correction.rotation_q17[1] = to_fixed(change_[PITCH], ONE_Q17);
+    turn(correction.rotation_q17[1], correction.rotation_q17[2], attitude.sin_roll,
+         attitude.cos_roll);
+    return true;
+  }
+  const bool is_early = cycles_ < EARLY_CYCLES;
+  if (piece <= 3) {
+    const uint8_t axis = static_cast<uint8_t>(piece - 1);
+    const float* const change = &change_[BIAS_X + axis];
+    add_product(&drift_[axis], change, is_early ? EARLY_DRIFT_SHARE : DRIFT_SHARE);
+    correction.bias_q28[axis] = to_fixed(*change + drift_[axis], BIAS_TO_Q28);
+    return true;
+  }
+  if (is_early) {
     ++cycles_;
-    share = EARLY_DRIFT_SHARE;
     // The first turns show what the mean is.
     mean_speed_ += change_[SPEED] - drawn_speed_;
   }
-  for (uint8_t axis = 0; axis < 3; ++axis) {
-    const float* const change = &change_[BIAS_X + axis];
-    add_product(&drift_[axis], change, share);
-    correction.bias_q28[axis] = to_fixed(*change + drift_[axis], BIAS_TO_Q28);
-  }
   speed_ = sane_speed(speed_ + change_[SPEED]);
   mean_speed_ = sane_speed(mean_speed_ + (speed_ - mean_speed_) * MEAN_SPEED_SHARE);
-  return true;
+  restart();
+  return false;
 }
 
 }  // namespace raspilot

@@ -6,7 +6,7 @@
 
 namespace raspilot {
 
-/** What one cycle of the filter found, in body axes (x forward, y right, z down). */
+/** A part of what a cycle of the filter found, in body axes (x forward, y right, z down). */
 struct TiltCorrection {
   /** Rotation from the estimated to the true attitude, rad. */
   int16_t rotation_q17[3];
@@ -16,8 +16,8 @@ struct TiltCorrection {
 
 /**
  * Six states: tilt error about the horizontal axes forward and right, gyro bias on three axes,
- * airspeed. A cycle of 268 ms takes 16 groups of four samples (128 ms), then one short piece of
- * arithmetic in each of three slots out of four, in floating point.
+ * airspeed. A cycle of 286 ms takes 16 groups of four samples (128 ms), then one short piece of
+ * arithmetic in three of four slots, in floating point.
  *
  * An accelerometer feels gravity less the acceleration of flight, which is the turn rate times the
  * airspeed across the nose, and the change of airspeed along it. The filter expects both. So no
@@ -54,12 +54,13 @@ class TiltFilter {
   void restart();
   void add_noise(float tilt, float bias, float speed);
   void add(uint8_t to, uint8_t from, float factor);
+  void find_turn(const Attitude& attitude);
   void find_errors(const Attitude& attitude);
   int16_t force(Sum across, int32_t turning) const;
   void predict(uint8_t piece, const Attitude& attitude);
   void begin_observation(uint8_t subject, const Attitude& attitude);
   void update(uint8_t piece);
-  bool finish(const Attitude& attitude, TiltCorrection& correction);
+  bool finish(uint8_t piece, const Attitude& attitude, TiltCorrection& correction);
 
   // All zero at first, by its owner; begin() comes before anything else. The chip reaches the
   // first 64 bytes by short instructions.
@@ -76,7 +77,7 @@ class TiltFilter {
   float speed_;      // m/s
   float mean_speed_;
   float drawn_speed_;  // how far the mean has drawn it in this cycle
-  float drift_[3];  // rad/s a cycle
+  float drift_[3];   // rad/s a cycle
   union {
     float gains_[STATES];  // covariance of the states with what is observed
     int32_t sums_[SUMS];
