@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from simple_pid import PID
 
 from up.flight_controller.gains import Gains
@@ -15,6 +17,21 @@ def limited_pid(gains: Gains, limit: float) -> PID:
     return PID(
         gains.p, gains.i, gains.d, setpoint=0.0, sample_time=None, output_limits=(-limit, limit)
     )
+
+
+def pitch_rate_in_turn(wanted_deg_s: float, roll_deg: float, yaw_rate_deg_s: float) -> float:
+    """Return the rate about the pitch axis, deg/s, that changes pitch by ``wanted_deg_s``.
+
+    A banked aircraft holds its nose only while it pitches with its turn: by the yaw rate times the
+    tangent of the bank, which beyond 60 degrees falls to 0 at 90. Beyond 90 degrees of bank the
+    elevator waits, because it would pull the nose down. The firmware's flight controller computes
+    the same.
+    """
+    sine, cosine = math.sin(math.radians(roll_deg)), math.cos(math.radians(roll_deg))
+    if cosine <= 0:
+        return 0.0
+    tangent = sine / cosine if cosine >= 0.5 else 4 * sine * cosine
+    return wanted_deg_s * cosine + yaw_rate_deg_s * tangent
 
 
 class Cascade:
@@ -46,9 +63,12 @@ class Cascade:
         self, wanted_deg: float, angle_deg: float, rate_deg_s: float, dt_s: float
     ) -> float:
         """Return the servo deflection, us, that leads to an angle."""
+        return self.hold_rate(self.rate_towards(wanted_deg, angle_deg, dt_s), rate_deg_s, dt_s)
+
+    def rate_towards(self, wanted_deg: float, angle_deg: float, dt_s: float) -> float:
+        """Return the rotation rate, deg/s, that leads to an angle."""
         self._stabilize.setpoint = wanted_deg
-        wanted_rate = self._stabilize(angle_deg, dt=dt_s) or 0.0
-        return self.hold_rate(wanted_rate, rate_deg_s, dt_s)
+        return self._stabilize(angle_deg, dt=dt_s) or 0.0
 
     def hold_rate(self, wanted_deg_s: float, rate_deg_s: float, dt_s: float) -> float:
         """Return the servo deflection, us, that leads to a rotation rate."""

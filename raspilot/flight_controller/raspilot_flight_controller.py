@@ -9,7 +9,7 @@ from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
 from raspilot.flight_controller import sticks
-from raspilot.flight_controller.cascade import Cascade
+from raspilot.flight_controller.cascade import Cascade, pitch_rate_in_turn
 from raspilot.flight_controller.yaw_damper import YawDamper
 from up.commands.flight_mode_command import FlightModeCommand
 from up.commands.flight_state_command import FlightStateCommand
@@ -143,9 +143,11 @@ class RaspilotFlightController(BaseFlightController):
             attitude.roll_rate_deg_s or 0.0,
             dt_s,
         )
-        elevator_us = self._pitch.hold_angle(
-            sticks.pitch_deg(rx.elevator_us, self._limits),
-            attitude.pitch_deg,
+        wanted_deg_s = self._pitch.rate_towards(
+            sticks.pitch_deg(rx.elevator_us, self._limits), attitude.pitch_deg, dt_s
+        )
+        elevator_us = self._pitch.hold_rate(
+            pitch_rate_in_turn(wanted_deg_s, attitude.roll_deg, attitude.yaw_rate_deg_s or 0.0),
             attitude.pitch_rate_deg_s or 0.0,
             dt_s,
         )

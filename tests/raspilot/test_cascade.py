@@ -1,5 +1,6 @@
 """The cascade: signs, limits, windup, and a closed loop."""
 
+import itertools
 import math
 
 import pytest
@@ -7,7 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from raspilot.flight_controller import sticks
-from raspilot.flight_controller.cascade import OUTPUT_LIMIT, US_PER_UNIT, Cascade
+from raspilot.flight_controller.cascade import (
+    OUTPUT_LIMIT,
+    US_PER_UNIT,
+    Cascade,
+    pitch_rate_in_turn,
+)
 from raspilot.flight_controller.yaw_damper import WASHOUT_S, YawDamper
 from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
 from up.flight_controller.gains import Gains
@@ -176,3 +182,23 @@ def test_sticks_within_other_limits():
     assert sticks.roll_deg(1750, limits) == 15
     assert sticks.pitch_deg(2000, limits) == 20
     assert sticks.pitch_deg(1000, limits) == 0
+
+
+@pytest.mark.parametrize("bank_deg", [-49, -20, 20, 49, 60])
+def test_a_banked_aircraft_pitches_with_its_turn(bank_deg):
+    turn_deg_s = math.copysign(20, bank_deg)
+    bank = math.radians(bank_deg)
+    rate = pitch_rate_in_turn(0.0, bank_deg, turn_deg_s * math.cos(bank))
+    assert rate == pytest.approx(turn_deg_s * math.sin(bank))
+    assert pitch_rate_in_turn(10.0, bank_deg, 0.0) == pytest.approx(10 * math.cos(bank))
+
+
+@pytest.mark.parametrize("bank_deg", [90, -91, 120, 180])
+def test_beyond_90_degrees_of_bank_the_elevator_waits(bank_deg):
+    assert pitch_rate_in_turn(80.0, bank_deg, 50.0) == pytest.approx(0, abs=1e-9)
+
+
+def test_towards_90_degrees_the_offset_falls_to_nothing_without_a_jump():
+    rates = [pitch_rate_in_turn(0.0, each / 10, 30.0) for each in range(901)]
+    assert max(abs(after - before) for before, after in itertools.pairwise(rates)) < 0.3
+    assert rates[-1] == pytest.approx(0, abs=0.1)

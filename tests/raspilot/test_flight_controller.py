@@ -398,6 +398,7 @@ class TestGains:
             await until(lambda: got)
             assert "No space left" in got[0].getErrorMessage()
             assert rig.controller.gains.rate == LOOP
+            rig.bus.limited.stop()
 
         run_in_reactor(scenario)
 

@@ -31,6 +31,7 @@ static constexpr int16_t GRACE_TICKS = 2 * 470;
 static constexpr int16_t PIECE_TICKS = 2 * 430;
 static constexpr int16_t KEEP_TICKS = 2 * 270;
 static constexpr int16_t BYTE_TICKS = 2 * 150;
+static constexpr int16_t COMMAND_TICKS = 2 * 330;
 /** After so many slots without time for background work a slot's sample gives way to it. */
 static constexpr uint8_t PATIENT_SLOTS = 5;
 /** State is kept 50 times a second. */
@@ -87,8 +88,8 @@ static void blink() {
  */
 static void work(int16_t left) {
   uint8_t byte;
-  // The end of a frame carries its Command out, which takes as long as any other piece.
-  const int16_t byte_ticks = uart::is_next_zero() ? PIECE_TICKS : BYTE_TICKS;
+  // The end of a frame carries its Command out.
+  const int16_t byte_ticks = uart::is_next_zero() ? COMMAND_TICKS : BYTE_TICKS;
   if (left >= PIECE_TICKS && slots_without_work) {
     slots_without_work = 0;
     autopilot.background(clock::now_us());
