@@ -5,6 +5,7 @@ import pytest
 from tests.arduino.commands import SERVOS, profile, setpoint
 from tests.arduino.flight import HIGH, LOW, MIDDLE, Flight
 
+ONLY_DISARMED = 4
 A_DEGREE_US = 20
 """What the default gains make of a degree."""
 
@@ -115,11 +116,30 @@ def test_the_motors_servo_has_no_direction_nor_trim_that_could_start_it(flight):
     assert not flight.status().is_armed
 
 
-def test_without_a_motor_the_channel_is_a_servo_like_any(flight):
+def test_without_a_motor_the_channel_is_a_servo_like_any():
+    flight = Flight()
     fit(flight, {"throttle": {"reversed": 1, "trim_us": 50, "highest_us": 1900}}, motor=0)
     for stick, servo in ((1700, 1350), (1500, 1550), (1000, 1900)):
         flight.sticks(throttle=stick)
         assert flight.servo_us("throttle") == pytest.approx(servo, abs=1)
+
+
+def test_a_glider_takes_no_other_settings_once_its_receiver_was_heard():
+    """Without a motor it flies disarmed: only a silent transmitter proves the ground."""
+    flight = Flight()
+    fit(flight, motor=0)
+    assert flight.ask("C", profile(motor=0)) == ONLY_DISARMED
+    assert flight.ask("e", b"\0") == ONLY_DISARMED
+    assert flight.ask("e", b"\3") == ONLY_DISARMED
+    flight.run_ms(700)
+    still = Flight(receiver=False, eeprom=flight.rig.eeprom.read())
+    assert still.ask("C", profile(motor=0)) == ONLY_DISARMED
+    still.run_ms(5000)
+    assert still.ask("e", b"\0") == "K"
+    assert still.ask("C", profile(motor=0)) == "K"
+    still.rig.receiver.start()
+    still.run_ms(200)
+    assert still.ask("C", profile(motor=0)) == ONLY_DISARMED
 
 
 def test_a_profile_is_kept_over_a_power_cycle(flight):

@@ -1,11 +1,15 @@
 """Arming: what it takes, what it concerns, and what never does it."""
 
+import math
+
 import pytest
 
 from tests.arduino.commands import outputs, profile
 from tests.arduino.flight import HIGH, IMU, LOW, MIDDLE, RECEIVER, Flight
+from up_rig.imu import motion_at
 
 THROTTLE_NOT_LOW, RECEIVER_INVALID, IMU_INVALID, VETO = 8, 9, 10, 11
+CALIBRATING = 32
 
 
 @pytest.fixture(scope="module")
@@ -46,6 +50,27 @@ def test_an_aux2_that_is_high_at_power_on_arms_nothing(receiver_after_ms):
     assert not status.vetoes
     assert not status.is_armed
     flight.sticks(500, aux2=LOW)
+    flight.sticks(400, aux2=HIGH)
+    assert flight.status().is_armed
+
+
+def test_without_any_bias_nothing_arms_until_the_aircraft_was_still():
+    """Moved from power-on for longer than arming waits, with a blank EEPROM."""
+    flight = Flight(boots=False)
+    flight.rig.imu.bias_deg_s = (2.0, -3.0, 1.0)
+    flight.rig.imu.motion = lambda time_s: motion_at(
+        5 * math.sin(6 * time_s), 0, (30 * math.cos(6 * time_s), 0, 0)
+    )
+    flight.run_ms(12_500)
+    flight.sticks(400, aux2=HIGH)
+    status = flight.status()
+    assert not status.is_armed
+    assert status.vetoes & CALIBRATING
+    assert flight.ask("a") == VETO
+    flight.rig.imu.motion = motion_at(0, 0)
+    flight.run_ms(2500)
+    assert not flight.status().vetoes & CALIBRATING
+    flight.sticks(400, aux2=LOW)
     flight.sticks(400, aux2=HIGH)
     assert flight.status().is_armed
 

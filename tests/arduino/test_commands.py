@@ -8,7 +8,7 @@ from tests.arduino.flight import ARMED, GAINS_KEPT, HIGH, LOW, MIDDLE, Flight
 from up_rig.imu import motion_at
 
 OUT_OF_RANGE, ONLY_DISARMED, TOO_OLD, NOT_AUTO = 3, 4, 6, 7
-THROTTLE, RECEIVER, IMU, VETO, NOT_STILL = 8, 9, 10, 11, 12
+THROTTLE, RECEIVER, IMU, VETO, NOT_STILL, NOT_SUPPORTED = 8, 9, 10, 11, 12, 13
 GAINS = tuple(0.25 * each for each in range(1, 19))
 NAN, INFINITY = float("nan"), float("inf")
 
@@ -181,27 +181,19 @@ def test_gains_taken_disarmed_are_kept_and_those_of_a_flight_are_not(flight):
     assert again.ask("G") == gains(*GAINS)
 
 
-@pytest.mark.parametrize(
-    ("letter", "payload"),
-    [
-        ("h", struct.pack(">h", -12)),
-        ("b", struct.pack(">h", 359)),
-        ("B", struct.pack(">h", 0)),
-        ("l", struct.pack(">2f", 50.0, 14.5)),
-        ("v", b"\0"),
-    ],
-)
-def test_streams_are_not_acknowledged(flight, letter, payload):
-    assert flight.ask(letter, payload) is None
+def test_streams_are_not_acknowledged(flight):
+    assert flight.ask("v", b"\0") is None
+
+
+@pytest.mark.parametrize(("letter", "size"), [("h", 2), ("b", 2), ("B", 2), ("l", 8)])
+def test_what_nothing_on_the_board_uses_is_refused(flight, letter, size):
+    flight.run_ms(1200)
+    assert flight.ask(letter, bytes(size)) == NOT_SUPPORTED
 
 
 @pytest.mark.parametrize(
     ("letter", "payload"),
     [
-        ("b", struct.pack(">h", 360)),
-        ("B", struct.pack(">h", -1)),
-        ("l", struct.pack(">2f", 91.0, 14.5)),
-        ("l", struct.pack(">2f", 50.0, NAN)),
         ("v", b"\2"),
         ("e", b"\4"),
         ("S", setpoint(lifetime_ms=251)),

@@ -6,16 +6,19 @@ once the watchdog has bitten.
 """
 
 import itertools
+import math
 
 import pytest
 
-from tests.arduino.flight import AUTO, HIGH, IMU, LOW, MIDDLE, Flight
+from tests.arduino.flight import AUTO, BIAS_FROM_EEPROM, HIGH, IMU, LOW, MIDDLE, Flight
 from tests.support.tools import unavailable
 from up_rig import Reset, RigUnavailableError, build_optiboot
+from up_rig.imu import GRAVITY_M_S2, Motion
 
 WDR, RJMP_SELF, CLI = b"\xa8\x95", b"\xff\xcf", b"\xf8\x94"
 RESTORED = 0x80
 THROTTLE_US = 1425
+CALIBRATING = 32
 
 
 @pytest.fixture(scope="module", params=[False, True], ids=["bare", "optiboot"])
@@ -269,6 +272,57 @@ def test_power_that_fails_after_a_reset_in_flight_does_not_arm(bootloader):
     flight.run_ms(2000)
     status = flight.status()
     assert not status.is_armed and not status.cause & RESTORED
+
+
+def turning(bank_deg, speed_m_s=12.0):
+    """Return what an IMU feels in a level turn without slip."""
+    bank = math.radians(bank_deg)
+    turn_deg_s = math.degrees(GRAVITY_M_S2 * math.tan(bank) / speed_m_s)
+    rates = (0.0, turn_deg_s * math.sin(bank), turn_deg_s * math.cos(bank))
+    return Motion(*rates, 0.0, 0.0, -GRAVITY_M_S2 / math.cos(bank))
+
+
+@pytest.mark.parametrize("bias", [(-3.5, 1.2, -2.8), (5.0, -5.0, 5.0)])
+@pytest.mark.parametrize("how", [brown_out, press_reset])
+def test_a_reset_in_a_calm_turn_keeps_attitude_and_bias(how, bias):
+    """EEPROM was blank at power-on; the turn is as still as an aircraft on the ground."""
+    flight = Flight(aux1=MIDDLE, boots=False)
+    flight.rig.imu.bias_deg_s = bias
+    flight.run_ms(3000)
+    flight.may_be_cut = True
+    flight.arm()
+    flight.tilt(15, seconds=0.3)
+    flight.rig.imu.motion = turning(15)
+    flight.run_ms(500)
+    how(flight)
+    flight.run_ms(500)
+    status = flight.status()
+    assert not status.is_armed
+    assert not status.flags & BIAS_FROM_EEPROM
+    for _ in range(10):
+        flight.run_ms(1000)
+        roll, pitch, *_ = flight.attitude()
+        assert (roll, pitch) == pytest.approx((15, 0), abs=3)
+
+
+def test_a_brown_out_that_spoils_memory_leaves_the_bias_of_power_on():
+    flight = Flight(aux1=MIDDLE, boots=False)
+    flight.rig.imu.bias_deg_s = (-3.5, 1.2, -2.8)
+    flight.run_ms(3000)
+    flight.may_be_cut = True
+    flight.arm()
+    flight.rig.imu.motion = turning(15)
+    flight.run_ms(200)
+    flight.rig.brown_out(keeps_ram=False)
+    flight.run_ms(3000)
+    status = flight.status()
+    assert status.flags & BIAS_FROM_EEPROM
+    assert not status.vetoes & CALIBRATING
+    *_, roll_rate, pitch_rate, yaw_rate = flight.attitude()
+    truth = turning(15)
+    assert (roll_rate, pitch_rate, yaw_rate) == pytest.approx(
+        (0, truth.pitch_rate_deg_s, truth.yaw_rate_deg_s), abs=1
+    )
 
 
 def test_servos_have_pulses_soon_after_power_on():
