@@ -87,6 +87,7 @@ def test_the_controller_moves_by_configuration_only():
     moved = dataclasses.replace(
         on_arduino,
         title=on_raspberry.title,
+        guards=on_raspberry.guards,
         raspilot=dataclasses.replace(on_arduino.raspilot, config=config),
         expect=(dataclasses.replace(where, is_="OUTPUT"), *on_arduino.expect[1:]),
     )
