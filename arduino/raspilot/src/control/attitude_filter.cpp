@@ -59,6 +59,7 @@ constexpr uint8_t FINDING_GROUPS = 16;
 // How far off the attitude may be (1 sigma, degrees) when it was found or kept, and the bias
 // (tenths of a deg/s).
 constexpr uint8_t FOUND_TILT = 3;
+constexpr uint8_t STILL_TILT = 1;
 constexpr uint8_t FOUND_IN_FLIGHT_TILT = 15;
 constexpr uint8_t KEPT_TILT = 5;
 constexpr uint8_t SATURATED_TILT = 1;
@@ -201,7 +202,9 @@ OUT_OF_LINE void AttitudeFilter::take_own_bias() {
   state_.has_bias = true;
   state_.has_own_bias = true;
   state_.has_ended_search = true;
-  tilt_.begin(FOUND_TILT, MEASURED_BIAS, tilt_.speed_m_s());
+  tilt_.begin(STILL_TILT, MEASURED_BIAS, tilt_.speed_m_s());
+  // Until now the bias turned the attitude: gravity is what the still accelerometer shows.
+  found_groups_ = 0;
 }
 
 /** The still second that was searched for: its bias also flies after a reset with lost memory. */
@@ -310,8 +313,9 @@ void AttitudeFilter::find_gravity() {
     if (found_groups_ == 0) gravity = 0;
     gravity += shifted(product(measured_[axis], ONE_Q14) * 8, FINDING_SHIFT) - shifted(gravity, FINDING_SHIFT);
   }
-  has_gravity_ = ++found_groups_ == FINDING_GROUPS;
-  if (has_gravity_ && has_lost_gravity_) tilt_.widen(FOUND_IN_FLIGHT_TILT);
+  if (++found_groups_ < FINDING_GROUPS) return;
+  has_gravity_ = true;
+  if (has_lost_gravity_) tilt_.widen(FOUND_IN_FLIGHT_TILT);
 }
 
 void AttitudeFilter::apply(TiltCorrection& correction) {

@@ -39,7 +39,7 @@ constexpr float FORCE_SIGMA = 0.12F;              // g, across the nose
 constexpr float EXCESS_WEIGHT = 10;              // a force is trusted less when it is not 1 g
 constexpr float SPEED_SIGMA = 8;                 // m/s, about its mean
 constexpr float EARLY_SPEED_SIGMA = 17;
-constexpr float MEAN_SPEED_SHARE = CYCLE_S / 200;
+constexpr float MEAN_SPEED_SHARE = CYCLE_S / 60;
 constexpr float STRAIGHT_SIGMA = 3 * RAD;        // rad/s: below 5 deg/s a turn is mostly bias
 constexpr float STRAIGHT_LIMIT = 5 * RAD;
 
@@ -52,10 +52,11 @@ constexpr float BIAS_TO_Q28 = 536870.9F;
 constexpr float SPEED_TO_FORCE = RAD / 16 / GRAVITY_M_S2 * 8192 * 512;
 constexpr int16_t TWO_G_Q13 = 16383;
 /** A force beyond 1 g by more than this is no change of airspeed: a launch, a loop. */
-constexpr int16_t MAX_EXCESS_Q13 = 819;
-/** Nothing but a wrong attitude differs from a force of 1 g by so much, 30 degrees. */
+constexpr int16_t MAX_EXCESS_Q13 = 1434;
+/** A force of 1 g that differs by 30 degrees is a gust; for 3 s it is an attitude that is lost. */
 constexpr int16_t FAR_OFF_Q13 = 4096;
-constexpr float FAR_OFF_TILT = 10 * RAD;
+constexpr uint8_t LOST_CYCLES = 10;
+constexpr float LOST_TILT = 10 * RAD;
 
 OUT_OF_LINE void add_product(float* sum, const float* a, float b) { *sum += *a * b; }
 
@@ -156,11 +157,14 @@ OUT_OF_LINE void TiltFilter::find_errors(const Attitude& attitude) {
                             static_cast<int16_t>(z / 2)};
   const int16_t excess = sum_of(z, to_int16(shifted(dot(parts, parts), 12)));
   noise_ = square(FORCE_SIGMA) + square(from_fixed(excess, EXCESS_WEIGHT * FORCE_UNIT));
-  is_far_off_ = false;
-  if (clamped16(excess, MAX_EXCESS_Q13) != excess) {
-    pitch_error_ = 0;
-  } else if (clamped16(x, FAR_OFF_Q13) != x || clamped16(y, FAR_OFF_Q13) != y) {
-    is_far_off_ = true;
+  const bool is_far_off = clamped16(x, FAR_OFF_Q13) != x || clamped16(y, FAR_OFF_Q13) != y;
+  is_one_g_ = clamped16(excess, MAX_EXCESS_Q13) == excess;
+  if (!is_one_g_) {
+    // A gust or a launch: neither lost nor found.
+  } else if (is_far_off) {
+    if (far_off_cycles_ < LOST_CYCLES) ++far_off_cycles_;
+  } else {
+    far_off_cycles_ = 0;
   }
 }
 
@@ -193,12 +197,13 @@ OUT_OF_LINE void TiltFilter::predict(uint8_t piece, const Attitude& attitude) {
       factor = from_fixed(attitude.sin_roll, CYCLE_S / ONE_Q14);
       break;
     case 7:
+      if (!is_one_g_) return;
       to = SPEED;
       factor = -GRAVITY_M_S2 * CYCLE_S;
       speed_ -= from_fixed(pitch_error_, -GRAVITY_M_S2 * CYCLE_S * FORCE_UNIT);
       break;
     default:
-      add_noise(is_far_off_ ? FAR_OFF_TILT : TILT_WALK,
+      add_noise(far_off_cycles_ == LOST_CYCLES ? LOST_TILT : TILT_WALK,
                 cycles_ < EARLY_CYCLES ? EARLY_BIAS_WALK : BIAS_WALK, SPEED_WALK);
       return;
   }

@@ -68,7 +68,8 @@ class TiltFilter {
   uint8_t groups_;
   int16_t roll_error_;  // Q13
   int16_t pitch_error_;
-  bool is_far_off_;
+  uint8_t far_off_cycles_;
+  bool is_one_g_;
   uint8_t cycles_;
   float innovation_;
   float variance_;
