@@ -61,13 +61,26 @@ def panic(facts: Facts) -> Iterator[Wrong]:
         yield Wrong(span.begin_s, "warning", text, span.length_s)
 
 
+ANSWER_S = 3.0
+"""A Command is answered within this time (docs/protocols.md 4)."""
+
+
 def gains_changed(facts: Facts) -> Iterator[Wrong]:
     """Gains that were set while it flew, and by whom."""
     known: Mapping[str, Any] = {}
+    answers = [
+        (each.time_s, each.data.get("outcome"))
+        for each in facts.log.messages("up.command.answered")
+        if each.data.get("name") == "arduino.pids.tunings"
+    ]
     for each in facts.log.messages("arduino.pids.tunings", "arduino.pids.values"):
         is_set = each.topic == "arduino.pids.tunings"
         gains = each.data.get("pids") if is_set else each.data
         if not isinstance(gains, dict) or each.data.get("request") is True:
+            continue
+        asked_s = each.time_s
+        outcome = next((what for time_s, what in answers if 0 <= time_s - asked_s <= ANSWER_S), "")
+        if is_set and outcome == "nack":
             continue
         if is_set and _flies(facts, each.time_s):
             who = each.data.get(KEY)

@@ -42,9 +42,9 @@ class MalformedMessage(ValueError):  # noqa: N818 - a message that is malformed,
         self.id = id
 
 
-def decode(line: bytes) -> GeneralMessage:
+def decode(line: bytes, longest: int = LONGEST_LINE) -> GeneralMessage:
     """Return the message in `line`, with or without its line end; raises MalformedMessage."""
-    fields, may_hold_surrogates = _decode(line, LONGEST_LINE)
+    fields, may_hold_surrogates = _decode(line, longest)
     return _message_of(fields, may_hold_surrogates=may_hold_surrogates)
 
 

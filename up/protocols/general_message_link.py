@@ -11,7 +11,7 @@ from twisted.logger import Logger
 from twisted.python.failure import Failure
 
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
-from up.protocols.line_decoder import LineDecoder
+from up.protocols.line_decoder import LONGEST_LINE, LineDecoder
 from up.protocols.link_output import LinkOutput
 from up.protocols.tcp_options import watch_peer, why_lost
 from up.system.clock import Clock, Timer
@@ -76,7 +76,7 @@ class GeneralMessageProtocol(Protocol):
     The callbacks get this link first: `on_message` a message, `on_malformed` a line that is none,
     `on_connected` nothing more, `on_lost` the reason as text. `malformed`, `output.dropped`,
     `output.replaced`, `dropped_too_long` and `bucket.refused` count; `bucket` may be shared by the
-    connections of one peer.
+    connections of one peer. A line of more than `longest_line` bytes is malformed.
     """
 
     transport: Any
@@ -96,6 +96,7 @@ class GeneralMessageProtocol(Protocol):
         self.output = LinkOutput()
         self.bucket = bucket or TokenBucket(clock, MAX_MESSAGES_HZ, MAX_BURST)
         self.malformed = 0
+        self.longest_line = LONGEST_LINE
         self._clock = clock
         self._on_message = on_message
         self._on_malformed = on_malformed
@@ -160,7 +161,7 @@ class GeneralMessageProtocol(Protocol):
             if not permits(self.bucket, self.peer, len(lines) - index):
                 return
             try:
-                message = decode(line)
+                message = decode(line, self.longest_line)
             except MalformedMessage as fault:
                 self.malformed += 1
                 self._on_malformed(self, fault)

@@ -20,12 +20,15 @@ from up.protocols.general_message_link import (
     GeneralMessageProtocol,
 )
 from up.protocols.general_message_udp import SILENCE_TIMEOUT_S, GeneralMessageDatagrams
+from up.protocols.line_decoder import LONGEST_LINE
 from up.system.clock import Clock, Timer
 from up.system.plain_peers import PlainPeers
 from up.system.token_bucket import TokenBucket
 
 MAX_UNDECIDED = 8
 """Connections that have not shown yet whose they are."""
+MAX_UNDECIDED_LINE = 1024
+"""Bytes of the first line of such a connection: a stranger's lines must cost next to nothing."""
 _FOREIGN_HZ = 10.0
 _IDENTITY = re.compile(r"([0-9a-f]{1,8})\.[0-9]+", re.ASCII)
 
@@ -157,6 +160,7 @@ class PhoneLink:
         if self._may_own("", host_of(link.peer)):
             self._own(link, host_of(link.peer))
             return
+        link.longest_line = MAX_UNDECIDED_LINE
         self._undecided[link] = self._clock.callLater(SILENCE_TIMEOUT_S, self._decide, link)
         if len(self._undecided) > MAX_UNDECIDED:
             self._decide(next(iter(self._undecided)))
@@ -166,6 +170,7 @@ class PhoneLink:
         if isinstance(link, GeneralMessageProtocol):
             # Its own until here, so that nobody else can empty the owner's.
             link.bucket = self.bucket
+            link.longest_line = LONGEST_LINE
         self._owner, self._address, self._identity = link, address, identity
         self._on_connected(link)
 
@@ -205,6 +210,8 @@ class PhoneLink:
             self._on_message(link, message)
 
     def _malformed(self, link: GeneralMessageLink, fault: MalformedMessage) -> None:
+        if isinstance(link, GeneralMessageProtocol) and link in self._undecided:
+            self._decide(link)
         if link is self._owner:
             self._on_malformed(link, fault)
 

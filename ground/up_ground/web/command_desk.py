@@ -60,6 +60,7 @@ class CommandDesk:
         self._answers = Answers(clock)
         self._beacons = HeardBeacons(clock, telemetry)
         self._are_gains_due = True
+        self._gains_holder: Page | None = None
 
     def stop(self) -> None:
         """Wait for no answer any more."""
@@ -123,6 +124,11 @@ class CommandDesk:
     def on_moment(self) -> None:
         """Hear of a frame; ask for the gains when they are due and somebody here has control."""
         self._beacons.look()
+        holder = self._control.holder
+        if holder is not self._gains_holder:
+            # Another ground may have changed them since.
+            self._gains_holder = holder
+            self._are_gains_due = self._are_gains_due or holder is not None
         if not self._are_gains_due or self._control.holder is None or self._unsent():
             return
         if self._telemetry.is_silent(self._clock.seconds()):

@@ -1,6 +1,6 @@
 """One phone at a time: who owns the link, and what becomes of the others."""
 
-from android_cog.phone_link import MAX_UNDECIDED, PhoneLink
+from android_cog.phone_link import MAX_UNDECIDED, MAX_UNDECIDED_LINE, PhoneLink
 from twisted.internet.endpoints import TCP4ClientEndpoint
 from twisted.internet.protocol import Factory
 from twisted.internet.task import Clock
@@ -12,6 +12,7 @@ from tests.support.transport import Transport
 from tests.up.commands.samples import Log
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
+from up.protocols import general_message_link
 from up.protocols.general_message import decode
 from up.protocols.general_message_link import MAX_BURST
 from up.protocols.general_message_udp import SILENCE_TIMEOUT_S
@@ -96,6 +97,35 @@ def test_a_legacy_phone_is_known_by_its_host(tmp_path):
             await new.answer("new")
             await old.closed
             assert latitudes(f) == [1, 2]
+
+    run_in_reactor(flight)
+
+
+def test_a_strangers_lines_cost_one_short_decoding(tmp_path, monkeypatch):
+    """A line that breaks a rule at its end costs 20 ms; ten of them stopped the control loop."""
+    decoded = []
+    strict = general_message_link.decode
+
+    def counting(line, longest):
+        decoded.append(min(len(line), longest))
+        return strict(line, longest)
+
+    async def flight():
+        async with Flight(tmp_path) as f:
+            owner = await f.phone()
+            owner.say(place(1, "aa01.1"))
+            await owner.answer("aa01.1")
+            monkeypatch.setattr(general_message_link, "decode", counting)
+            hostile = b'{"name":"u","data":{"x":[' + b"{}," * 5000 + b'{"a":1,"a":2}]}}\n'
+            other = await phone_at(f, "127.0.0.2")
+            other.transport.write(hostile * 4)
+            await other.closed
+            assert decoded == [MAX_UNDECIDED_LINE]
+            # The owner's own lines may be long.
+            owner.transport.write(hostile)
+            owner.say(place(2, "aa01.2"))
+            await owner.answer("aa01.2")
+            assert f.telemetry["counters"]["android"]["rejected"] == 1
 
     run_in_reactor(flight)
 

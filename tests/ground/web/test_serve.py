@@ -183,6 +183,27 @@ def test_gains_are_asked_for_set_and_remembered(proxy, server):
         with_pages(server, fly, "pilot", "other")
 
 
+def test_whoever_takes_control_sees_the_gains_that_fly_now(proxy, server):
+    """Another ground may have changed them: a page must not send back those that it saw before."""
+    flying = {**GAINS}
+
+    def tune(message):
+        return [("up.ack", {"id": message["id"]}), ("arduino.pids.values", flying)]
+
+    async def fly(page, other):
+        await page.control()
+        await page.next("gains", lambda each: each["flying"] == GAINS)
+        flying["ratePIDs"] = GAINS["stabPIDs"]
+        other.say("control", aircraft="default", action="request")
+        await page.status(lambda each: each["control"]["asks_you"])
+        page.say("control", aircraft="default", action="give")
+        gains = await other.next("gains", lambda each: each["flying"] not in (None, GAINS))
+        assert gains["flying"] == flying
+
+    with Aircraft(proxy.airborne_port, answers={"arduino.pids.tunings": tune}):
+        with_pages(server, fly, "pilot", "other")
+
+
 def test_without_a_proxy_it_serves_says_so_and_comes_back(tmp_path):
     with Program(tmp_path / "a", "metrics: false\n") as first:
         ports = first.airborne_port, first.ground_port, None

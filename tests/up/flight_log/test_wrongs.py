@@ -27,6 +27,7 @@ from tests.up.flight_log.flights import (
     status,
 )
 from tests.up.flight_log.logs import LogMaker
+from up.commands.answer_commands import CommandAnsweredCommand
 from up.flight_log import summary
 from up.flight_log.facts import Facts
 from up.flight_log.wrong import Wrong
@@ -244,6 +245,18 @@ def test_panic(maker, tmp_path):
 def gains(p: float) -> dict:
     axes = {axis: {"p": p, "i": 0.0, "d": 0.0} for axis in ("ailerons", "elevator")}
     return {"ratePIDs": axes, "stabPIDs": axes}
+
+
+def test_gains_that_were_refused_in_flight_flew_never(maker, tmp_path):
+    maker.every(0, 10, 0.5, FlightStateCommand("FBW", True, False, False))
+    maker.put(0.5, PIDTuningsValuesCommand(gains(1.0)), BOARD)
+    for time_s, gain, outcome in ((3, 2.0, "nack"), (5, 1.5, "ack")):
+        maker.put(time_s, PIDTuningsCommand(None, gains(gain)), GROUND)
+        answer = CommandAnsweredCommand("ground", PIDTuningsCommand.NAME, "7", outcome)
+        maker.put(time_s + 0.1, answer)
+    warnings = [each for each in texts(maker, tmp_path) if each[1] == "warning"]
+    assert [time_s for time_s, *_ in warnings] == [5.0]
+    assert " 1 to 1.5" in warnings[0][2]
 
 
 def test_gains_that_were_changed_in_flight_are_told_with_their_difference(maker, tmp_path):
