@@ -17,7 +17,8 @@ def firmware():
 
 def test_skipped_time_changes_nothing_of_the_flight():
     steady = fly(1, 1, errors=ImuErrors())
-    assert fly(1, 1, is_starved=True, errors=ImuErrors()) == steady
+    starved = fly(1, 1, is_starved=True, errors=ImuErrors())
+    assert [*map(list, starved)] == [pytest.approx(each, abs=0.05) for each in steady]
 
 
 def test_the_attitude_stays_true_with_a_drifting_gyro_and_skipped_time():

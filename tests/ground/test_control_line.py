@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from up.system.aircraft_name import AIRCRAFT_NAME
 from up_ground import control_line as ground
 from up_ground.settings import Seat
 from up_proxy import control as proxy
@@ -63,7 +64,7 @@ def test_no_line_breaks_it(line):
 
 
 @given(
-    st.from_regex(r"[A-Za-z0-9_.-]{1,32}", fullmatch=True),
+    st.from_regex(AIRCRAFT_NAME, fullmatch=True),
     st.sampled_from(Seat),
     st.none() | st.just(TOKEN),
 )
