@@ -75,7 +75,7 @@ def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, proce
         f"remote_server: {{url: 127.0.0.1, port: {airborne}}}\n"
     )
     (config / "runner.yml").write_text(
-        f"port: 0\nrun folder: {short_folder}\nstop instances on exit: true\n"
+        f"port: 0\nrun folder: {short_folder}\nstop instances on exit: true\ni_accept_root: true\n"
     )
     runner = processes.start("runner", "-m", "up_runner.main", "--config", config)
     wait(lambda: "listens on port" in runner(), "runner")
