@@ -193,7 +193,8 @@ def test_whoever_takes_control_sees_the_gains_that_fly_now(proxy, server):
     async def fly(page, other):
         await page.control()
         await page.next("gains", lambda each: each["flying"] == GAINS)
-        flying["ratePIDs"] = GAINS["stabPIDs"]
+        roll = {"p": 2.0, "i": 0.5, "d": 0.0}
+        flying["ratePIDs"] = {**GAINS["ratePIDs"], "ailerons": roll}
         other.say("control", aircraft="default", action="request")
         await page.status(lambda each: each["control"]["asks_you"])
         page.say("control", aircraft="default", action="give")
