@@ -57,7 +57,7 @@ def test_the_margins_of_other_gains_are_known_without_flying_them(bench, roll):
     expected, found = roll.margins(other), flown.margins()
     assert found.gain_margin_db == pytest.approx(expected.gain_margin_db, abs=0.8)
     assert found.peak_sensitivity == pytest.approx(expected.peak_sensitivity, abs=0.06)
-    assert found.crossover_hz == pytest.approx(expected.crossover_hz, rel=0.2)
+    assert found.crossover_hz == pytest.approx(expected.crossover_hz, rel=0.3)
 
 
 def test_a_delay_costs_its_own_time_and_a_dive_costs_gain(bench, roll):
