@@ -29,7 +29,7 @@ constexpr float TILT_WALK = 0.05F * RAD;
 constexpr float BIAS_WALK = 0.01F * RAD;
 constexpr float EARLY_BIAS_WALK = 0.025F * RAD;
 constexpr float SPEED_WALK = 0.2F;
-constexpr uint8_t EARLY_CYCLES = 200;  // 54 s
+constexpr uint8_t EARLY_CYCLES = 200;  // 57 s
 // The bias drifts as it did in the last minute, later in the last 100 s.
 constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 60;
 constexpr float DRIFT_SHARE = CYCLE_S / 100;
@@ -85,6 +85,8 @@ OUT_OF_LINE void TiltFilter::restart() {
   groups_ = 0;
   piece_ = 0;
   for (int32_t& sum : sums_) sum = 0;
+  // An observation that samples were missed in must leave nothing to the next.
+  for (float& weight : weights_) weight = 0;
 }
 
 /** Adds to the variances of tilt, bias and speed. */

@@ -22,7 +22,7 @@ struct TiltCorrection {
  * An accelerometer feels gravity less the acceleration of flight, which is the turn rate times the
  * airspeed across the nose, and the change of airspeed along it. The filter expects both. So no
  * turn is gated out, and bias is learned in turns, too. The airspeed itself is integrated, held
- * near its mean of some minutes, and shown by turns: a tilt error is fixed to the earth and rotates
+ * near its mean of a minute, and shown by turns: a tilt error is fixed to the earth and rotates
  * through the body axes, the centripetal force does not. The yaw gyro's bias is learned where
  * bank makes it a pitch rate, and in straight flight. Bias that drifts steadily is extrapolated.
  */
