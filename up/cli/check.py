@@ -8,6 +8,7 @@ import sys
 from up.cli.system import cog_files, cogfile_problems, program_files, system_of
 from up.cogs.say import say
 from up.loading.checking import check_application
+from up.loading.files import no_configuration
 
 EXIT_MISTAKES = 2
 
@@ -18,6 +19,9 @@ def run(values: argparse.Namespace) -> int:
     files = (*cog_files(system.application), *program_files())
     findings = check_application(system.application, system.context, files)
     problems = list(dict.fromkeys([*cogfile_problems(system.application), *findings.problems]))
+    nothing = no_configuration(system.context.config_folder, findings.files)
+    if nothing and not values.defaults:
+        problems.append(nothing)
     for warning in findings.warnings:
         print(f"warning: {warning}", file=sys.stderr)  # noqa: T201 - the user's answer
     for problem in problems:

@@ -102,9 +102,7 @@ def _add_start(verbs: Any) -> None:
         verbs, "start", "up.cli.start", "run the application until Ctrl-C", aliases=("s",)
     )
     _take_config(start)
-    start.add_argument(
-        "--defaults", action="store_true", help="start with the defaults where no file is found"
-    )
+    _take_defaults(start)
 
 
 def _add_gather(verbs: Any) -> None:
@@ -171,6 +169,7 @@ def _add_checks(verbs: Any) -> None:
         "find every mistake in configuration and modules, without starting",
         epilog="Exit status 0: would start; 2: mistakes, each with its place.",
     )
+    _take_defaults(check)
     modules = add_verb(
         verbs,
         "modules",
@@ -192,6 +191,12 @@ def _add_checks(verbs: Any) -> None:
         "write the JSON Schema of every configuration file, for editors",
     )
     schemas.add_argument("folder", type=Path, metavar="DIR", help="where to; made if need be")
+
+
+def _take_defaults(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--defaults", action="store_true", help="start with the defaults where no file is found"
+    )
 
 
 def _take_config(parser: argparse.ArgumentParser) -> None:

@@ -15,7 +15,7 @@ from up.context import Context
 from up.loading.application import Application
 from up.loading.commands import take_commands
 from up.loading.discovery import Discovered, survey
-from up.loading.files import config_files, no_configuration
+from up.loading.files import config_files
 from up.loading.order import order
 from up.loading.plan import BootError, Plan
 from up.loading.selection import select
@@ -52,8 +52,6 @@ def check_application(
     read_files(context, findings.files, findings)
     _check_graph(context, found, disabled, findings)
     findings.problems += map(str, findings.plan.problems)
-    nothing = no_configuration(context.config_folder, findings.files)
-    findings.warnings += [nothing] if nothing else []
     findings.warnings += _unknown(context.config_folder, findings.files)
     findings.warnings += _disabled_for_nothing(disabled, found)
     return findings

@@ -29,7 +29,8 @@ def application(tmp_path):
 
 def test_check_of_what_is_in_order(up, application):
     outcome = up("check")
-    assert outcome.status == 0 and "--defaults" in outcome.err
+    assert outcome.status == 2 and "--defaults" in outcome.err
+    assert up("check", "--defaults").status == 0
     write_application(application.root, {"config/config.yml": "log level: info\n"})
     outcome = up("check")
     assert (outcome.status, outcome.err) == (0, "")
@@ -82,7 +83,7 @@ def test_check_of_the_module_graph(up, tmp_path):
         "class Other(BaseModule):\n    line = needs(Line)\n"
     )
     write_application(tmp_path, {"modules/all.py": classes})
-    assert up("check").status == 0
+    assert up("check", "--defaults").status == 0
     outcome = up("check", "--mode", "black box")
     assert outcome.status == 2
     assert "User needs Line, which is not loaded" in outcome.err
@@ -100,7 +101,7 @@ def test_a_wanted_cog_that_is_not_registered_is_a_mistake(up, application, tmp_p
 def test_another_configuration_folder(up, application, tmp_path):
     (tmp_path / "other").mkdir()
     (tmp_path / "other/gauge.yml").write_text("interval_s: no\n")
-    assert up("check").status == 0
+    assert up("check", "--defaults").status == 0
     assert up("check", "--config", "other").status == 2
     outcome = up("check", "--config", "nowhere")
     assert outcome.status == 2 and outcome.err == "--config nowhere: no such folder\n"
@@ -159,6 +160,7 @@ def test_files_of_other_programs_are_known_by_their_entry_points(tmp_path):
     )
     environment = VirtualEnvironment(tmp_path / "environment")
     plane = tmp_path / "plane"
+    (plane / "config/config.yml").write_text("log level: info\n")
     assert "tool.yml: no module" in environment.up("check", cwd=plane).stderr
     install = ("install", "--quiet", "--no-deps", "--no-build-isolation", "--use-pep517", str(tool))
     environment.run("-m", "pip", *install, cwd=tmp_path)

@@ -63,8 +63,8 @@ def test_several_applications_are_named(up, tmp_path):
         (tmp_path / name / "UpFile").write_text("")
     outcome = up("check")
     assert outcome.status == 1 and "several applications (a, b)" in outcome.err
-    assert up("-f", "a", "check").status == 0
-    assert up("-f", "a/UpFile", "check").status == 0
+    assert up("-f", "a", "check", "--defaults").status == 0
+    assert up("-f", "a/UpFile", "check", "--defaults").status == 0
 
 
 def test_a_broken_upfile_has_its_place(up, tmp_path):
