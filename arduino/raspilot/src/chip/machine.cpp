@@ -28,7 +28,7 @@ static constexpr int16_t IMU_TICKS = 2 * 490;
 static constexpr int16_t TRANSFER_TICKS = 2 * 430;
 static constexpr int16_t GRACE_TICKS = 2 * 470;
 /** Background work begins only when the longest of its kind ends before that. */
-static constexpr int16_t PIECE_TICKS = 2 * 430;
+static constexpr int16_t PIECE_TICKS = 2 * 470;
 static constexpr int16_t KEEP_TICKS = 2 * 270;
 static constexpr int16_t BYTE_TICKS = 2 * 150;
 static constexpr int16_t COMMAND_TICKS = 2 * 330;

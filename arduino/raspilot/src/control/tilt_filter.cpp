@@ -23,25 +23,26 @@ constexpr float DEFAULT_SPEED_M_S = 13;
 constexpr float MIN_SPEED_M_S = 5;
 constexpr float MAX_SPEED_M_S = 40;
 
-// Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more in the
-// first minute, airspeed from gusts.
-constexpr float TILT_WALK = 0.05F * RAD;
-constexpr float BIAS_WALK = 0.01F * RAD;
-constexpr float EARLY_BIAS_WALK = 0.025F * RAD;
-constexpr float SPEED_WALK = 0.2F;
-constexpr uint8_t EARLY_CYCLES = 200;  // 57 s
-// The bias drifts as it did in the last minute, later in the last 100 s.
-constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 60;
-constexpr float DRIFT_SHARE = CYCLE_S / 100;
+// Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more at first,
+// airspeed from gusts. They and the sigmas were searched for in flights in moderate turbulence.
+constexpr float TILT_WALK = 0.038F * RAD;
+constexpr float BIAS_WALK = 0.0104F * RAD;
+constexpr float EARLY_BIAS_WALK = 0.023F * RAD;
+constexpr float SPEED_WALK = 0.34F;
+constexpr uint8_t EARLY_CYCLES = 154;  // 44 s
+// The bias drifts as it did in the last 27 s, later in the last 69 s.
+constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 27;
+constexpr float DRIFT_SHARE = CYCLE_S / 69;
 
 // 1 sigma of what is observed, for one cycle.
-constexpr float FORCE_SIGMA = 0.12F;              // g, across the nose
-constexpr float EXCESS_WEIGHT = 10;              // a force is trusted less when it is not 1 g
-constexpr float SPEED_SIGMA = 8;                 // m/s, about its mean
-constexpr float EARLY_SPEED_SIGMA = 17;
-constexpr float MEAN_SPEED_SHARE = CYCLE_S / 60;
-constexpr float STRAIGHT_SIGMA = 3 * RAD;        // rad/s: below 5 deg/s a turn is mostly bias
-constexpr float STRAIGHT_LIMIT = 5 * RAD;
+constexpr float FORCE_SIGMA = 0.138F;  // g, across the nose
+constexpr float EXCESS_WEIGHT = 3.5F;  // a force is trusted less when it is not 1 g
+constexpr float SPEED_SIGMA = 12;      // m/s, about its mean
+constexpr float EARLY_SPEED_SIGMA = 15;
+constexpr float MEAN_SPEED_SHARE = CYCLE_S / 500;
+constexpr float LOAD_SIGMA = 0.078F;          // g, along down
+constexpr float STRAIGHT_SIGMA = 3 * RAD;     // rad/s: in straight flight a turn is mostly bias
+constexpr float STRAIGHT_LIMIT = 5.5F * RAD;  // a faster one is a turn
 
 constexpr float FORCE_UNIT = 1 / 8192.0F;
 constexpr int16_t ONE_Q14 = 16384;
@@ -53,6 +54,8 @@ constexpr float SPEED_TO_FORCE = RAD / 16 / GRAVITY_M_S2 * 8192 * 512;
 constexpr int16_t TWO_G_Q13 = 16383;
 /** A force beyond 1 g by more than this is no change of airspeed: a launch, a loop. */
 constexpr int16_t MAX_EXCESS_Q13 = 1434;
+/** More load than this is a pull-up: it does not end within a cycle or two. */
+constexpr int16_t MAX_LOAD_Q13 = 2048;
 /** A force of 1 g that differs by 30 degrees is a gust; for 3 s it is an attitude that is lost. */
 constexpr int16_t FAR_OFF_Q13 = 4096;
 constexpr uint8_t LOST_CYCLES = 10;
@@ -85,8 +88,6 @@ OUT_OF_LINE void TiltFilter::restart() {
   groups_ = 0;
   piece_ = 0;
   for (int32_t& sum : sums_) sum = 0;
-  // An observation that samples were missed in must leave nothing to the next.
-  for (float& weight : weights_) weight = 0;
 }
 
 /** Adds to the variances of tilt, bias and speed. */
@@ -142,6 +143,7 @@ OUT_OF_LINE void TiltFilter::find_turn(const Attitude& attitude) {
   roll_error_ = force(Y, product(yaw_rate, per_rate));
   pitch_error_ = force(Z, -product(pitch_rate, per_rate));
   turn(yaw_rate, pitch_rate, attitude.sin_roll, attitude.cos_roll);
+  load_error_ = to_int16(shifted(product(pitch_rate, per_rate), 9));
   turn_rate_ = from_fixed(yaw_rate, RAD / 16);
 }
 
@@ -154,6 +156,7 @@ OUT_OF_LINE void TiltFilter::find_errors(const Attitude& attitude) {
   roll_error_ = y;
   turn(x, z, attitude.sin_pitch, attitude.cos_pitch);
   pitch_error_ = negative(x);
+  load_error_ = sum_of(load_error_, z);
   // Half of what the square of the force exceeds 1 g by: a tilt error does not change it.
   const int16_t parts[3] = {static_cast<int16_t>(x / 2), static_cast<int16_t>(y / 2),
                             static_cast<int16_t>(z / 2)};
@@ -230,9 +233,16 @@ OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& 
     innovation_ = from_fixed(roll_error_, FORCE_UNIT);
     variance_ = noise_;
   } else {
-    variance_ = 0;
     const float steep = square(turn_rate_ * (1 / STRAIGHT_LIMIT));
-    if (steep > 1) return;
+    if (steep > 1) {
+      // The wings carry 1 g on average: more of it shows a roll error as part of the turn's force.
+      if (clamped16(load_error_, MAX_LOAD_Q13) == load_error_) {
+        weights_[ROLL] = turn_rate_ * speed_ * (1 / GRAVITY_M_S2);
+      }
+      innovation_ = from_fixed(load_error_, FORCE_UNIT);
+      variance_ = LOAD_SIGMA * LOAD_SIGMA;
+      return;
+    }
     innovation_ = turn_rate_;
     variance_ = square(STRAIGHT_SIGMA + STRAIGHT_SIGMA * 8 * steep);
   }
@@ -284,7 +294,7 @@ OUT_OF_LINE bool TiltFilter::step(const Attitude& attitude, TiltCorrection& corr
   if (subject == SUBJECTS) return finish(piece, attitude, correction);
   if (piece == 0) {
     begin_observation(subject, attitude);
-  } else if (variance_ != 0) {
+  } else {
     update(static_cast<uint8_t>(piece - 1));
   }
   return false;

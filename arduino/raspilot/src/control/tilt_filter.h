@@ -22,9 +22,10 @@ struct TiltCorrection {
  * An accelerometer feels gravity less the acceleration of flight, which is the turn rate times the
  * airspeed across the nose, and the change of airspeed along it. The filter expects both. So no
  * turn is gated out, and bias is learned in turns, too. The airspeed itself is integrated, held
- * near its mean of a minute, and shown by turns: a tilt error is fixed to the earth and rotates
- * through the body axes, the centripetal force does not. The yaw gyro's bias is learned where
- * bank makes it a pitch rate, and in straight flight. Bias that drifts steadily is extrapolated.
+ * near its mean of minutes, and shown by turns: a tilt error is fixed to the earth and rotates
+ * through the body axes, the centripetal force does not. In a turn the load along down, 1 g on
+ * average, shows a roll error without any airspeed. The yaw gyro's bias is learned where bank
+ * makes it a pitch rate, and in straight flight. Bias that drifts steadily is extrapolated.
  */
 class TiltFilter {
  public:
@@ -68,6 +69,7 @@ class TiltFilter {
   uint8_t groups_;
   int16_t roll_error_;  // Q13
   int16_t pitch_error_;
+  int16_t load_error_;
   uint8_t far_off_cycles_;
   bool is_one_g_;
   uint8_t cycles_;
