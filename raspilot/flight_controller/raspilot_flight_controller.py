@@ -186,10 +186,8 @@ class RaspilotFlightController(BaseFlightController):
             text = _NOT_PERMITTED
         elif self.is_flying:
             text = "flies"
-        elif owner is not None:
-            text = f"does not fly: {owner} has control"
         else:
-            text = "does not fly: it publishes no Outputs (receiver or orientation is missing)"
+            text = f"does not fly: {owner or 'nobody'} has control"
         if text != self._logged:
             self._logged = text
             self._log_info(text)

@@ -329,7 +329,7 @@ class TestModes:
             assert fly() == "flies"
             rig.clock.advance(1)
             rig.state()
-            assert "missing" in log.events[-1]["text"]
+            assert "nobody" in log.events[-1]["text"]
             rig.state(FBW_MODE)
             assert "the board" in log.events[-1]["text"]
             rig.state(FBW_MODE)
