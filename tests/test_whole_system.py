@@ -85,7 +85,7 @@ def test_telemetry_has_every_reading_with_source_and_age(flight):
 @pytest.mark.parametrize(
     "command",
     [
-        ["up.telemetry.frequency", "frequency=50"],
+        ["up.telemetry.frequency", "frequency=200"],
         ["android.speak", "text=hello"],
         ["up.flight_mode.set", "mode=RATE"],
         ["up.flight_mode.set", "mode=FBW"],

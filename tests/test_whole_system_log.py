@@ -66,7 +66,7 @@ class Flight:
 
     def __init__(self, folder):
         self.showcase = showcase = Showcase(folder).ready()
-        sent = showcase.ground("send", "up.telemetry.frequency", "frequency=50")
+        sent = showcase.ground("send", "up.telemetry.frequency", "frequency=200")
         assert sent.returncode == 0, sent.stderr
         wait(lambda: float(showcase.truth()[-1]["time_s"]) > FLOWN_S, "it has flown for a while")
         self.killed_s = float(showcase.truth()[-1]["time_s"])
@@ -113,7 +113,7 @@ def test_commands_and_outputs_are_in_it_with_their_origins(flight):
     assert len({data["ailerons"] for _, data in messages["up.servo.update"]}) > 5
     assert all(1000 <= data["throttle"] <= 2000 for _, data in messages["up.servo.update"])
     (sent,) = messages["up.telemetry.frequency"]
-    assert sent[1]["frequency"] == 50 and "pilot" in sent[1]["_origin"]
+    assert sent[1]["frequency"] == 200 and "pilot" in sent[1]["_origin"]
     assert messages["up.flight.state"][-1][1]["flight_mode"] == "FBW"
     assert len(messages["up.telemetry.update"]) > 3
     assert any("the Arduino answers" in data["message"] for _, data in messages["log"])

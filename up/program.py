@@ -110,6 +110,9 @@ class Program:
         self._tell_ports()
         self._notifier.ready(f"{len(self._life.started)} modules run")
         self._collector.start()
+        # After the reactor's next wait, which is before the second call: this turn is the start's.
+        later = self._reactor.callLater
+        later(0, later, 0, setattr, self._monitor, "has_started", True)
         self.log.info("{count} modules run", count=len(self._life.started))
         if self._up.vetoes.own:
             self.log.warn("arming is refused: {vetoes}", vetoes="; ".join(self._up.vetoes.own))

@@ -10,6 +10,7 @@ from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule
 from up.commands.beacon import fresh_s
 from up.commands.panic_command import PanicCommand
+from up.commands.refusal import Code, CommandRefusedError
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
 from up.log.limits import Once
@@ -84,6 +85,12 @@ class TelemetryController(BaseStartedModule):
             self._timer.cancel()
 
     def _on_period(self, command: TelemetryFrequencyCommand) -> None:
+        if command.period_ms < self.panic_delay_ms:
+            raise CommandRefusedError(
+                f"Raspberry Pi busy: telemetry at most every {self.panic_delay_ms} ms now; try"
+                " again when its load is lower",
+                Code.OVERLOADED,
+            )
         self.wanted_period_ms = command.period_ms
         self._log_info(f"telemetry every {command.period_ms:.0f} ms")
         self._reschedule()

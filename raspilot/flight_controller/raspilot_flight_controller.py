@@ -34,6 +34,7 @@ ASK_AGAIN_S = 5.0
 LOWEST_US, HIGHEST_US = 1000, 2000
 STICK_THROTTLE = 0
 _NO_GAINS = Gains(0.0)
+_NOT_PERMITTED = "does not fly: the board does not let it"
 
 
 class RaspilotFlightController(BaseFlightController):
@@ -63,6 +64,7 @@ class RaspilotFlightController(BaseFlightController):
         self._asked_at_s = float("-inf")
         self._state: FlightStateCommand | None = None
         self._computed_at_s = float("-inf")
+        self._logged = _NOT_PERMITTED
 
     def load(self) -> bool:
         """Only where the configuration moved the control loop to the Raspberry Pi."""
@@ -70,14 +72,15 @@ class RaspilotFlightController(BaseFlightController):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return what is flown and what is missing."""
+        """Return what is flown and what is missing; Outputs are those that were delivered."""
+        dropped = self.up.command_executor.control.refused[self.class_name]
         return {
             "flight_control": {
                 "mode": self.flight_mode if self.is_flying else None,
                 "offered": self.offered_modes,
                 "missing": self.missing_for("FBW"),
             },
-            "counters": {"flight_control": {"outputs": self.outputs}},
+            "counters": {"flight_control": {"outputs": self.outputs - dropped}},
         }
 
     @property
@@ -167,14 +170,27 @@ class RaspilotFlightController(BaseFlightController):
 
     def _on_flight_state(self, command: FlightStateCommand) -> None:
         ready = command.flight_mode == "OUTPUT"
-        if ready != self._is_board_ready:
-            self._is_board_ready = ready
-            self._log_info("flies" if ready else "does not fly: the board does not let it")
+        was_ready, self._is_board_ready = self._is_board_ready, ready
+        if was_ready or not ready:
+            # Not at the first state: its first Output decides who has control.
+            self._log_change_of_control()
         is_news, self._state = command != self._state, command
         if not command.is_auto:
             self._is_asked = True
         if command.is_auto and not ready and self._is_asked:
             self._ask_for_control(is_news)
+
+    def _log_change_of_control(self) -> None:
+        owner = self.up.command_executor.control.owner
+        if not self._is_board_ready:
+            text = _NOT_PERMITTED
+        elif self.is_flying:
+            text = "flies"
+        else:
+            text = f"does not fly: {owner or 'nobody'} has control"
+        if text != self._logged:
+            self._logged = text
+            self._log_info(text)
 
     def _ask_for_control(self, at_once: bool) -> None:
         """Ask the board for AUTO: when its state changed, and now and then in case it was lost."""

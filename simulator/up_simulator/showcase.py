@@ -18,7 +18,7 @@ from pathlib import Path
 from up_simulator.aircraft import AirframeError, airframe_names
 from up_simulator.crew.option_parser import WRONG_INPUT, OptionParser
 from up_simulator.crew.protocols import CrewError
-from up_simulator.crew.start_options import BOARDS, TURBULENCE, link_settings, wind_m_s
+from up_simulator.crew.start_options import BOARD_HELP, BOARDS, TURBULENCE, link_settings, wind_m_s
 from up_simulator.phone_choice import KINDS
 from up_simulator.showcase_flight import ShowcaseFlight
 
@@ -114,7 +114,7 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
         "--board",
         choices=BOARDS,
         default="auto",
-        help="what is aboard, as in 'up-sim start --help'",
+        help=BOARD_HELP,
     )
     parser.add_argument(
         "--link",

@@ -23,7 +23,7 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
         *(in_browser if page is not None else []),
         "Try, in another terminal:",
         f"  {ground} watch{port}",
-        f"  {ground} send{port} up.telemetry.frequency frequency=50",
+        f"  {ground} send{port} up.telemetry.frequency frequency=200",
         f"  {ground} send{port} arduino.pids.tunings request=true   the gains; see the guide",
         f"  {ground} send{port} up.flight_mode.set mode=RATE        and mode=FBW",
         f"  {ground} send{port} android.speak text=hello",

@@ -9,6 +9,7 @@ from twisted.internet.task import Clock
 from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up
+from tests.up.commands.samples import Log
 from up.commands.flight_mode_command import FlightModeCommand
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
@@ -300,6 +301,40 @@ class TestModes:
         rig.frame()
         rig.state(FBW_MODE)
         assert shown() is None
+
+    def test_a_controller_whose_outputs_are_dropped_says_so(self, rig):
+        other = Origin("Thermal", Role.INTERNAL)
+
+        def fly(origin=None):
+            for number in range(40):
+                if origin is not None:
+                    rig.bus.execute_command(OutputCommand(1500, 1500, 0, 1500, 1), origin)
+                rig.sticks()
+                rig.frame()
+                if number % 10 == 9:
+                    rig.state()
+            return log.events[-1]["text"]
+
+        def counted():
+            return rig.controller.telemetry_content["counters"]["flight_control"]["outputs"]
+
+        with Log() as log:
+            assert fly() == "flies"
+            delivered = counted()
+            assert delivered == len(rig.outputs) == 40
+            rig.clock.advance(1)
+            assert fly(other) == "does not fly: Thermal has control"
+            assert counted() == delivered
+            rig.clock.advance(1)
+            assert fly() == "flies"
+            rig.clock.advance(1)
+            rig.state()
+            assert "nobody" in log.events[-1]["text"]
+            rig.state(FBW_MODE)
+            assert "the board" in log.events[-1]["text"]
+            rig.state(FBW_MODE)
+            rig.state()
+            assert len([event for event in log.events if "fl" in event.get("text", "")[:11]]) == 5
 
     def test_it_asks_for_auto_only_at_auto_and_while_the_ground_wants_it(self, tmp_path):
         rig = Rig(tmp_path)

@@ -98,6 +98,14 @@ def test_what_the_aircraft_would_refuse_is_refused_before_anything_starts(words,
     assert what in told and told.count("\n") == 1
 
 
+def test_the_help_describes_every_board_and_what_it_needs(capsys):
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    told = " ".join(capsys.readouterr().out.split())
+    assert all(f"{board}: " in told for board in ("firmware", "host", "stand-in"))
+    assert "auto (default): " in told and "needs g++" in told
+
+
 def test_an_airframe_that_is_none_is_one_sentence_with_a_suggestion(tmp_path, capsys):
     before = {number: signal.getsignal(number) for number in SIGNALS}
     try:

@@ -193,8 +193,16 @@ def test_a_second_signal_forces():
 
 def test_the_module_that_holds_the_reactor_is_named():
     with Daemon("run holds") as daemon:
-        daemon.expect("holds the reactor for more than 20 ms")
-        assert "trouble" in daemon.text
+        daemon.expect("trouble.hold holds the reactor for more than 20 ms, and")
+
+
+def test_what_holds_the_reactor_during_the_start_is_no_error():
+    with Daemon("start is slow") as daemon:
+        daemon.expect("Troubled holds the reactor for more than 20 ms during start-up")
+        daemon.expect("modules run")
+        assert daemon.end()[0] == 0
+    levels = {line.split()[1] for line in daemon.text.splitlines() if "ReactorMonitor" in line}
+    assert levels == {"INFO"}, daemon.text
 
 
 def test_a_folder_without_configuration_is_refused_unless_the_defaults_are_wanted(tmp_path):

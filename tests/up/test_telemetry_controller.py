@@ -8,7 +8,10 @@ from tests.support.system import build_up, started
 from tests.up.commands.samples import Log
 from up.base_module import BaseModule
 from up.commands.command import InvalidCommandError
+from up.commands.origin import Origin
 from up.commands.panic_command import PanicCommand
+from up.commands.refusal import Code
+from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
 from up.telemetry_controller import TelemetryController
@@ -112,6 +115,28 @@ def test_panic_lengthens_the_period_and_never_shortens_it(rig):
     rig.frames.clear()
     rig.run(1.0)
     assert len(rig.frames) in (10, 11)
+
+
+def test_panic_refuses_a_shorter_period_and_keeps_the_one_before(rig):
+    bus = rig.up.command_executor
+    answers = []
+
+    def ask(period_ms):
+        origin = Origin("ground", Role.OPERATOR)
+        done = bus.execute_for_outcome(TelemetryFrequencyCommand(period_ms), origin)
+        done.addErrback(lambda failure: failure.value.code)
+        done.addCallback(answers.append)
+
+    bus.execute_command(PanicCommand(True, 150))
+    ask(50)
+    assert (answers.pop(), rig.controller.period_ms) == (Code.OVERLOADED, 150)
+    ask(150)
+    ask(200)
+    assert (answers, rig.controller.period_ms) == ([None, None], 200)
+    bus.execute_command(PanicCommand(False, 50))
+    assert rig.controller.period_ms == 200
+    ask(50)
+    assert (answers[2:], rig.controller.period_ms) == ([None], 50)
 
 
 def test_a_late_reactor_sends_no_backlog(rig):

@@ -27,7 +27,7 @@ class Beacons:
 
     def __init__(self, clock: Clock, random: Random | None = None) -> None:
         self._clock = clock
-        self._first = self._next = (random or SystemRandom()).randrange(2**31)
+        self._run_start = self._first = self._next = (random or SystemRandom()).randrange(2**31)
         self._times: deque[float] = deque(maxlen=KEPT)
         self.limit_s = FRESH_S
 
@@ -39,6 +39,10 @@ class Beacons:
             self._first += 1
         self._times.append(self._clock.seconds())
         return number
+
+    def was_sent(self, number: int) -> bool:
+        """Return whether a frame of this run had this number."""
+        return self._run_start <= number < self._next
 
     def age_s(self, number: int) -> float | None:
         """Return the age of an echoed number; None when it is none of ours or too old to know."""

@@ -118,6 +118,8 @@ class CommandReceiver:
             if command.NEEDS_BEACON:
                 return Code.NO_BEACON, f"{command.NAME} must echo the newest telemetry's beacon"
             return None
+        if not self._beacons.was_sent(message.beacon):
+            return Code.UNKNOWN_BEACON, "no frame since the aircraft's start had the echoed beacon"
         if not self._beacons.is_fresh(message.beacon):
             return Code.STALE, f"the echoed beacon is older than {self._beacons.limit_s:g} s"
         return None

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from statistics import median
 
-from up.flight_log.facts import Facts
+from up.flight_log.facts import TELEMETRY, Facts
 from up.flight_log.json_message import number_at
 from up.flight_log.spans import Span, duration_text
 from up.flight_log.wrong import Judge, Wrong
@@ -40,6 +40,18 @@ def phone_lost(facts: Facts) -> Iterator[Wrong]:
         yield Wrong(span.begin_s, "warning" if flies else "info", text, span.length_s)
 
 
+def phone_refused(facts: Facts) -> Iterator[Wrong]:
+    """Another phone that tried to take the link, as telemetry's `android.competitor` shows it."""
+    hosts: dict[float, str] = {}
+    for each in facts.log.messages(TELEMETRY):
+        android = each.data.get("android")
+        host = android.get("competitor") if isinstance(android, dict) else None
+        hosts[each.time_s] = host if isinstance(host, str) else ""
+    for span in facts.spans((time_s, host != "") for time_s, host in hosts.items()):
+        text = f"another phone was refused {span.length_text}: {hosts[span.begin_s]}"
+        yield Wrong(span.begin_s, "warning", text, span.length_s)
+
+
 def reading_missing(facts: Facts) -> Iterator[Wrong]:
     """A reading that came and then stayed away."""
     for topic, (name, least_s) in READINGS.items():
@@ -70,4 +82,10 @@ def _interval_s(facts: Facts, topic: str) -> float:
     return median(b - a for a, b in pairwise(times_s)) if times_s[1:] else 0.0
 
 
-LINK_JUDGMENTS: tuple[Judge, ...] = (ground_lost, phone_lost, reading_missing, battery_low)
+LINK_JUDGMENTS: tuple[Judge, ...] = (
+    ground_lost,
+    phone_lost,
+    phone_refused,
+    reading_missing,
+    battery_low,
+)

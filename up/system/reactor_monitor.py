@@ -9,7 +9,7 @@ from collections import Counter
 from types import FrameType
 from typing import Any
 
-from twisted.logger import Logger
+from twisted.logger import Logger, LogLevel
 
 from up.base_module import BaseModule
 from up.commands.base_command_handler import BaseCommandHandler
@@ -29,12 +29,17 @@ class ReactorMonitor:
     moment: logged once each, counted once a hold. None longer than the budget escapes, be it a
     dispatch of the bus, a timer or a connection's data. While nothing is held nothing is woken. A
     reactor without `epoll` or `poll` is not watched.
+
+    Until ``has_started`` a hold is normal (modules open files, garbage is collected): it is logged
+    as information and not counted.
     """
 
     log = Logger()
 
     def __init__(self, reactor: Any) -> None:
         self.culprits: Counter[str] = Counter()
+        self.has_started = False
+        self._at_start: Counter[str] = Counter()
         self._reactor = reactor
         self._reactor_thread = threading.get_ident()
         self._poller: WatchedPoller | None = None
@@ -84,15 +89,17 @@ class ReactorMonitor:
 
     def _blame_hold(self, frame: FrameType | None) -> None:
         culprit = culprit_in(frame)
-        if culprit not in self.culprits and len(self.culprits) >= _NAMED_LIMIT:
+        culprits = self.culprits if self.has_started else self._at_start
+        if culprit not in culprits and len(culprits) >= _NAMED_LIMIT:
             culprit = OTHERS
-        self.culprits[culprit] += 1
-        if self.culprits[culprit] == 1:
-            self.log.error(
-                "{culprit} holds the reactor for more than {ms:.0f} ms, and with it everything"
-                " (said once, then counted)",
+        culprits[culprit] += 1
+        if culprits[culprit] == 1:
+            self.log.emit(
+                LogLevel.error if self.has_started else LogLevel.info,
+                "{culprit} holds the reactor for more than {ms:.0f} ms{when} (logged once)",
                 culprit=culprit,
                 ms=BUDGET_S * 1000,
+                when=", and with it everything" if self.has_started else " during start-up",
             )
 
 

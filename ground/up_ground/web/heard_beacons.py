@@ -42,6 +42,9 @@ class HeardBeacons:
                 return None
             reason = f"not sent: {name} is only sent with the beacon of telemetry that was seen"
             return "no_beacon", reason
+        newest = max((each for _, each in self._heard), default=beacon)
+        if beacon > newest:
+            return "unknown_beacon", "not sent: the aircraft has not sent the echoed beacon yet"
         limit_s = fresh_s(self._telemetry.number("system", "period_ms") or 0.0)
         oldest_s = self._clock.seconds() - limit_s
         if any(heard_s >= oldest_s for heard_s, each in self._heard if each == beacon):

@@ -47,8 +47,11 @@ def board_aboard(
             say=say,
         )
     except BoardUnavailableError as error:
-        if options.board != "auto" or options.elf is not None:
+        if options.elf is not None:
             raise
+        if options.board != "auto":
+            advice = "leave --board out to fly the best board that works here"
+            raise BoardUnavailableError(f"--board {options.board}: {error}; or {advice}") from error
         say(f"no firmware aboard but a stand-in: {error}")
         return None
     say(f"aboard: {board.title}")

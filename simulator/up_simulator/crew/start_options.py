@@ -57,6 +57,11 @@ examples:
 
 Ctrl-C stops everything."""
 BOARDS = ("auto", "firmware", "host", "stand-in")
+BOARD_HELP = (
+    "firmware: on its simulated chip (needs the AVR tools and simavr); host: the same sources built"
+    " for this computer (needs g++), four times faster; stand-in: no firmware, no stabilisation"
+    " (needs nothing); auto (default): the first of these that works here"
+)
 TURBULENCE = ("none", "light", "moderate", "severe")
 T = TypeVar("T")
 
@@ -108,7 +113,7 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
         "--board",
         choices=BOARDS,
         default="auto",
-        help="the firmware on its chip, built for this computer, or a stand-in; default auto",
+        help=BOARD_HELP,
     )
     group.add_argument("--elf", type=Path, metavar="FILE", help="a firmware that is built already")
     group.add_argument(

@@ -11,6 +11,7 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 from up_simulator.crew.child import dying_wish
+from up_simulator.ending import SIGNALS
 
 T = TypeVar("T")
 MOST_PROCESSES = 2
@@ -61,7 +62,12 @@ class Workers:
                 results.append(trial(*each))
                 self._count()
             return results
-        futures = [self._pool.submit(trial, *each) for each in arguments]
+        # Starts the processes: whole, and with the signals blocked until each has its handlers.
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+        try:
+            futures = [self._pool.submit(trial, *each) for each in arguments]
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         results = []
         for future in futures:
             results.append(future.result())
@@ -77,6 +83,7 @@ def _begin_worker(parent: int) -> None:
     """Leave Ctrl-C and a closed terminal to the parent, and go when it goes."""
     for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
     wish = dying_wish(signal.SIGKILL, parent)
     if wish is not None:
         wish()

@@ -90,9 +90,12 @@ def test_an_old_beacon_is_refused(proxy, tmp_path):
         ground = await connect(reactor, proxy.ground_port)
         ground.say(b"UP1 aircraft=glider seat=command\n")
         first = await until(lambda: ground.named("up.telemetry.update"))
-        # A number that the aircraft never drew is as old as one that it forgot.
-        command = {"name": "up.telemetry.frequency", "data": {"frequency": 50}, "id": "o"}
-        ground.say({**command, "beacon": first[0]["beacon"] - 1000})
+        command = {"name": "up.telemetry.frequency", "data": {"frequency": 50}}
+        seen = first[0]["beacon"]
+        ground.say({**command, "id": "u", "beacon": seen - 1000})
+        assert (await ground.answer("u"))["data"]["code"] == "unknown_beacon"
+        await until(lambda: up.beacons.age_s(seen) > up.beacons.limit_s)
+        ground.say({**command, "id": "o", "beacon": seen})
         assert (await ground.answer("o"))["data"]["code"] == "stale"
         await ground.close()
         await life.stop()

@@ -42,7 +42,8 @@ def test_a_beacon_counts_for_two_seconds(desk):
     for _ in range(50):
         # Time goes on without a frame: what is looked at again is no new one.
         desk.heard.look()
-    assert [desk.code(each) for each in (99, 100, 101, 102)] == ["stale", None, None, "stale"]
+    codes = [desk.code(each) for each in (99, 100, 101, 102)]
+    assert codes == ["stale", None, None, "unknown_beacon"]
     desk.clock.advance(1.0)
     assert desk.code(100) is None
     desk.clock.advance(0.1)

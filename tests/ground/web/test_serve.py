@@ -107,7 +107,7 @@ def test_no_command_leaves_without_telemetry_that_was_seen(aircraft, server):
             (None, "no_beacon"),
             (7, "stale"),
             (-5, "stale"),
-            (seen + 10**6, "stale"),
+            (seen + 10**6, "unknown_beacon"),
         ):
             answer = await page.command(MODE, FBW, beacon=beacon)
             assert (answer["outcome"], answer["code"]) == ("refused", code), beacon

@@ -37,7 +37,7 @@ def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
         + "duration_s: 13\nraspilot: {runs: real}\nphone: {}\nground: {period_ms: 50}\n"
         + "link: {up: {delay_ms: 20}, down: {delay_ms: 20}}\n"
         + "events:\n"
-        + "  - {at_s: 0.5, command: {name: up.telemetry.frequency, data: {frequency: 100},"
+        + "  - {at_s: 0.5, command: {name: up.telemetry.frequency, data: {frequency: 200},"
         + " answer: ack, within_s: 5}}\n"
         + "  - {at_s: 1, name: killed, raspilot: killed}\n"
         + "  - {at_s: 2.5, name: started, raspilot: started}\n"

@@ -39,13 +39,13 @@ def test_every_fate_is_told_once_also_the_tenth_of_its_kind(border):
         border.say("test.number", {"number": 1}, f"b{number}")
     border.say("no.such", {})
     border.say("test.number", {"number": "x"}, "c")
-    border.say("test.number", {"number": 0}, "d", beacon=7)
+    border.say("test.number", {"number": 0}, "d", beacon=-7)
     assert fates(border) == [
         ("test.number", "a", "ack", ""),
         *(("test.number", f"b{number}", "nack", "refused") for number in range(10)),
         ("no.such", None, "nack", "unknown"),
         ("test.number", "c", "nack", "invalid"),
-        ("test.number", "d", "nack", "stale"),
+        ("test.number", "d", "nack", "unknown_beacon"),
     ]
     assert {link for _, link in border.told} == {"internal"}
     assert {each.link for each, _ in border.told} == {"ground"}

@@ -192,7 +192,7 @@ class TestBeacons:
         border.say(name, {}, "another run", old - 1)
         border.say(name, {}, "negative", -1)
         border.say(name, {}, "huge", 2**63)
-        assert border.codes == ["no_beacon", *["stale"] * 5]
+        assert border.codes == ["no_beacon", "stale", *["unknown_beacon"] * 4]
         assert not armed
         border.clock.advance(2)
         border.say(name, {}, "fresh", fresh)
@@ -218,6 +218,9 @@ class TestBeacons:
         for _ in range(5000):
             last = border.beacons.draw()
         assert border.beacons.age_s(first) is None
+        border.say("up.arm", {}, "forgotten", first)
+        border.say("up.arm", {}, "another run", first - 1)
+        assert border.codes == ["stale", "unknown_beacon"]
         assert border.beacons.is_fresh(last)
         assert len(border.beacons._times) <= 4096
 

@@ -76,6 +76,15 @@ def test_a_receiver_that_is_lost_in_flight_is_an_alarm(maker, tmp_path):
     assert found[0].time_s == pytest.approx(8.05)
 
 
+def test_a_phone_that_was_refused_is_told_with_its_host(maker, tmp_path):
+    maker.quiet_flight()
+    for number, host in enumerate([None, "192.0.2.7", "192.0.2.7", None, 7]):
+        maker.put(5.0 + number, TelemetryCommand({"android": {"competitor": host}}, number))
+    (wrong,) = [each for each in told(maker, tmp_path) if "phone" in each.text]
+    assert (wrong.time_s, wrong.level, wrong.length_s) == (6.0, "warning", 2.0)
+    assert "192.0.2.7" in wrong.text
+
+
 def test_one_bad_pulse_is_no_loss(maker, tmp_path):
     maker.quiet_flight(armed=(0, 20))
     maker.put(8.05, rx(ALL_VALID - 1), BOARD)
@@ -408,7 +417,7 @@ def test_the_summary_spares_a_second_look(maker, tmp_path):
 
 def test_every_judgment_is_named_once():
     names = [judge.__name__ for judge in JUDGMENTS]
-    assert len(names) == len(set(names)) == 22
+    assert len(names) == len(set(names)) == 23
     assert all(judge.__doc__ for judge in JUDGMENTS)
 
 

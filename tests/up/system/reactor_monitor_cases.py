@@ -60,7 +60,7 @@ class HoldingProtocol(Protocol):
         self.transport.loseConnection()
 
 
-def watch(folder, scenario):
+def watch(folder, scenario, has_started=True):
     """Run a scenario under the monitor; return what it named."""
 
     async def run():
@@ -68,6 +68,7 @@ def watch(folder, scenario):
         up.command_executor.adopt_thread()
         monitor = ReactorMonitor(reactor)
         monitor.start()
+        monitor.has_started = has_started
         try:
             await scenario(up, monitor)
         finally:
@@ -110,6 +111,26 @@ def test_a_handler_of_a_module(tmp_path):
     with Log() as log:
         assert "HoldingModule" in watch(tmp_path, scenario)
     assert "HoldingModule holds the reactor" in log.text()
+
+
+def test_what_holds_during_the_start_is_information_and_later_an_error(tmp_path):
+    async def scenario(up, monitor):
+        module = up.get_module(HoldingModule)
+        up.command_executor.register_command(NumberCommand, module.on_number)
+        for monitor.has_started in (False, True):
+            # A turn has one alarm.
+            await sleep(0)
+            up.command_executor.execute_command(NumberCommand(1))
+            await until(lambda: len(named()) == 1 + monitor.has_started)
+
+    def named():
+        events = [each for each in log.events if each.get("culprit") == "HoldingModule"]
+        return [each["log_level"].name for each in events]
+
+    with Log() as log:
+        culprits = watch(tmp_path, scenario, has_started=False)
+    assert named() == ["info", "error"]
+    assert culprits["HoldingModule"] == 1
 
 
 def test_a_handler_object(tmp_path):
@@ -219,6 +240,7 @@ def test_afterwards_the_reactor_is_as_it_was(tmp_path):
 
 def test_the_names_are_bounded():
     monitor = ReactorMonitor(None)
+    monitor.has_started = True
     for number in range(200):
         frames = {"__name__": f"module_{number}"}
         exec("import sys\nframe = sys._getframe()", frames)

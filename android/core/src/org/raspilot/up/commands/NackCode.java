@@ -16,12 +16,16 @@ public enum NackCode {
     STALE,
     /** Arming and disarming need an echoed beacon. */
     NO_BEACON,
+    /** The aircraft has not sent the echoed beacon since its start. */
+    UNKNOWN_BEACON,
     /** Understood, permitted, and refused by whoever carries it out. */
     REFUSED,
     /** Whoever would carry it out is absent. */
     UNAVAILABLE,
     /** Another phone is connected. */
     TAKEN,
+    /** Panic Mode: the Raspberry Pi is too busy for it now. */
+    OVERLOADED,
     /** No answer from whoever carries it out. */
     TIMEOUT,
     /** Carrying it out failed inside. */
