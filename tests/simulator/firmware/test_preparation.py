@@ -107,7 +107,7 @@ def test_a_board_with_the_prepared_eeprom_boots_with_the_settings(elf):
 
 
 def test_the_work_is_done_once_for_each_firmware_and_each_set(tmp_path, monkeypatch, elf):
-    monkeypatch.setattr(preparation, "library_path", lambda: tmp_path / "librig.so")
+    monkeypatch.setattr(preparation, "kept_path", lambda *names: tmp_path.joinpath(*names))
     made = []
 
     def counted(*arguments):
