@@ -12,7 +12,7 @@ import yaml
 from up_rig.build import ARDUINO
 from up_simulator.aircraft import Airframe
 from up_simulator.firmware.board import FirmwareBoard
-from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.build import choose_board
 from up_simulator.firmware.imu_errors import drawn_errors
 from up_simulator.firmware.preparation import prepared_eeprom
 from up_simulator.firmware.settings_wire import SettingsError
@@ -20,37 +20,28 @@ from up_simulator.firmware.settings_wire import SettingsError
 
 def board_aboard(
     options: argparse.Namespace, airframe: Airframe, say: Callable[[str], None]
-) -> FirmwareBoard | None:
-    """Return the board that the options ask for; None: it is to be the stand-in.
+) -> FirmwareBoard:
+    """Return the board that the options ask for.
 
-    ``auto`` is the firmware on its chip, the same sources built for this computer where the AVR
-    tools are missing, the stand-in where there is no compiler, each said in one sentence. Raises
-    ``BoardUnavailableError`` for a board that was asked for by name.
+    ``auto`` is the firmware on its chip, or the same sources built for this computer where the AVR
+    tools are missing, which ``say`` gets in one sentence. Raises ``BoardUnavailableError``.
     """
-    if options.board == "stand-in" or options.framing == "thesis":
-        return None
     if not (ARDUINO / "build" / "raspilot.elf").exists() and options.elf is None:
         say("building the firmware: that takes a minute, the first time")
-    try:
-        eeprom = _eeprom(options, airframe, say)
-        errors = drawn_errors(
-            options.seed,
-            vibration_deg_s=airframe.imu.vibration_deg_s,
-            vibration_m_s2=airframe.imu.vibration_m_s2,
-        )
-        board = choose_board(
-            options.board,
-            seed=options.seed,
-            imu_errors=errors,
-            eeprom=eeprom,
-            elf=options.elf,
-            say=say,
-        )
-    except BoardUnavailableError as error:
-        if options.board != "auto" or options.elf is not None:
-            raise
-        say(f"no firmware aboard but a stand-in: {error}")
-        return None
+    eeprom = _eeprom(options, airframe, say)
+    errors = drawn_errors(
+        options.seed,
+        vibration_deg_s=airframe.imu.vibration_deg_s,
+        vibration_m_s2=airframe.imu.vibration_m_s2,
+    )
+    board = choose_board(
+        options.board,
+        seed=options.seed,
+        imu_errors=errors,
+        eeprom=eeprom,
+        elf=options.elf,
+        say=say,
+    )
     say(f"aboard: {board.title}")
     return board
 

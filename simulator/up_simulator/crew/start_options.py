@@ -22,8 +22,7 @@ phone on sockets."""
 
 EPILOG = """\
 The firmware is the one in arduino/, compiled for the Arduino and run instruction by instruction;
-where the AVR tools are missing the same sources run built for this computer, which is said. With
---framing thesis a stand-in speaks as an old firmware does; it stabilises nothing by itself.
+where the AVR tools are missing the same sources run built for this computer, which is said.
 
 Who moves the sticks (--radio):
   circle    a pilot who circles around the launch in FBW, switch at AUTO (default)
@@ -56,7 +55,7 @@ examples:
       Raspilot reaches its proxy (127.0.0.1:3003) through port 3005, as over the mobile network
 
 Ctrl-C stops everything."""
-BOARDS = ("auto", "firmware", "host", "stand-in")
+BOARDS = ("auto", "firmware", "host")
 TURBULENCE = ("none", "light", "moderate", "severe")
 T = TypeVar("T")
 
@@ -108,7 +107,7 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
         "--board",
         choices=BOARDS,
         default="auto",
-        help="the firmware on its chip, built for this computer, or a stand-in; default auto",
+        help="the firmware on its chip, or built for this computer (host); default auto",
     )
     group.add_argument("--elf", type=Path, metavar="FILE", help="a firmware that is built already")
     group.add_argument(
@@ -116,18 +115,6 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument(
         "--pty-link", type=Path, metavar="PATH", help="symbolic link to the pty, removed at exit"
-    )
-    group.add_argument(
-        "--framing",
-        choices=("checked", "thesis"),
-        default="checked",
-        help="checked: this project's firmware (default); thesis: a stand-in for an old one",
-    )
-    group.add_argument(
-        "--old-confirms", action="store_true", help="thesis: the old firmware echoes Commands"
-    )
-    group.add_argument(
-        "--boot-text", default="", metavar="TEXT", help="thesis: text that it prints at boot"
     )
 
 

@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import json
 from collections.abc import Callable, Mapping
+from enum import IntEnum
 from typing import Any
 
 from up_rig.imu import motion_at
@@ -14,7 +15,6 @@ from up_simulator.firmware.build import aboard
 from up_simulator.firmware.settings_wire import gains_bytes, profile_bytes
 from up_simulator.firmware.tap import BoardTap
 from up_simulator.kept import keep, kept_path
-from up_simulator.reason import Reason
 
 STEP_US = 10_000.0
 BOOT_US = 1_500_000.0
@@ -23,6 +23,23 @@ QUIET_STEPS = 30
 """An EEPROM that has not changed for so long holds all that it was to get: a byte takes 3.4 ms."""
 WRITE_STEPS = 600
 _ANSWERS = {"c": "C", "G": "G"}
+
+
+class Reason(IntEnum):
+    """Why a board refuses a Command: the third byte of ``!`` (protocols 2.5)."""
+
+    UNKNOWN_TYPE = 1
+    WRONG_SIZE = 2
+    OUT_OF_RANGE = 3
+    ONLY_DISARMED = 4
+    NOT_IN_THESIS_FRAMING = 5
+    TOO_OLD = 6
+    NOT_AUTO = 7
+    THROTTLE_NOT_LOW = 8
+    RECEIVER_INVALID = 9
+    IMU_INVALID = 10
+    VETO = 11
+    NOT_STILL = 12
 
 
 class PreparationError(Exception):
