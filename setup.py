@@ -61,7 +61,6 @@ setup(
             "*.xml",
             "*.gz",
             "airframes/*/*.yml",
-            "airframes/*/*.xml",
             "scenarios/*.yml",
             "shim/*.[ch]",
         ],

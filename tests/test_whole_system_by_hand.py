@@ -112,7 +112,7 @@ def test_provisional_black_box_and_back(tmp_path, processes):
     daemon = processes.start("daemon", ROOT / "main.py", "--config", tmp_path)
     wait(lambda: "provisionally in Black Box Mode" in daemon(), "provisional")
     processes.start(
-        "board", "-m", "up_simulator", "start", "--no-phone", "--board", "stand-in",
+        "board", "-m", "up_simulator", "start", "--no-phone", "--board", "host",
         "--pty-link", board,
     )  # fmt: skip
     wait(lambda: "back in Flight Controller Mode" in daemon(), "back")

@@ -1,5 +1,5 @@
-"""The virtual aircraft: a flight dynamics model behind a stand-in board and a stand-in phone.
+"""The virtual aircraft: a flight dynamics model, the firmware and a phone.
 
-Nothing here imports the daemon: the codecs are written from the byte tables of
-``docs/protocols.md``, so that two readings of that page meet on the wire.
+The codecs of the messages are written from the byte tables of ``docs/protocols.md`` and do not
+import the daemon's: two readings of that page meet on the wire.
 """

@@ -1,4 +1,4 @@
-"""What the stand-ins ask of whatever flies: its state, its time and its servos."""
+"""What the phone and the radio need of the aircraft: its state, its time and its servos."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from up_simulator.clock import Clock
@@ -10,11 +10,27 @@ from up_simulator.flight import Flight
 from up_simulator.java_phone_feed import SensorFeed
 from up_simulator.java_phone_process import JavaPhoneProcess
 from up_simulator.java_phone_program import JavaProgram
-from up_simulator.java_phone_words import sentence_of
 from up_simulator.phone_handset import Record
 from up_simulator.phone_mounting import MOUNTING
 
 GONE = "the phone is gone, and all else flies on"
+
+
+def sentence_of(event: Mapping[str, Any]) -> str | None:
+    """Return what an event of the virtual phone is in plain words; None: nothing to say."""
+    match event.get("event"):
+        case "connected":
+            return f"connected to {event.get('host')}:{event.get('general')}"
+        case "lost":
+            return str(event.get("reason"))
+        case "says":
+            return f"says: {event.get('text')!r}"
+        case "panic":
+            delay_ms = event.get("delay_ms")
+            return f"busy: nothing quicker than {delay_ms} ms" if delay_ms else "not busy any more"
+        case "notice":
+            return str(event.get("text"))
+    return None
 
 
 def options_of(orientation: str, seed: int) -> list[str]:

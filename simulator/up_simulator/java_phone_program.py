@@ -15,7 +15,6 @@ ANDROID = Path(__file__).resolve().parents[2] / "android"
 JARS = ("up-core.jar", "virtual-phone.jar")
 SOURCES = ("core/src", "virtual/src")
 MAIN = "org.raspilot.up.virtual_phone.VirtualPhone"
-CONSOLE = "org.raspilot.up.virtual_phone.GroundConsole"
 LONGEST_S = 300.0
 QUICK_START = (
     "-Xshare:auto",

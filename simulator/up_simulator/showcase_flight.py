@@ -50,7 +50,6 @@ class ShowcaseFlight:
         self._root = root
         self._say = say
         self._children: list[Child] = []
-        self._holder = options.controller
         self._told = 0
         self._page: Page | None = None
         self._untold: list[str] = []
@@ -64,7 +63,7 @@ class ShowcaseFlight:
         say("Raspilot's virtual aircraft: the real firmware, daemon, proxy and ground station,")
         say(f"all on this machine. Configuration and logs: {folder}")
         self._ports = ports = choose_ports(options.any_ports)
-        self._write_config(options.controller)
+        self._write_config()
         aircraft = self._start_aircraft()
         proxy = self._add("proxy", "-m", "up_proxy.main", "--config", folder / "config")
         proxy.wait_for_line("ground side listens", START_LIMIT_S)
@@ -76,15 +75,16 @@ class ShowcaseFlight:
             self._page = Page(folder, ports, options.page)
             self._children.append(self._page.child)
         aircraft.wait_for(self._has_board, "board", BUILD_LIMIT_S)
-        self._holder = self._choose_holder(aircraft.lines())
         daemon = self._add("raspilot", self._root / "main.py", "--config", folder / "config")
         aircraft.wait_for_line("board on", START_LIMIT_S)
         daemon.wait_for_line("modules run", START_LIMIT_S)
         say(f"  raspilot   the daemon; the phone on ports {ports.general}, {ports.orientation}")
-        ready = "Controller: flies" if self._holder == "raspberry" else "orientation comes from"
+        ready = (
+            "Controller: flies" if options.controller == "raspberry" else "orientation comes from"
+        )
         daemon.wait_for_line(ready, START_LIMIT_S)
         address = None if self._page is None else self._show_page(self._page)
-        say(f"It flies. {WHO_HOLDS[self._holder]}")
+        say(f"It flies. {WHO_HOLDS[options.controller]}")
         for line in hints(ports, folder, address):
             say(line)
 
@@ -158,15 +158,15 @@ class ShowcaseFlight:
             if not line.startswith(("phone:", "board")):
                 self._say(f"  aircraft   {line}")
         self._told = len(lines)
-        return any(line.startswith(("aboard", "no firmware", "board on")) for line in lines)
+        return any(line.startswith(("aboard", "board on")) for line in lines)
 
-    def _write_config(self, holder: str) -> None:
+    def _write_config(self) -> None:
         folder = self._folder
         write_config(
             folder / "config",
             folder / "board",
             self._ports,
-            controller=holder,
+            controller=self._options.controller,
             airframe=self._airframe,
             uplink_port=self._ports.uplink if self._options.link else 0,
         )
@@ -190,15 +190,6 @@ class ShowcaseFlight:
         if options.state_log:
             words += ["--state-log", options.state_log]
         return self._add("aircraft", *words)
-
-    def _choose_holder(self, said: list[str]) -> str:
-        """Return who holds the attitude: a stand-in for the Arduino cannot."""
-        holder: str = self._options.controller
-        if any(line.startswith("no firmware") for line in said) and holder == "arduino":
-            holder = "raspberry"
-            self._say("             so the attitude is held by Raspilot instead")
-            self._write_config(holder)
-        return holder
 
     def _add(self, name: str, *words: str | Path) -> Child:
         (self._folder / f"{name}.log").unlink(missing_ok=True)

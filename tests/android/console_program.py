@@ -2,7 +2,7 @@
 
 from tests.android.java_process import JavaProcess
 from tests.android.numbered_motion import number_of
-from up_simulator.java_phone_program import CONSOLE
+from tests.support.java import CONSOLE
 
 ATTITUDE = (
     "orientation.roll", "orientation.pitch", "orientation.yaw",

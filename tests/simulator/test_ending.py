@@ -241,7 +241,7 @@ def as_nohup_does():
 
 @pytest.mark.parametrize("module", ["up_simulator", "up_simulator.showcase"])
 def test_what_is_in_the_air_after_nohup_ignores_the_hangup(in_a_folder, module):
-    own = ["start", "--no-phone", "--board", "stand-in"]
+    own = ["start", "--no-phone", "--board", "host"]
     if module != "up_simulator":
         own = ["--any-ports", "--no-watch", "--folder", str(in_a_folder)]
     words = ("-m", module, *own)

@@ -5,9 +5,9 @@ import subprocess
 
 import pytest
 
-from tests.support.java import java_program
+from tests.support.java import CONSOLE, java_program
 from up_simulator.java_phone_process import JavaPhoneProcess
-from up_simulator.java_phone_program import CONSOLE, MAIN
+from up_simulator.java_phone_program import MAIN
 
 LIMIT_S = 60.0
 PLACE = ["--raspberry", "127.0.0.1:50001:50000"]

@@ -95,8 +95,8 @@ def test_without_sources_or_java_there_is_a_sentence(tmp_path, monkeypatch):
 
 
 def test_auto_is_java_where_it_can_be_had_and_else_python_with_the_reason(tmp_path, monkeypatch):
-    program = java_program()
-    assert choose_phone().java == choose_phone("java").java == program
+    java_program()
+    assert choose_phone().java == choose_phone("java").java == find_java_program()
     assert choose_phone().title == IN_JAVA
     assert choose_phone("python").java is None and choose_phone("python").title == IN_PYTHON
     monkeypatch.setenv("PATH", path_without(tmp_path / "bin", "java"))

@@ -9,12 +9,11 @@ from dataclasses import replace
 import pytest
 
 from tests.simulator.bench import StillFlight
-from tests.support.java import java_program
+from tests.support.java import CONSOLE, java_program
 from up_simulator.crew.child import Child
 from up_simulator.crew.ports import choose_port_sets
 from up_simulator.crew.real_raspilot import RealRaspilot
 from up_simulator.java_phone import JavaHandset
-from up_simulator.java_phone_program import CONSOLE
 from up_simulator.truth import TOPIC, record_of
 
 LIMIT_S = 60.0

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+import dataclasses
+import functools
 import os
+import subprocess
 from pathlib import Path
 
 import pytest
 
 from tests.support.tools import need_tool
-from up_simulator.java_phone_program import JavaUnavailableError, find_java_program
+from up_simulator import java_phone_program
+from up_simulator.java_phone_program import ANDROID, JavaUnavailableError, find_java_program
+
+CONSOLE = "org.raspilot.up.virtual_phone.GroundConsole"
 
 
+@functools.cache
 def java_program():
-    """Return the Java phone as the simulator finds it; skip or fail without a JDK.
+    """Return the Java phone as the simulator finds it, and the ground console beside it.
+
+    Skip or fail without a JDK.
 
     What does not compile fails, wherever a JDK is.
     """
@@ -20,9 +29,13 @@ def java_program():
     need_tool("javac", "default-jdk-headless")
     need_tool("make")
     try:
-        return find_java_program()
+        program = find_java_program()
     except JavaUnavailableError as error:
         pytest.fail(str(error))
+    console = Path("build", "ground-console.jar")
+    with java_phone_program._lock(ANDROID / "build"):
+        subprocess.run(["make", "-C", ANDROID, console], check=True, stdout=subprocess.DEVNULL)
+    return dataclasses.replace(program, jars=(*program.jars, ANDROID / console))
 
 
 def path_without(folder, *programs):

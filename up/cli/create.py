@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Mapping
 from importlib.resources import files as resource_files
 from pathlib import Path
@@ -12,7 +13,6 @@ from up.builtin_modules import BUILTIN_MODULES
 from up.cli.cli_error import CliError
 from up.cli.explore import package_at
 from up.cli.names import Name, check_identifier
-from up.cli.overwriting import may_overwrite
 from up.cogs.manifest import MANIFEST_FILE, write_manifest
 from up.cogs.say import say
 from up.config import write_template
@@ -49,6 +49,27 @@ _COG = {
     "$package/commands/__init__.py": "cog_commands",
     "tests/test_$package.py": "cog_test",
 }
+
+
+def may_overwrite(path: Path, yes: bool) -> bool:
+    """Ask the user, as the prototype did: y(es), n(o) or c(ancel).
+
+    Raises CliError where nobody can be asked.
+    """
+    if yes:
+        return True
+    if not sys.stdin.isatty():
+        raise CliError(f"{path} is there already: say --yes to overwrite it")
+    while True:
+        try:
+            answer = input(f"{path} is there already. Overwrite it? (y)es, (n)o, (c)ancel: ")
+        except EOFError:
+            return False
+        answer = answer.strip().lower()
+        if answer in ("y", "yes"):
+            return True
+        if answer in ("n", "no", "c", "cancel"):
+            return False
 
 
 def run(values: argparse.Namespace) -> int:

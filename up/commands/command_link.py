@@ -87,10 +87,6 @@ class CommandLink:
             data = {"id": command_id, "code": code.value, "reason": reason[:_REASON_LIMIT]}
             self._answer(command_id, encode("up.nack", data))
 
-    def forward_answer(self, command_id: str, name: str, data: dict[str, object]) -> None:
-        """Answer with what somebody further away answered."""
-        self._answer(command_id, encode(name, data))
-
     def _answer(self, command_id: str, message: bytes) -> None:
         answer = self._answers.get(command_id)
         if answer is not None:

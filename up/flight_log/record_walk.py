@@ -7,9 +7,8 @@ import stat
 from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
+from zlib import crc32
 
-from up.flight_log.checksum import Checksum
-from up.flight_log.chunk_head import LONGEST_HEAD, fault_of_chunk
 from up.flight_log.mcap_format import (
     CHUNK,
     FOOTER,
@@ -34,6 +33,41 @@ _WINDOW = 1024 * 1024
 _ACROSS = WITNESSES * LONGEST
 _HEAD = RECORD.size
 _IN_CHUNKS = frozenset({Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE})
+_LONGEST_COMPRESSION = 64
+LONGEST_HEAD = CHUNK.size + U32.size + _LONGEST_COMPRESSION + U64.size
+
+
+def fault_of_chunk(head: bytes, length: int) -> tuple[str, int]:
+    """Return what forbids to walk into a chunk, and where in its content the records begin."""
+    damaged = "a chunk is damaged and passed over"
+    at = CHUNK.size + U32.size
+    if len(head) < at:
+        return damaged, 0
+    (size,) = U32.unpack_from(head, CHUNK.size)
+    begin = at + size + U64.size
+    if size > _LONGEST_COMPRESSION or len(head) < begin:
+        return damaged, 0
+    if size:
+        method = head[at : at + size].decode("ascii", "replace")
+        return f"what is compressed ({method!a}) is not read: uncompress it with mcap's tools", 0
+    if begin + U64.unpack_from(head, at)[0] > length:
+        return damaged, 0
+    return "", begin
+
+
+class Checksum:
+    """A CRC over the file from one place on; ``end`` is how far it has come."""
+
+    def __init__(self, begin: int) -> None:
+        self.value = 0
+        self.begin = begin
+        self.end = begin
+
+    def take(self, buffer: bytes, base: int, until: int) -> None:
+        """Go on to that byte of the file; ``buffer`` has what is missing, from ``base`` on."""
+        if until > self.end:
+            self.value = crc32(memoryview(buffer)[self.end - base : until - base], self.value)
+            self.end = until
 
 
 class RecordWalk:

@@ -1,7 +1,8 @@
-"""What waits to leave on a link: messages in order, telemetry only the newest."""
+"""What waits to leave on a link: messages in order, of each kind of news only the newest."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from twisted.internet.interfaces import IPullProducer
@@ -11,24 +12,24 @@ from up.protocols.tcp_options import is_stalled
 
 PENDING_LIMIT = 65536
 
+Make = Callable[[], bytes]
+
 
 @implementer(IPullProducer)
-class LinkOutput:
+class BaseOutput:
     """Hands a transport the next bytes only after it has sent the ones before.
 
     The transport asks for more each time that its buffer is empty, so whatever is newer can still
-    take the place of what waits here. `dropped` counts messages beyond `PENDING_LIMIT` bytes,
-    `replaced` telemetry that a newer one made old.
+    take the place of what waits here. `replaced` counts news that newer ones made old.
     """
 
     def __init__(self) -> None:
-        self.dropped = 0
         self.replaced = 0
         self._transport: Any = None
         self._is_drained = False
         self._messages: list[bytes] = []
-        self._messages_size = 0
-        self._newest: bytes | None = None
+        self._size = 0
+        self._news: dict[str, Make] = {}
 
     def start(self, transport: Any) -> None:
         """Begin to send on `transport`."""
@@ -42,17 +43,56 @@ class LinkOutput:
             self._transport.unregisterProducer()
             self._transport = None
 
-    def send(self, message: bytes) -> bool:
-        """Send `message` after those before it; False: dropped."""
-        if self._transport is None or self._messages_size + len(message) > PENDING_LIMIT:
-            self.dropped += 1
-            return False
+    def _put(self, message: bytes) -> None:
+        """Send `message` after those before it."""
         if self._is_drained:
             self._is_drained = False
             self._transport.write(message)
         else:
             self._messages.append(message)
-            self._messages_size += len(message)
+            self._size += len(message)
+
+    def _put_news(self, kind: str, make: Make, *, may_leave: bool) -> None:
+        """Send what `make` returns in place of news of this kind that still wait."""
+        if kind in self._news:
+            self.replaced += 1
+        if may_leave:
+            self._is_drained = False
+            self._news.pop(kind, None)
+            self._transport.write(make())
+        else:
+            self._news[kind] = make
+
+    def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Send what waits: the transport has sent everything else."""
+        waiting, self._messages, self._size = self._messages, [], 0
+        news, self._news = self._news, {}
+        waiting.extend(make() for make in news.values())
+        self._is_drained = not waiting
+        if waiting:
+            self._transport.write(b"".join(waiting))
+
+    def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Forget what waits: the connection is gone."""
+        self._transport = None
+        self._messages.clear()
+        self._size = 0
+        self._news.clear()
+
+
+class LinkOutput(BaseOutput):
+    """Telemetry is the only news; `dropped` counts messages beyond `PENDING_LIMIT` bytes."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.dropped = 0
+
+    def send(self, message: bytes) -> bool:
+        """Send `message` after those before it; False: dropped."""
+        if self._transport is None or self._size + len(message) > PENDING_LIMIT:
+            self.dropped += 1
+            return False
+        self._put(message)
         return True
 
     def send_newest(self, message: bytes) -> bool:
@@ -63,31 +103,6 @@ class LinkOutput:
         """
         if self._transport is None:
             return False
-        if self._newest is not None:
-            self.replaced += 1
-        if self._is_drained and not is_stalled(self._transport):
-            self._is_drained = False
-            self._newest = None
-            self._transport.write(message)
-        else:
-            self._newest = message
+        may_leave = self._is_drained and not is_stalled(self._transport)
+        self._put_news("", lambda: message, may_leave=may_leave)
         return True
-
-    def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Send what waits: the transport has sent everything else."""
-        waiting = self._messages
-        if self._newest is not None:
-            waiting.append(self._newest)
-            self._newest = None
-        self._is_drained = not waiting
-        if waiting:
-            self._messages = []
-            self._messages_size = 0
-            self._transport.write(b"".join(waiting))
-
-    def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Forget what waits: the connection is gone."""
-        self._transport = None
-        self._messages.clear()
-        self._messages_size = 0
-        self._newest = None

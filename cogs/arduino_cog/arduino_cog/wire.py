@@ -95,12 +95,6 @@ def pack_panic(panic: bool, delay_ms: int) -> bytes:
     return _PANIC.pack(bool(panic), delay_ms)
 
 
-def read_panic(payload: bytes) -> tuple[bool, int]:
-    """Return what `p` carries: whether to panic, and the delay in ms."""
-    panic, delay_ms = _PANIC.unpack(payload)
-    return bool(panic), delay_ms
-
-
 def pack_altitude(altitude_m: float) -> bytes:
     """Return the payload of `h`: rounded half up, held within 16 bits; ValueError for NaN."""
     return _I16.pack(min(max(_half_up(altitude_m), _I16_LEAST), _I16_MOST))

@@ -3,12 +3,26 @@
 from __future__ import annotations
 
 import json
+import struct
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from up_ground.web.websocket_frame import text_frame
-
 _ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
+_FINAL_TEXT = 0x81
+
+
+def text_frame(payload: bytes) -> bytes:
+    """Return the one frame of a text message, unmasked as a server's are; ``payload`` is UTF-8.
+
+    Made here so that one message is put together once for all pages, and so that what has not
+    left can still be replaced.
+    """
+    size = len(payload)
+    if size < 126:
+        return bytes((_FINAL_TEXT, size)) + payload
+    if size < 65536:
+        return struct.pack(">BBH", _FINAL_TEXT, 126, size) + payload
+    return struct.pack(">BBQ", _FINAL_TEXT, 127, size) + payload
 
 
 def message_bytes(fields: Mapping[str, Any]) -> bytes:

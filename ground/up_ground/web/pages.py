@@ -9,6 +9,7 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
+from up.protocols.link_output import Make
 from up.system.clock import Clock, Timer
 from up.system.token_bucket import TokenBucket
 from up.version import VERSION
@@ -18,7 +19,6 @@ from up_ground.web.key_attempts import KeyAttempts
 from up_ground.web.messages import message_bytes
 from up_ground.web.page import Page, PageConnection
 from up_ground.web.page_message import PageFault, Reader, read_message
-from up_ground.web.page_output import Make
 from up_ground.web.places import PAGES_LIMIT, WATCHERS_LIMIT, NoPlaceError, make_place
 from up_ground.web.watched import WatchedAircraft
 

@@ -5,17 +5,18 @@ from __future__ import annotations
 import argparse
 import importlib
 import importlib.util
+import re
 import secrets
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from up.system.aircraft_name import AIRCRAFT_NAME
 from up_ground.catalogue import Catalogue
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
 from up_ground.web.commands import Checks
-from up_ground.web.fleet import AIRCRAFT_LIMIT, parse_aircraft
 from up_ground.web.listen_address import ListenAddress, parse_listen
 from up_ground.web.station import Station
 from up_ground.web.tile_cache import TileCache, cache_folder
@@ -25,6 +26,31 @@ if TYPE_CHECKING:
     from up_ground.web.site import Tiles
 
 MakeTiles = Callable[[Any], "Tiles"]
+AIRCRAFT_LIMIT = 16
+_ONE = re.compile(
+    rf"(?P<name>{AIRCRAFT_NAME.pattern})"
+    r"(?:@(?P<host>\[[0-9A-Fa-f:.%a-z]+\]|[A-Za-z0-9_.%-]{1,255}):(?P<port>[0-9]{1,5})"
+    r"(?P<direct>/direct)?)?",
+    re.ASCII,
+)
+
+
+def parse_aircraft(text: str, usual: Settings) -> Settings:
+    """Return whom ``NAME[@HOST:PORT[/direct]]`` means; raises ValueError with a sentence.
+
+    Without an address it is an aircraft of ``usual``'s proxy. Two aircraft of one name are told
+    apart by nothing, so a name is given once.
+    """
+    match = _ONE.fullmatch(text)
+    port = int(match["port"] or usual.port) if match else 0
+    if match is None or not 1 <= port <= 65535:
+        raise ValueError(
+            f"{text!r} is no NAME[@HOST:PORT[/direct]], such as glider-1@192.168.1.5:50002/direct"
+        )
+    host = match["host"]
+    if host is None:
+        return Settings(usual.host, usual.port, match["name"], Seat.LISTEN, usual.direct)
+    return Settings(host.strip("[]"), port, match["name"], Seat.LISTEN, bool(match["direct"]))
 
 
 class ServeError(ValueError):

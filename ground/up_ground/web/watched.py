@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Protocol
 
+from up.protocols.link_output import Make
 from up_ground.web.messages import FrameMessage
 from up_ground.web.page import Page
 from up_ground.web.page_message import Reader
-from up_ground.web.page_output import Make
 
 
 class WatchedAircraft(Protocol):

@@ -23,7 +23,9 @@ from up_simulator.aircraft.airframe_file import (
     ServosConfig,
     file_named,
 )
+from up_simulator.aircraft.geometry import GEOMETRY, Geometry, ModelError
 from up_simulator.aircraft.model_check import MOTOR, ModelRefusedError, check_model
+from up_simulator.flight import FlightUnavailableError
 
 _OUTPUTS = ("ailerons", "elevator", "rudder")
 SHIPPED = Path(__file__).parent / "airframes"
@@ -46,7 +48,8 @@ class Airframe:
     name: str
     title: str
     about: str
-    model_path: Path
+    folder: Path
+    model: str
     mass_kg: float
     launch: LaunchConfig
     servos: ServosConfig
@@ -56,6 +59,21 @@ class Airframe:
     limits: LimitsConfig
     profile: dict[str, Any]
     gains: dict[str, Any]
+
+    @property
+    def model_path(self) -> Path:
+        """Return the JSBSim model: the file of the folder, or the one that its geometry gives.
+
+        Raises ``FlightUnavailableError`` where no model can be derived, ``ModelError`` for a
+        geometry that cannot fly.
+        """
+        if self.model:
+            return self.folder / self.model
+        try:
+            from up_simulator.aircraft.model_file import derived_model
+        except ImportError as error:
+            raise FlightUnavailableError(f"no flight model can be derived: {error}") from error
+        return derived_model(self.folder)
 
     @property
     def has_motor(self) -> bool:
@@ -79,17 +97,15 @@ def load_airframe(name_or_path: str | Path) -> Airframe:
         file: AirframeFile = file_named(path.name).load(path.parent)
     except ConfigErrors as errors:
         raise AirframeError(str(errors)) from None
-    if not file.model:
-        raise AirframeError(f'{path}:1:1: the key "model" is missing')
-    model_path = path.parent / file.model
-    mass_kg = _mass_of(model_path)
-    if SHIPPED not in path.resolve().parents:
-        _check(path, file, model_path)
-    return Airframe(
+    if not file.title:
+        raise AirframeError(f'{path}:1:1: the key "title" is missing')
+    mass_kg = _mass_of(path.parent / file.model) if file.model else _built_mass_of(path.parent)
+    airframe = Airframe(
         name=path.parent.resolve().name,
         title=file.title,
         about=file.about,
-        model_path=model_path,
+        folder=path.parent,
+        model=file.model,
         mass_kg=mass_kg,
         launch=file.launch,
         servos=file.servos,
@@ -100,6 +116,9 @@ def load_airframe(name_or_path: str | Path) -> Airframe:
         profile=_said(dataclasses.asdict(file.profile)),
         gains={"units": "degrees per second", **dataclasses.asdict(file.gains)},
     )
+    if SHIPPED not in path.resolve().parents:
+        _check(path, airframe)
+    return airframe
 
 
 def _path_of(name_or_path: str | Path) -> Path:
@@ -127,6 +146,20 @@ def _said(values: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in kept.items() if value is not None and value != {}}
 
 
+def _built_mass_of(folder: Path) -> float:
+    """Return the mass that geometry.yml has, kg. Raises ``AirframeError``."""
+    if not (folder / GEOMETRY.filename).is_file():
+        raise AirframeError(
+            f'{folder / FILENAME}:1:1: the key "model" is missing, and no {GEOMETRY.filename} is'
+            " beside it"
+        )
+    try:
+        geometry: Geometry = GEOMETRY.load(folder)
+    except ConfigErrors as errors:
+        raise AirframeError(str(errors)) from None
+    return geometry.masses.mass_kg
+
+
 def _mass_of(model_path: Path) -> float:
     """Return the model's mass, kg. Raises ``AirframeError`` for a file that is no model."""
     try:
@@ -150,12 +183,18 @@ def _mass_of(model_path: Path) -> float:
     return mass_kg
 
 
-def _check(path: Path, file: AirframeFile, model_path: Path) -> None:
+def _check(path: Path, airframe: Airframe) -> None:
     """Let JSBSim fly a model that is not ours. Raises ``AirframeError`` with what it says."""
-    moved = {node: output for output in _OUTPUTS for node in getattr(file.servos, output).moves}
-    wanted = [*moved, *([MOTOR] if file.motor.diameter_m else [])]
+    servos = airframe.servos
+    moved = {node: output for output in _OUTPUTS for node in getattr(servos, output).moves}
+    wanted = [*moved, *([MOTOR] if airframe.has_motor else [])]
     try:
-        unknown = check_model(model_path, wanted, file.launch.airspeed_m_s)
+        model_path = airframe.model_path
+        unknown = check_model(model_path, wanted, airframe.launch.airspeed_m_s)
+    except FlightUnavailableError:
+        return
+    except ModelError as error:
+        raise AirframeError(str(error)) from None
     except ModelRefusedError as error:
         raise AirframeError(f"{model_path}: JSBSim does not fly it: {error}") from None
     problems = []

@@ -118,11 +118,15 @@ class GainsConfig:
 
 @dataclass(frozen=True, slots=True)
 class AirframeFile:
-    """A virtual aircraft. The model beside it is JSBSim's; profile and gains are the Arduino's."""
+    """A virtual aircraft. The model is JSBSim's; profile and gains are the Arduino's."""
 
     title: str = key("", "A few words.", max_length=80)
     about: str = key("", "Some sentences.", max_length=1000)
-    model: str = key("", "The JSBSim model, a file beside this one.", max_length=200)
+    model: str = key(
+        "",
+        "The JSBSim model, a file beside this one; without it geometry.yml gives the model.",
+        max_length=200,
+    )
     launch: LaunchConfig = section(LaunchConfig)
     servos: ServosConfig = section(ServosConfig)
     motor: MotorConfig = section(MotorConfig)
@@ -136,9 +140,8 @@ class AirframeFile:
 
     def problems(self) -> Iterator[tuple[str, str]]:
         """Yield what is missing."""
-        for name in ("title", "model"):
-            if not getattr(self, name):
-                yield name, "must be given"
+        if not self.title:
+            yield "title", "must be given"
         if self.model and ("/" in self.model or not self.model.endswith(".xml")):
             yield "model", "must be the name of an .xml file in the same folder"
 

@@ -11,6 +11,10 @@ from up.fields import Constraint
 _NOTE = Constraint(str, max_length=400)
 
 
+class ModelError(Exception):
+    """A geometry gives no flight model: the message is one sentence."""
+
+
 def _metres(comment: str, default: float = 0.0, least: float = -5.0, most: float = 5.0) -> float:
     return key(default, comment, unit="m", minimum=least, maximum=most)
 

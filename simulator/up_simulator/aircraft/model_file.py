@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import sys
 import textwrap
 from collections.abc import Callable, Sequence
@@ -12,8 +13,10 @@ import numpy as np
 
 from up.config import ConfigErrors
 from up_simulator.aircraft.derivation import ALPHAS_DEG, BETAS_DEG, Derivation
-from up_simulator.aircraft.geometry import GEOMETRY
+from up_simulator.aircraft.geometry import GEOMETRY, ModelError
 from up_simulator.aircraft.glide import describe
+from up_simulator.flight import FlightUnavailableError
+from up_simulator.kept import keep, kept_path
 
 # What a wing that is one has by the radian.
 _LEAST_SLOPE, _GREATEST_SLOPE = 0.3, 9.0
@@ -237,41 +240,60 @@ def _motor(derivation: Derivation) -> str:
  </external_reactions>"""
 
 
+def derive(folder: Path) -> Derivation:
+    """Return what a folder's geometry gives; raises ``ConfigErrors`` and ``ModelError``."""
+    derivation = Derivation(GEOMETRY.load(folder))
+    try:
+        slope = derivation.by("alpha_rad").lift
+    except np.linalg.LinAlgError:
+        slope = 0.0
+    if not _LEAST_SLOPE < slope < _GREATEST_SLOPE:
+        raise ModelError(
+            f"{folder / GEOMETRY.filename}: surfaces lie in each other's vortices "
+            f"(a lift slope of {slope:.3g}): move the tail up, down or aft"
+        )
+    return derivation
+
+
+def derived_model(folder: Path) -> Path:
+    """Return the model of a folder's geometry, derived once and kept (0.2 s).
+
+    Raises ``ModelError`` and, where it cannot be written, ``FlightUnavailableError``.
+    """
+    sources = [folder / GEOMETRY.filename, *sorted(Path(__file__).parent.glob("*.py"))]
+    digest = hashlib.sha256(b"".join(each.read_bytes() for each in sources)).hexdigest()[:32]
+    kept = kept_path("models", f"{digest}.xml")
+    if not kept.is_file():
+        text = model_text(folder.resolve().name, derive(folder))
+        try:
+            keep(kept, text.encode())
+        except OSError as error:
+            raise FlightUnavailableError(f"{kept}: {error.strerror or error}") from error
+    return kept
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Write ``<folder>/<folder's name>.xml`` and return the exit status."""
     names = list(sys.argv[1:] if arguments is None else arguments)
     if not names:
         sys.stderr.write("usage: python -m up_simulator.aircraft.model_file FOLDER ...\n")
         return 2
-    for each in names:
-        folder = Path(each)
+    for folder in map(Path, names):
         if not (folder / GEOMETRY.filename).is_file():
             sys.stderr.write(f"{folder / GEOMETRY.filename}: no such file\n")
             return 2
-        try:
-            geometry = GEOMETRY.load(folder)
-        except ConfigErrors as errors:
-            sys.stderr.write(f"{errors}\n")
-            return 2
         name = folder.resolve().name
-        derivation = Derivation(geometry)
+        path = folder / f"{name}.xml"
         try:
-            slope = derivation.by("alpha_rad").lift
-        except np.linalg.LinAlgError:
-            slope = 0.0
-        if not _LEAST_SLOPE < slope < _GREATEST_SLOPE:
-            sys.stderr.write(
-                f"{folder / GEOMETRY.filename}: surfaces lie in each other's vortices "
-                f"(a lift slope of {slope:.3g}): move the tail up, down or aft\n"
-            )
+            derivation = derive(folder)
+            path.write_text(model_text(name, derivation), "utf-8")
+        except (ConfigErrors, ModelError) as error:
+            sys.stderr.write(f"{error}\n")
             return 2
-        text, line = model_text(name, derivation), describe(derivation)
-        try:
-            (folder / f"{name}.xml").write_text(text, "utf-8")
         except OSError as error:
-            sys.stderr.write(f"{folder / f'{name}.xml'}: {error.strerror or error}\n")
+            sys.stderr.write(f"{path}: {error.strerror or error}\n")
             return 1
-        sys.stdout.write(f"{folder / f'{name}.xml'}: {line}\n")
+        sys.stdout.write(f"{path}: {describe(derivation)}\n")
     return 0
 
 

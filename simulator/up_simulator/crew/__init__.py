@@ -1,1 +1,1 @@
-"""The programs and stand-ins that a virtual aircraft is flown with."""
+"""The programs that a virtual aircraft is flown with."""

@@ -20,24 +20,21 @@ from up_simulator.firmware.settings_wire import SettingsError
 
 def board_aboard(
     options: argparse.Namespace, airframe: Airframe, say: Callable[[str], None]
-) -> FirmwareBoard | None:
-    """Return the board that the options ask for; None: it is to be the stand-in.
+) -> FirmwareBoard:
+    """Return the board that the options ask for.
 
-    ``auto`` is the firmware on its chip, the same sources built for this computer where the AVR
-    tools are missing, the stand-in where there is no compiler, each said in one sentence. Raises
-    ``BoardUnavailableError`` for a board that was asked for by name.
+    ``auto`` is the firmware on its chip, or the same sources built for this computer where the AVR
+    tools are missing, which ``say`` gets in one sentence. Raises ``BoardUnavailableError``.
     """
-    if options.board == "stand-in" or options.framing == "thesis":
-        return None
     if not (ARDUINO / "build" / "raspilot.elf").exists() and options.elf is None:
         say("building the firmware: that takes a minute, the first time")
+    eeprom = _eeprom(options, airframe, say)
+    errors = drawn_errors(
+        options.seed,
+        vibration_deg_s=airframe.imu.vibration_deg_s,
+        vibration_m_s2=airframe.imu.vibration_m_s2,
+    )
     try:
-        eeprom = _eeprom(options, airframe, say)
-        errors = drawn_errors(
-            options.seed,
-            vibration_deg_s=airframe.imu.vibration_deg_s,
-            vibration_m_s2=airframe.imu.vibration_m_s2,
-        )
         board = choose_board(
             options.board,
             seed=options.seed,
@@ -47,13 +44,10 @@ def board_aboard(
             say=say,
         )
     except BoardUnavailableError as error:
-        if options.elf is not None:
+        if options.elf is not None or options.board == "auto":
             raise
-        if options.board != "auto":
-            advice = "leave --board out to fly the best board that works here"
-            raise BoardUnavailableError(f"--board {options.board}: {error}; or {advice}") from error
-        say(f"no firmware aboard but a stand-in: {error}")
-        return None
+        advice = "leave --board out to fly the best board that works here"
+        raise BoardUnavailableError(f"--board {options.board}: {error}; or {advice}") from error
     say(f"aboard: {board.title}")
     return board
 

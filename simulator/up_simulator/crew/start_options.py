@@ -22,8 +22,7 @@ phone on sockets."""
 
 EPILOG = """\
 The firmware is the one in arduino/, compiled for the Arduino and run instruction by instruction;
-where the AVR tools are missing the same sources run built for this computer, which is said. With
---framing thesis a stand-in speaks as an old firmware does; it stabilises nothing by itself.
+where the AVR tools are missing the same sources run built for this computer, which is said.
 
 Who moves the sticks (--radio):
   circle    a pilot who circles around the launch in FBW, switch at AUTO (default)
@@ -56,11 +55,11 @@ examples:
       Raspilot reaches its proxy (127.0.0.1:3003) through port 3005, as over the mobile network
 
 Ctrl-C stops everything."""
-BOARDS = ("auto", "firmware", "host", "stand-in")
+BOARDS = ("auto", "firmware", "host")
 BOARD_HELP = (
     "firmware: on its simulated chip (needs the AVR tools and simavr); host: the same sources built"
-    " for this computer (needs g++), four times faster; stand-in: no firmware, no stabilisation"
-    " (needs nothing); auto (default): the first of these that works here"
+    " for this computer (needs g++), four times faster; auto (default): the first of these that"
+    " works here"
 )
 TURBULENCE = ("none", "light", "moderate", "severe")
 T = TypeVar("T")
@@ -121,18 +120,6 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument(
         "--pty-link", type=Path, metavar="PATH", help="symbolic link to the pty, removed at exit"
-    )
-    group.add_argument(
-        "--framing",
-        choices=("checked", "thesis"),
-        default="checked",
-        help="checked: this project's firmware (default); thesis: a stand-in for an old one",
-    )
-    group.add_argument(
-        "--old-confirms", action="store_true", help="thesis: the old firmware echoes Commands"
-    )
-    group.add_argument(
-        "--boot-text", default="", metavar="TEXT", help="thesis: text that it prints at boot"
     )
 
 

@@ -16,7 +16,6 @@ from up_simulator.crew.aloft import put_aloft
 from up_simulator.crew.board_aboard import board_aboard
 from up_simulator.crew.firmware_aircraft import FirmwareAircraft
 from up_simulator.crew.replayed import ReplayedFlight
-from up_simulator.crew.stand_in import StandInAircraft
 from up_simulator.crew.uplink import make_uplink
 from up_simulator.firmware.tap import BoardTap
 from up_simulator.java_phone import JavaHandset
@@ -133,7 +132,7 @@ class VirtualAircraft:
             options.sticks,
             options.controller,
             has_motor=has_motor,
-            is_armed=board is not None,
+            is_armed=True,
             say=self._say,
             on_leave=on_leave,
             mode=mode,
@@ -152,11 +151,6 @@ class VirtualAircraft:
                 holder = "another radio"
             return f"{mode() or 'mode not known'}, {holder} had the sticks"
 
-        if board is None:
-            stand_in = StandInAircraft(
-                self.flight, line, radio, self._reactor, options, has_motor, self._say
-            )
-            return stand_in.keep
         aircraft = FirmwareAircraft(
             self.flight, board, line, radio, self._reactor, options.radio, self._say, who
         )

@@ -5,18 +5,16 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
-import os
 from collections.abc import Callable, Mapping
-from pathlib import Path
+from enum import IntEnum
 from typing import Any
 
 from up_rig.imu import motion_at
-from up_rig.library import library_path
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.build import aboard
 from up_simulator.firmware.settings_wire import gains_bytes, profile_bytes
 from up_simulator.firmware.tap import BoardTap
-from up_simulator.reason import Reason
+from up_simulator.kept import keep, kept_path
 
 STEP_US = 10_000.0
 BOOT_US = 1_500_000.0
@@ -25,6 +23,23 @@ QUIET_STEPS = 30
 """An EEPROM that has not changed for so long holds all that it was to get: a byte takes 3.4 ms."""
 WRITE_STEPS = 600
 _ANSWERS = {"c": "C", "G": "G"}
+
+
+class Reason(IntEnum):
+    """Why a board refuses a Command: the third byte of ``!`` (protocols 2.5)."""
+
+    UNKNOWN_TYPE = 1
+    WRONG_SIZE = 2
+    OUT_OF_RANGE = 3
+    ONLY_DISARMED = 4
+    NOT_IN_THESIS_FRAMING = 5
+    TOO_OLD = 6
+    NOT_AUTO = 7
+    THROTTLE_NOT_LOW = 8
+    RECEIVER_INVALID = 9
+    IMU_INVALID = 10
+    VETO = 11
+    NOT_STILL = 12
 
 
 class PreparationError(Exception):
@@ -48,13 +63,13 @@ def prepared_eeprom(
     program = aboard(kind, say)
     values = json.dumps([profile, gains], sort_keys=True, default=str).encode()
     name = hashlib.sha256(program.path.read_bytes() + values).hexdigest()[:32]
-    kept = library_path().parent / "eeprom" / f"{name}.bin"
+    kept = kept_path("eeprom", f"{name}.bin")
     if kept.is_file():
         return kept.read_bytes()
     eeprom = prepare_eeprom(program.board(), profile, gains)
     # Where nothing can be written the work is done again the next time.
     with contextlib.suppress(OSError):
-        _keep(kept, eeprom)
+        keep(kept, eeprom)
     return eeprom
 
 
@@ -134,11 +149,3 @@ def _reason(code: int) -> str:
         return Reason(code).name.lower().replace("_", " ")
     except ValueError:
         return f"reason {code}"
-
-
-def _keep(path: Path, eeprom: bytes) -> None:
-    """Write it whole or not at all; other processes may do the same now."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    fresh = path.with_name(f"{path.name}.{os.getpid()}.new")
-    fresh.write_bytes(eeprom)
-    fresh.replace(path)

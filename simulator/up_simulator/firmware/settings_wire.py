@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import struct
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from up_simulator.memory import GREATEST_GAIN, PROFILE, Gains, OutOfRangeError, read_profile
-
+GREATEST_GAIN = 50.0
+PROFILE = struct.Struct(">" + "BhHH" * 4 + "BB" + "3s" + "hhh" + "hh" + "HH" + "HHH" + "B")
+"""The fields of a profile (protocols 2.6)."""
 MODES = {"ACRO": "a", "RATE": "r", "FBW": "f", "AUTO": "A"}
 MIXES = ("none", "elevon", "V-tail")
 _SERVOS = ("ailerons", "elevator", "throttle", "rudder")
@@ -65,9 +67,10 @@ def profile_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
     fields[_SWITCH] = "".join(letters).encode("latin-1")
     try:
         wire = PROFILE.pack(*fields)
-        read_profile(wire)
-    except (struct.error, OutOfRangeError):
-        raise SettingsError("a value of the profile is out of range") from None
+    except struct.error:
+        wire = b""
+    if not wire or not _is_in_range(fields):
+        raise SettingsError("a value of the profile is out of range")
     return wire
 
 
@@ -86,12 +89,23 @@ def gains_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
             raise SettingsError(f"there is no gain {key}")
         at = 9 * _LOOPS.index(loop) + 3 * _AXES.index(axis) + _TERMS.index(term)
         values[at] = _number(key, value)
-    wire = _GAINS.pack(*values)
-    try:
-        Gains().set_three_axes(wire)
-    except OutOfRangeError:
-        raise SettingsError(f"a gain is not within 0 to {GREATEST_GAIN:g}") from None
-    return wire
+    if not all(math.isfinite(each) and 0.0 <= each <= GREATEST_GAIN for each in values):
+        raise SettingsError(f"a gain is not within 0 to {GREATEST_GAIN:g}")
+    return _GAINS.pack(*values)
+
+
+def _is_in_range(fields: Sequence[Any]) -> bool:
+    channels = [fields[at : at + 4] for at in (0, 4, 8, 12)]
+    angles_cdeg, (failsafe_us, lost_us, *preset_us) = fields[19:24], fields[24:29]
+    return (
+        all(flags <= 1 and abs(trim_us) <= 200 for flags, trim_us, _, _ in channels)
+        and all(800 <= lowest_us < highest_us <= 2200 for _, _, lowest_us, highest_us in channels)
+        and all(0 <= each <= 9000 for each in angles_cdeg[:3])
+        and all(abs(each) <= 9000 for each in angles_cdeg[3:])
+        and all(800 <= each <= 2200 for each in (failsafe_us, *preset_us))
+        and lost_us <= 2200
+        and max(fields[17], fields[29]) <= 1
+    )
 
 
 def _flat(settings: Mapping[str, Any], above: str = "") -> list[tuple[str, Any]]:

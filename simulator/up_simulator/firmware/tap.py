@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from up_simulator.wire import LONGEST_ENCODED, Command, checked_frame, cobs_decode, crc16
+from up_simulator.wire import LONGEST_ENCODED, Command, checked_frame, open_frame
 
 SIZES = {
     "r": 8, "i": 13, "O": 26, "x": 20, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72, "C": 54,
@@ -155,10 +155,10 @@ class BoardTap:
                 yield message
 
     def _open(self, encoded: bytes) -> Command | None:
-        frame = cobs_decode(encoded) if len(encoded) <= LONGEST_ENCODED else None
-        if frame is None or len(frame) < 4 or crc16(frame[:-2]) != int.from_bytes(frame[-2:]):
+        body = open_frame(encoded)
+        if body is None:
             return None
-        sequence, letter, payload = frame[0], chr(frame[1]), frame[2:-2]
+        sequence, letter, payload = body[0], chr(body[1]), body[2:]
         if self._expected is not None:
             self.missing += (sequence - self._expected) % 256
         self._expected = (sequence + 1) % 256

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
+from up.builtin_modules import BUILTIN_MODULES
+from up.cli.system import cog_files, program_files
+from up.config import ConfigErrors, ConfigFile
 from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
 from up.config.problems import Problems
 from up.config.reading import decode, read_text
@@ -14,8 +18,11 @@ from up.config.scalars import is_null
 from up.config.shape import shape_of
 from up.config.validator import Validator
 from up.fields import printable
+from up.loading.application import Application, NoApplicationError
+from up.loading.discovery import survey
+from up.loading.files import config_files
+from up.loading.plan import BootError
 from up_simulator.aircraft import airframe_names
-from up_simulator.scenario.config_files import daemon_files
 from up_simulator.scenario.crosscheck import cross_problems, guess, is_there
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.override import OverriddenProblems, Override, apply
@@ -26,6 +33,22 @@ from up_simulator.scenario.tree import child, items_of, path_of
 SHAPE = shape_of(Scenario)
 _HERE = Path()
 _FREE_TEXT = ("is", "is_not", "becomes")
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@cache
+def daemon_files() -> dict[str, ConfigFile[Any]]:
+    """Return the files that the daemon reads; none where there is no daemon beside the simulator.
+
+    What is none of these is judged by the daemon itself when it starts.
+    """
+    try:
+        application = Application.find(ROOT)
+        found = survey(application)
+    except (NoApplicationError, ConfigErrors, BootError):
+        return {}
+    files = [*config_files((*BUILTIN_MODULES, *found.modules)), *cog_files(application)]
+    return {file.filename: file for file in (*program_files(), *files)}
 
 
 def read_scenario(path: Path | str, overrides: Sequence[Override] = ()) -> Scenario:

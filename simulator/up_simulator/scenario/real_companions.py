@@ -25,7 +25,6 @@ from up_simulator.scenario.settings import merge
 from up_simulator.scenario.workspace import Workspace
 from up_simulator.world import BYTES_A_STEP
 
-PROXY_AGAIN_S = 10.0
 FLIGHTS = "flights"
 
 

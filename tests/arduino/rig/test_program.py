@@ -18,7 +18,6 @@ from tests.arduino.rig.firmware import build, make_rig
 from up_rig.pty_line import PtyLine
 from up_rig.real_time import RealTime
 from up_rig.sticks import BEFORE, SticksError, read_sticks
-from up_simulator import receiver as stand_in
 
 DEADLINE_S = 30.0
 
@@ -186,34 +185,6 @@ def test_the_pilot_follows_the_script(real_time):
     assert 1.0 <= raised_s < 1.05
     assert {width_us for rise_s, width_us in sent if rise_s < 0.98} == {1000}
     assert 1.95 < sent[-1][0] < 2.03, "the receiver went off at 2 s"
-
-
-SCRIPTS = [
-    "t=5 aileron=1600 t=6 aileron=1500",
-    "t=1,aux1=2000,receiver=off t=2.5 receiver=on rudder=800",
-    "throttle=2200",
-    "",
-    "flaps=1",
-    "t=x",
-    "t=5 t=4",
-    "t=inf",
-    "rudder=799",
-    "rudder=2201",
-    "rudder",
-    "receiver=maybe",
-]
-
-
-@pytest.mark.parametrize("script", SCRIPTS)
-def test_scripts_mean_what_they_mean_to_the_stand_in(script):
-    def read(function, failure):
-        try:
-            return [(each.time_s, each.channel, each.value) for each in function(script)]
-        except failure as error:
-            return str(error)
-
-    ours, theirs = read(read_sticks, SticksError), read(stand_in.read_sticks, stand_in.SticksError)
-    assert ours == theirs
 
 
 @given(

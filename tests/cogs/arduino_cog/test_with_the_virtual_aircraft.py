@@ -1,4 +1,4 @@
-"""The cog and a board in a process of its own, on a real pty: stand-in and compiled firmware."""
+"""The cog and a board in a process of its own, on a real pty: the firmware on chip and host."""
 
 import os
 import signal
@@ -32,9 +32,9 @@ from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider  # isort
 LOOP = {axis: {"p": 3.25, "i": 0.5, "d": 0.1} for axis in ("ailerons", "elevator", "rudder")}
 
 
-STAND_IN = (
+HOST = (
     "up_simulator", "start", "--no-phone", "--wind", "0", "--turbulence", "none",
-    "--board", "stand-in", "--radio", "script",
+    "--board", "host", "--radio", "script",
 )  # fmt: skip
 
 
@@ -76,11 +76,11 @@ def fly_aircraft(tmp_path):
         each.end()
 
 
-@pytest.fixture(scope="module", params=["stand-in", "firmware"])
+@pytest.fixture(scope="module", params=["host", "firmware"])
 def board(request):
     """What both promise is shown on both."""
-    if request.param == "stand-in":
-        return STAND_IN
+    if request.param == "host":
+        return HOST
     return firmware()
 
 
@@ -249,10 +249,7 @@ def test_an_aircraft_that_dies_and_comes_back_is_used_again(aircraft, tmp_path):
 
 def test_an_old_firmware_with_its_boot_text(fly_aircraft, tmp_path):
     async def fly():
-        plane = fly_aircraft(
-            *(*STAND_IN, "--framing", "thesis", "--old-confirms"),
-            *("--boot-text", "DMP init failed (code 1)"),
-        )
+        plane = fly_aircraft("tests.support.old_firmware", "--boot-text", "DMP init failed")
         await plane.is_there()
         up = system(tmp_path, "thesis")
         life = await started(up)

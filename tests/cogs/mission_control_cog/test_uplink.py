@@ -190,10 +190,10 @@ def test_a_proxy_that_does_not_read_costs_bounded_memory_and_gets_the_newest_lat
             filler = b'{"filler": "%s"}\n' % (b"x" * 8000)
             while link.output.dropped == 0:
                 a.provider._transmit_data(filler)
-            assert link.output._messages_size <= 65536
+            assert link.output._size <= 65536
             a.provider._transmit_newest(b'{"n": 1}\n')
             a.provider._transmit_newest(b'{"n": 2}\n')
-            assert link.output._newest == b'{"n": 2}\n'
+            assert link.output._news[""]() == b'{"n": 2}\n'
             assert not a.provider._transmit_data(filler)
             peer.transport.resumeProducing()
             await until(lambda: b'{"n": 2}' in peer.lines)

@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import sys
 
 import pytest
 from arduino_cog.airframe import AIRFRAME
@@ -15,15 +16,20 @@ from up_simulator.aircraft import (
     FlightDynamics,
     airframe_names,
     load_airframe,
+    model_file,
 )
 from up_simulator.aircraft.airframe import SHIPPED
 from up_simulator.aircraft.airframe_file import file_named
+from up_simulator.flight import FlightUnavailableError
 
 
 def own(folder, yml=lambda text: text, xml=lambda text: text):
     """A user's aircraft: the glider with another text."""
     place = folder / "mine"
     shutil.copytree(SHIPPED / "glider", place)
+    shutil.copy(load_airframe("glider").model_path, place / "glider.xml")
+    with (place / "airframe.yml").open("a") as file:
+        file.write("model: glider.xml\n")
     for name, change in (("airframe.yml", yml), ("glider.xml", xml)):
         text = (place / name).read_text()
         changed = change(text)
@@ -72,6 +78,47 @@ def test_profile_and_gains_are_what_the_raspberry_pis_files_take(name, tmp_path)
     assert gains.rate.ailerons.p == airframe.gains["rate"]["ailerons"]["p"]
 
 
+def test_a_users_own_without_a_model_flies_as_its_geometry_says(tmp_path):
+    place = own(tmp_path, lambda text: text.replace("model: glider.xml", ""))
+    (place / "glider.xml").unlink()
+    before = FlightDynamics(load_airframe(place))
+    geometry = place / "geometry.yml"
+    geometry.write_text(geometry.read_text().replace("mass_kg: 0.95", "mass_kg: 1.9"))
+    airframe = load_airframe(place)
+    assert airframe.mass_kg == pytest.approx(1.9)
+    heavy = FlightDynamics(airframe)
+    for each in (before, heavy):
+        each.advance(1.0)
+    assert heavy.state.altitude_m < before.state.altitude_m - 0.3
+
+
+def test_neither_a_model_nor_a_geometry_is_one_sentence(tmp_path):
+    place = own(tmp_path, lambda text: text.replace("model: glider.xml", ""))
+    (place / "geometry.yml").unlink()
+    with pytest.raises(AirframeError, match=r'airframe.yml:1:1: the key "model" is missing, and'):
+        load_airframe(place)
+    (place / "geometry.yml").write_text("wing: {half_span_m: 0.6}\ntail: {half_span_m: 0.6}\n")
+    with pytest.raises(AirframeError, match="lie in each other's vortices") as caught:
+        load_airframe(place)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_without_numpy_the_mass_is_known_and_nothing_flies(monkeypatch):
+    monkeypatch.setitem(sys.modules, "numpy", None)
+    for name in ("model_file", "derivation", "lattice", "panels"):
+        monkeypatch.delitem(sys.modules, f"up_simulator.aircraft.{name}", raising=False)
+    assert load_airframe("glider").mass_kg == pytest.approx(0.95)
+    with pytest.raises(FlightUnavailableError, match="numpy"):
+        FlightDynamics(load_airframe("glider"))
+
+
+def test_a_place_that_cannot_be_written_is_named(tmp_path, monkeypatch):
+    (tmp_path / "file").touch()
+    monkeypatch.setattr(model_file, "kept_path", lambda *_: tmp_path / "file" / "x.xml")
+    with pytest.raises(FlightUnavailableError, match=r"x\.xml: "):
+        FlightDynamics(load_airframe("glider"))
+
+
 @pytest.mark.parametrize("as_file", [False, True])
 def test_a_users_own_flies(tmp_path, as_file):
     place = own(tmp_path, lambda text: text.replace("title: motor glider, 1.8 m", "title: mine"))
@@ -118,7 +165,7 @@ def test_all_mistakes_are_told_at_once_each_with_its_place(tmp_path):
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        (lambda text: "", 'airframe.yml:1:1: the key "model" is missing'),
+        (lambda text: "", 'airframe.yml:1:1: the key "title" is missing'),
         (
             lambda text: text.replace("glider.xml", "other.xml"),
             "other.xml: cannot be read: No such",

@@ -3,7 +3,6 @@
 import dataclasses
 import functools
 import math
-import re
 
 import pytest
 
@@ -28,19 +27,6 @@ def plain_wing(aspect=8.0, **changes):
     values = {"half_span_m": aspect * 0.1, "root_chord_m": 0.2, "tip_chord_m": 0.2}
     wing = Surface(**{**values, "slope_share": 1.0, **changes})
     return Geometry(wing=wing, fuselage=Fuselage(length_m=0.0), masses=Masses(centre_x_m=0.05))
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_shipped_model_is_what_its_geometry_gives(name):
-    """To the last but one digit: libraries for linear algebra round differently."""
-    shipped, made = (
-        re.split(r"(-?\d+\.\d{4,})", text)
-        for text in ((SHIPPED / name / f"{name}.xml").read_text(), model_text(name, derived(name)))
-    )
-    assert [each.split() for each in shipped[::2]] == [each.split() for each in made[::2]]
-    numbers = [[float(each) for each in side[1::2]] for side in (shipped, made)]
-    assert len(numbers[0]) > 1000
-    assert numbers[0] == pytest.approx(numbers[1], abs=1.01e-4)
 
 
 def test_the_program_writes_it(tmp_path):

@@ -1,6 +1,7 @@
 """The flight dynamics: conventions, determinism, weather, crashes; JSBSim itself flies."""
 
 import math
+import shutil
 
 import pytest
 
@@ -12,6 +13,7 @@ from up_simulator.aircraft import (
     airframe_names,
     load_airframe,
 )
+from up_simulator.aircraft.airframe import SHIPPED
 from up_simulator.aircraft.servos import ServoRack
 from up_simulator.flight import NEUTRAL
 
@@ -111,11 +113,11 @@ def test_the_imu_feels_its_weight_in_a_steady_glide():
 
 def test_the_imu_ahead_of_the_centre_feels_the_turn(tmp_path):
     """On a long nose a pitch rate q pulls with q^2 x, and its beginning lifts."""
-    text = (load_airframe("glider").model_path.parent / "airframe.yml").read_text()
+    text = (SHIPPED / "glider" / "airframe.yml").read_text()
     folder = tmp_path / "long"
     folder.mkdir()
     (folder / "airframe.yml").write_text(text.replace("x_m: 0.05", "x_m: 4.0"))
-    (folder / "glider.xml").write_text(load_airframe("glider").model_path.read_text())
+    shutil.copy(SHIPPED / "glider" / "geometry.yml", folder)
     ahead, near = FlightDynamics(load_airframe(folder)), flying()
     for each in (ahead, near):
         each.set_servos((1500, 1800, 1000, 1500))

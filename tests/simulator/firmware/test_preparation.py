@@ -11,11 +11,21 @@ from up_simulator.firmware.build import BoardUnavailableError, aboard
 from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.firmware.preparation import PreparationError, prepare_eeprom, prepared_eeprom
 from up_simulator.firmware.rig_board import RigBoard
-from up_simulator.firmware.settings_wire import SettingsError, gains_bytes, profile_bytes
+from up_simulator.firmware.settings_wire import (
+    PROFILE as FIELDS,
+)
+from up_simulator.firmware.settings_wire import (
+    SettingsError,
+    gains_bytes,
+    profile_bytes,
+)
 from up_simulator.firmware.tap import BoardTap
-from up_simulator.memory import GAINS, default_profile
 
-HELD = default_profile(has_motor=True).wire
+CHANNEL = (0, 0, 1000, 2000)
+GAINS = tuple(float(each) for each in range(18))
+HELD = FIELDS.pack(
+    *CHANNEL * 4, 0, 1, b"afA", 5000, 2000, 2500, -300, 2000, 1000, 900, 1500, 1500, 1500, 0
+)
 HELD_GAINS = struct.pack(">18f", *GAINS)
 PROFILE = {
     "ailerons": {"reversed": True, "trim_us": -12, "lowest_us": 950, "highest_us": None},
@@ -107,7 +117,7 @@ def test_a_board_with_the_prepared_eeprom_boots_with_the_settings(elf):
 
 
 def test_the_work_is_done_once_for_each_firmware_and_each_set(tmp_path, monkeypatch, elf):
-    monkeypatch.setattr(preparation, "library_path", lambda: tmp_path / "librig.so")
+    monkeypatch.setattr(preparation, "kept_path", lambda *names: tmp_path.joinpath(*names))
     made = []
 
     def counted(*arguments):

@@ -10,38 +10,36 @@ from twisted.internet.protocol import Factory
 from twisted.logger import globalLogPublisher
 
 from tests.simulator.bench import StillFlight
-from up_simulator.board import Board
+from tests.support.tools import unavailable
+from up_rig.imu import motion_at
 from up_simulator.crew.protocols import CrewError
+from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.in_process.config_folder import GROUND_PORT, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
-from up_simulator.receiver import SOARING, Receiver, read_sticks
 
 
-class StandInBoard:
-    """The stand-in board behind the two calls that ``pump`` makes."""
+class StillBoard:
+    """The firmware, built for this computer, at rest; behind the two calls that ``pump`` makes."""
 
-    def __init__(self, reactor):
-        self.sent = b""
+    def __init__(self):
         self.heard = b""
-        receiver = Receiver(read_sticks(SOARING), reactor.seconds())
-        self._board = Board(StillFlight(), receiver, reactor, self._send)
-
-    def _send(self, data):
-        self.sent += data
+        try:
+            self._board = choose_board("host")
+        except BoardUnavailableError as error:
+            unavailable(str(error))
+        self._board.set_motion(motion_at(3.25, 0.0))
+        self._board.run_us(1_500_000)
+        self.read = self._board.read
 
     def tick(self):
-        self._board.tick()
-
-    def read(self):
-        data, self.sent = self.sent, b""
-        return data
+        self._board.run_us(2000)
 
     def write(self, data):
         self.heard += data
-        self._board.data_received(data)
+        self._board.write(data)
 
 
 class Bench:
@@ -52,7 +50,7 @@ class Bench:
         self.reactor = SimulatedReactor()
         write_config(folder, files)
         self.raspilot = InProcessRaspilot(self.reactor, folder, **options)
-        self.board = StandInBoard(self.reactor)
+        self.board = StillBoard()
         self.ground = InProcessGround(self.reactor)
 
     def run(self, duration_s):

@@ -183,7 +183,7 @@ def test_messages_to_a_stalled_reader_stay_in_order_and_within_a_bound():
                     taken.append(number)
                 await sleep(0)
             assert link.output.dropped == 2000 - len(taken) > 1000
-            assert link.output._messages_size <= 65536
+            assert link.output._size <= 65536
             received = await receive_all(client, lambda data: data.count(b"\n") == len(taken))
             assert [json.loads(line)["beacon"] for line in received.splitlines()] == taken
             assert link.send(b"{}\n")

@@ -2,47 +2,21 @@
 
 from __future__ import annotations
 
-from serial_cog.config import ARDUINO
-
-from arduino_cog.change_sender import ChangeSender
-from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.place_forward import PlaceForward
 from arduino_cog.wire import pack_heading
-from up.base_started_module import BaseStartedModule
 from up.commands.heading_command import HeadingCommand
-from up.mode import WITH_ARDUINO
 from up.needs import needs
-from up.providers.reading import Reading
 from up.providers.up_heading_provider import UpHeadingProvider
 
 
-class ArduinoHeadingModule(BaseStartedModule):
+class ArduinoHeadingModule(PlaceForward):
     """Forwards the heading that the provider follows, in whole degrees."""
 
-    MODES = WITH_ARDUINO
+    COMMAND = HeadingCommand
+    LETTER = "b"
 
-    arduino = needs(ArduinoProvider)
-    heading = needs(UpHeadingProvider)
+    source = needs(UpHeadingProvider)
 
-    _forwarded: Reading[float] | None = None
-
-    def load(self) -> bool:
-        """Return whether the firmware is the thesis's: this project's has no use for it."""
-        return bool(self.context.config(ARDUINO).framing == "thesis")
-
-    def _execute_initialization(self) -> None:
-        self._sender = ChangeSender(
-            self.context.reactor, lambda payload: self.arduino.send_stream("b", payload)
-        )
-        self.arduino.add_board_listener(self._sender.forget)
-        self.up.command_executor.register_command(HeadingCommand, self.on_heading)
-
-    def _execute_stop(self) -> None:
-        self._sender.stop()
-
-    def on_heading(self, command: HeadingCommand) -> None:
-        """Forward the provider's reading when it is a new one: it heard the Command before."""
-        reading = self.heading.reading
-        if self.started and reading is not None and reading is not self._forwarded:
-            self._forwarded = reading
-            if reading.valid:
-                self._sender.offer(pack_heading(reading.value))
+    def pack(self, value: float) -> bytes:
+        """Return the heading as the payload of ``b``."""
+        return pack_heading(value)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, cast
 
-from black_box_cog.cli.mixed_parser import MixedParser
 from up.cli.plugin_verbs import add_plugin_verbs
 from up.cli.verb import add_verb
 from up.flight_log.flight_options import PLACE, take_folder
@@ -42,6 +42,28 @@ examples:
   up log plot last
   up log plot 12 up.orientation.update.roll up.setpoint.set.roll -o roll.png
 """
+
+
+class MixedParser(argparse.ArgumentParser):
+    """A parser that, with ``is_mixed``, takes a list of positional arguments around its options.
+
+    argparse gives such a list nothing that comes after an option: it offers
+    ``parse_intermixed_args`` for that, but not to the parsers below a verb.
+    """
+
+    is_mixed = False
+
+    def parse_known_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: Any = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Parse; what it calls comes here again and goes the usual way."""
+        if not self.is_mixed:
+            return super().parse_known_args(args, namespace)
+        self.is_mixed = False
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self.is_mixed = True
 
 
 def add(verbs: Any) -> None:

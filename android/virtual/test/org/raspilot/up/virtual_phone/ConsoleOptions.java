@@ -11,8 +11,7 @@ import org.raspilot.up.wire.Seat;
 final class ConsoleOptions {
     /** What {@code --help} prints. */
     static final String HELP = ""
-            + "usage: java -cp up-core.jar:virtual-phone.jar"
-            + " org.raspilot.up.virtual_phone.GroundConsole [options]\n"
+            + "usage: java -cp JARS org.raspilot.up.virtual_phone.GroundConsole [options]\n"
             + "\n"
             + "A ground station without a screen: the Up Library on the JVM. Telemetry, seat and\n"
             + "answers leave as JSON lines, Commands come as JSON lines on standard input, with\n"

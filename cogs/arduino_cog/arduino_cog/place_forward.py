@@ -1,0 +1,57 @@
+"""What sends a provider's readings to an Arduino with the thesis's firmware."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from serial_cog.config import ARDUINO
+
+from arduino_cog.change_sender import ChangeSender
+from arduino_cog.modules.arduino_provider import ArduinoProvider
+from up.base_started_module import BaseStartedModule
+from up.mode import WITH_ARDUINO
+from up.needs import needs
+from up.providers.reading import Reading
+
+
+class PlaceForward(BaseStartedModule):
+    """Forwards each new valid reading of ``source`` once, as the stream ``LETTER``.
+
+    A subclass names the ``COMMAND`` that brings readings, the provider as ``source``, and how a
+    value is packed.
+    """
+
+    MODES = WITH_ARDUINO
+    COMMAND: type[Any]
+    LETTER: str
+
+    arduino = needs(ArduinoProvider)
+    source: Any
+
+    _forwarded: Reading[Any] | None = None
+
+    def load(self) -> bool:
+        """Return whether the firmware is the thesis's: this project's has no use for it."""
+        return bool(self.context.config(ARDUINO).framing == "thesis")
+
+    def pack(self, value: Any) -> bytes:
+        """Return a value as the payload of a message."""
+        raise NotImplementedError
+
+    def _execute_initialization(self) -> None:
+        self._sender = ChangeSender(
+            self.context.reactor, lambda payload: self.arduino.send_stream(self.LETTER, payload)
+        )
+        self.arduino.add_board_listener(self._sender.forget)
+        self.up.command_executor.register_command(self.COMMAND, self.on_reading)
+
+    def _execute_stop(self) -> None:
+        self._sender.stop()
+
+    def on_reading(self, command: Any) -> None:
+        """Forward the provider's reading when it is a new one: it heard the Command before."""
+        reading = self.source.reading
+        if self.started and reading is not None and reading is not self._forwarded:
+            self._forwarded = reading
+            if reading.valid:
+                self._sender.offer(self.pack(reading.value))
