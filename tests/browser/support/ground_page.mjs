@@ -147,6 +147,8 @@ export class GroundPage {
   async hold(selector, hand = this.mouse(selector)) {
     for (;;) {
       await hand.down();
+      // Input comes before a frame's callbacks: after them the page has the press.
+      await this.page.evaluate(() => new Promise(requestAnimationFrame));
       const how = await this.until(
         (s) => {
           const { press } = document.querySelector(s).dataset;
