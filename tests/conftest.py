@@ -3,6 +3,7 @@
 import os
 import shutil
 import signal
+import sys
 import tempfile
 from pathlib import Path
 
@@ -42,6 +43,15 @@ def hangup():
         signal.signal(signal.SIGHUP, lambda *_: None)
     yield
     signal.signal(signal.SIGHUP, before)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def thread_pool():
+    """Stop the reactor's threads: a crashed reactor keeps them, and they keep the process."""
+    yield
+    pool = getattr(sys.modules.get("twisted.internet.reactor"), "threadpool", None)
+    if pool is not None:
+        pool.stop()
 
 
 @pytest.fixture(scope="session", autouse=True)
