@@ -11,6 +11,8 @@ empty :=
 MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . $(COGS)))
 SETUPS := setup.py pyproject.toml $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
 TEST ?=
+# More than CI has cores: many tests wait for real time.
+WORKERS ?= 3
 BENCH ?=
 SCENARIO ?=
 CONTROLLER ?=
@@ -62,8 +64,10 @@ run: $(VENV)/.run-ready $(WEB)
 scenarios: $(VENV)/.run-ready
 	@$(PY) -m up_simulator.cli $(if $(SCENARIO),fly $(SCENARIO),all)
 
+# The tests start many programs. Where PYTHONDONTWRITEBYTECODE is set, each would compile its own.
 test: $(VENV)/.dev-ready $(WEB)
-	$(PY) -m pytest -n 2 --dist loadfile $(TEST)
+	@$(PY) -m compileall -q main.py $(PACKAGES) $(COGS)
+	$(PY) -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder $(TEST)
 
 # Part of make test.
 test-browser: $(VENV)/.dev-ready $(WEB)

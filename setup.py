@@ -81,7 +81,7 @@ setup(
         "dev": [
             "autobahn>=24.4",
             "pytest>=8",
-            "pytest-xdist>=3",
+            "pytest-xdist>=3.7",
             "pytest-timeout>=2.3",
             "hypothesis>=6.100",
             "mcap>=1.2",

@@ -3,6 +3,7 @@
 import os
 import shutil
 import signal
+import sys
 import tempfile
 from pathlib import Path
 
@@ -13,12 +14,21 @@ from tests.support.showcase import Showcase
 
 # No example fails because the machine was busy: neither by its time nor by that of drawing it.
 settings.register_profile("tests", deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("tests")
+# Where nothing may be skipped, every run tries the same examples, and no more than these.
+settings.register_profile("ci", settings.get_profile("tests"), derandomize=True, max_examples=50)
+settings.load_profile("ci" if os.environ.get("UP_REQUIRE_TOOLS") == "1" else "tests")
+
+# A worker takes a whole file. Those that take minutes come first: none is left for the end.
+LONG_FILES = ("test_browser.py", "test_shipped_real.py", "test_ending.py", "test_shipped.py")
 
 # A shell that starts something in the background lets it ignore Ctrl-C, and every program that it
 # starts as well: then none of the tests' own programs would end by it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_collection_modifyitems(items):
+    items.sort(key=lambda item: item.path.name not in LONG_FILES)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -33,6 +43,15 @@ def hangup():
         signal.signal(signal.SIGHUP, lambda *_: None)
     yield
     signal.signal(signal.SIGHUP, before)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def thread_pool():
+    """Stop the reactor's threads: a crashed reactor keeps them, and they keep the process."""
+    yield
+    pool = getattr(sys.modules.get("twisted.internet.reactor"), "threadpool", None)
+    if pool is not None:
+        pool.stop()
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -7,7 +7,6 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import pytest
@@ -100,10 +99,9 @@ def test_registered_started_flown_and_stopped(tmp_path, host):
             asked = json.loads(phone.expect("android.speak"))
             phone.say(json.dumps({"name": "up.ack", "data": {"id": asked["id"]}}) + "\n")
             assert json.loads(ground.expect("up.ack"))["data"] == {"id": "s"}
-            began_s = time.monotonic()
             daemon.process.send_signal(signal.SIGTERM)
+            # Another status where it takes too long and is forced.
             assert daemon.process.wait(DEADLINE_S) == 0, daemon.log
-            assert time.monotonic() - began_s < 3
             assert "Traceback" not in daemon.log
             for client in (phone, ground, near):
                 client.close()

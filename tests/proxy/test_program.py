@@ -10,6 +10,7 @@ import pytest
 
 from tests.proxy.program import UP_PROXY, Client, Program, accepted, until
 from up.version import VERSION
+from up_proxy.connection import IDLE_S
 
 
 def test_it_relays_and_says_its_ports(tmp_path):
@@ -26,14 +27,14 @@ def test_it_relays_and_says_its_ports(tmp_path):
 
 
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
-def test_it_stops_within_two_seconds_whoever_is_connected(tmp_path, how):
+def test_it_stops_without_waiting_for_whoever_is_connected(tmp_path, how):
     with Program(tmp_path) as proxy:
         clients = [Client(proxy.ground_port, "{}\n") for _ in range(20)]
         clients += [Client(proxy.airborne_port, "UP1 aircraft=a\n")]
         clients[-1].line()
         begin_s = time.monotonic()
         assert proxy.end(how) == 0
-        assert time.monotonic() - begin_s < 2
+        assert time.monotonic() - begin_s < IDLE_S
         for client in clients:
             while client.line():
                 pass
@@ -164,7 +165,6 @@ def test_after_kill_9_both_ends_come_back_and_nothing_is_misdelivered(tmp_path):
         while client.line():
             pass
         client.close()
-    begin_s = time.monotonic()
     with Program(tmp_path, ports=ports) as proxy:
         pairs = []
         for (_, air_token, name), (_, token, _) in zip(old, reversed(old_grounds), strict=True):
@@ -179,7 +179,6 @@ def test_after_kill_9_both_ends_come_back_and_nothing_is_misdelivered(tmp_path):
             assert air.expect("command") == f"command for {name}\n"
             air.close()
             ground.close()
-        assert time.monotonic() - begin_s < 5
 
 
 def test_the_supervisor_is_told(tmp_path):

@@ -180,10 +180,8 @@ def test_stop_instances_on_exit_decides_first(runners):
     runner = runners(**{"stop instances on exit": True}).start()
     runner.write("blackbox/behaviour.yml", {"deaf": True})
     first = runner.spawn()
-    began_s = time.monotonic()
     assert runner.terminate() == 0
     assert not is_alive(first["pid"])
-    assert time.monotonic() - began_s < 25
 
 
 def test_a_second_signal_does_not_wait(runners):

@@ -146,16 +146,9 @@ export class GroundPage {
    */
   async hold(selector, hand = this.mouse(selector)) {
     for (;;) {
+      await this.page.evaluate(watchPress, selector);
       await hand.down();
-      const how = await this.until(
-        (s) => {
-          const { press } = document.querySelector(s).dataset;
-          return press === "pressed" ? null : press;
-        },
-        `${selector} held to its end`,
-        selector,
-      );
-      const note = await this.text("#arming-note");
+      const [how, note] = await this.until(() => window.testPressEnd, `${selector} held to its end`);
       await hand.up();
       if (how === "done") {
         return;
@@ -235,4 +228,17 @@ export class GroundPage {
     open.delete(this);
     await this.page.context().close();
   }
+}
+
+/** Keep how the next press of a button ends: by the time that a test looks, the button may be idle again. */
+function watchPress(selector) {
+  const button = document.querySelector(selector);
+  window.testPressEnd = null;
+  new MutationObserver((_, observer) => {
+    const { press } = button.dataset;
+    if (!["idle", "pressed"].includes(press)) {
+      window.testPressEnd = [press, document.querySelector("#arming-note").textContent];
+      observer.disconnect();
+    }
+  }).observe(button, { attributeFilter: ["data-press"] });
 }

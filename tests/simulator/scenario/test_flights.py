@@ -187,14 +187,6 @@ def test_ctrl_c_ends_a_flight_with_what_there_is():
     assert not Result(record, verdicts_of(record)).is_held
 
 
-def test_the_control_run_of_the_gusts_visibly_fails():
-    shipped = read_scenario(SHIPPED / "level-flight-in-gusts.yml")
-    record = build_flight(control_scenario(shipped)).fly()
-    verdicts = control_verdicts(shipped, record)
-    assert len(verdicts) == len(shipped.control.fails)
-    assert all(verdict.is_held and verdict.has_figure for verdict in verdicts)
-
-
 def test_a_control_run_that_does_not_fail_is_no_control_run():
     shipped = read_scenario(SHIPPED / "level-flight-in-gusts.yml")
     calm = dataclasses.replace(

@@ -145,6 +145,7 @@ def test_a_flight_that_holds_leaves_its_files(capsys, in_a_folder):
     folder = in_a_folder / "run" / "flights" / "good"
     names = {path.name for path in folder.iterdir()}
     assert {"log.csv", "flight.mcap", "report.txt", "summary.json"} <= names
+    assert (folder / "picture.png").stat().st_size > 10_000
     assert len(read_log(folder / "log.csv")) == 51
     assert (folder / "report.txt").read_text() == told.out
     assert json.loads((folder / "summary.json").read_text())["held"] is True

@@ -41,7 +41,7 @@ PIDS = st.fixed_dictionaries(
 
 
 @pytest.mark.parametrize("cls", ALL, ids=lambda cls: cls.NAME)
-@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(deadline=None, suppress_health_check=list(HealthCheck))
 @given(draw=st.data())
 def test_arbitrary_json_makes_a_command_or_an_invalid_command_error(cls, draw):
     keys = [key for _, key, _ in wire_fields(cls)]
