@@ -25,20 +25,23 @@ constexpr float MAX_SPEED_M_S = 40;
 
 // Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more at first,
 // airspeed from gusts. They and the sigmas were searched for in flights in moderate turbulence.
-constexpr float TILT_WALK = 0.038F * RAD;
-constexpr float BIAS_WALK = 0.0104F * RAD;
-constexpr float EARLY_BIAS_WALK = 0.023F * RAD;
-constexpr float SPEED_WALK = 0.34F;
+constexpr float TILT_WALK = 0.05F * RAD;
+constexpr float BIAS_WALK = 0.0075F * RAD;
+constexpr float EARLY_BIAS_WALK = 0.018F * RAD;
+constexpr float SPEED_WALK = 0.243F;
 constexpr uint8_t EARLY_CYCLES = 154;  // 44 s
-// The bias drifts as it did in the last 27 s, later in the last 69 s.
+// The bias drifts as it did in the last 27 s, later in the last 100 s. A constant turn cannot tell a
+// drift about the vertical from an airspeed: the yaw gyro's fades.
 constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 27;
-constexpr float DRIFT_SHARE = CYCLE_S / 69;
+constexpr float DRIFT_SHARE = CYCLE_S / 100;
+constexpr float YAW_DRIFT_KEPT = 1 - CYCLE_S / 100;
 
 // 1 sigma of what is observed, for one cycle.
 constexpr float FORCE_SIGMA = 0.138F;  // g, across the nose
-constexpr float EXCESS_WEIGHT = 3.5F;  // a force is trusted less when it is not 1 g
+constexpr float EXCESS_WEIGHT = 4.9F;  // a force is trusted less when it is not 1 g
 constexpr float SPEED_SIGMA = 12;      // m/s, about its mean
-constexpr float EARLY_SPEED_SIGMA = 15;
+constexpr float EARLY_SPEED_SIGMA = 19;
+constexpr float FIRST_SPEED_SHARE = 0.1F;
 constexpr float MEAN_SPEED_SHARE = CYCLE_S / 500;
 constexpr float LOAD_SIGMA = 0.078F;          // g, along down
 constexpr float STRAIGHT_SIGMA = 3 * RAD;     // rad/s: in straight flight a turn is mostly bias
@@ -103,6 +106,7 @@ OUT_OF_LINE void TiltFilter::begin(uint8_t tilt_deg, uint8_t bias_10, float spee
   uint8_t* const bytes = reinterpret_cast<uint8_t*>(this);
   for (uint8_t at = 0; at < sizeof *this; ++at) bytes[at] = 0;
   add_noise(from_fixed(tilt_deg, RAD), from_fixed(bias_10, RAD / 10), 7);
+  mean_share_ = FIRST_SPEED_SHARE;
   speed_ = mean_speed_ = speed_m_s >= MIN_SPEED_M_S ? speed_m_s : DEFAULT_SPEED_M_S;
 }
 
@@ -229,7 +233,6 @@ OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& 
     per_bias = speed_ * (1 / GRAVITY_M_S2 / ONE_Q14);
     weights_[ROLL] = 1;
     weights_[SPEED] = turn_rate_ * (-1 / GRAVITY_M_S2);
-    drawn_speed_ = change_[SPEED];
     innovation_ = from_fixed(roll_error_, FORCE_UNIT);
     variance_ = noise_;
   } else {
@@ -322,17 +325,17 @@ OUT_OF_LINE bool TiltFilter::finish(uint8_t piece, const Attitude& attitude,
   if (piece <= 3) {
     const uint8_t axis = static_cast<uint8_t>(piece - 1);
     const float* const change = &change_[BIAS_X + axis];
+    if (piece == 3) drift_[axis] *= YAW_DRIFT_KEPT;
     add_product(&drift_[axis], change, is_early ? EARLY_DRIFT_SHARE : DRIFT_SHARE);
     correction.bias_q28[axis] = to_fixed(*change + drift_[axis], BIAS_TO_Q28);
     return true;
   }
-  if (is_early) {
-    ++cycles_;
-    // The first turns show what the mean is.
-    mean_speed_ += change_[SPEED] - drawn_speed_;
-  }
+  if (is_early) ++cycles_;
   speed_ = sane_speed(speed_ + change_[SPEED]);
-  mean_speed_ = sane_speed(mean_speed_ + (speed_ - mean_speed_) * MEAN_SPEED_SHARE);
+  // The mean of all that was flown, and after minutes of the last ones.
+  mean_share_ = mean_share_ / (1 + mean_share_);
+  if (mean_share_ < MEAN_SPEED_SHARE) mean_share_ = MEAN_SPEED_SHARE;
+  mean_speed_ += (speed_ - mean_speed_) * mean_share_;
   restart();
   return false;
 }

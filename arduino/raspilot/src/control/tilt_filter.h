@@ -22,10 +22,10 @@ struct TiltCorrection {
  * An accelerometer feels gravity less the acceleration of flight, which is the turn rate times the
  * airspeed across the nose, and the change of airspeed along it. The filter expects both. So no
  * turn is gated out, and bias is learned in turns, too. The airspeed itself is integrated, held
- * near its mean of minutes, and shown by turns: a tilt error is fixed to the earth and rotates
- * through the body axes, the centripetal force does not. In a turn the load along down, 1 g on
- * average, shows a roll error without any airspeed. The yaw gyro's bias is learned where bank
- * makes it a pitch rate, and in straight flight. Bias that drifts steadily is extrapolated.
+ * near its mean, and shown by turns: a tilt error is fixed to the earth and rotates through the
+ * body axes, the centripetal force does not. In a turn the load along down, 1 g on average, shows a
+ * roll error whatever the airspeed. The yaw gyro's bias is learned where bank makes it a pitch
+ * rate, and in straight flight. Bias that drifts steadily is extrapolated.
  */
 class TiltFilter {
  public:
@@ -79,7 +79,7 @@ class TiltFilter {
   float noise_;      // variance of the force, g squared
   float speed_;      // m/s
   float mean_speed_;
-  float drawn_speed_;  // how far the mean has drawn it in this cycle
+  float mean_share_;  // of a cycle in the mean
   float drift_[3];   // rad/s a cycle
   union {
     float gains_[STATES];  // covariance of the states with what is observed
