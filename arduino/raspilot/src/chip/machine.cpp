@@ -28,10 +28,10 @@ static constexpr int16_t IMU_TICKS = 2 * 490;
 static constexpr int16_t TRANSFER_TICKS = 2 * 430;
 static constexpr int16_t GRACE_TICKS = 2 * 470;
 /** Background work begins only when the longest of its kind ends before that. */
-static constexpr int16_t PIECE_TICKS = 2 * 470;
-static constexpr int16_t KEEP_TICKS = 2 * 270;
+static constexpr int16_t PIECE_TICKS = 2 * 500;
+static constexpr int16_t KEEP_TICKS = 2 * 300;
 static constexpr int16_t BYTE_TICKS = 2 * 150;
-static constexpr int16_t COMMAND_TICKS = 2 * 330;
+static constexpr int16_t COMMAND_TICKS = 2 * 390;
 /** After so many slots without time for background work a slot's sample gives way to it. */
 static constexpr uint8_t PATIENT_SLOTS = 5;
 /** State is kept 50 times a second. */
