@@ -28,13 +28,13 @@ def board_aboard(
     """
     if not (ARDUINO / "build" / "raspilot.elf").exists() and options.elf is None:
         say("building the firmware: that takes a minute, the first time")
-    eeprom = _eeprom(options, airframe, say)
     errors = drawn_errors(
         options.seed,
         vibration_deg_s=airframe.imu.vibration_deg_s,
         vibration_m_s2=airframe.imu.vibration_m_s2,
     )
     try:
+        eeprom = _eeprom(options, airframe, say)
         board = choose_board(
             options.board,
             seed=options.seed,

@@ -55,13 +55,14 @@ def test_how_long_a_run_is_makes_no_difference(library):
 def test_power_on_forgets_all_but_the_eeprom(library):
     old = HostBoard(library, imu_errors=ImuErrors())
     script(old)
-    new = HostBoard(library, imu_errors=ImuErrors(), eeprom=old.eeprom)
-    for board in (new, old):
-        board.set_receiver(False)
-        board.imu.set_fault("unplugged")
-    # What the receiver had begun and the line still held.
+    old.set_receiver(False)
+    old.imu.set_fault("unplugged")
+    # What the receiver had begun, the line still held, and EEPROM was still to get.
     old.run_us(100_000)
     old.read()
+    new = HostBoard(library, imu_errors=ImuErrors(), eeprom=old.eeprom)
+    new.set_receiver(False)
+    new.imu.set_fault("unplugged")
     old.reset("power")
     said = []
     for board in (new, old):

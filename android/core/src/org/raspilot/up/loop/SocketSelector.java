@@ -47,12 +47,14 @@ class SocketSelector {
      * @param waitMs the longest wait; 0: none, -1: for ever
      */
     List<SelectionKey> await(long waitMs) throws IOException {
-        if (emptyRounds > MOST_EMPTY_ROUNDS) {
+        final boolean isReplaced = emptyRounds > MOST_EMPTY_ROUNDS;
+        if (isReplaced) {
             replace();
         }
         // Before the wait, so that a selector which only throws is replaced as well.
         emptyRounds++;
-        if (waitMs == 0) {
+        if (waitMs == 0 || isReplaced) {
+            // A wakeup of the old selector does not wake the new one: the loop looks for calls first.
             selector.selectNow();
         } else {
             selector.select(waitMs < 0 ? 0 : waitMs);

@@ -79,6 +79,48 @@ public final class SocketSelectorTest {
     }
 
     @Test
+    public void aCallThatWakesTheSelectorBeingReplacedIsCarriedOut() throws Exception {
+        final SelectorLoop[] loop = new SelectorLoop[1];
+        final CountDownLatch called = new CountDownLatch(1);
+        loop[0] = new SelectorLoop("replacing", new Faults(), running.clock(),
+                new SocketSelector() {
+            private boolean hasSpun;
+
+            @Override
+            Selector openSelector() throws IOException {
+                if (!hasSpun) {
+                    hasSpun = true;
+                    return new Spinner();
+                }
+                final Thread poster = new Thread() {
+                    @Override
+                    public void run() {
+                        loop[0].post(new Runnable() {
+                            @Override
+                            public void run() {
+                                called.countDown();
+                            }
+                        });
+                    }
+                };
+                poster.start();
+                try {
+                    poster.join();
+                } catch (InterruptedException error) {
+                    throw new IOException(error);
+                }
+                return super.openSelector();
+            }
+        }, new SystemResolver());
+        loop[0].start();
+        try {
+            assertTrue("the call was not carried out", called.await(20, TimeUnit.SECONDS));
+        } finally {
+            loop[0].stop();
+        }
+    }
+
+    @Test
     public void aSelectorThatThrowsDoesNotEndTheThread() throws Exception {
         final int throwing = 3;
         final int[] waits = new int[1];
