@@ -21,7 +21,7 @@ class BaseModule:
     Override ``_execute_initialization`` to take references and subscribe, ``load`` to decide
     whether to be loaded, ``telemetry_content`` to contribute to telemetry. Declare used modules
     with ``needs`` and ``wants``, configuration with ``CONFIG``, and with ``MODES`` the modes in
-    which the class is instantiated at all. ``LOAD_ORDER`` breaks ties of the order, lower first.
+    which the loader instantiates the class. ``LOAD_ORDER`` breaks ties, lower first.
     """
 
     LOAD_ORDER: ClassVar[int] = 0
@@ -32,17 +32,17 @@ class BaseModule:
     context: Context
 
     def bind(self, context: Context) -> None:
-        """Hand the module what it may use; the loader does so before it asks ``load``."""
+        """Set the module's context; the loader calls this before ``load``."""
         self.context = context
 
     def load(self) -> bool:
-        """Return whether the module shall be loaded; may look at mode and configuration."""
+        """Return whether to load the module; may read mode and configuration."""
         return True
 
     def initialize(self, up: Up) -> None:
         """Enter the initialization phase; the framework calls this once.
 
-        Raises TypeError when the hook is ``async def``: nobody would wait for it.
+        Raises TypeError when the hook is ``async def``: the framework does not await it.
         """
         self.up = up
         hook: Callable[[], Any] = self._execute_initialization
@@ -72,12 +72,12 @@ class BaseModule:
 
     @property
     def class_name(self) -> str:
-        """Return the class's name, which is the module's name for people."""
+        """Return the class name, which messages use as the module's name."""
         return type(self).__name__
 
     @property
     def path(self) -> str:
-        """Return the fully qualified name, as ``disabled_modules.yml`` has it."""
+        """Return the fully qualified name, as written in ``disabled_modules.yml``."""
         return f"{type(self).__module__}.{type(self).__qualname__}"
 
     @property
@@ -86,7 +86,7 @@ class BaseModule:
         return Logger(namespace=self.class_name)
 
     def is_a(self, name: str) -> bool:
-        """Return whether this module's class, or one that it extends, has that name."""
+        """Return whether this module's class or one of its base classes has that name."""
         return any(base.__name__ == name for base in type(self).__mro__)
 
     def _log_debug(self, text: str) -> None:

@@ -13,13 +13,14 @@ class BaseStartedModule(BaseModule):
     """A module with ports, links or timers.
 
     Override ``_execute_start`` and ``_execute_stop``; both may be ``async def``. A start returns a
-    StartResult, True (or nothing) for started, or False for failed; raising is failed too. A
-    failed start stops the boot where the class says ``REQUIRED``. An absent peer is no failure.
+    StartResult, True (or nothing) for started, or False for failed; an exception also means failed.
+    A failed start stops the boot if the class is ``REQUIRED``. An absent peer is not a failure.
     """
 
     REQUIRED: ClassVar[bool] = False
     DATA_SOURCE: ClassVar[bool] = False
-    """Whether readings can come through this module; without any, there is nothing to run for."""
+    """Whether this module can deliver readings; the program does not run without any such module.
+    """
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         self._started = False
@@ -33,12 +34,12 @@ class BaseStartedModule(BaseModule):
 
     @property
     def is_source_open(self) -> bool:
-        """Return whether a DATA_SOURCE has its port open, so that readings could come."""
+        """Return whether the port of a DATA_SOURCE is open, so that readings can arrive."""
         return self._started
 
     @property
     def is_healthy(self) -> bool:
-        """Return whether the module does its work; the watchdog is fed only while all do."""
+        """Return whether the module works; the watchdog is fed only while all modules do."""
         return True
 
     async def start(self) -> StartResult:
@@ -58,11 +59,11 @@ class BaseStartedModule(BaseModule):
             await outcome
 
     def _execute_start(self) -> Any:
-        """Open ports, begin links."""
+        """Open ports and connect links."""
         return True
 
     def _execute_stop(self) -> Any:
-        """Close what the start opened; after a start that failed, as far as it came."""
+        """Close what the start opened, also after a partial start."""
 
     def _judge(self, outcome: Any) -> StartResult:
         if isinstance(outcome, StartResult):
@@ -75,5 +76,5 @@ class BaseStartedModule(BaseModule):
 
     @property
     def failure_result(self) -> StartResult:
-        """Return what a failed start of this class means for the boot."""
+        """Return how a failed start of this class affects the boot."""
         return StartResult.FAILED_STOP if self.REQUIRED else StartResult.FAILED_GO_ON

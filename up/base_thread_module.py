@@ -1,4 +1,4 @@
-"""A module with a thread of its own, for work that blocks (thesis 3.2.2)."""
+"""A module with its own thread, for blocking work (thesis 3.2.2)."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from twisted.python.failure import Failure
 
 from up.base_started_module import BaseStartedModule
 
-# Less than the life cycle has for all stops: what the module itself closes is still closed.
+# Shorter than the limit for all stops, so that the module can still close its resources.
 STOP_LIMIT_S = 1.2
 _LOOK_S = 0.01
 _PAUSE_AFTER_FAULT_S = 1.0
 
 
 class BaseThreadModule(BaseStartedModule):
-    """Runs ``_loop`` over and over on a daemon thread until it is stopped.
+    """Runs ``_loop`` repeatedly on a daemon thread until the module stops.
 
-    The thread's only way back is the reactor: publish Commands (the bus hands them over) or
-    ``call_in_reactor``. ``_loop`` blocks for a while at most and waits with
-    ``self.stop_event.wait(seconds)``; one that raises is logged, counted and, after a second,
-    called again; equal faults are logged seldom, with their count. A thread that has not
-    ended 1.2 s after the stop does not keep the process alive.
+    The thread reaches the reactor only by publishing Commands (the bus hands them over) or by
+    ``call_in_reactor``. ``_loop`` must block only briefly and waits with
+    ``self.stop_event.wait(seconds)``. An exception in it is logged, counted and followed by another
+    call after a second; repeated equal faults are logged rarely, with their count. A thread that
+    still runs 1.2 s after the stop does not keep the process alive.
     """
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
@@ -45,9 +45,9 @@ class BaseThreadModule(BaseStartedModule):
         return result
 
     async def stop(self) -> None:
-        """Ask the thread to end, wait for it without blocking the reactor, then stop.
+        """Signal the thread to end, wait for it without blocking the reactor, then stop.
 
-        A wait that is cancelled, as others took the time, is over like one that was too long.
+        A cancelled wait (the stop limit expired) is treated like a timeout.
         """
         self.stop_event.set()
         deadline_s = self.context.reactor.seconds() + STOP_LIMIT_S
@@ -61,18 +61,18 @@ class BaseThreadModule(BaseStartedModule):
         await super().stop()
 
     def call_in_reactor(self, call: Callable[..., Any], *arguments: Any) -> None:
-        """Let the reactor thread call something."""
+        """Call a function on the reactor thread."""
         self.context.reactor.callFromThread(call, *arguments)
 
     def _loop(self) -> None:
-        """Do a piece of the work."""
+        """Do one piece of the work."""
         raise NotImplementedError(f"{self.class_name} does not say what its thread does")
 
     def _run(self) -> None:
         while not self.stop_event.is_set():
             try:
                 self._loop()
-            except (Exception, SystemExit):  # noqa: BLE001 - a fault ends neither thread nor program
+            except (Exception, SystemExit):  # noqa: BLE001 - one fault must not end the thread
                 self.faults += 1
                 self.call_in_reactor(self._log_fault, Failure())
                 self.stop_event.wait(_PAUSE_AFTER_FAULT_S)

@@ -1,4 +1,4 @@
-"""The modules that Up itself brings; each can be replaced by extending it."""
+"""The modules included in Up; an application replaces one by extending it."""
 
 from __future__ import annotations
 

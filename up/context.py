@@ -1,4 +1,4 @@
-"""What every module is handed before it is asked anything."""
+"""The services that every module receives before any other call."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ _T = TypeVar("_T")
 class Context:
     """The reactor, its clock, the mode and the configuration of this run.
 
-    Modules take all that they use of the outside from this object, so that a test can hand in its
-    own: a ``task.Clock`` is a reactor whose time stands still. What others must not guess, or
-    must not do all at once, is drawn from ``random``: of the system, of a seed in a simulation.
+    Modules take all external services from this object, so that a test can replace them: a
+    ``task.Clock`` is a reactor whose time the test controls. ``random`` supplies values that others
+    must not guess, and jitter; it comes from the system, or from a seed in a simulation.
     """
 
     reactor: Any

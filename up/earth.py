@@ -32,5 +32,5 @@ def bearing_deg(
 def compass_deg(angle_deg: float) -> float:
     """Return an angle as 0 to less than 360 degrees."""
     turned = angle_deg % 360.0
-    # The remainder of a tiny negative number is 360.0 itself.
+    # The remainder of a tiny negative number is exactly 360.0.
     return 0.0 if turned == 360.0 else turned

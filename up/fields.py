@@ -1,4 +1,4 @@
-"""A typed, bounded value: one idea for configuration keys and for the fields of Commands."""
+"""A typed, bounded value, shared by configuration keys and the fields of Commands."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ _SHOWN_CHARACTERS = 40
 
 @dataclass(frozen=True, slots=True)
 class Constraint:
-    """What a value must be: its type, bounds, choices, length and unit.
+    """The constraint of a value: its type, bounds, choices, length and unit.
 
     `type_` is bool, int, float, str, dict or list (a tuple passes as a list). The contents of a
-    dict or list are not looked into. An int without bounds holds 64 bits. `max_length` counts
-    characters, items or keys. With `ignore_case` a choice is found whatever its case and `check`
-    returns it as it is spelled in `choices`. A constraint that contradicts itself raises TypeError
-    or ValueError when it is made.
+    dict or list are not checked. An int without bounds holds 64 bits. `max_length` counts
+    characters, items or keys. With `ignore_case` a choice matches in any case and `check` returns
+    it as spelled in `choices`. The constructor raises TypeError or ValueError for a constraint that
+    contradicts itself.
     """
 
     type_: type
@@ -48,7 +48,7 @@ class Constraint:
     unit: str = ""
     ignore_case: bool = False
     check: Callable[[object], Any] = field(init=False, repr=False, compare=False)
-    """Returns the value, an int as float where a float is asked, or raises ValueError."""
+    """Returns the value (an int as float if `type_` is float), or raises ValueError."""
 
     def __post_init__(self) -> None:
         if self.type_ not in _TYPES:
@@ -64,7 +64,7 @@ class Constraint:
         object.__setattr__(self, "check", _compile(self))
 
     def describe(self) -> str:
-        """Return what is allowed as it reads after 'must be': 'a number between 0 and 5 s'."""
+        """Return the allowed values as read after 'must be': 'a number between 0 and 5 s'."""
         if self.choices is not None:
             text = "one of " + ", ".join(show(choice) for choice in self.choices)
         elif self.type_ is bool:
@@ -112,7 +112,7 @@ class Constraint:
 
 
 def number_text(number: float) -> str:
-    """Return a bound as people write it: 90 instead of 90.0."""
+    """Return a bound in its short form: 90 instead of 90.0."""
     return str(int(number)) if number == int(number) and abs(number) < 1e15 else repr(number)
 
 
@@ -137,7 +137,7 @@ def show(value: object) -> str:
 
 
 def printable(text: str) -> str:
-    """Return the text with everything that a terminal would not print as itself escaped."""
+    """Return the text with every non-printable character escaped."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
@@ -256,7 +256,7 @@ def _check_choice(
     constraint: Constraint, check_type: Callable[[object], Any]
 ) -> Callable[[object], Any]:
     fold: Callable[[Any], Any] = str.casefold if constraint.ignore_case else lambda choice: choice
-    # A choice that the type refuses is a mistake of the programmer, found here.
+    # A choice that violates the type is a programming error, found here.
     choices = {fold(check_type(choice)): choice for choice in constraint.choices or ()}
 
     def check(value: object) -> Any:

@@ -1,4 +1,4 @@
-"""Lets ``python -m up.cli`` be the command ``up``."""
+"""Makes ``python -m up.cli`` run the command ``up``."""
 
 import sys
 

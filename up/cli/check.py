@@ -1,4 +1,4 @@
-"""``up check``: everything that is wrong, at once."""
+"""``up check``: reports all problems in one run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ EXIT_MISTAKES = 2
 
 
 def run(values: argparse.Namespace) -> int:
-    """Check configuration and module graph; tell all problems and warnings."""
+    """Check configuration and module graph; report all problems and warnings."""
     system = system_of(values)
     files = (*cog_files(system.application), *program_files())
     findings = check_application(system.application, system.context, files)

@@ -1,10 +1,10 @@
-"""What a user of ``up`` can mend."""
+"""Errors of ``up`` that the user can fix."""
 
 from __future__ import annotations
 
 
 class CliError(Exception):
-    """A verb cannot do what was asked; the text is one sentence, ``status`` the exit status."""
+    """A verb failed; the text is one sentence, ``status`` the exit status."""
 
     def __init__(self, text: str, status: int = 1) -> None:
         super().__init__(text)

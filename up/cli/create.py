@@ -1,4 +1,4 @@
-"""``up create``: writes an application, a module, a handler or a cog that works as it is."""
+"""``up create``: writes a working application, module, handler or cog."""
 
 from __future__ import annotations
 
@@ -52,9 +52,9 @@ _COG = {
 
 
 def may_overwrite(path: Path, yes: bool) -> bool:
-    """Ask the user, as the prototype did: y(es), n(o) or c(ancel).
+    """Prompt the user, as the prototype did: y(es), n(o) or c(ancel).
 
-    Raises CliError where nobody can be asked.
+    Raises CliError without an interactive terminal.
     """
     if yes:
         return True
@@ -73,7 +73,7 @@ def may_overwrite(path: Path, yes: bool) -> bool:
 
 
 def run(values: argparse.Namespace) -> int:
-    """Write what was asked for; return the exit status."""
+    """Write the requested files; return the exit status."""
     if values.kind == "new":
         return _create_application(values)
     if values.kind == "cog":
@@ -88,7 +88,7 @@ def _create_application(values: argparse.Namespace) -> int:
     if root.exists() and not may_overwrite(root, values.yes):
         return 1
     words = _words(name, package=name.snake)
-    # The example module has a name of its own.
+    # The example module needs a different name.
     example = {**words, **_words(Name(("heartbeat",)), package=name.snake)}
     for target, template in _APPLICATION.items():
         _write(root / target, template, example if "heartbeat" in target else words)

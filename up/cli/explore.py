@@ -1,4 +1,4 @@
-"""``up explore``: the module classes that lie in a folder (thesis 4.3.2)."""
+"""``up explore``: lists the module classes in a folder (thesis 4.3.2)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from up.loading.external_modules import ModuleEntry
 
 
 def run(values: argparse.Namespace) -> int:
-    """List the module classes, and write the manifest when asked."""
+    """List the module classes, and write the manifest on request."""
     start = Path(values.file) if values.file else Path.cwd()
     if values.type == "recorders":
         say("there are no recorders: they are Thread Modules now, see 'up create module -t thread'")
@@ -45,9 +45,9 @@ def run(values: argparse.Namespace) -> int:
 
 
 def package_at(start: Path) -> Application:
-    """Return the package to work on: a cog's, from its inside or outside, or an application's.
+    """Return the package to work on: that of a cog or of an application.
 
-    Raises NoApplicationError where there is neither, ConfigErrors for a broken UpFile.
+    Raises NoApplicationError if there is neither, ConfigErrors for an invalid UpFile.
     """
     if (start / UP_FILE).is_file():
         return Application.at(start)

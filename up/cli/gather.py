@@ -9,6 +9,6 @@ from up.cogs.gather import gather
 
 
 def run(values: argparse.Namespace) -> int:
-    """Install and register what the Cogfile asks for."""
+    """Install and register the cogs of the Cogfile."""
     gather(application_of(values), may_install=not values.no_install)
     return 0

@@ -1,4 +1,4 @@
-"""The command line ``up``: which verbs there are, and what comes of their errors."""
+"""The command line ``up``: its verbs and its error handling."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (CogError, NoApplicationError) as error:
         return _fail(str(error), EXIT_FAILED)
     except BrokenPipeError:
-        # The reader, such as 'head', has seen enough; nothing more can be written.
+        # The reader, such as 'head', has closed the pipe.
         sys.stderr.close()
         return EXIT_FAILED
     except OSError as error:

@@ -1,4 +1,4 @@
-"""``up modules``: what would be loaded, in which order, and why the rest would not."""
+"""``up modules``: which modules would be loaded, in which order, and why others are left out."""
 
 from __future__ import annotations
 

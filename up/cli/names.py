@@ -1,4 +1,4 @@
-"""A name as a user gives it, and as files, classes and distributions have it."""
+"""A user-supplied name in the forms for files, classes and distributions."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Name:
     def of(cls, given: str, ending: str = "") -> Name:
         """Read ``FuelGauge``, ``fuel_gauge``, ``fuel-gauge`` or ``fuel gauge``.
 
-        An ``ending`` that the generated name gets anyhow is dropped. Raises CliError.
+        Drops an ``ending`` that the generated name gets anyway. Raises CliError.
         """
         words = tuple(word.lower() for word in _WORD.findall(given))
         if not _GIVEN.fullmatch(given) or len("_".join(words)) > _LONGEST:
@@ -57,13 +57,13 @@ class Name:
         return " ".join(self.words).capitalize()
 
     def check_free(self) -> None:
-        """Raise CliError where a package of that name would hide another."""
+        """Raise CliError if a package of that name would hide another."""
         if self.snake in _TAKEN or self.snake in sys.stdlib_module_names:
             raise CliError(f"{self.snake} is the name of another Python package: choose one more")
 
 
 def check_identifier(identifier: str) -> str:
-    """Return a Command's name; raises CliError for what cannot be one or is taken."""
+    """Return a Command's name; raises CliError for an invalid or taken name."""
     from up.commands.builtin import BUILTIN_COMMANDS
 
     if not _IDENTIFIER.fullmatch(identifier) or len(identifier) > _LONGEST_IDENTIFIER:

@@ -29,8 +29,7 @@ Nothing starts, or a module is missing?  up check    what is wrong, with file an
 def make_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentParser:
     """Return the parser of the whole command line.
 
-    Of the verbs that plug-ins add, ``arguments`` tell which one is wanted: our own verbs wait for
-    none of them.
+    Only the plug-in verb that ``arguments`` name is loaded; built-in verbs load no plug-ins.
     """
     parser = argparse.ArgumentParser(
         prog="up",

@@ -12,7 +12,7 @@ from up.loading.application import UP_FILE, Application
 def application_of(values: argparse.Namespace) -> Application:
     """Return the application that ``--file`` or the current folder belongs to.
 
-    Raises NoApplicationError or ConfigErrors, CliError for a ``--file`` that leads nowhere.
+    Raises NoApplicationError or ConfigErrors, CliError for a ``--file`` that does not exist.
     """
     start = Path(values.file) if values.file else Path.cwd()
     if start.name == UP_FILE and start.is_file():

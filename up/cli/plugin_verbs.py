@@ -1,9 +1,9 @@
 """Verbs that other distributions add to the command line.
 
 A distribution announces one as an entry point: ``log = my_cog.cli:add`` in the group ``up.verbs``
-adds ``up log``. ``add(verbs)`` adds just the verb of that name to what argparse's
-``add_subparsers`` returned (``up.cli.verb.add_verb`` does it in one call) and imports nothing that
-is slow: it is called whenever help is shown. A verb may have a group of its own for verbs below it.
+adds ``up log``. ``add(verbs)`` adds only the verb of that name to the return value of argparse's
+``add_subparsers`` (``up.cli.verb.add_verb`` does it in one call). It must import nothing slow,
+because every display of the help calls it. A verb may have its own group for verbs below it.
 """
 
 from __future__ import annotations
@@ -25,23 +25,23 @@ _LONGEST_REASON = 200
 
 @dataclass(frozen=True, slots=True)
 class _Plugin:
-    """What the distributions announce under one name: more than one is a mistake."""
+    """Entry points with the same name; more than one is an error."""
 
     name: str
     entries: tuple[EntryPoint, ...]
 
     @property
     def distributions(self) -> str:
-        """Return who brings it, in words."""
+        """Return the names of the distributions, for messages."""
         return " and ".join(_distribution(entry) for entry in self.entries)
 
 
 def add_plugin_verbs(verbs: Any, group: str, asked: str | None = None) -> None:
-    """Add the verbs of a group of entry points; raises nothing whatever the plug-ins do.
+    """Add the verbs of a group of entry points; never raises, whatever the plug-ins do.
 
-    ``asked`` is the verb that the user typed, where that is known: no other one is loaded then. A
-    plug-in that cannot be loaded is a verb whose help and whose use say why, in one sentence. What
-    is there already cannot be replaced.
+    ``asked`` is the verb that the user typed, if known; only that one is loaded. A plug-in that
+    cannot be loaded becomes a verb that reports the reason. A plug-in cannot replace an existing
+    verb.
     """
     plugins = [plugin for plugin in _announced(group) if plugin.name not in verbs.choices]
     if asked is not None and any(plugin.name == asked for plugin in plugins):
@@ -54,7 +54,7 @@ def add_plugin_verbs(verbs: Any, group: str, asked: str | None = None) -> None:
 
 
 def verb_of(arguments: Collection[str]) -> str | None:
-    """Return the word that is the verb among the arguments of ``up``; None: there is none."""
+    """Return the verb among the arguments of ``up``, or None."""
     parser = argparse.ArgumentParser(add_help=False, exit_on_error=False)
     parser.add_argument("-f", "--file")
     parser.add_argument("words", nargs=argparse.REMAINDER)
@@ -66,14 +66,14 @@ def verb_of(arguments: Collection[str]) -> str | None:
 
 
 class _BrokenError(Exception):
-    """A plug-in cannot be used; the text is why."""
+    """A plug-in cannot be used; the text is the reason."""
 
 
 def _announced(group: str) -> list[_Plugin]:
-    # Only who looks for plug-ins pays for the import: it takes a third as long as all the rest.
+    # Imported only when needed: it takes a third as long as everything else.
     from importlib.metadata import entry_points
 
-    # The same distribution may be found twice, by its files and by a copy of them on the path.
+    # The same distribution may be found twice: its files, and a copy of them on the path.
     found: dict[str, dict[tuple[str, str], EntryPoint]] = {}
     for entry in entry_points(group=group):
         found.setdefault(entry.name, {}).setdefault((_distribution(entry), entry.value), entry)
@@ -85,7 +85,7 @@ def _add(verbs: Any, plugin: _Plugin) -> None:
         raise _BrokenError("two distributions bring it, and only one may")
     try:
         add: Callable[[Any], object] = plugin.entries[0].load()
-        # First where it can do no harm: half a verb cannot be taken back.
+        # Tried on a separate parser first: a partly added verb cannot be removed.
         trial = argparse.ArgumentParser().add_subparsers()
         add(trial)
         added = set(trial.choices)
@@ -95,7 +95,7 @@ def _add(verbs: Any, plugin: _Plugin) -> None:
     except _BrokenError:
         raise
     except (Exception, SystemExit) as error:
-        # It is a stranger's code, which may raise whatever it likes; 'up' must go on.
+        # A plug-in may raise anything; 'up' must keep working.
         raise _BrokenError(_reason(error)) from error
 
 
@@ -110,7 +110,7 @@ def _add_broken(verbs: Any, plugin: _Plugin, why: str) -> None:
 
     parser = verbs.add_parser(
         plugin.name,
-        # argparse reads % as the beginning of a placeholder.
+        # argparse treats % as the start of a placeholder.
         help=f"cannot be used: {printable(why)}".replace("%", "%%"),
         add_help=False,
         prefix_chars="\0",

@@ -10,7 +10,7 @@ from up.cogs.registration import register, unregister
 
 
 def run(values: argparse.Namespace) -> int:
-    """Register one installed cog, or take one out."""
+    """Register or unregister one installed cog."""
     application = application_of(values)
     cog = package_name(values.name)
     if values.remove:

@@ -12,7 +12,7 @@ from up.loading.checking import check_application
 
 
 def run(values: argparse.Namespace) -> int:
-    """Write one schema a file, and tell how an editor takes it."""
+    """Write one schema per file, and print how to set up an editor."""
     system = system_of(values)
     more = (UP_FILE_CONFIG, *cog_files(system.application), *program_files())
     findings = check_application(system.application, system.context, more)

@@ -1,4 +1,4 @@
-"""The system that a verb looks at, without starting it."""
+"""The system that a verb inspects, without starting it."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ PROGRAM_FILES = "up.config_files"
 
 @dataclass(slots=True)
 class System:
-    """An application, and the context that it would run in."""
+    """An application, and the context in which it would run."""
 
     application: Application
     context: Context
 
 
 def system_of(values: argparse.Namespace) -> System:
-    """Return what ``--file``, ``--config``, ``--mode`` and UP_MODE name.
+    """Return the application and context of ``--file``, ``--config``, ``--mode`` and UP_MODE.
 
-    Raises CliError or NoApplicationError; a broken config.yml means its defaults here.
+    Raises CliError or NoApplicationError; uses the defaults for an invalid config.yml.
     """
     application = application_of(values)
     folder = getattr(values, "config", None)
@@ -47,7 +47,7 @@ def system_of(values: argparse.Namespace) -> System:
     try:
         context = make_context(application, Clock(), folder, environ)
     except ConfigErrors:
-        # Whoever looks at the configuration finds the same errors; without a mode none can look.
+        # The check of the configuration reports the same errors; without a mode it cannot run.
         environ.setdefault("UP_MODE", "auto")
         context = make_context(application, Clock(), folder, environ)
     except BootError as error:
@@ -56,7 +56,7 @@ def system_of(values: argparse.Namespace) -> System:
 
 
 def program_files() -> Iterator[ConfigFile[Any]]:
-    """Yield the configuration files of installed programs, which announce them as entry points."""
+    """Yield the configuration files that installed programs announce as entry points."""
     for entry in importlib.metadata.entry_points(group=PROGRAM_FILES):
         try:
             file = entry.load()
@@ -81,7 +81,7 @@ def cog_files(application: Application) -> Iterator[ConfigFile[Any]]:
 
 
 def cogfile_problems(application: Application) -> Iterator[str]:
-    """Yield the mistakes in the Cogfile and what it wants that is not registered."""
+    """Yield the errors in the Cogfile and its cogs that are not registered."""
     try:
         wanted = load_cogfile(application.root)
         registered = EXTERNAL_MODULES.load(application.root)

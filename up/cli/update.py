@@ -1,4 +1,4 @@
-"""``up update``: a newer Up, from where this one was installed."""
+"""``up update``: upgrades Up from its installation source."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from up.version import VERSION
 
 
 def run(values: argparse.Namespace) -> int:
-    """Upgrade the distribution that this command belongs to."""
+    """Upgrade the distribution that contains this command."""
     command = [sys.executable, "-P", "-m", "pip", "install", *_what()]
     if values.dry_run:
         say(shlex.join(command))
@@ -30,7 +30,7 @@ def run(values: argparse.Namespace) -> int:
 
 
 def _what() -> list[str]:
-    """Return what pip has to install, by what it noted at the installation (PEP 610)."""
+    """Return the requirement for pip, from its record of the installation (PEP 610)."""
     try:
         found = importlib.metadata.distribution(pip.FRAMEWORK)
     except importlib.metadata.PackageNotFoundError:

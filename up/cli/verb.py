@@ -1,4 +1,4 @@
-"""A verb of the command line, whose module is imported when the verb is used."""
+"""A command line verb whose module is imported on use."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ def add_verb(
     aliases: tuple[str, ...] = (),
     epilog: str = "",
 ) -> argparse.ArgumentParser:
-    """Add a verb to what ``add_subparsers`` returned; return its parser, for its options.
+    """Add a verb to the return value of ``add_subparsers``; return its parser, for its options.
 
     ``module`` is a module's name; its ``run(values) -> exit status`` carries the verb out. It is
-    imported only then, so that ``up --help`` stays quick. ``text`` is one line of help.
+    imported only then, which keeps ``up --help`` fast. ``text`` is one line of help.
     """
     parser: argparse.ArgumentParser = verbs.add_parser(
         name,

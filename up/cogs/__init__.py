@@ -1,1 +1,1 @@
-"""The Cog Integration Utilities: getting plug-in modules and telling an application of them."""
+"""The Cog Integration Utilities: installing cogs and registering them with an application."""

@@ -1,4 +1,4 @@
-"""What a user can mend about a cog."""
+"""Errors of a cog that the user can fix."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Cogfile.yml: which cogs an application wants, and where they come from (thesis 4.3.2)."""
+"""Cogfile.yml: the cogs that an application uses, and their sources (thesis 4.3.2)."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _URL = re.compile(r"(git\+)?(https|ssh|file)://[^\s@#]*(@[^\s@#/]+/[^\s@#]*)?", 
 
 @dataclass(frozen=True, slots=True)
 class CogSpec:
-    """Where a cog comes from."""
+    """The source of a cog."""
 
     path: str = key("", "Folder with the cog's setup.py, from the Cogfile.", max_length=1000)
     pypi: str = key("", "Name of the distribution on the package index.", max_length=200)
@@ -36,7 +36,7 @@ class CogSpec:
     revision: str = key("", "Branch, tag or commit of the repository.", max_length=200)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is not usable or does not fit together."""
+        """Yield invalid values and contradictions."""
         if not self.path.isprintable():
             yield "path", "must be the path of a folder"
         if self.pypi and not is_distribution_name(self.pypi):
@@ -55,7 +55,7 @@ class CogSpec:
 
 @dataclass(frozen=True, slots=True)
 class WantedCog:
-    """One entry of a Cogfile: the cog's package, its source, and the folder for a path."""
+    """One entry of a Cogfile: the cog's package, its source, and the base folder for a path."""
 
     cog: str
     spec: CogSpec
@@ -66,9 +66,9 @@ _SHAPE = shape_of(CogSpec)
 
 
 def load_cogfile(root: Path) -> list[WantedCog]:
-    """Return what the Cogfile in an application's folder asks for; nothing where there is none.
+    """Return the entries of the Cogfile in an application's folder; empty without a Cogfile.
 
-    Raises ConfigErrors with the place of every mistake.
+    Raises ConfigErrors with the place of every error.
     """
     path = root / COGFILE
     problems = Problems(path)
@@ -90,7 +90,7 @@ def load_cogfile(root: Path) -> list[WantedCog]:
 
 @dataclass(frozen=True, slots=True)
 class _Entry:
-    """One entry that is being read; its own problems stand at its name."""
+    """One entry during reading; its problems are reported at its name."""
 
     root: Path
     label: str

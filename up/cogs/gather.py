@@ -1,4 +1,4 @@
-"""``up gather``: what the Cogfile asks for is installed and registered (thesis 4.3.2)."""
+"""``up gather``: installs and registers the cogs of the Cogfile (thesis 4.3.2)."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from up.loading.application import Application
 
 
 def gather(application: Application, *, may_install: bool = True, tell: Say = say) -> None:
-    """Install what is missing, register everything, unregister what has left the Cogfile.
+    """Install missing cogs, register all, unregister those that left the Cogfile.
 
-    Raises CogError with a sentence a problem, ConfigErrors for mistakes in the Cogfile or the
+    Raises CogError with one sentence per problem, ConfigErrors for errors in the Cogfile or the
     generated list.
     """
     wanted = load_cogfile(application.root)
@@ -52,8 +52,8 @@ def _install(missing: Sequence[WantedCog], wanted: Sequence[WantedCog], tell: Sa
 
 
 def _register_anew(application: Application) -> None:
-    """Register in a new interpreter: this one does not see what pip has put beside it."""
-    # -P: a cog's outer folder in the current one would hide the package inside it.
+    """Register in a new interpreter: this one does not see newly installed packages."""
+    # -P: a cog's outer folder in the current directory would hide the package inside it.
     command = [sys.executable, "-P", "-m", "up.cli", "--file", str(application.root)]
     done = subprocess.run([*command, "gather", "--no-install"], check=False)
     if done.returncode != 0:

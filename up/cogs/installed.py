@@ -1,4 +1,4 @@
-"""Whether a cog is installed, and from where the Cogfile wants it."""
+"""Whether a cog is installed, and from the source that the Cogfile names."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from up.cogs.source_tree import distribution_name
 
 
 def is_installed(wanted: WantedCog) -> bool:
-    """Return whether the cog can be imported and comes from where the Cogfile says."""
+    """Return whether the cog can be imported and comes from the Cogfile's source."""
     importlib.invalidate_caches()
     if _package_folder(wanted.cog) is None:
         return False
@@ -61,7 +61,7 @@ def _package_folder(cog: str) -> Path | None:
 
 
 def distribution_of(cog: str, name: str = "") -> Distribution | None:
-    """Return the distribution of that name, or the one that says it brings the package."""
+    """Return the distribution of that name, or the one that declares the package."""
     for each in (name, cog, f"raspilot-{cog}"):
         try:
             return distribution(each)
@@ -78,7 +78,7 @@ def _bringing(cog: str) -> Distribution | None:
 
 
 def _direct_url(found: Distribution) -> dict[str, Any]:
-    """Return where pip took the distribution from (PEP 610); nothing for the index."""
+    """Return the installation source that pip recorded (PEP 610); empty for the index."""
     try:
         origin = json.loads(found.read_text("direct_url.json") or "{}")
     except ValueError:

@@ -1,4 +1,4 @@
-"""registered_modules.yml: what a cog wants to have loaded (thesis 4.3.2)."""
+"""registered_modules.yml: the modules of a cog that an application loads (thesis 4.3.2)."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ MANIFEST = ConfigFile(MANIFEST_FILE, Manifest)
 def load_manifest(folder: Path, cog: str) -> Manifest:
     """Return the manifest in a cog's package folder.
 
-    Raises CogError when there is none, ConfigErrors with the place of every mistake.
+    Raises CogError for a missing file, ConfigErrors with the place of every error.
     """
     if not (folder / MANIFEST_FILE).exists():
         raise CogError(
@@ -48,7 +48,7 @@ def write_manifest(path: Path, modules: Iterable[ModuleEntry]) -> None:
 
 
 def entry_lines(modules: Iterable[ModuleEntry], indent: str) -> Iterable[str]:
-    """Yield the lines of a list of classes."""
+    """Yield the YAML lines of a list of classes."""
     for module in modules:
         yield f"{indent}- class_name: {module.class_name}"
         yield f"{indent}  prefix: {module.prefix}"

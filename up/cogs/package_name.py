@@ -1,4 +1,4 @@
-"""What a cog is called."""
+"""The package name of a cog."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from up.cogs.cog_error import CogError
 
 
 def package_name(label: str) -> str:
-    """Return the Python package that a cog's label means: ``android-cog`` is ``android_cog``.
+    """Return the Python package of a cog's label: ``android-cog`` is ``android_cog``.
 
-    Raises CogError when no package can have that name.
+    Raises CogError for an invalid package name.
     """
     name = label.strip().replace("-", "_")
     if not name.isidentifier():

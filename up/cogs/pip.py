@@ -29,14 +29,14 @@ _SHOWN_LINES = 12
 def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], tell: Say) -> None:
     """Install cogs; raises CogError with pip's last lines and one sentence.
 
-    All folders go to one call of pip, which resolves what they need of each other. ``in_tree`` are
-    all the path cogs of the Cogfile: their names, and those of the folders beside them, are never
-    fetched from the index, whoever depends on them.
+    All folders go to one pip call, which resolves their dependencies on each other. ``in_tree`` are
+    all path cogs of the Cogfile: their names, and those of the folders beside them, are never
+    fetched from the index, whichever package depends on them.
     """
     check_environment()
     folders = [each for each in missing if each.folder is not None]
     remote = [each for each in missing if each.folder is None]
-    # Of a repository pip takes nothing anew while the version's number is the same.
+    # pip does not reinstall from a repository while the version number is unchanged.
     replaced = [each for each in remote if each.spec.url and distribution_of(each.cog)]
     with tempfile.TemporaryDirectory(prefix="up-gather-") as scratch:
         constraints = Path(scratch, "constraints.txt")
@@ -87,7 +87,7 @@ def run_pip(command: Sequence[str], tell: Say) -> None:
 
 
 def check_environment() -> None:
-    """Raise CogError where nothing can be installed into this interpreter's environment."""
+    """Raise CogError if pip cannot install into this interpreter's environment."""
     place = Path(sysconfig.get_path("purelib"))
     if sys.prefix == sys.base_prefix:
         marker = Path(sysconfig.get_path("stdlib"), "EXTERNALLY-MANAGED")
@@ -146,7 +146,7 @@ def _is_there(name: str) -> bool:
 
 
 def _can_build(folders: set[Path]) -> bool:
-    """Return whether setuptools is here to build the folders, so that no network is needed."""
+    """Return whether setuptools is installed, so that the build needs no network."""
     if not all(builds_with_setuptools(folder) for folder in folders):
         return False
     try:
@@ -154,5 +154,5 @@ def _can_build(folders: set[Path]) -> bool:
     except importlib.metadata.PackageNotFoundError:
         return False
     numbers = [int(part) for part in version.split(".")[:2] if part.isdigit()]
-    # Before 70.1 setuptools left the making of wheels to another distribution.
+    # Before 70.1 setuptools needed another distribution to build wheels.
     return numbers >= [70, 1] or _is_there("wheel")

@@ -1,4 +1,4 @@
-"""Finds the Registrant of a cog and lets it do its work."""
+"""Finds the Registrant of a cog and runs it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ REGISTRANT_CLASSES = ("Registrant", "Registrar")
 def register(cog: str, application: Application, source: Source, tell: Say = say) -> None:
     """Register an installed cog with an application.
 
-    Raises CogError with one sentence or ConfigErrors with the places of the mistakes.
+    Raises CogError with one sentence or ConfigErrors with the place of every error.
     """
     found = find_registrant(cog)
     try:
@@ -44,7 +44,7 @@ def register(cog: str, application: Application, source: Source, tell: Say = say
 
 
 def unregister(cog: str, application: Application, tell: Say = say) -> bool:
-    """Take a cog out of an application, installed or not; tell whether it was in."""
+    """Unregister a cog, installed or not; return whether it was registered."""
     changed = Registry(application.root).remove(cog)
     tell(f"{cog}: {'unregistered' if changed else 'was not registered'}")
     return changed
@@ -73,7 +73,7 @@ def find_registrant(cog: str) -> type[Any]:
 
 
 def _check_importable(registrant: UpRegistrant, application: Application) -> None:
-    """Refuse a manifest that would stop the boot; what is registered already was checked."""
+    """Refuse a manifest that would stop the boot; cogs already registered were checked before."""
     modules = registrant.manifest.modules
     known = Registry(application.root).entries().get(registrant.cog_name)
     if known is not None and known.modules == modules:
@@ -91,7 +91,7 @@ def _check_importable(registrant: UpRegistrant, application: Application) -> Non
 def _register_old(
     found: type[Any], cog: str, application: Application, source: Source, tell: Say
 ) -> None:
-    # Old Registrars look for the application where they are run.
+    # Old Registrars search for the application in the current directory.
     with contextlib.chdir(application.root):
         registrar = found()
         registrar.source = source

@@ -31,25 +31,25 @@ _HEADER = (
 
 
 class Registry:
-    """The cogs that are registered with the application in a folder.
+    """The cogs registered with the application in a folder.
 
-    Every change reads the file anew, under a lock on the folder, and replaces it as a whole, so
-    that two writers lose nothing. Raises CogError when the lock is not had within 10 s,
-    ConfigErrors for a file that cannot be read, OSError when the disk refuses.
+    Every change reads the file again, under a lock on the folder, and replaces it as a whole, so
+    that two writers lose nothing. Raises CogError without the lock after 10 s, ConfigErrors for an
+    invalid file, OSError for a failed write.
     """
 
     def __init__(self, root: Path) -> None:
         self._root = root
 
     def entries(self) -> dict[str, CogEntry]:
-        """Return what is registered, by the cog's package name."""
+        """Return the registered cogs by package name."""
         return EXTERNAL_MODULES.load(self._root)
 
     def add(self, cog: str, modules: Iterable[ModuleEntry], source: Source) -> bool:
-        """Register a cog, or replace what it registered; tell whether that changed anything.
+        """Register a cog, or replace its registration; return whether anything changed.
 
-        A cog that a person registered stays ``manual`` when the Cogfile lists it too: only what
-        ``gather`` put there may it take away.
+        A manually registered cog stays ``manual`` when the Cogfile lists it too: ``gather`` removes
+        only cogs that it added.
         """
         with self._locked():
             entries = self.entries()
@@ -63,7 +63,7 @@ class Registry:
             return True
 
     def remove(self, cog: str) -> bool:
-        """Unregister a cog; tell whether it was registered."""
+        """Unregister a cog; return whether it was registered."""
         with self._locked():
             entries = self.entries()
             if entries.pop(cog, None) is None:
@@ -82,7 +82,7 @@ class Registry:
 
     @contextlib.contextmanager
     def _locked(self) -> Iterator[None]:
-        # The folder itself is locked: no lock file is left behind.
+        # The folder itself is locked, so that no lock file is left behind.
         descriptor = os.open(self._root, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
         try:
             self._wait_for_lock(descriptor)

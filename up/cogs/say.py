@@ -1,4 +1,4 @@
-"""How the utilities tell what they do: one line each."""
+"""Progress output of the utilities: one line each."""
 
 from __future__ import annotations
 
@@ -9,4 +9,4 @@ Say = Callable[[str], None]
 
 def say(text: str) -> None:
     """Show a line to the user."""
-    print(text, flush=True)  # noqa: T201 - the utilities talk to a person
+    print(text, flush=True)  # noqa: T201 - command line output

@@ -1,4 +1,4 @@
-"""What a source folder says of its distribution, read without running it."""
+"""The distribution metadata of a source folder, read without running its code."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ _NAME = re.compile(r"[A-Za-z0-9]([A-Za-z0-9._-]*[A-Za-z0-9])?", re.ASCII)
 
 
 def distribution_name(folder: Path) -> str:
-    """Return the name of the distribution that a folder builds; empty where it is not plain."""
+    """Return the name of the distribution that a folder builds; empty if it is not a literal."""
     name = _name_in_project(folder / "pyproject.toml") or _name_in_setup(folder / "setup.py")
     return name if is_distribution_name(name) else ""
 
 
 def is_distribution_name(name: str) -> bool:
-    """Return whether a distribution can be called that."""
+    """Return whether the text is a valid distribution name."""
     return _NAME.fullmatch(name) is not None
 
 
 def normal_name(name: str) -> str:
-    """Return a distribution's name as every tool compares it: lower case, single dashes."""
+    """Return a distribution's normalized name: lower case, single dashes."""
     return "-".join(part for part in name.lower().replace("_", "-").replace(".", "-").split("-"))
 
 
 def neighbours(folder: Path) -> dict[str, Path]:
-    """Return the distributions of a folder and of those beside it, by normal name."""
+    """Return the distributions of a folder and of its siblings, by normalized name."""
     found: dict[str, Path] = {}
     for each in sorted(folder.parent.iterdir()):
         name = distribution_name(each) if each.is_dir() else ""
@@ -38,7 +38,7 @@ def neighbours(folder: Path) -> dict[str, Path]:
 
 
 def builds_with_setuptools(folder: Path) -> bool:
-    """Return whether setuptools, rather than another tool, builds the distribution."""
+    """Return whether setuptools, not another tool, builds the distribution."""
     backend = _table(folder / "pyproject.toml", "build-system").get("build-backend", "setuptools")
     return str(backend).startswith("setuptools")
 

@@ -18,8 +18,8 @@ class UpRegistrant:
 
     It enters the modules that ``registered_modules.yml`` lists into the application's
     ``external_modules.yml`` and creates the configuration files that the cog reads.
-    ``CONFIG_FILES`` names them; one that is there already is never touched. Override
-    ``prepare`` for anything else that the cog wants to find, such as data files.
+    ``CONFIG_FILES`` names them; an existing file is never changed. Override ``prepare`` for
+    anything else that the cog needs, such as data files.
     """
 
     CONFIG_FILES: ClassVar[tuple[ConfigFile[Any], ...]] = ()
@@ -29,7 +29,7 @@ class UpRegistrant:
 
     @property
     def cog_name(self) -> str:
-        """Return the cog's package, the one that ``registrar.py`` lies in."""
+        """Return the cog's package, which contains ``registrar.py``."""
         return type(self).__module__.rpartition(".")[0]
 
     @property
@@ -39,13 +39,13 @@ class UpRegistrant:
 
     @property
     def manifest(self) -> Manifest:
-        """Return what the cog wants to have loaded; raises CogError or ConfigErrors."""
+        """Return the cog's manifest; raises CogError or ConfigErrors."""
         return load_manifest(self.folder, self.cog_name)
 
     def register(self, application: Application, source: Source = "manual") -> bool:
-        """Integrate the cog; tell whether it was not before.
+        """Integrate the cog; return whether it was not integrated before.
 
-        Raises CogError or ConfigErrors for what a user can mend, OSError when the disk refuses.
+        Raises CogError or ConfigErrors for errors that a user can fix, OSError for a failed write.
         """
         manifest = self.manifest
         if manifest.recorders:
@@ -60,16 +60,16 @@ class UpRegistrant:
         return changed
 
     def unregister(self, application: Application) -> bool:
-        """Take the cog out; tell whether it was in. Its configuration stays: it is the user's."""
+        """Remove the cog; return whether it was registered. Its configuration stays."""
         changed = Registry(application.root).remove(self.cog_name)
         self.tell(f"{self.cog_name}: {'unregistered' if changed else 'was not registered'}")
         return changed
 
     def create_configuration(self, application: Application) -> None:
-        """Create the cog's configuration files that are not there."""
+        """Create the cog's missing configuration files."""
         for file in self.CONFIG_FILES:
             if write_template(file, application.config_folder):
                 self.tell(f"{self.cog_name}: created {application.config_folder / file.filename}")
 
     def prepare(self, application: Application) -> None:
-        """Create whatever else the cog needs."""
+        """Create everything else that the cog needs."""

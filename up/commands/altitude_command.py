@@ -1,4 +1,4 @@
-"""The altitude of the aircraft, or the altitude that it shall have."""
+"""The measured or required altitude of the aircraft."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The fate of what came from outside, told on the bus: a flight's log has it."""
+"""Publishes the outcome of each external Command on the bus, for the flight log."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from up.commands.command_executor import CommandExecutor
 from up.system.clock import Clock
 
 ANSWERS_HZ = 20
-"""So many of a link are told in a second; of the others only how many they are."""
+"""Outcomes reported per link and second; of the others only their number is reported."""
 _LINKS_LIMIT = 64
 _NAME_LIMIT = 64
 _REASON_LIMIT = 500
 
 
 class AnswerReports:
-    """Publishes answers, bounded: a link that is refused all the time costs next to nothing."""
+    """Publishes answers at a bounded rate: constant refusals on a link cost almost nothing."""
 
     def __init__(self, executor: CommandExecutor, clock: Clock) -> None:
         self._executor = executor
@@ -28,7 +28,7 @@ class AnswerReports:
     def tell(
         self, link: str, name: str, command_id: str | None, code: str = "", reason: str = ""
     ) -> None:
-        """Tell what became of a Command; an empty ``code``: it was carried out."""
+        """Report the outcome of a Command; an empty ``code`` means that it was carried out."""
         second = int(self._clock.seconds())
         if second != self._second:
             self._second = second

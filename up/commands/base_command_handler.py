@@ -14,7 +14,7 @@ class BaseCommandHandler(ABC):
     """Carries out one Command; register it with ``CommandExecutor.register_command``.
 
     ``COMMAND`` names the Command that a handler in the application's ``commands/`` folder takes;
-    such a handler is registered by itself.
+    such a handler is registered automatically.
     """
 
     COMMAND: type[BaseCommand] | str = ""
@@ -28,5 +28,5 @@ class BaseCommandHandler(ABC):
     def run_action(self, command: Any) -> Any:
         """Carry the Command out, on the reactor thread, without blocking.
 
-        Raise CommandRefusedError to refuse; return a Deferred where the outcome comes later.
+        Raise CommandRefusedError to refuse; return a Deferred for a later outcome.
         """

@@ -1,4 +1,4 @@
-"""Beacons: how old the newest telemetry was that a Command's sender had seen."""
+"""Beacons: the age of the newest telemetry that the sender of a Command had received."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from up.system.clock import Clock
 KEPT = 4096
 FRESH_S = 2.0
 WAY_S = 1.0
-"""What a frame may take to the ground and its Command back, beyond the telemetry period."""
+"""Allowance for the round trip of frame and Command, in addition to the telemetry period."""
 
 
 def fresh_s(period_ms: float) -> float:
-    """Return how old an echoed beacon may be: a ground that sees every frame is never stale."""
+    """Return the maximum age of an echoed beacon; a ground that gets every frame stays below it."""
     return max(FRESH_S, period_ms / 1000 + WAY_S)
 
 
 class Beacons:
-    """Numbers telemetry frames and judges the number that a Command echoes.
+    """Numbers telemetry frames and checks the number that a Command echoes.
 
-    The first number is drawn at random, so that a number of an earlier run is not taken for one
-    of this run. Age is monotonic seconds since the frame left.
+    The first number is random, so that numbers of an earlier run are not mistaken for this run's.
+    Age is monotonic seconds since the frame was sent.
     """
 
     def __init__(self, clock: Clock, random: Random | None = None) -> None:
@@ -32,7 +32,7 @@ class Beacons:
         self.limit_s = FRESH_S
 
     def draw(self) -> int:
-        """Return the number for a frame that leaves now."""
+        """Return the number for a frame that is being sent."""
         number = self._next
         self._next += 1
         if len(self._times) == KEPT:
@@ -45,7 +45,7 @@ class Beacons:
         return self._run_start <= number < self._next
 
     def age_s(self, number: int) -> float | None:
-        """Return the age of an echoed number; None when it is none of ours or too old to know."""
+        """Return the age of an echoed number; None for an unknown or forgotten number."""
         if not self._first <= number < self._next:
             return None
         return self._clock.seconds() - self._times[number - self._first]

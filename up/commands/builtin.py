@@ -1,4 +1,4 @@
-"""The Commands that Up itself brings."""
+"""The Commands included in Up."""
 
 from __future__ import annotations
 

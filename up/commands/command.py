@@ -15,18 +15,18 @@ _T = TypeVar("_T", bound="BaseCommand")
 
 
 class InvalidCommandError(ValueError):
-    """A Command's data break its definition; the text names the field."""
+    """A Command's data violate its definition; the text names the field."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class BaseCommand:
     """The base of every Command: subclass it as a frozen, slotted dataclass.
 
-    ``NAME`` is the name on the wire, ``ALIASES`` older names of the same thing, ``ROLES`` the
-    roles that may send it from outside (none: nobody), ``ROUTE`` the link that it is routed to
-    instead of being handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon,
-    ``NEEDS_CONTROL`` whether only one module at a time may publish it (``ControlLease``),
-    ``UNSUPPORTED`` why nothing carries out what a ground may ask by it (empty: something does).
+    ``NAME`` is the name on the wire, ``ALIASES`` its older names, ``ROLES`` the roles that may send
+    it from outside (empty: none), ``ROUTE`` the link to which it is forwarded instead of being
+    handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon, ``NEEDS_CONTROL`` whether
+    only one module at a time may publish it (``ControlLease``), ``UNSUPPORTED`` why a ground's
+    request for it cannot be carried out (empty: it can).
     """
 
     NAME: ClassVar[str] = ""
@@ -38,12 +38,12 @@ class BaseCommand:
     UNSUPPORTED: ClassVar[str] = ""
 
     def roles(self) -> frozenset[Role]:
-        """Return who may send this very Command; override where a field decides."""
+        """Return the roles that may send this instance; override if they depend on a field."""
         return self.ROLES
 
     @property
     def unsupported(self) -> str:
-        """Return why nothing carries out this very Command; a sensor's reading is always taken."""
+        """Return why this instance cannot be carried out; a sensor reading is always accepted."""
         return "" if Role.SENSOR in self.roles() else self.UNSUPPORTED
 
     @property
@@ -53,7 +53,7 @@ class BaseCommand:
 
     @property
     def data(self) -> dict[str, Any]:
-        """Return the fields under their names on the wire."""
+        """Return the fields by their names on the wire."""
         return {key: _plain(getattr(self, name)) for name, key, _ in wire_fields(type(self))}
 
     @classmethod
@@ -91,7 +91,8 @@ def value(
 ) -> Any:
     """Declare a field of a Command: its name on the wire, its unit and its bounds.
 
-    The type comes from the annotation; ``X | None`` allows null. Without a default it is required.
+    The type comes from the annotation; ``X | None`` allows null. A field without a default is
+    required.
     """
     bounds = {
         "unit": unit,
@@ -131,7 +132,7 @@ def _checker(field: dataclasses.Field[Any], hints: Mapping[str, Any]) -> _Check:
 
 
 def constraint_of(field: dataclasses.Field[Any], hints: Mapping[str, Any]) -> Constraint:
-    """Return the constraint that a field's annotation and bounds make."""
+    """Return the constraint of a field's annotation and bounds."""
     hint = hints[field.name]
     arguments = typing.get_args(hint)
     nullable = isinstance(hint, types.UnionType) and type(None) in arguments

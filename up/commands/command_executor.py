@@ -1,4 +1,4 @@
-"""The bus: delivers every Command to those who subscribed to it (thesis 4.1.4)."""
+"""The bus: delivers every Command to its subscribers (thesis 4.1.4)."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ from up.registrations import note_undo
 Handler = Callable[[Any], Any]
 Observe = Callable[[BaseCommand, Origin], object]
 _LOGGED_NAMES_LIMIT = 100
-# sys.exit() in a handler is a fault of that handler, no wish of the program.
+# sys.exit() in a handler is a fault of that handler; it must not end the program.
 _FAULTS = (Exception, SystemExit)
 
 
 class CommandExecutor:
-    """Publishes Commands to handlers, in order, each isolated from the others' faults.
+    """Publishes Commands to handlers in order; a fault in one handler does not affect the others.
 
-    Publishing is safe from any thread: on the reactor thread the handlers run at once, from any
-    other the Command is handed to the reactor. A publish from inside a handler waits until the
-    current Command's handlers are done. ``dispatching_since`` (perf_counter seconds, 0: idle) and
-    ``dispatching`` let a monitor thread see who holds the reactor; one look at the clock a Command
-    is all that the bus can afford (``up.system.reactor_monitor`` does the rest). An observer sees
-    every Command, and is no handler of any. A Command with ``NEEDS_CONTROL`` is delivered only for
-    the publisher that has control: its origin's link, or the module that calls.
+    Publishing is safe from any thread: on the reactor thread the handlers run immediately, from any
+    other thread the Command is handed to the reactor. A publish from inside a handler waits until
+    the handlers of the current Command are done. ``dispatching_since`` (perf_counter seconds, 0:
+    idle) and ``dispatching`` show a monitor thread which handler blocks the event loop; the bus can
+    afford only one clock reading per Command (``up.system.reactor_monitor`` does the rest). An
+    observer sees every Command, but does not count as a handler. A Command with ``NEEDS_CONTROL``
+    is delivered only for the publisher that has control: its origin's link, or the calling module.
     """
 
     log = Logger()
@@ -89,14 +89,14 @@ class CommandExecutor:
         self._handlers: dict[str, tuple[Handler, ...]] = {}
         self._observers: tuple[tuple[UUID, Handler], ...] = ()
         self._observing: tuple[Handler, ...] = ()
-        # What a Command calls; one that needs control is not here and takes the longer way.
+        # Cached handlers by Command; one that needs control is absent and takes the slow path.
         self._called: dict[str, tuple[Handler, ...]] = {}
         self._waiting: deque[tuple[BaseCommand | _Asked, Origin]] = deque()
         self._logged_names: set[str] = set()
         self._faults: Counter[tuple[str, str]] = Counter()
 
     def adopt_thread(self) -> None:
-        """Make the calling thread the reactor thread; the program does so before it runs."""
+        """Make the calling thread the reactor thread; the program calls this before it runs."""
         self._thread = threading.get_ident()
 
     def register_command(
@@ -120,18 +120,18 @@ class CommandExecutor:
         return handle
 
     def unregister_command(self, command: type[BaseCommand] | str, handle: UUID) -> None:
-        """Undo a subscription; raises KeyError when the handle is not one of this Command's."""
+        """Remove a subscription; raises KeyError if the handle is not one of this Command's."""
         name = self._name_of(command)
         if not self._unsubscribe(name, handle):
             raise KeyError(f"no handler {handle} for {name}")
 
     def add_observer(self, call: Observe) -> UUID:
-        """Let ``call(command, origin)`` see every Command before its handlers; return the handle.
+        """Call ``call(command, origin)`` with every Command before its handlers; return the handle.
 
-        It sees what nobody handles as well, and a Command that only observers see stays unhandled.
-        It delays nothing and refuses nothing: it returns at once, and what it returns is ignored;
-        a fault of its own is named and counted like a handler's. Raises TypeError when it is not
-        callable, or ``async def``.
+        It also receives Commands without a handler; a Command that only observers receive stays
+        unhandled. An observer must return immediately; its return value is ignored, so it can
+        neither delay nor refuse a Command. Its exceptions are logged and counted like a handler's.
+        Raises TypeError when it is not callable, or ``async def``.
         """
         if not callable(call) or iscoroutinefunction(call):
             raise TypeError(f"{call!r} cannot observe: it is no plain callable")
@@ -142,16 +142,16 @@ class CommandExecutor:
         return handle
 
     def remove_observer(self, handle: UUID) -> None:
-        """Take an observer away; raises KeyError when the handle is none of an observer."""
+        """Remove an observer; raises KeyError for an unknown handle."""
         if not self._drop_observer(handle):
             raise KeyError(f"no observer {handle}")
 
     def has_handlers(self, command: type[BaseCommand] | str) -> bool:
-        """Return whether anybody subscribed to a Command."""
+        """Return whether a Command has a subscriber."""
         return bool(self._handlers.get(self._name_of(command)))
 
     def handlers_of(self, command: type[BaseCommand] | str) -> tuple[Handler, ...]:
-        """Return who subscribed to a Command, in order; observers are not among them."""
+        """Return the subscribers of a Command in order, without observers."""
         return self._handlers.get(self._name_of(command), ())
 
     def execute_command(
@@ -161,7 +161,7 @@ class CommandExecutor:
         _get_ident: Callable[[], int] = threading.get_ident,
         _now: Callable[[], float] = perf_counter,
     ) -> None:
-        """Publish a Command; returns nothing, and no handler's fault reaches the caller."""
+        """Publish a Command; a handler's exception does not reach the caller."""
         if self.dispatching_since or _get_ident() != self._thread:
             self._postpone(command, origin)
             return
@@ -176,7 +176,8 @@ class CommandExecutor:
                 if self.control.refuses(origin.link, command.NAME) is not None:
                     return
                 handlers += self._handlers[command.NAME]
-            # Nobody has to care for what a module says; from outside, or unknown, it is a mistake.
+            # A module may publish without subscribers; an unhandled Command from outside is an
+            # error.
             elif origin is not INTERNAL or self.registry.get(command.NAME) is None:
                 self._count_unhandled(command.NAME)
             if not handlers:
@@ -195,7 +196,7 @@ class CommandExecutor:
                 except _FAULTS:
                     self._failed(Failure(), handler, command)
         finally:
-            # Whatever ended it: a bus that thinks it is busy would never deliver again.
+            # Reset after any exception: a bus that is marked busy never delivers again.
             self.dispatching_since = 0.0
         if self._waiting:
             self._drain()
@@ -203,11 +204,11 @@ class CommandExecutor:
     publish = execute_command
 
     def execute_for_outcome(self, command: BaseCommand, origin: Origin) -> Deferred[None]:
-        """Publish a Command from the reactor thread; the result tells what became of it.
+        """Publish a Command from the reactor thread; the result is its outcome.
 
-        Fires with None when every handler did its work, fails with the first handler's fault.
-        A Command that nobody handles fails with UnhandledCommandError. Asked for from inside a
-        handler, the Command waits its turn like any other.
+        Fires with None when every handler succeeded, fails with the first handler's exception. A
+        Command without a handler fails with UnhandledCommandError. When called inside a handler,
+        the Command waits its turn like any other.
         """
         done: Deferred[None] = Deferred()
         if command.NEEDS_CONTROL and origin is INTERNAL:
@@ -341,7 +342,7 @@ class CommandExecutor:
         self._faults[owner, command.NAME] += 1
         count = self._faults[owner, command.NAME]
         if str(count).strip("0") == "1":
-            # A handler of a fast Command fails often: the first, tenth, hundredth... are enough.
+            # A handler of a frequent Command fails often: log the first, tenth, hundredth...
             self.log.failure(
                 "{owner} failed while handling {name} ({count} times now)",
                 failure,
@@ -358,19 +359,19 @@ class CommandExecutor:
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """A Command whose outcome somebody waits for, waiting for its turn."""
+    """A queued Command whose caller waits for the outcome."""
 
     command: BaseCommand
     done: Deferred[None]
 
 
 def _ignore(owner: str) -> None:
-    """Do nothing about a failed handler but what the bus does itself."""
+    """Ignore a failed handler; the bus itself logs and counts it."""
 
 
 def owner_of(handler: Callable[..., Any]) -> str:
-    """Return the class or function that a handler belongs to, for people."""
-    # An observer is wrapped, to be handed the origin.
+    """Return the display name of the class or function that contains a handler."""
+    # An observer is wrapped to receive the origin.
     handler = getattr(handler, "__wrapped__", handler)
     owner = getattr(handler, "__self__", None)
     if owner is not None:
@@ -379,7 +380,7 @@ def owner_of(handler: Callable[..., Any]) -> str:
 
 
 def _later(result: Any) -> Deferred[Any] | None:
-    """Return what tells the outcome of a handler that is not done yet; None: it is done."""
+    """Return the Deferred of a handler that is not done yet; None if it is done."""
     if isinstance(result, Coroutine):
         return Deferred.fromCoroutine(result)
     return result if isinstance(result, Deferred) else None

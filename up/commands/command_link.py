@@ -1,4 +1,4 @@
-"""A link that Commands come on: its role, its answers, its memory of ids."""
+"""A link that delivers Commands: its role, its answers, the ids that it has seen."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class _Answer:
 
 
 class CommandLink:
-    """What the Command Receiver knows of one link; it outlives the link's connections.
+    """The state that the Command Receiver keeps per link; it outlives the link's connections.
 
     ``role_key`` names the configuration key that grants the role, for the nack; ``send`` takes an
-    encoded answer and returns whether it left. ``policy`` may refuse a Command that the role
-    would permit: it returns the reason, or None.
+    encoded answer and returns whether it was sent. ``policy`` may refuse a Command that the role
+    permits: it returns the reason, or None.
     """
 
     def __init__(
@@ -53,13 +53,13 @@ class CommandLink:
 
     @property
     def name(self) -> str:
-        """Return the link's name, which is the source of the readings that come on it."""
+        """Return the link's name, which is the source of its readings."""
         return self.origin.link
 
     def is_repeated(self, message: GeneralMessage) -> bool:
-        """Remember a message's id; True when the same came before: its answer is sent again.
+        """Remember a message's id; return True for a repeated message and send its answer again.
 
-        An id with other content is another Command: old peers put one id on all of theirs.
+        A known id with other content is a new Command: old peers use one id for all of theirs.
         """
         if message.id is None:
             return False
@@ -77,12 +77,12 @@ class CommandLink:
         return True
 
     def ack(self, command_id: str | None) -> None:
-        """Answer that the Command was carried out; without an id nobody waits for it."""
+        """Acknowledge the Command; does nothing for a Command without an id."""
         if command_id is not None:
             self._answer(command_id, encode("up.ack", {"id": command_id}))
 
     def nack(self, command_id: str | None, code: Code, reason: str) -> None:
-        """Answer that the Command was not carried out, and why."""
+        """Reject the Command, with the reason."""
         if command_id is not None:
             data = {"id": command_id, "code": code.value, "reason": reason[:_REASON_LIMIT]}
             self._answer(command_id, encode("up.nack", data))

@@ -26,10 +26,10 @@ Route = Callable[[BaseCommand, CommandLink, str | None], "Deferred[None] | None"
 
 
 class CommandReceiver:
-    """Decodes, validates and judges what comes from outside, and answers what carried an id.
+    """Decodes, validates and authorizes external messages, and answers those with an id.
 
-    Default deny: a Command that is not of the executor's registry, whose fields break their
-    bounds, whose link's role may not send it, or that echoes an old beacon never reaches the bus.
+    Default deny: a Command never reaches the bus if it is unknown to the executor's registry,
+    violates the bounds of a field, exceeds the role of its link or echoes an old beacon.
     """
 
     log = Logger()
@@ -43,25 +43,25 @@ class CommandReceiver:
         self._reports = AnswerReports(executor, clock)
 
     def execute_command(self, command: BaseCommand, origin: Origin = INTERNAL) -> None:
-        """Publish a Command that a module of this program made (the prototype's name)."""
+        """Publish a Command from a module of this program (the prototype's name)."""
         self._executor.execute_command(command, origin)
 
     def register_route(self, name: str, route: Route) -> None:
-        """Say who carries Commands with this ``ROUTE`` away; one module a route."""
+        """Set the module that forwards Commands with this ``ROUTE``; one module per route."""
         if name in self._routes:
             raise ValueError(f"the route {name!r} is taken")
         self._routes[name] = route
         note_undo(lambda: self._routes.pop(name, None))
 
     def receive(self, message: GeneralMessage, link: CommandLink) -> None:
-        """Take one message from a link: publish it, route it, or refuse it.
+        """Handle one message from a link: publish it, route it, or refuse it.
 
-        A Command or route of a cog that raises costs this message, not the link.
+        An exception in a cog's Command or route costs this message, not the link.
         """
         self.counters["received"] += 1
         try:
             self._receive(message, link)
-        except Exception:  # noqa: BLE001 - the border isolates the links from the Commands' faults
+        except Exception:  # noqa: BLE001 - an exception must not end the link
             self._executor.limited.log(
                 self.log.failure,
                 "{name} from {link} failed",
@@ -102,7 +102,7 @@ class CommandReceiver:
         self._carry_out(command, message, link)
 
     def receive_malformed(self, malformed: MalformedMessage, link: CommandLink) -> None:
-        """Count a line that is no General Message; nack it when its id could be read."""
+        """Count a line that is not a General Message; nack it if its id can be read."""
         self.counters["malformed"] += 1
         reason = f"dropped a malformed message: {malformed.reason}"
         self._log_refusal(link, (Code.MALFORMED, ""), reason)
@@ -179,7 +179,7 @@ class CommandReceiver:
 
     def _refuse(self, link: CommandLink, message: GeneralMessage, code: Code, reason: str) -> None:
         self.counters[code.value] += 1
-        # Names that a peer invents share one key.
+        # All unknown names share one key, so that a peer cannot add keys.
         name = "" if code is Code.UNKNOWN else message.name
         self._log_refusal(link, (code, name), f"refused: {reason}")
         link.nack(message.id, code, reason)

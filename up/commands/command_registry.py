@@ -1,4 +1,4 @@
-"""Which Commands exist: names and aliases to classes."""
+"""The known Commands: names and aliases to classes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from up.commands.command import BaseCommand, wire_fields
 
 
 class DuplicateCommandError(ValueError):
-    """Two Command classes claim one name."""
+    """Two Command classes use the same name."""
 
 
 class CommandRegistry:
@@ -20,7 +20,7 @@ class CommandRegistry:
             self.add(cls)
 
     def add(self, cls: type[BaseCommand]) -> None:
-        """Register a class; again is harmless, a name that another class has is an error."""
+        """Register a class; idempotent. A name that another class uses is an error."""
         if not (isinstance(cls, type) and issubclass(cls, BaseCommand)):
             raise TypeError(f"{cls!r} is no Command")
         if not cls.NAME:
@@ -39,7 +39,7 @@ class CommandRegistry:
         return self._classes.get(name)
 
     def primary_name(self, name: str) -> str:
-        """Return the name that the Command has today; an unknown name is returned unchanged."""
+        """Return the Command's current name; an unknown name is returned unchanged."""
         cls = self._classes.get(name)
         return name if cls is None else cls.NAME
 

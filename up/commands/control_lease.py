@@ -12,7 +12,7 @@ from twisted.logger import Logger
 from up.log.limits import Once
 
 SILENCE_S = 0.25
-"""Silence after which the owner loses control: the longest life of a set-point and an Output."""
+"""Silence after which the owner loses control: the longest lifetime of a set-point or Output."""
 
 
 class ControlLease:
@@ -32,12 +32,12 @@ class ControlLease:
 
     @property
     def owner(self) -> str | None:
-        """Return the publisher that has control now, or None."""
+        """Return the publisher that has control, or None."""
         is_held = self._seconds() - self._renewed_at_s <= SILENCE_S
         return self._owner if is_held else None
 
     def refuses(self, publisher: str, command: str) -> str | None:
-        """Return why a publisher is refused; otherwise None, and it has control."""
+        """Return why a publisher is refused; otherwise give it control and return None."""
         owner = self.owner
         if owner is None or owner == publisher:
             self._owner, self._renewed_at_s = publisher, self._seconds()
@@ -64,7 +64,7 @@ class ControlLease:
 def calling_publisher() -> str:
     """Return the class of the module that called the bus, or its function's name.
 
-    For the bus. What lies above an outer call of the bus is another publisher.
+    For the bus. A frame above an outer call of the bus belongs to another publisher.
     """
     # As logging and twisted.logger find their callers.
     frame: FrameType | None = sys._getframe(1)

@@ -1,4 +1,4 @@
-"""The flight mode that the ground asks for."""
+"""The flight mode that the ground requests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who flies now, as the board that drives the servos says."""
+"""The flight mode and authority that the board reports."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far the sticks bank and pitch the aircraft in Fly By Wire."""
+"""The limits of bank and pitch in Fly By Wire."""
 
 from __future__ import annotations
 

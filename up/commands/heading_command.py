@@ -1,4 +1,4 @@
-"""The heading of the aircraft, or the heading that it shall have."""
+"""The measured or required heading of the aircraft."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the aircraft is."""
+"""The position of the aircraft."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a Command came from."""
+"""The origin of a Command."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the servos shall stand: what a flight controller on the Raspberry Pi decides."""
+"""The servo positions that a flight controller on the Raspberry Pi computes."""
 
 from __future__ import annotations
 

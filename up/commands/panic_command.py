@@ -1,4 +1,4 @@
-"""Panic Mode: the load is too high, everybody shall send less (thesis 3.2.5)."""
+"""Panic Mode: the load is too high, all senders reduce their rate (thesis 3.2.5)."""
 
 from __future__ import annotations
 

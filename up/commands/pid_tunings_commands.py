@@ -1,4 +1,4 @@
-"""The gains: asked for, set, and told (thesis 4.2.4)."""
+"""The gains: requested, set and reported (thesis 4.2.4)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class PIDTuningsCommand(BaseCommand):
 
     @property
     def gains(self) -> GainSet | None:
-        """Return the set to fly with, or None when this is a request."""
+        """Return the gains to use, or None for a request."""
         if self.request or self.pids is None:
             return None
         return gain_set_from_data(self.pids)
@@ -49,10 +49,10 @@ class PIDTuningsValuesCommand(BaseCommand):
 
     @classmethod
     def of(cls, gains: GainSet) -> PIDTuningsValuesCommand:
-        """Build the Command of a set."""
+        """Return a Command with a set of gains."""
         return cls(gain_set_to_data(replace(gains, navigation=None)))
 
     @property
     def data(self) -> dict[str, Any]:
-        """Return the set itself: there is no outer key."""
+        """Return the set itself, without an outer key."""
         return self.pids

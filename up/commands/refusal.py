@@ -1,4 +1,4 @@
-"""Why a Command was not carried out."""
+"""Reasons why a Command is not carried out."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ NO_NAVIGATION = "nothing navigates yet: no module flies to a heading or an altit
 
 
 class CommandRefusedError(Exception):
-    """Raised by a handler that understood a Command and will not carry it out."""
+    """Raised by a handler that rejects a valid Command."""
 
     def __init__(self, reason: str, code: Code = Code.REFUSED) -> None:
         super().__init__(reason)
@@ -37,4 +37,4 @@ class CommandRefusedError(Exception):
 
 
 class UnhandledCommandError(LookupError):
-    """Nobody subscribed to the Command whose outcome was asked for."""
+    """The Command whose outcome was requested has no subscriber."""

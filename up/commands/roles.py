@@ -1,4 +1,4 @@
-"""Who may do what: the roles that a link can have."""
+"""The roles of a link and their rights."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class Role(Enum):
-    """What a link may do; a link's role is configuration, never part of a message."""
+    """The rights of a link; a link's role is configuration, never part of a message."""
 
     SENSOR = "sensor"
     BOARD = "board"
@@ -18,7 +18,7 @@ class Role(Enum):
 
     @property
     def includes(self) -> frozenset[Role]:
-        """Return the roles whose rights this role has, itself among them."""
+        """Return the roles whose rights this role includes, itself among them."""
         return _INCLUDES[self]
 
 

@@ -1,4 +1,4 @@
-"""What the pilot's sticks say."""
+"""The pilot's stick inputs."""
 
 from __future__ import annotations
 

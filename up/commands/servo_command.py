@@ -1,4 +1,4 @@
-"""Where the servos stand."""
+"""The servo positions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The attitude that the Arduino shall hold for a moment."""
+"""An attitude that the Arduino holds for a limited time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Configuration: YAML files with comments, defaults, bounds and errors that tell their place.
+"""Configuration: YAML files with comments, defaults, bounds and errors with line and column.
 
 A file is declared as a frozen dataclass whose fields are `key`, `section`, `mapping` or `items`,
 and named by a `ConfigFile`.

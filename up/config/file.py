@@ -23,8 +23,8 @@ T = TypeVar("T")
 class ConfigFile(Generic[T]):
     """One YAML file of a configuration folder, read into the frozen dataclass `cls`.
 
-    `removed` maps an old key (dotted where it lies in a section) that means something else now, or
-    nothing, to the sentence that tells its replacement. Raises TypeError or ValueError when `cls`
+    ``removed`` maps an old key (dotted inside a section) that is no longer used, or has another
+    meaning, to the sentence that names its replacement. Raises TypeError or ValueError when `cls`
     is declared wrongly.
     """
 
@@ -37,7 +37,7 @@ class ConfigFile(Generic[T]):
         object.__setattr__(self, "shape", shape_of(self.cls))
 
     def load(self, folder: Path) -> T:
-        """Return the values of the file in `folder`, the defaults when it is not there.
+        """Return the values of the file in `folder`, or the defaults if it does not exist.
 
         Raises ConfigErrors with every problem of the file.
         """
@@ -49,10 +49,10 @@ class ConfigFile(Generic[T]):
         return value
 
     def parse(self, text: str | bytes, path: Path, *, whole: bool = False) -> T:
-        """Return the values in a text; `path` is only named in problems. Raises ConfigErrors.
+        """Return the values in a text; `path` appears only in problems. Raises ConfigErrors.
 
-        With `whole` the text must hold something and no map in it may lack one of its values: half
-        a set of numbers that belong together is refused.
+        With `whole` the text must not be empty and every map in it must be complete: half a set of
+        related numbers is refused.
         """
         problems = Problems(Path(path))
         if isinstance(text, bytes):

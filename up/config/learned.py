@@ -1,4 +1,4 @@
-"""Values that the program itself learns and keeps, like gains tuned in flight."""
+"""Values that the program itself learns and saves, such as gains tuned in flight."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _END = "# end"
 
 
 class LearnedFile(Generic[T]):
-    """A file of learned values; the first save puts a good copy beside it, `<name>.good`.
+    """A file of learned values; the first save also writes a good copy, `<name>.good`.
 
-    A set is good as a whole only: a map in it that lacks a value makes the file corrupt, and so
-    does a lost end. People may edit the file, and one from elsewhere needs no end.
+    A set is valid only as a whole: a map with a missing value, or a missing end mark, makes the
+    file corrupt. People may edit the file; a file from elsewhere needs no end mark.
     """
 
     def __init__(self, path: Path, config_file: ConfigFile[T]) -> None:
@@ -29,10 +29,10 @@ class LearnedFile(Generic[T]):
         self._file = config_file
 
     def load(self) -> tuple[T, str | None]:
-        """Return the values and None, or the best that is left and the sentence that says why.
+        """Return the values and None, or the best available values and the reason, one sentence.
 
-        A corrupt or lost file gives its last good copy, else the defaults. Nothing is raised. When
-        neither file exists nothing was ever learned: the defaults, and no problem.
+        For a corrupt or lost file this is the last good copy, otherwise the defaults. Never raises.
+        If neither file exists, nothing was ever learned: returns the defaults and no problem.
         """
         values, problem = self._read(self.path)
         if values is not None:
@@ -49,8 +49,8 @@ class LearnedFile(Generic[T]):
     def save(self, values: T) -> None:
         """Write the values and their good copy, each atomically.
 
-        Raises ValueError for values that could not be read back, before anything is touched, and
-        OSError when the disk refuses; what was saved before is then still there.
+        Raises ValueError, before any file is changed, for values that could not be read back, and
+        OSError for a failed write; the previously saved values then remain.
         """
         data = self._render(values)
         try:
@@ -81,7 +81,7 @@ class LearnedFile(Generic[T]):
         return None, found[0] + rest
 
     def _keep_good(self, values: T) -> None:
-        """Bring the good copy of a saved set up to date with what people edited since."""
+        """Update the good copy of a saved set with later edits by people."""
         if self.good_path.exists() and self._read(self.good_path)[0] != values:
             with contextlib.suppress(OSError):
                 write_atomically(self.good_path, self._render(values))

@@ -27,7 +27,7 @@ class MapFile(Generic[V]):
     key: Constraint = field(default_factory=lambda: Constraint(str, max_length=100))
 
     def load(self, folder: Path) -> dict[str, V]:
-        """Return the entries in the order of the file; a missing or empty file has none.
+        """Return the entries in the order of the file; none for a missing or empty file.
 
         Raises ConfigErrors with every problem of the file.
         """

@@ -1,7 +1,7 @@
-"""YAML text to a tree of nodes that know their places; it gives no meaning to any value.
+"""YAML text to a tree of nodes with positions; it interprets no value.
 
-Only the plain heart of YAML is let in: one document, maps, lists and scalars. Anchors, aliases,
-tags and deep nesting are refused, so a file can neither grow when it is read nor make objects.
+Accepts only a simple subset of YAML: one document, maps, lists and scalars. It refuses anchors,
+aliases, tags and deep nesting, so that a file can neither expand on reading nor create objects.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Report = Callable[[int, int, str], None]
 
 @dataclass(slots=True)
 class ScalarNode:
-    """A single value as it was written; `plain` when it stood there without quotes."""
+    """A single value as written; `plain` if it had no quotes."""
 
     line: int
     column: int
@@ -51,9 +51,9 @@ Node = ScalarNode | ListNode | MapNode
 
 
 def compose(text: str, report: Report) -> Node | None:
-    """Return the root of the one document, None when there is none or it cannot be followed.
+    """Return the root of the one document; None if there is none or it cannot be parsed.
 
-    What is refused is reported; nothing is raised for any text.
+    Errors are reported as problems; no text makes it raise.
     """
     builder = _Builder(report)
     try:
@@ -68,7 +68,7 @@ def compose(text: str, report: Report) -> Node | None:
         line, column = place_of(text, int(error.position))
         report(line, column, f"the character U+{ord(text[error.position]):04X} is not allowed here")
     except (ValueError, OverflowError):
-        # PyYAML turns the digits of \U escapes and of %YAML into numbers without asking their size.
+        # PyYAML converts the digits of \U escapes and of %YAML to numbers without a size limit.
         report(builder.line, builder.column, "an escape or directive after this place is not valid")
     else:
         return builder.root
@@ -96,7 +96,7 @@ def _syntax_sentence(error: yaml.MarkedYAMLError) -> str:
 
 
 def _advice(error: yaml.MarkedYAMLError) -> str:
-    """Return what mends it most often."""
+    """Return the most likely remedy."""
     context = str(error.context)
     if "block" in context:
         return ": is the indentation right?"
@@ -106,7 +106,7 @@ def _advice(error: yaml.MarkedYAMLError) -> str:
 
 
 class _Builder:
-    """Builds the tree from events with a stack of its own: no depth can exhaust Python's."""
+    """Builds the tree from events with its own stack, so that depth cannot exhaust Python's."""
 
     def __init__(self, report: Report) -> None:
         self.root: Node | None = None
@@ -118,7 +118,7 @@ class _Builder:
         self._documents = 0
 
     def take(self, event: yaml.Event) -> bool:
-        """Take the next event; False when the rest of the file cannot be of use."""
+        """Process the next event; return False if the rest of the file is unusable."""
         mark = event.start_mark
         if mark is not None:
             self.line, self.column = mark.line + 1, mark.column + 1

@@ -1,4 +1,4 @@
-"""What is wrong with configuration files, with its place, for people to mend."""
+"""Problems of configuration files, with their places, for people to fix."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MAX_PROBLEMS = 100
 
 @dataclass(frozen=True, slots=True)
 class ConfigProblem:
-    """One mistake in one file: `line` and `column` count from 1."""
+    """One error in one file: `line` and `column` count from 1."""
 
     path: Path
     line: int
@@ -24,7 +24,7 @@ class ConfigProblem:
         return f"{printable(str(self.path))}:{self.line}:{self.column}: {self.what}"
 
 
-class ConfigErrors(Exception):  # noqa: N818 - it carries many, and says so
+class ConfigErrors(Exception):  # noqa: N818 - it holds several errors
     """All the problems that were found in one or more configuration files, one line each."""
 
     def __init__(self, problems: Sequence[ConfigProblem]) -> None:
@@ -40,13 +40,13 @@ class Problems:
         self._path = path
 
     def report(self, line: int, column: int, what: str) -> None:
-        """Take one more problem; `line` and `column` count from 1."""
+        """Add a problem; `line` and `column` count from 1."""
         if len(self.found) == MAX_PROBLEMS:
             what = f"more than {MAX_PROBLEMS} problems, the rest is not shown"
         if len(self.found) <= MAX_PROBLEMS:
             self.found.append(ConfigProblem(self._path, line, column, what))
 
     def raise_if_any(self) -> None:
-        """Raise ConfigErrors with what was found, in the order of the file."""
+        """Raise ConfigErrors if there are problems, in the order of the file."""
         if self.found:
             raise ConfigErrors(sorted(self.found, key=lambda each: (each.line, each.column)))

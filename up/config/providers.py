@@ -32,7 +32,7 @@ class ProvidersConfig:
     rx: tuple[str, ...] = _order("receiver inputs")
 
     def order_of(self, reading: str) -> tuple[str, ...]:
-        """Return the preferred sources of a reading; a reading without a key has none."""
+        """Return the preferred sources of a reading; empty for a reading without a key."""
         order: tuple[str, ...] = getattr(self, reading, ())
         return order
 

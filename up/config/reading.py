@@ -1,4 +1,4 @@
-"""A configuration file's bytes to text, whatever lies at its path."""
+"""Reads a configuration file as text, whatever its path refers to."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ MAX_BYTES = 1024 * 1024
 
 
 def read_text(path: Path, report: Report) -> str | None:
-    """Return the file's text, or None when it is missing or something is reported.
+    """Return the file's text; None if it is missing or a problem was reported.
 
-    Only regular files of at most 1 MiB of UTF-8 are read; a pipe or device cannot make it wait.
+    Reads only regular files of at most 1 MiB of UTF-8; a pipe or device cannot block it.
     """
     try:
         data = _read_bytes(path)
@@ -32,14 +32,14 @@ def read_text(path: Path, report: Report) -> str | None:
 
 
 def decode(data: bytes, report: Report) -> str | None:
-    """Return bytes as text, or None when something is reported."""
+    """Return bytes as text, or None if a problem was reported."""
     if len(data) > MAX_BYTES:
         report(1, 1, "is larger than 1 MiB")
         return None
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        # The error counts from behind a byte order mark; its object begins there too.
+        # The error counts from after a byte order mark; its object begins there too.
         before = error.object[: error.start].decode()
         line, column = place_of(before, len(before))
         report(line, column, f"is not UTF-8 text: byte 0x{error.object[error.start]:02X}")
@@ -48,7 +48,7 @@ def decode(data: bytes, report: Report) -> str | None:
 
 
 class _NotAFileError(Exception):
-    """The path leads to something that is no regular file."""
+    """The path refers to something other than a regular file."""
 
 
 def _read_bytes(path: Path) -> bytes:

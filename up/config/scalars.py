@@ -1,7 +1,7 @@
-"""The text of a scalar to a value of the type that is asked, without YAML's surprises.
+"""Converts the text of a scalar to the declared type, without YAML's surprises.
 
-YAML 1.1 reads an unquoted `no` as false, `12:30` as 750 and `010` as 8. Here the key says which
-type is wanted, and a text that YAML could take for something else must be quoted to be text.
+YAML 1.1 reads an unquoted `no` as false, `12:30` as 750 and `010` as 8. Here the key declares the
+type, and a text value that YAML could read as another type must be quoted.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ _MAX_DIGITS = 400
 
 
 def is_null(node: object) -> bool:
-    """Tell whether a node is an empty or null value."""
+    """Return whether a node is an empty or null value."""
     return isinstance(node, ScalarNode) and node.plain and node.text in _NULLS
 
 
 def needs_quotes(text: str) -> bool:
-    """Tell whether some YAML reader takes this plain text for something else than text."""
+    """Return whether some YAML reader reads this plain text as another type."""
     return (
         text in _NULLS
         or text in _BOOLS
@@ -74,7 +74,7 @@ def read_scalar(node: ScalarNode, constraint: Constraint) -> object:
 
 
 def _text(node: ScalarNode, constraint: Constraint) -> str:
-    # Among choices there is no doubt what a word means, so it needs no quotes.
+    # Among choices the meaning of a word is unambiguous, so it needs no quotes.
     if node.plain and constraint.choices is None and needs_quotes(node.text):
         what = "must be in quotes, YAML does not read it as text:"
         raise ValueError(f"{what} write {show(node.text)}")

@@ -1,7 +1,7 @@
 """The shape of a configuration file, declared as frozen dataclasses.
 
-`key`, `section`, `mapping` and `items` stand where a dataclass field has its default; `shape_of`
-reads them back as a tree that the validator, the template and the schema walk.
+`key`, `section`, `mapping` and `items` take the place of a dataclass field's default; `shape_of`
+reads them back as a tree for the validator, the template and the schema.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Shape:
     entries: tuple[Entry, ...]
 
     def defaults(self) -> Any:
-        """Return the instance that an empty file gives."""
+        """Return the instance for an empty file."""
         return self.cls()
 
 
@@ -57,7 +57,7 @@ Spec = Constraint | Shape | MapOf | ListOf
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One key of a Shape: where it goes, what it may be and what people should know about it."""
+    """One key of a Shape: its attribute, its constraint and its description."""
 
     attribute: str
     name: str
@@ -69,7 +69,7 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class _Declared:
-    """What a field of the dataclass says before its annotation is known."""
+    """The declaration of a dataclass field before its annotation is known."""
 
     kind: str
     comment: str
@@ -94,8 +94,8 @@ def key(
 ) -> T:
     """Declare a key with one value, whose type is the field's annotation (`X | None`: nullable).
 
-    In the file it is called `name`, else as the attribute. `replaced` lists names that it had
-    before: they are refused with a sentence that tells the new one.
+    In the file its name is `name`, otherwise the attribute's. `replaced` lists its former names:
+    they are refused with a sentence that gives the new one.
     """
     bounds = {
         "unit": unit,
@@ -159,8 +159,8 @@ def items(
 def shape_of(cls: type[Any]) -> Shape:
     """Return the shape that a frozen dataclass declares.
 
-    Raises TypeError for a class that declares it wrongly and ValueError for a default that its own
-    constraint refuses: both are mistakes of the programmer.
+    Raises TypeError for an invalid declaration and ValueError for a default that violates its own
+    constraint: both are programming errors.
     """
     if not dataclasses.is_dataclass(cls):
         raise TypeError(f"{cls.__qualname__} is not a dataclass")
@@ -240,6 +240,6 @@ def _spec_of(value: Constraint | type[Any] | MapOf | ListOf) -> Spec:
 
 
 def _doc_of(cls: type[Any]) -> str:
-    # A dataclass without a docstring gets its signature as one, which is no comment.
+    # A dataclass without a docstring gets its signature as one; that is not a comment.
     doc = inspect.cleandoc(cls.__doc__ or "")
     return "" if doc.startswith(f"{cls.__name__}(") else doc

@@ -1,4 +1,4 @@
-"""A commented configuration file from a shape and its values."""
+"""Writes a commented configuration file from a shape and its values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _INDENT = "  "
 
 
 def template_of(shape: Shape, values: Any) -> str:
-    """Return the file: the head comment, then every key under its comment."""
+    """Return the file: the head comment, then every key with its comment."""
     lines = [*_comment(shape.comment, "")]
     if not shape.entries:
         lines.append("{}")
@@ -29,7 +29,7 @@ def template_of(shape: Shape, values: Any) -> str:
 
 
 def yaml_scalar(value: object) -> str:
-    """Return one scalar as YAML that every reader takes for the same value."""
+    """Return one scalar as YAML that every reader parses to the same value."""
     if value is None:
         return "null"
     if isinstance(value, bool):
@@ -56,7 +56,7 @@ def _entry(entry: Entry, value: Any, indent: str) -> Iterator[str]:
 
 def _section(name: str, shape: Shape, value: Any, indent: str) -> Iterator[str]:
     if value is None or not shape.entries:
-        # An absent optional section is shown as a comment, to be uncommented.
+        # An absent optional section appears as a comment, ready to be uncommented.
         mark = "# " if value is None else ""
         for line in _pair(name, plain_value(shape, shape.defaults()), ""):
             yield f"{indent}{mark}{line}"
@@ -93,7 +93,7 @@ def _flow(value: Any) -> str:
 
 
 def _example(spec: MapOf | ListOf, indent: str) -> Iterator[str]:
-    """Yield, as a comment, what one entry of a free map or a list of maps may look like."""
+    """Yield an example entry of a free map or a list of maps, as a comment."""
     inner = spec.value if isinstance(spec, MapOf) else spec.item
     if isinstance(inner, Shape):
         example = _flow(plain_value(inner, inner.defaults()))

@@ -1,4 +1,4 @@
-"""A tree of nodes to the values that a shape declares, with every problem at its place."""
+"""Converts a tree of nodes to the values that a shape declares, with every problem's place."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ _LONGEST_GUESSED_KEY = 60
 
 @runtime_checkable
 class ChecksItself(Protocol):
-    """A configuration dataclass whose keys must also fit together."""
+    """A configuration dataclass with constraints between its keys."""
 
     def problems(self) -> Iterable[tuple[str, str]]:
-        """Yield (attribute, sentence) for what does not fit."""
+        """Yield (attribute, sentence) for each violation."""
 
 
 class _Refused:
-    """What stands where a value was refused; the problem is already reported."""
+    """Placeholder for a refused value; the problem is already reported."""
 
 
 _REFUSED = _Refused()
 
 
 class Validator:
-    """Reads nodes as a shape says; with `whole` nothing of a set may be missing.
+    """Reads nodes according to a shape.
 
-    With `whole` the file must have all its sections, and a map that is there all its keys.
+    With `whole` the file must have all its sections, and every map in it all its keys.
 
-    With `valued` a key that is there must have a value, where null is none.
+    With `valued` every key in the file needs a value; null does not count as one.
 
-    `removed` maps the dotted name of an old key to the sentence that tells its replacement.
+    `removed` maps the dotted name of an old key to the sentence that names its replacement.
     """
 
     def __init__(
@@ -50,9 +50,9 @@ class Validator:
         self._refused = 0
 
     def read(self, spec: Spec, node: Node, head: str = "") -> Any:
-        """Return the value; what it is after a reported problem does not matter.
+        """Return the value; after a reported problem it is unspecified.
 
-        `head` is the dotted name of the node where it is part of another file.
+        `head` is the dotted name of the node if it is part of another file.
         """
         self._head = head
         return self._value(spec, node, "")
@@ -101,7 +101,7 @@ class Validator:
 
     def _check_whole(self, shape: Shape, node: MapNode, places: dict[str, Node], path: str) -> None:
         for entry in shape.entries:
-            # Deeper down a section may be absent as a whole (an axis), a file's own may not.
+            # A nested section (an axis) may be absent as a whole, a top-level section may not.
             is_part = isinstance(entry.spec, Constraint) or (not path and entry.default is not None)
             if is_part and entry.attribute not in places:
                 self._refuse(node, path, f"the key {show(entry.name)} is missing")

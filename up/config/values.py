@@ -8,7 +8,7 @@ from up.config.shape import ListOf, MapOf, Shape, Spec
 
 
 def plain_value(spec: Spec, value: Any) -> Any:
-    """Return a value as JSON and YAML know it, its keys called as in the file; None stays None."""
+    """Return a value as JSON and YAML types, with the file's key names; None stays None."""
     if value is None:
         return None
     if isinstance(spec, Shape):

@@ -1,4 +1,4 @@
-"""Configuration files onto the disk: whole or not at all."""
+"""Writes configuration files atomically."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ _NO_HARD_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)
 
 
 def write_template(file: ConfigFile[Any], folder: Path) -> bool:
-    """Write the file's template into `folder` unless something has its name; tell whether it wrote.
+    """Write the file's template into `folder` unless the name exists; return whether it wrote.
 
-    The folder is made. Raises OSError when the disk refuses.
+    Creates the folder. Raises OSError.
     """
     return create_text(Path(folder) / file.filename, file.template())
 
 
 def create_text(path: Path, text: str) -> bool:
-    """Write a text, whole, unless something has its name; tell whether it wrote.
+    """Write a text atomically unless the name exists; return whether it wrote.
 
-    The folder is made. Raises OSError when the disk refuses.
+    Creates the folder. Raises OSError.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     if os.path.lexists(path):
@@ -38,7 +38,7 @@ def create_text(path: Path, text: str) -> bool:
 
 
 def write_schemas(files: Iterable[ConfigFile[Any]], folder: Path) -> list[Path]:
-    """Write `<name>.schema.json` for every file, return the paths; raises OSError."""
+    """Write `<name>.schema.json` for every file and return the paths; raises OSError."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
@@ -53,7 +53,7 @@ def write_schemas(files: Iterable[ConfigFile[Any]], folder: Path) -> list[Path]:
 def write_atomically(path: Path, data: bytes) -> None:
     """Replace the file's contents so that a power cut leaves either the old or the new ones.
 
-    Raises OSError; the old contents are then still there and nothing else is left behind.
+    Raises OSError; the old contents then remain and no other file is left behind.
     """
     temporary = _write_temporary(path, data)
     try:
@@ -65,7 +65,7 @@ def write_atomically(path: Path, data: bytes) -> None:
 
 
 def remove_unfinished(folder: Path) -> None:
-    """Remove what killed programs left of their writes; a running program's stays."""
+    """Remove temporary files of killed programs; those of running programs stay."""
     for path in Path(folder).glob(".*.tmp"):
         found = _TEMPORARY.fullmatch(path.name)
         if found is not None and not Path("/proc", found[1] or "none").exists():
@@ -75,7 +75,7 @@ def remove_unfinished(folder: Path) -> None:
 def _create(path: Path, data: bytes) -> bool:
     temporary = _write_temporary(path, data)
     try:
-        # Unlike rename, link refuses a name that is taken, be it by a link to nowhere.
+        # Unlike rename, link refuses an existing name, even a dangling symbolic link.
         os.link(temporary, path)
     except FileExistsError:
         return False

@@ -15,7 +15,7 @@ from up.providers.up_orientation_provider import UpOrientationProvider
 class BaseFlightController(BaseStartedModule):
     """Combines readings into servo outputs; extend it in an application's ``flight_controller/``.
 
-    ``FLIGHT_MODES`` says for each mode which readings it needs and how old each may be, in
+    ``FLIGHT_MODES`` gives for each mode the readings that it needs and their maximum ages in
     seconds: a mode is offered only while all of them are valid.
     """
 
@@ -35,11 +35,11 @@ class BaseFlightController(BaseStartedModule):
 
     @property
     def offered_modes(self) -> list[str]:
-        """Return the modes whose readings are valid and fresh now."""
+        """Return the modes whose readings are valid and fresh."""
         return [mode for mode in self.FLIGHT_MODES if self.is_offered(mode)]
 
     def is_offered(self, mode: str) -> bool:
-        """Return whether a mode's readings are valid and fresh now; an unknown mode is not."""
+        """Return whether a mode's readings are valid and fresh; False for an unknown mode."""
         wanted = self.FLIGHT_MODES.get(mode)
         return wanted is not None and all(
             self._is_usable(reading, max_age_s) for reading, max_age_s in wanted.items()

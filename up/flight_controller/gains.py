@@ -62,7 +62,7 @@ class GainSet:
         return [tuple(each or Gains(0.0)) for each in (self.stabilize.rudder, *axes)]
 
     def completed(self, other: GainSet) -> GainSet:
-        """Return this set with what it leaves open (rudder, navigation) taken from another."""
+        """Return this set with its missing gains (rudder, navigation) taken from another."""
         if self.has_rudder:
             rate, stabilize = self.rate, self.stabilize
         else:
@@ -76,8 +76,8 @@ class GainSet:
 def gain_set_from_data(data: Mapping[str, Any]) -> GainSet:
     """Build a set from ``{ratePIDs, stabPIDs, navPIDs?}``; raises ValueError naming the place.
 
-    A set is taken whole or not at all: a missing axis or gain, an unknown key, a number that is
-    not finite or out of range refuses all of it.
+    A set is accepted or refused as a whole: a missing axis or gain, an unknown key, a number that
+    is not finite or out of range refuses all of it.
     """
     _only(data, {"ratePIDs", "stabPIDs"}, {"navPIDs"}, "pids")
     rate = _loop(data["ratePIDs"], "ratePIDs")
@@ -89,7 +89,7 @@ def gain_set_from_data(data: Mapping[str, Any]) -> GainSet:
 
 
 def gain_set_to_data(gains: GainSet) -> dict[str, Any]:
-    """Return a set in the form of ``arduino.pids.values``; nothing is rounded."""
+    """Return a set in the form of ``arduino.pids.values``, without rounding."""
     data = {"ratePIDs": _loop_data(gains.rate), "stabPIDs": _loop_data(gains.stabilize)}
     if gains.navigation is not None:
         data["navPIDs"] = _loop_data(gains.navigation)

@@ -1,4 +1,4 @@
-"""Saves gains without making the flight wait for the disk."""
+"""Saves gains without blocking the flight on the disk."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from up.flight_controller.pids_file import PidsFile
 
 
 def refuse_unused(gains: GainSet, held: GainSet) -> None:
-    """Raise CommandRefusedError where a set changes a gain that no controller uses."""
+    """Raise CommandRefusedError if a set changes a gain that no controller uses."""
     if gains.completed(held).unused != held.unused:
         text = "no controller uses the rudder's stabilize gains and the navigation gains yet"
         raise CommandRefusedError(text, Code.NOT_SUPPORTED)
 
 
 def _in_thread(work: Callable[[], None]) -> None:
-    """Run on a daemon thread: a disk that hangs keeps no program from ending."""
+    """Run on a daemon thread: a disk that hangs does not prevent the program from ending."""
     threading.Thread(target=work, name="pids.yml writer", daemon=True).start()
 
 
 class GainsKeeper:
-    """Writes pids.yml on a thread of its own: an SD card may take a second over it.
+    """Writes pids.yml on its own thread: an SD card may take a second.
 
-    Saves keep their order. A failed one fails with CommandRefusedError, in the reactor's thread.
+    Saves keep their order. A failed one fails with CommandRefusedError on the reactor's thread.
     """
 
     def __init__(self, file: PidsFile, reactor: Any) -> None:
@@ -38,7 +38,7 @@ class GainsKeeper:
         self._lock = threading.Lock()
 
     def save(self, gains: GainSet) -> Deferred[None]:
-        """Save a set; the result comes when it is on the disk."""
+        """Save a set; the result fires when it is on the disk."""
         done: Deferred[None] = Deferred()
         self._newest = gains
         _in_thread(lambda: self._write(done))

@@ -1,4 +1,4 @@
-"""pids.yml: the gains, in physical units, as they were saved last."""
+"""pids.yml: the last saved gains, in physical units."""
 
 from __future__ import annotations
 
@@ -110,21 +110,21 @@ class PidsFile:
         self._file = LearnedFile(folder / PIDS.filename, PIDS)
 
     def load(self) -> tuple[GainSet, str | None]:
-        """Return the saved set, or the last good one, or the defaults, and why."""
+        """Return the saved set, or the last good one, or the defaults, and the reason."""
         values, problem = self._file.load()
         return gain_set_of(values), problem
 
     def save(self, gains: GainSet) -> None:
         """Save a set atomically; a set without a rudder keeps the saved rudder.
 
-        Raises OSError when the disk refuses.
+        Raises OSError for a failed write.
         """
         whole = gains.completed(self.load()[0])
         self._file.save(_config_of(whole))
 
 
 def gain_set_of(values: PidsConfig) -> GainSet:
-    """Return the gains that a configuration holds."""
+    """Return the gains in a configuration."""
     navigation = values.navigation
     return GainSet(
         _loop_of(values.rate),

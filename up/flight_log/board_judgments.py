@@ -1,4 +1,4 @@
-"""What went wrong on the board: receiver, IMU, resets, its loop and its line."""
+"""Faults of the board: receiver, IMU, resets, its loop and its line."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from up.flight_log.wrong import Judge, Level, Wrong
 RX = "up.rx.update"
 CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 BLINK_S = 0.1
-"""What is shorter is not told: one bad pulse is no loss."""
+"""Shorter gaps are not reported: one bad pulse is not a loss."""
 LATE_US = 1000
 ESTIMATE_LIMIT_DEG = 2.0
 _ALL_VALID = 0b111111
@@ -31,14 +31,14 @@ _RESTORED = 7
 
 
 def _level(facts: Facts, span: Span) -> Level:
-    """A loss while armed is an alarm; what was switched off at the end, after landing, is none."""
+    """A loss while armed is an alarm; switching the transmitter off after landing is not."""
     if facts.was_armed(span):
         return "alarm"
     return "info" if span.is_open else "warning"
 
 
 def receiver_lost(facts: Facts) -> Iterator[Wrong]:
-    """The pilot's pulses: by the inputs themselves, else by the board's own word."""
+    """The pilot's pulses: from the inputs themselves, otherwise from the board's status."""
     bad: list[tuple[float, int]] = []
     if RX in facts.log.topics:
         lost = facts.lost(_validity(facts, bad))
@@ -67,7 +67,7 @@ def _validity(facts: Facts, bad: list[tuple[float, int]]) -> Iterator[tuple[floa
 
 
 def failsafe(facts: Facts) -> Iterator[Wrong]:
-    """The receiver's failsafe: the board circled by itself."""
+    """The receiver's failsafe: the board circled without the pilot."""
     for span in facts.spans((each.time_s, each.is_failsafe is True) for each in facts.states):
         yield Wrong(
             span.begin_s,
@@ -85,7 +85,7 @@ def imu_invalid(facts: Facts) -> Iterator[Wrong]:
 
 
 def board_reset(facts: Facts) -> Iterator[Wrong]:
-    """The board began anew: its uptime went back, or it says that it came back in flight."""
+    """A restart of the board: its uptime went back, or its status reports a restart in flight."""
     before: float | None = None
     for each in facts.statuses():
         uptime_s = number_at(each.data, ("uptime_s",))
@@ -104,21 +104,21 @@ def board_reset(facts: Facts) -> Iterator[Wrong]:
 def board_silent(facts: Facts) -> Iterator[Wrong]:
     """The serial line: no frame came."""
     for span in facts.link_lost(lambda link: link == "arduino"):
-        # A program that stood still hears at once of a loss and of its end.
+        # A program that stood still logs the loss and its end at the same moment.
         if span.length_s >= BLINK_S:
             text = f"the board was silent {span.length_text}"
             yield Wrong(span.begin_s, _level(facts, span), text, span.length_s)
 
 
 def raspberry_unheard(facts: Facts) -> Iterator[Wrong]:
-    """The other direction: the board heard nothing of Raspilot."""
+    """The other direction: the board received nothing from Raspilot."""
     for span in facts.flag_lost(PI_HEARD):
         text = f"the board did not hear Raspilot {span.length_text}"
         yield Wrong(span.begin_s, _level(facts, span), text, span.length_s)
 
 
 def loop_late(facts: Facts) -> Iterator[Wrong]:
-    """The control loop on the board came late."""
+    """The control loop on the board ran late."""
     late = [(each.time_s, number_at(each.data, ("late_us",)) or 0.0) for each in facts.statuses()]
     spans = facts.spans((time_s, late_us >= LATE_US) for time_s, late_us in late)
     for span in joined(spans, 1.0):
@@ -147,7 +147,7 @@ def frames_damaged(facts: Facts) -> Iterator[Wrong]:
 
 
 def estimate_wrong(facts: Facts) -> Iterator[Wrong]:
-    """The attitude that the board estimates and the true one, of simulated flights."""
+    """The attitude that the board estimates against the true one, in simulated flights."""
     for error in facts.estimate_errors:
         if error.worst_deg > ESTIMATE_LIMIT_DEG:
             text = (

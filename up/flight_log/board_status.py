@@ -1,6 +1,6 @@
-"""What a logged ``arduino.status`` says, in words (docs/protocols.md 2.7).
+"""Decodes a logged ``arduino.status`` into words (docs/protocols.md 2.7).
 
-A log may be read where the cog that wrote it is not installed.
+A log may be read on a machine without the cog that wrote it.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ WATCHDOG, BROWN_OUT = 3, 2
 
 
 def has_bit(status: Mapping[str, Any], key: str, bit: int) -> bool | None:
-    """Return whether a bit is set; None: the status does not say."""
+    """Return whether a bit is set; None if the status does not contain it."""
     bits = status.get(key)
     return bool(bits >> bit & 1) if type(bits) is int and 0 <= bits <= 255 else None
 
 
 def vetoes_of(status: Mapping[str, Any]) -> list[str]:
-    """Return what forbids arming, in words."""
+    """Return the reasons against arming, in words."""
     return [name for bit, name in enumerate(VETOES) if has_bit(status, "vetoes", bit)]
 
 
 def reset_causes_of(status: Mapping[str, Any]) -> str:
-    """Return why the board started last, in words."""
+    """Return the cause of the board's last start, in words."""
     named = [name for bit, name in enumerate(RESET_CAUSES) if has_bit(status, "reset_cause", bit)]
     if has_bit(status, "reset_cause", _RESTORED):
         named.append("state restored")
@@ -38,7 +38,7 @@ def reset_causes_of(status: Mapping[str, Any]) -> str:
 
 
 def telemetry_of(status: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the ``arduino`` part of telemetry (docs/protocols.md 6), as far as a status goes."""
+    """Return the ``arduino`` part of telemetry (docs/protocols.md 6) that a status determines."""
     switch = status.get("switch")
     return {
         "switch": SWITCH_POSITIONS.get(switch) if isinstance(switch, int) else None,

@@ -1,4 +1,4 @@
-"""What the ground asked for and did not get."""
+"""Requests of the ground that were refused."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _Kind = tuple[str, str, str]
 
 
 def refused(facts: Facts) -> Iterator[Wrong]:
-    """Commands that were refused, each kind once with its count.
+    """Refused Commands, one entry per kind with its count.
 
-    A log of an older recorder has no answers: there the program's log tells of arming and modes.
+    A log of an older recorder has no answers: there the program's log supplies arming and modes.
     """
     first_s: dict[_Kind, float] = {}
     counts: dict[_Kind, int] = {}

@@ -19,11 +19,11 @@ _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 def schema_of(cls: type[BaseCommand]) -> dict[str, Any]:
     """Return the schema (draft 2020-12) of a Command's data on the wire, with their origin.
 
-    A field's unit stands in its description (and in ``x-unit``). A Command that makes its data
-    itself (gains, a profile) is an object of any fields; telemetry has the tree of its page.
-    Nothing is required but what the Command itself requires. A field that may be null says so as
-    OpenAPI 3 does (``nullable``): Foxglove refuses a list of types, an array without items and an
-    object without properties.
+    A field's unit is in its description (and in ``x-unit``). A Command that builds its data itself
+    (gains, a profile) is an object of any fields; telemetry has the tree of its page. Only the
+    fields that the Command requires are required. A nullable field is marked as in OpenAPI 3
+    (``nullable``): Foxglove refuses a list of types, an array without items and an object without
+    properties.
     """
     properties: dict[str, Any] = {}
     required: list[str] = []

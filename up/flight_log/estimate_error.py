@@ -1,4 +1,4 @@
-"""How far the attitude that was flown by was from the truth: known of simulated flights only."""
+"""The error of the attitude used for control: known only for simulated flights."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ TRUTH = "simulator.truth"
 ORIENTATION = "up.orientation.update"
 AXES = ("roll", "pitch")
 _APART_S = 0.05
-"""Truth and estimate reach the log with different delays: the truth within this time counts."""
+"""Truth and estimate reach the log with different delays; the maximum distance of a pair."""
 
 
 @dataclass(frozen=True, slots=True)
 class EstimateError:
-    """Of one axis: root mean square and greatest error, and when that was."""
+    """Of one axis: root mean square and greatest error, and the time of the latter."""
 
     axis: str
     rms_deg: float
@@ -28,7 +28,7 @@ class EstimateError:
 
 
 def estimate_errors(log: FlightLog) -> Iterator[EstimateError]:
-    """Yield those of roll and pitch; none where the log has no truth or no attitude."""
+    """Yield those of roll and pitch; nothing if the log has no truth or no attitude."""
     if TRUTH not in log.topics or ORIENTATION not in log.topics:
         return
     told = ((each.time_s, each.data) for each in log.messages(TRUTH))
@@ -43,7 +43,7 @@ def estimate_errors(log: FlightLog) -> Iterator[EstimateError]:
 
 
 def _errors_deg(estimate: Series, truth: Series) -> Series:
-    """Return the distance of each estimate from what was true within ``_APART_S`` of its time."""
+    """Return the difference between each estimate and the truth within ``_APART_S`` of its time."""
     found = Series()
     for time_s, value in zip(estimate.times_s, estimate.values, strict=True):
         true = [truth.at(time_s + apart_s, 0.5) for apart_s in (-_APART_S, 0.0, _APART_S)]

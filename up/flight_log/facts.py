@@ -1,4 +1,4 @@
-"""What several judgments of one flight need, found once."""
+"""Data that several judgments of one flight need, computed once."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ LINK_STATE = "up.link.state"
 LOG = "log"
 _NEAR_S = 1.0
 _ENDING_S = 2.0
-"""A program that stops closes its links, so long before the log ends."""
+"""A program that stops closes its links up to this long before the log ends."""
 
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """Who flies from that moment on; what is not known is None."""
+    """The authority from that moment on; unknown values are None."""
 
     time_s: float
     flight_mode: str | None
@@ -45,14 +45,14 @@ class LogLine:
 
 
 class Facts:
-    """A flight with its states and spans, each read from the log once, when it is asked for."""
+    """A flight with its states and spans, each read from the log on first use."""
 
     def __init__(self, log: FlightLog) -> None:
         self.log = log
 
     @cached_property
     def states(self) -> list[State]:
-        """Return the changes of who flies: the board's own words, else those of telemetry."""
+        """Return the changes of authority: from the board's status, otherwise from telemetry."""
         if FLIGHT_STATE in self.log.topics:
             found = (_state_of(each) for each in self.log.messages(FLIGHT_STATE))
         else:
@@ -66,17 +66,17 @@ class Facts:
 
     @cached_property
     def log_lines(self) -> list[LogLine]:
-        """Return the warnings and errors of the program's log, and what is told of the rest."""
+        """Return the warnings and errors of the program's log, and their summary."""
         return [line for line in self._all_lines() if line.level >= 3 or _is_told(line.text)]
 
     @cached_property
     def estimate_errors(self) -> list[EstimateError]:
-        """Return how far the attitude was from the truth, of simulated flights."""
+        """Return the attitude's error against the truth, for simulated flights."""
         return list(estimate_errors(self.log))
 
     @cached_property
     def last_telemetry(self) -> dict[str, Any]:
-        """Return the last frame of telemetry that was logged; empty: there was none."""
+        """Return the last logged frame of telemetry; empty if there is none."""
         times_s = self.log.times(TELEMETRY)
         if not times_s:
             return {}
@@ -86,41 +86,41 @@ class Facts:
         return newest
 
     def first_telemetry(self, since_s: float) -> dict[str, Any]:
-        """Return the first frame of telemetry from a time on; empty: there was none."""
+        """Return the first frame of telemetry from a time on; empty if there is none."""
         for message in self.log.messages(TELEMETRY, since_s=since_s):
             return message.data
         return {}
 
     def spans(self, states: Iterable[tuple[float, bool]]) -> list[Span]:
-        """Return when something held, up to the end of the log."""
+        """Return the spans in which a condition held, up to the end of the log."""
         return spans_of(states, self.log.length_s)
 
     def was_armed(self, span: Span) -> bool:
-        """Return whether it was armed in a span or just before: a lost board tells nothing."""
+        """Return whether it was armed in a span or just before: a lost board reports nothing."""
         before = bisect_right(self.armed, span.end_s, key=lambda each: each.begin_s)
         return before > 0 and self.armed[before - 1].end_s >= span.begin_s - _NEAR_S
 
     def state_at(self, time_s: float) -> State | None:
-        """Return who flew at a time; None: nobody had said so yet."""
+        """Return the authority at a time; None if it was not logged yet."""
         before = bisect_right(self.states, time_s, key=lambda each: each.time_s)
         return self.states[before - 1] if before else None
 
     def lost(self, states: Iterable[tuple[float, bool | None]]) -> list[Span]:
-        """Return when something that had been good (true) was not: never before its first time."""
+        """Return the spans in which a condition was false after it had been true."""
         return self.spans(_after_first(states))
 
     def flag_lost(self, bit: int) -> list[Span]:
-        """Return when a flag of the board's status that had been set was not."""
+        """Return the spans in which a status flag was clear after it had been set."""
         return self.lost(
             (each.time_s, has_bit(each.data, "flags", bit)) for each in self.statuses()
         )
 
     def statuses(self) -> Iterator[LoggedMessage]:
-        """Yield what the board said of itself."""
+        """Yield the board's status messages."""
         return self.log.messages(board_status.TOPIC)
 
     def link_lost(self, is_it: Callable[[str], bool]) -> list[Span]:
-        """Return when a link that had been up was down; the program's own end is left out."""
+        """Return the spans in which a link was down; the program's own end is excluded."""
         lost = self.lost(
             (each.time_s, each.data.get("connected") is True)
             for each in self.log.messages(LINK_STATE)

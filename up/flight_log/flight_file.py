@@ -1,4 +1,4 @@
-"""The name of a file of a flight: number, moment of its start, aircraft, part."""
+"""The name of a flight's file: number, start time, aircraft, part."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]", re.ASCII)
 class FlightFile:
     """One file: ``0007-20260814T093000Z-kite.mcap``, the second part ``...-kite.2.mcap``.
 
-    Numbers run on, as a Raspberry Pi has no clock when it boots; ``stamp`` is UTC as it was known.
+    Numbers increase, as a Raspberry Pi has no clock at boot; ``stamp`` is UTC as then known.
     """
 
     folder: Path
@@ -31,7 +31,7 @@ class FlightFile:
 
     @classmethod
     def of(cls, path: Path) -> FlightFile | None:
-        """Return what a path says; None: it is no file of a flight."""
+        """Parse a path; None if it does not name a flight's file."""
         found = _NAME.fullmatch(path.name)
         if found is None:
             return None
@@ -40,19 +40,19 @@ class FlightFile:
 
     @classmethod
     def first(cls, folder: Path, number: int, start_unix_s: float, aircraft: str) -> FlightFile:
-        """Return the first file of a flight; what no name may hold becomes ``_``."""
+        """Return the first file of a flight; characters that a name may not hold become ``_``."""
         stamp = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime(start_unix_s))
         return cls(folder, number, stamp, _NOT_IN_NAMES.sub("_", aircraft)[:32] or "default")
 
     @property
     def path(self) -> Path:
-        """Return where the file lies."""
+        """Return the file's path."""
         part = "" if self.part == 1 else f".{self.part}"
         return self.folder / f"{self.number:04d}-{self.stamp}-{self.aircraft}{part}.mcap"
 
     @property
     def flight(self) -> tuple[int, str, str]:
-        """Return what the parts of one flight have in common."""
+        """Return the common name of a flight's parts."""
         return self.number, self.stamp, self.aircraft
 
     def at_part(self, part: int) -> FlightFile:
@@ -61,7 +61,7 @@ class FlightFile:
 
 
 def flight_files(folder: Path) -> list[FlightFile]:
-    """Return the files of flights in a folder, the oldest first; raises OSError."""
+    """Return the flight files in a folder, oldest first; raises OSError."""
     with os.scandir(folder) as entries:
         paths = [Path(each.path) for each in entries if each.is_file(follow_symlinks=False)]
     found = [each for each in map(FlightFile.of, paths) if each is not None]

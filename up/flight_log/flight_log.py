@@ -1,4 +1,4 @@
-"""One flight as its log tells it: every part, every topic, in the order of time."""
+"""One flight as its log records it: every part, every topic, in the order of time."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ class LoggedMessage:
 
 
 class FlightLog:
-    """The messages of one flight, found by an index and decoded when they are asked for.
+    """The messages of one flight, indexed, and decoded on demand.
 
-    About 30 bytes of memory a message, whatever the messages hold. The files are opened anew for
-    every look, so that nothing is to be closed. ``is_complete``: every part ended as it should.
-    ``start_unix_s`` is 0 for a log without messages. ``topics`` gives the messages by topic.
+    Takes about 30 bytes of memory per message, whatever its size. Every pass opens the files again,
+    so that nothing needs closing. ``is_complete``: every part ended properly. ``start_unix_s`` is 0
+    for a log without messages. ``topics`` counts the messages by topic.
     """
 
     def __init__(self, paths: Sequence[Path], index: LogIndex, parts: Sequence[PartReader]) -> None:
-        """Take what `read` has found."""
+        """Take the result of `read`."""
         self.paths = list(paths)
         self.topics: dict[str, int] = index.counts()
         self.metadata: dict[str, dict[str, str]] = {}
@@ -56,8 +56,8 @@ class FlightLog:
     def read(cls, paths: Sequence[Path]) -> FlightLog:
         """Return the flight in these files, its parts in their order.
 
-        What is lost or damaged is told in ``problems``; a part that is no log at all too, as long
-        as another one is. Raises FlightLogError (one sentence) when none can be read.
+        Losses and damage are listed in ``problems``, and so is a part that is not a log if another
+        one is. Raises FlightLogError (one sentence) when none can be read.
         """
         if not paths:
             raise FlightLogError("no flight log is named")
@@ -84,7 +84,7 @@ class FlightLog:
         return told
 
     def schema(self, topic: str) -> dict[str, Any] | None:
-        """Return the JSON Schema of a topic; None: it has none that can be read."""
+        """Return the JSON Schema of a topic; None without a readable one."""
         notes = self._notes.get(topic)
         if notes is None or notes.schema is None:
             return None
@@ -95,15 +95,15 @@ class FlightLog:
         return schema if isinstance(schema, dict) else None
 
     def schema_name(self, topic: str) -> str:
-        """Return the name of a topic's schema; empty: it has none."""
+        """Return the name of a topic's schema; empty without one."""
         notes = self._notes.get(topic)
         return notes.schema.name if notes is not None and notes.schema is not None else ""
 
     def messages(self, *topics: str, since_s: float = 0.0) -> Iterator[LoggedMessage]:
-        """Yield the messages of these topics (none named: of all) in the order of time.
+        """Yield the messages of these topics (default: all) in the order of time.
 
-        A message that is no JSON object is counted in ``problems`` and left out. Raises
-        FlightLogError when a file cannot be read any more.
+        A message that is not a JSON object is counted in ``problems`` and left out. Raises
+        FlightLogError when a file can no longer be read.
         """
         names, times, start_ns = self._names, self._index.times_ns, self._start_ns
         for position, number, data in self._decoded(topics, since_s):
@@ -112,7 +112,7 @@ class FlightLog:
     def series(self, topic: str, field: str) -> tuple[list[float], list[float]]:
         """Return the times, s, and the values of a field, a path with dots between its keys.
 
-        What is no finite number is left out. Raises FlightLogError as `messages` does.
+        Values that are not finite numbers are left out. Raises FlightLogError as `messages` does.
         """
         path = tuple(field.split("."))
         times, start_ns = self._index.times_ns, self._start_ns
@@ -126,14 +126,14 @@ class FlightLog:
         return times_s, values
 
     def times(self, topic: str) -> list[float]:
-        """Return when the messages of a topic came, s, without looking into them."""
+        """Return the times of a topic's messages, s, without decoding them."""
         times, start_ns = self._index.times_ns, self._start_ns
         return [(times[each] - start_ns) * _NS for each in self._index.positions((topic,))]
 
     def gaps(self, longer_than_s: float, *topics: str) -> Iterator[tuple[float, float]]:
-        """Yield when (s) no message of these topics (none named: of any) came, and for how long.
+        """Yield start (s) and length of gaps between messages of these topics (default: any topic).
 
-        Looked for from their first message to the end of the log, without looking into them.
+        Covers the time from their first message to the end of the log, without decoding them.
         """
         times, start_ns, limit_ns = self._index.times_ns, self._start_ns, longer_than_s / _NS
         before = None
@@ -168,7 +168,7 @@ class FlightLog:
     def _add(self, part: PartReader) -> None:
         self._file_problems += part.problems
         for name, values in part.metadata.items():
-            # The first part says how the flight began; later parts say the same, or more.
+            # Metadata of the first part describes the start; later parts repeat it or add to it.
             self.metadata[name] = {**values, **self.metadata.get(name, {})}
         for name, attachment in part.attachments.items():
             self.attachments.setdefault(name, attachment)

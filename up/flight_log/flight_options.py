@@ -1,4 +1,4 @@
-"""The options by which a verb of ``up log`` is told where flights are."""
+"""The options of the ``up log`` verbs that select the folder of flights."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ PLACE = "flights_place"
 ``Place``, which knows the application's black_box.yml."""
 
 Place = Callable[[argparse.Namespace], Path]
-"""Returns the folder that parsed options mean."""
+"""Returns the folder that the parsed options select."""
 
 
 def take_folder(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say where flights are."""
+    """Add the options that select the folder of flights."""
     parser.add_argument(
         "--folder",
         type=Path,

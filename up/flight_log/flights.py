@@ -1,4 +1,4 @@
-"""Which recorded flights there are, and which one a user means."""
+"""The recorded flights, and the selection of one by the user."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _LONGEST_SHOWN = 300
 
 
 class FlightNotFoundError(FlightLogError):
-    """There is no such flight; the text is one sentence."""
+    """The flight does not exist; the text is one sentence."""
 
 
 @dataclass(frozen=True, slots=True)
 class Flight:
-    """The files of one flight, in order; ``number`` is None for a file with a name of its own."""
+    """The files of one flight, in order; ``number`` is None for a file with another name."""
 
     paths: tuple[Path, ...]
     number: int | None
@@ -33,19 +33,19 @@ class Flight:
 
     @property
     def name(self) -> str:
-        """Return what files about this flight are named after."""
+        """Return the base name for files about this flight."""
         return self.paths[0].stem
 
     @property
     def size(self) -> int:
-        """Return how many bytes it takes; a file that has gone counts nothing."""
+        """Return its size in bytes; a deleted file counts 0."""
         return sum(path.stat().st_size for path in self.paths if path.is_file())
 
 
 def flights_in(folder: Path) -> list[Flight]:
-    """Return the flights of a folder, the oldest first; files with other names are not looked at.
+    """Return the flights of a folder, oldest first; files with other names are ignored.
 
-    Raises FlightNotFoundError where the folder cannot be read.
+    Raises FlightNotFoundError if the folder cannot be read.
     """
     try:
         files = flight_files(folder)
@@ -58,17 +58,17 @@ def flights_in(folder: Path) -> list[Flight]:
 
 
 def find_flight(named: str, folder: Callable[[], Path]) -> Flight:
-    """Return the flight that a user means; raises FlightNotFoundError, in one sentence.
+    """Return the flight that a user names; raises FlightNotFoundError with one sentence.
 
-    ``named`` is a number or ``last``, looked up in what ``folder`` returns, or the path of a file
-    or of a folder.
+    ``named`` is a number or ``last``, looked up in the folder that ``folder`` returns, or the path
+    of a file or folder.
     """
     if named == LAST:
         return _those_in(folder())[-1]
     if named.isascii() and named.isdigit() and len(named) <= _LONGEST_NUMBER:
         return _numbered(int(named), folder())
     path = Path(named)
-    # What the system takes for no path at all (too long, a NUL inside) is none either.
+    # A text that the system refuses as a path (too long, a NUL inside) is not a path here either.
     with contextlib.suppress(OSError, ValueError):
         if path.is_dir():
             return _only_one(path)
@@ -79,10 +79,10 @@ def find_flight(named: str, folder: Callable[[], Path]) -> Flight:
 
 
 def find_flight_of(words: Sequence[str], folder: Callable[[], Path]) -> Flight:
-    """Return the flight that one word means, as ``find_flight`` does, or that several files are.
+    """Return the flight that one word names, as ``find_flight`` does, or that several files form.
 
-    Files that the black box named are put in their order, others stay in that of ``words``. Raises
-    FlightNotFoundError.
+    Files named by the black box are put in their order, others stay in the order of ``words``.
+    Raises FlightNotFoundError.
     """
     if len(words) == 1:
         return find_flight(words[0], folder)
@@ -136,7 +136,7 @@ def _only_one(folder: Path) -> Flight:
         raise FlightNotFoundError(
             f"{folder} has {len(flights)} flights: say --folder {folder} and a number"
         )
-    # Parts that somebody has renamed are still those of a flight, in the order of their names.
+    # Renamed parts still belong to one flight, in the order of their names.
     paths = sorted(folder.glob(f"*{SUFFIX}"))
     if not paths:
         raise FlightNotFoundError(f"no flight is in {folder}: it has no file that ends in {SUFFIX}")
@@ -144,7 +144,7 @@ def _only_one(folder: Path) -> Flight:
 
 
 def _with_its_parts(path: Path) -> Flight:
-    """Return the flight that a file begins; a later part named alone is looked at alone."""
+    """Return the flight that begins with a file; a later part named alone is read alone."""
     named = FlightFile.of(path)
     if named is None:
         return Flight((path,), None, "")

@@ -1,4 +1,4 @@
-"""The folder that the black box keeps flights in."""
+"""The folder in which the black box stores flights."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ _LEAF = "flights"
 
 
 def default_folder(environ: Mapping[str, str] = os.environ) -> Path:
-    """Return where flights are kept unless the configuration says it.
+    """Return the default folder of flights.
 
-    A service has a state directory of systemd's, a user $XDG_STATE_HOME (XDG Base Directory
-    Specification), which is ~/.local/state.
+    A service has the state directory from systemd, a user $XDG_STATE_HOME (XDG Base Directory
+    Specification), by default ~/.local/state.
     """
     given = environ.get("STATE_DIRECTORY", "").split(":")[0]
     if given:
@@ -22,11 +22,11 @@ def default_folder(environ: Mapping[str, str] = os.environ) -> Path:
     try:
         state = Path(home) if Path(home).is_absolute() else Path("~/.local/state").expanduser()
     except RuntimeError:
-        # A user without a home: where the state directory of a service would be.
+        # A user without a home: the state directory that a service would have.
         state = Path("/var/lib")
     return state / "raspilot" / _LEAF
 
 
 def folder_of(configured: str, environ: Mapping[str, str] = os.environ) -> Path:
-    """Return the folder that ``folder`` of black_box.yml means."""
+    """Return the folder that ``folder`` of black_box.yml selects."""
     return Path(configured).expanduser() if configured else default_folder(environ)

@@ -1,4 +1,4 @@
-"""Which source of a reading its provider followed at each time of a flight."""
+"""The source that a provider followed for a reading at each time of a flight."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ FRESH_S = {
     "heading": 1.5,
     "battery": 120.0,
 }
-"""After how long without a message a source is not fresh any more, by reading."""
+"""The age after which a source is no longer fresh, by reading."""
 _BOARD_PRIORITY = 10
 _LATER_S = 0.05
-"""A selection is logged after the message that made it."""
+"""A selection is logged after the message that caused it."""
 
 
 class Followed:
-    """Tells the messages that a provider used from those of the sources that it did not follow.
+    """Separates the messages that a provider used from those of sources that it did not follow.
 
-    Where a log tells no selection of a reading (yet: older logs never do) a source is followed as a
-    provider without configuration does: the board's while it is fresh, otherwise the first one.
+    Without a logged selection (older logs never have one) a source is followed as by a provider
+    without configuration: the board's while it is fresh, otherwise the first one.
     """
 
     def __init__(self, log: FlightLog) -> None:
@@ -59,7 +59,7 @@ class Followed:
 
 
 def followed(log: FlightLog, reading: str, topic: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
-    """Yield time (s) and data of the messages that a provider used; what is required is none."""
+    """Yield time (s) and data of the messages that a provider used, without required values."""
     sources = Followed(log)
     for each in log.messages(topic) if topic in log.topics else ():
         is_reading = each.data.get("mode") != "required"

@@ -11,7 +11,7 @@ LOG = "foxglove.Log"
 LOCATION_FIX = "foxglove.LocationFix"
 
 LOG_LEVELS = {"debug": 1, "info": 2, "warn": 3, "error": 4, "critical": 5}
-"""A level of twisted.logger to foxglove.Log's; 0 is not known."""
+"""A level of twisted.logger as foxglove.Log's; 0 for an unknown one."""
 
 _TIME: dict[str, Any] = {
     "type": "object",
@@ -74,6 +74,6 @@ LOCATION_FIX_SCHEMA: dict[str, Any] = {
 
 
 def timestamp(time_ns: int) -> dict[str, int]:
-    """Return nanoseconds since 1970 as the schemas write a time."""
+    """Return nanoseconds since 1970 in the schemas' form of a time."""
     sec, nsec = divmod(time_ns, 1_000_000_000)
     return {"sec": sec, "nsec": nsec}

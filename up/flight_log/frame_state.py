@@ -1,4 +1,4 @@
-"""The telemetry tree (docs/protocols.md 6) put together from the Commands that made it."""
+"""The telemetry tree (docs/protocols.md 6), rebuilt from the Commands that determine it."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ SERVOS = STICKS[:4]
 
 
 class FrameState:
-    """Takes logged Commands in the order of time and gives the telemetry of a moment.
+    """Takes logged Commands in the order of time and returns the telemetry of a moment.
 
-    Of several sources of a reading the one that was followed in flight counts. A logged frame of
-    telemetry is the ground on which the newer Commands are laid.
+    Of several sources of a reading the one followed in flight counts. Newer Commands update the
+    last logged frame of telemetry.
     """
 
     def __init__(self, followed: Followed, home: tuple[float, float] | None = None) -> None:
@@ -39,13 +39,13 @@ class FrameState:
         self._sources: dict[str, str] = {}
 
     def take(self, topic: str, time_s: float, data: Mapping[str, Any]) -> None:
-        """Take one Command; those that telemetry does not show change nothing."""
+        """Apply one Command; those that telemetry does not show change nothing."""
         taker = _TAKERS.get(topic)
         if taker is not None:
             taker(self, time_s, data)
 
     def take_frame(self, time_s: float, tree: Mapping[str, Any]) -> None:
-        """Take a logged frame of telemetry: it knows more than the Commands tell."""
+        """Apply a logged frame of telemetry: it has more data than the Commands."""
         self._tree = {**self._tree, **tree}
         ages, sources = tree.get("age_ms"), tree.get("source")
         for reading in FRESH_S:
@@ -56,7 +56,7 @@ class FrameState:
             self._sources.update({name: each for name, each in sources.items() if each})
 
     def tree(self, time_s: float) -> dict[str, Any]:
-        """Return the telemetry of that moment; the tree is the caller's own but for its leaves."""
+        """Return the telemetry of that moment; the caller owns the tree except its leaves."""
         known = self._times_s
         ages = {
             reading: round((time_s - known[reading]) * 1000) if reading in known else None
@@ -72,7 +72,7 @@ class FrameState:
         return True
 
     def _update(self, key: str, values: Mapping[str, Any]) -> None:
-        # A new one: frames that were given out keep the old.
+        # A new dict: frames returned earlier keep the old one.
         known = self._tree.get(key)
         self._tree[key] = {**known, **values} if isinstance(known, dict) else dict(values)
 
@@ -164,11 +164,11 @@ _TAKERS: dict[str, Callable[[FrameState, float, Mapping[str, Any]], None]] = {
     "up.system.state": FrameState._on_system,
 }
 TOPICS = tuple(_TAKERS)
-"""The topics that make telemetry."""
+"""The topics that determine telemetry."""
 
 
 def place_of(data: Mapping[str, Any]) -> tuple[float, float] | None:
-    """Return latitude and longitude, deg, of a location; None: it has none that are possible."""
+    """Return latitude and longitude, deg, of a location; None without valid ones."""
     latitude, longitude = number_at(data, ("latitude",)), number_at(data, ("longitude",))
     if latitude is None or longitude is None or abs(latitude) > 90 or abs(longitude) > 180:
         return None

@@ -1,4 +1,4 @@
-"""Which gains differ between two sets, in the words of the ground station."""
+"""The gains that differ between two sets, in the ground station's terms."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ Key = tuple[str, str, str]
 
 
 def gains_of(data: Any) -> dict[Key, float]:
-    """Return what a set as on the wire (``{ratePIDs: {ailerons: {p: 3}}}``) has of gains."""
+    """Return the gains in a set in the form of the wire (``{ratePIDs: {ailerons: {p: 3}}}``)."""
     return dict(_cells(data)) if isinstance(data, dict) else {}
 
 
 def changes_text(before: Any, after: Any, most: int = 27) -> str:
-    """Return ``rate roll P 3 to 2.4, ...``; empty: nothing differs.
+    """Return ``rate roll P 3 to 2.4, ...``; empty if nothing differs.
 
-    Of a gain that ``before`` does not have its new value alone is told; beyond ``most`` of them
-    how many there are.
+    A gain missing in ``before`` is listed with its new value only; differences beyond ``most`` are
+    only counted.
     """
     known = gains_of(before)
     found = [
@@ -43,7 +43,7 @@ def changes_text(before: Any, after: Any, most: int = 27) -> str:
 
 
 def _is_same(before: float | None, after: float) -> bool:
-    """Return whether two gains are one: the board holds them in single precision."""
+    """Return whether two gains are equal: the board holds them in single precision."""
     return before is not None and isclose(before, after, rel_tol=_SINGLE, abs_tol=1e-9)
 
 

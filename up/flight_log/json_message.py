@@ -1,4 +1,4 @@
-"""The JSON of one logged message, read with suspicion: a log may come from anywhere."""
+"""Parses the JSON of one logged message strictly: a log may come from anywhere."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ _TOO_LARGE = "a number that is too large"
 
 
 def decode(data: bytes) -> dict[str, Any]:
-    """Return the object; ValueError says what it is instead.
+    """Return the object; ValueError says what the text is instead.
 
-    Refused are NaN and infinity (numbers too large for a float too), nesting deeper than 32 and
-    text with lone surrogates: whatever comes out can be written as JSON again.
+    Refuses NaN and infinity (also numbers too large for a float), nesting deeper than 32 and text
+    with lone surrogates: every result can be written as JSON again.
     """
     try:
         text = str(data, "utf-8")
@@ -37,7 +37,7 @@ def decode(data: bytes) -> dict[str, Any]:
 
 
 def number_at(data: Any, path: tuple[str, ...]) -> float | None:
-    """Return the finite number at a path of keys; None: there is none (true is no number)."""
+    """Return the finite number at a path of keys, or None (true is not a number)."""
     for key in path:
         if not isinstance(data, dict):
             return None

@@ -1,4 +1,4 @@
-"""What went wrong on the links: the ground's, the phone's, and the readings that they bring."""
+"""Faults of the links: the ground's, the phone's, and the readings that they deliver."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ READINGS: dict[str, tuple[str, float]] = {
     "up.orientation.update": ("attitude", 0.5),
     "up.location.update": ("location", 2.5),
 }
-"""What it is called, and how long (s) it may stay away at least."""
+"""Name of the reading, and the shortest gap (s) that is reported."""
 _PATIENCE = 4
-"""So many of its usual intervals a reading may stay away."""
+"""A gap of more than this many usual intervals is reported."""
 _LOOKED_AT = 1000
 
 
 def ground_lost(facts: Facts) -> Iterator[Wrong]:
-    """The link to the ground; switched off after landing is no loss."""
+    """The link to the ground; switching it off after landing is not a loss."""
     for link in GROUND_LINKS:
         for span in facts.link_lost(lambda name, link=link: name == link):  # type: ignore[misc]
             flies = facts.was_armed(span) or not span.is_open
@@ -41,7 +41,7 @@ def phone_lost(facts: Facts) -> Iterator[Wrong]:
 
 
 def phone_refused(facts: Facts) -> Iterator[Wrong]:
-    """Another phone that tried to take the link, as telemetry's `android.competitor` shows it."""
+    """Another phone that tried to take the link, from telemetry's `android.competitor`."""
     hosts: dict[float, str] = {}
     for each in facts.log.messages(TELEMETRY):
         android = each.data.get("android")
@@ -53,7 +53,7 @@ def phone_refused(facts: Facts) -> Iterator[Wrong]:
 
 
 def reading_missing(facts: Facts) -> Iterator[Wrong]:
-    """A reading that came and then stayed away."""
+    """A reading that arrived and then stopped."""
     for topic, (name, least_s) in READINGS.items():
         limit_s = max(least_s, _PATIENCE * _interval_s(facts, topic))
         for begin_s, length_s in facts.log.gaps(limit_s, topic):
@@ -68,7 +68,7 @@ def reading_missing(facts: Facts) -> Iterator[Wrong]:
 
 
 def battery_low(facts: Facts) -> Iterator[Wrong]:
-    """The phone's battery: losing the phone is losing its sensors and the uplink."""
+    """The phone's battery: losing the phone loses its sensors and the uplink."""
     for each in facts.log.messages("android.battery.low"):
         if each.data.get("low") is True:
             level = number_at(each.data, ("level",))
@@ -77,7 +77,7 @@ def battery_low(facts: Facts) -> Iterator[Wrong]:
 
 
 def _interval_s(facts: Facts, topic: str) -> float:
-    """Return the usual time between two messages, by the first of them."""
+    """Return the usual time between two messages, from the first ones."""
     times_s = facts.log.times(topic)[:_LOOKED_AT]
     return median(b - a for a, b in pairwise(times_s)) if times_s[1:] else 0.0
 

@@ -1,4 +1,4 @@
-"""Reads single messages out of the parts of a log, in the order of their places."""
+"""Reads single messages from the parts of a log, in the order of their positions."""
 
 from __future__ import annotations
 
@@ -13,14 +13,13 @@ from up.flight_log.mcap_format import FlightLogError
 _WINDOW = 64 * 1024
 _MOST_OPEN = 16
 _NEAR = 4 * 1024
-"""What begins so soon after the last one is read together with what follows it."""
+"""Messages at most this far apart are read together."""
 
 
 class LogFiles:
-    """The parts, opened when they are first asked; close it, or use it as a context.
+    """The parts, opened on first use; close it, or use it as a context.
 
-    Messages that lie close together cost one call of the system for many, scattered ones cost one
-    each and bring nothing else into memory.
+    Adjacent messages share one system call; a scattered one costs one call and loads nothing else.
     """
 
     def __init__(self, paths: Sequence[Path]) -> None:
@@ -45,7 +44,7 @@ class LogFiles:
         self.close()
 
     def read(self, part: int, offset: int, size: int) -> bytes:
-        """Return so many bytes of a part; raises FlightLogError."""
+        """Return this many bytes of a part; raises FlightLogError."""
         begin = offset - self._begin
         if part != self._part or begin < 0 or offset + size > self._end:
             is_near = part == self._part and 0 <= offset - self._end <= _NEAR
@@ -56,7 +55,7 @@ class LogFiles:
         return self._window[begin : begin + size]
 
     def close(self) -> None:
-        """Close every file; harmless when they are closed."""
+        """Close every file; idempotent."""
         descriptors, self._descriptors = self._descriptors, {}
         for each in descriptors.values():
             os.close(each)

@@ -1,4 +1,4 @@
-"""Where every message of a flight lies: about 22 bytes a message, whatever its size."""
+"""The position of every message of a flight: about 22 bytes per message, whatever its size."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _OFFSET_MASK = (1 << _PART_SHIFT) - 1
 class LogIndex:
     """Messages in the order of their time; a position is a message's number in that order.
 
-    ``times_ns`` and the rest are to be read only after `finish`.
+    Read ``times_ns`` and the rest only after `finish`.
     """
 
     def __init__(self) -> None:
@@ -34,14 +34,14 @@ class LogIndex:
         return len(self.times_ns)
 
     def topic(self, name: str) -> int | None:
-        """Return the number of a topic, a new one for a new name; None: there are too many."""
+        """Return the number of a topic, a new one for a new name; None if there are too many."""
         number = self.topics.get(name)
         if number is None and len(self.topics) < MOST_TOPICS:
             number = self.topics[name] = len(self.topics)
         return number
 
     def adder(self, part: int) -> Callable[[int, int, int, int], None]:
-        """Return what adds (topic, time, offset, size) of a message of that part."""
+        """Return a function that adds (topic, time, offset, size) of a message of that part."""
         add_topic, add_time = self._topic_of.append, self.times_ns.append
         add_place, add_size = self._places.append, self._sizes.append
         high = part << _PART_SHIFT
@@ -55,7 +55,7 @@ class LogIndex:
         return add
 
     def put_strays_aside(self) -> Counter[int]:
-        """Forget the messages whose times cannot be; return how many of which part they were."""
+        """Remove the messages with impossible times; return how many by part."""
         found = set(strays(self.times_ns))
         parts = Counter(self._places[each] >> _PART_SHIFT for each in found)
         if found:
@@ -64,7 +64,7 @@ class LogIndex:
         return parts
 
     def finish(self) -> None:
-        """Put the messages in the order of their time; those of one moment stay as they came."""
+        """Sort the messages by time; messages of one moment keep their order."""
         times = self.times_ns
         if all(map(int.__le__, times, times[1:])):
             return
@@ -89,7 +89,7 @@ class LogIndex:
         return place >> _PART_SHIFT, place & _OFFSET_MASK, self._sizes[position]
 
     def positions(self, topics: Sequence[str], since_ns: int = 0) -> Iterable[int]:
-        """Return the positions of the messages of these topics (none named: of all)."""
+        """Return the positions of the messages of these topics (default: all)."""
         if not topics:
             return range(self._first(since_ns), len(self))
         wanted = {self.topics[name] for name in topics if name in self.topics}

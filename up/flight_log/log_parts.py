@@ -1,4 +1,4 @@
-"""One part of a flight's log: indexes its messages and keeps what they need to be understood."""
+"""One part of a flight's log: indexes its messages and keeps the data to decode them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _KEPT = frozenset({Opcode.SCHEMA, Opcode.CHANNEL, Opcode.METADATA, Opcode.ATTACH
 
 @dataclass(frozen=True, slots=True)
 class Attachment:
-    """A file that belongs to the flight, read when it is asked for."""
+    """A file attached to the flight, read on demand."""
 
     name: str
     media_type: str
@@ -42,7 +42,7 @@ class Attachment:
 
 
 class TopicNotes:
-    """What is known of a topic, and which of its messages could not be read."""
+    """The metadata of a topic, and its messages that could not be read."""
 
     def __init__(self, encoding: str, schema: Schema | None) -> None:
         self.encoding = encoding
@@ -57,14 +57,14 @@ class TopicNotes:
         return self.encoding == JSON
 
     def note(self, position: int, reason: str) -> None:
-        """Note a message that could not be read; a second look at it counts no more."""
+        """Note a message that could not be read; repeated reports count once."""
         if position > self._last:
             self._last = position
             self._unread += 1
             self._reason = self._reason or reason
 
     def sentences(self, topic: str) -> list[str]:
-        """Return what is wrong with the topic."""
+        """Return the problems of the topic."""
         topic = printable(topic)
         if not self.is_json:
             return [f"{topic}: its messages are no JSON but {self.encoding!a:.40}: only listed"]
@@ -75,7 +75,7 @@ class TopicNotes:
 
 
 class PartReader:
-    """Reads one file into an index; ``fault`` says why it could not be read at all."""
+    """Reads one file into an index; ``fault`` is the reason if the whole file is unreadable."""
 
     def __init__(self, path: Path, number: int) -> None:
         self.path = path
@@ -93,18 +93,18 @@ class PartReader:
 
     @property
     def problems(self) -> list[str]:
-        """Return what is wrong with the file."""
+        """Return the problems of the file."""
         return [*([self.fault] if self.fault else []), *self._noted.sentences, *self._strays]
 
     def note_strays(self, count: int) -> None:
-        """Note how many messages were put aside for a time that cannot be."""
+        """Note how many messages were dropped for an impossible time."""
         what = "message has a time that cannot be and is"
         if count > 1:
             what = "messages have times that cannot be and are"
         self._strays = [f"{self.path.name}: {count} {what} put aside"]
 
     def read(self, index: LogIndex) -> None:
-        """Add the messages of the file to the index, as far as they can be read."""
+        """Add the messages of the file to the index, as far as they are readable."""
         try:
             with open_log(self.path) as file:
                 walk = RecordWalk(file, self._noted)
@@ -114,7 +114,7 @@ class PartReader:
             self.fault = str(error)
 
     def _read(self, walk: RecordWalk, index: LogIndex) -> None:
-        # The numbers of the topics by channel: all that one message of many costs is here.
+        # Topic numbers by channel: the only lookup per message.
         topics: dict[int, int | None] = {}
         add = index.adder(self._number)
         unpack, size = _MESSAGE_HEAD.unpack_from, MESSAGE.size

@@ -1,4 +1,4 @@
-"""The outlines of MCAP, the container of the flight log (https://mcap.dev/spec, version 0)."""
+"""The layout of MCAP, the container of the flight log (https://mcap.dev/spec, version 0)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class FlightLogError(Exception):
 
 
 class Opcode(IntEnum):
-    """What a record is."""
+    """The kind of a record."""
 
     HEADER = 0x01
     FOOTER = 0x02
@@ -39,7 +39,7 @@ RECORD = Struct("<BQ")
 MESSAGE = Struct("<HIQQ")
 """Channel, sequence, log time and publish time, ns; the data follow."""
 MESSAGE_RECORD = Struct("<BQHIQQ")
-"""A whole message record but its data."""
+"""A whole message record without its data."""
 CHUNK = Struct("<QQQI")
 """First and last log time, ns, uncompressed size, CRC; compression and records follow."""
 ATTACHMENT = Struct("<QQ")

@@ -1,4 +1,4 @@
-"""Reads MCAP record by record, as much as a file has, whatever happened to it."""
+"""Reads MCAP record by record, as far as a damaged file permits."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ _KINDS: dict[int, Callable[[bytes], Record]] = {
 def read_records(path: Path, problems: list[str] | None = None) -> Iterator[Record]:
     """Yield the records of a file in their order, those of its summary last.
 
-    A file that was cut off gives all that came before; what is lost, damaged or passed over is a
-    sentence that is added to ``problems`` at the end. Nothing is held but one record. Raises
-    FlightLogError for a file that is no MCAP or cannot be read.
+    A truncated file yields all records before the cut; losses, damage and skipped parts are added
+    to ``problems`` as sentences at the end. Holds only one record in memory. Raises FlightLogError
+    for a file that is not MCAP or cannot be read.
     """
     noted = Problems(path.name)
     with open_log(path) as file:
@@ -55,7 +55,7 @@ def read_records(path: Path, problems: list[str] | None = None) -> Iterator[Reco
 
 
 def read_record(opcode: int, offset: int, content: bytes, problems: Problems) -> Record | None:
-    """Return a record; None: it is of a kind that only indexes, or malformed, which is noted."""
+    """Return a record; None for an index record, or a malformed one, which is noted."""
     try:
         if opcode == Opcode.ATTACHMENT:
             attached = read_attachment(content, offset)

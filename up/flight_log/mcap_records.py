@@ -10,7 +10,7 @@ from up.flight_log.mcap_format import ATTACHMENT, CHANNEL, MESSAGE, U16, U32, U6
 
 
 class MalformedRecordError(ValueError):
-    """The content of a record breaks its layout; the text says how."""
+    """The content of a record violates its layout; the text says how."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class Header:
 
 @dataclass(frozen=True, slots=True)
 class Schema:
-    """How the messages of a channel are built."""
+    """The layout of a channel's messages."""
 
     id: int
     name: str
@@ -55,7 +55,7 @@ class Message:
 
 @dataclass(frozen=True, slots=True)
 class AttachedFile:
-    """A file within the file: where its ``size`` bytes lie, and whether they are undamaged."""
+    """An attached file: the position of its ``size`` bytes, and whether they are undamaged."""
 
     name: str
     media_type: str
@@ -74,7 +74,7 @@ class Metadata:
 
 
 class Fields:
-    """The fields of one record's content, one after the other; MalformedRecordError: too few."""
+    """The fields of one record's content in order; MalformedRecordError if it is too short."""
 
     def __init__(self, content: bytes) -> None:
         self.at = 0
@@ -109,7 +109,7 @@ class Fields:
         return values
 
     def take(self, size: int) -> bytes:
-        """Return so many bytes."""
+        """Return this many bytes."""
         begin, self.at = self.at, self.at + size
         if self.at > len(self._content):
             raise MalformedRecordError("a field that is longer than its record")
@@ -144,7 +144,7 @@ def read_message(content: bytes) -> Message:
 
 
 def read_attachment(content: bytes, offset: int) -> AttachedFile:
-    """Return what is attached; ``offset`` is where the content lies in the file."""
+    """Return an attachment; ``offset`` is the position of its content in the file."""
     fields = Fields(content)
     time_ns, _ = ATTACHMENT.unpack(fields.take(ATTACHMENT.size))
     name, media_type, size = fields.text(), fields.text(), fields.u64()

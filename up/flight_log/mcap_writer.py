@@ -38,12 +38,12 @@ _CONTENT = MESSAGE.size
 
 
 class McapWriter:
-    """Writes the records of one file, unchunked: what is written is readable, whenever it ends.
+    """Writes the records of one file, unchunked: everything written is readable at any time.
 
     ``write`` takes the bytes of a whole record (`start` and `finish`: of several) and keeps all or
-    raises; what it raises passes through, and the record does not count. ``size`` is the length
-    of the whole records: who truncates a torn file to it may go on. Times are nanoseconds since
-    1970. Topics are JSON with a JSON Schema. Source: https://mcap.dev/spec.
+    raises; its exception passes through, and the record does not count. ``size`` is the length of
+    the whole records: after truncating a torn file to it, writing may continue. Times are
+    nanoseconds since 1970. Topics are JSON with a JSON Schema. Source: https://mcap.dev/spec.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class McapWriter:
         self._put(MAGIC + _record(Opcode.HEADER, self._header))
 
     def add_schema(self, name: str, schema: Mapping[str, Any]) -> int:
-        """Write a JSON Schema and return its identifier; ValueError: there are too many."""
+        """Write a JSON Schema and return its identifier; ValueError if there are too many."""
         number = _next(len(self._schemas), "schemas")
         text = json.dumps(schema, allow_nan=False, separators=(",", ":")).encode()
         content = U16.pack(number) + _text(name) + _text(JSON_SCHEMA) + U32.pack(len(text)) + text
@@ -81,7 +81,7 @@ class McapWriter:
     ) -> int:
         """Write a channel and return its identifier.
 
-        ``schema_id`` 0: without a schema. ValueError: an unknown schema, or too many channels.
+        ``schema_id`` 0: without a schema. ValueError for an unknown schema, or too many channels.
         """
         if not 0 <= schema_id <= len(self._schemas):
             raise ValueError(f"there is no schema {schema_id} for {topic}")
@@ -96,7 +96,7 @@ class McapWriter:
     def message(
         self, channel_id: int, log_time_ns: int, data: bytes, publish_time_ns: int | None = None
     ) -> None:
-        """Write a message; ValueError: an unknown channel, or a time that MCAP cannot hold."""
+        """Write a message; ValueError for an unknown channel, or a time that MCAP cannot hold."""
         try:
             count = self._counts[channel_id]
             record = (
@@ -135,7 +135,7 @@ class McapWriter:
         self._metadata.append(_record(Opcode.METADATA_INDEX, index))
 
     def add_attachment(self, name: str, media_type: str, data: bytes, log_time_ns: int) -> None:
-        """Write a file that belongs to the flight; ValueError: a time that MCAP cannot hold."""
+        """Write an attached file; ValueError for a time that MCAP cannot hold."""
         if not 0 <= log_time_ns < 2**64:
             raise ValueError(f"no attachment {name} at {log_time_ns} ns: there is no such time")
         times, names = ATTACHMENT.pack(log_time_ns, 0), _text(name) + _text(media_type)

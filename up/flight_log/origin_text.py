@@ -1,4 +1,4 @@
-"""Where a logged Command came from, as the flight log writes it."""
+"""The origin of a logged Command, as the flight log writes it."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ KEY = "_origin"
 
 
 def origin_text(origin: Origin) -> str:
-    """Return ``arduino (board)``: link and role; ``internal`` for what a module published."""
+    """Return ``arduino (board)``: link and role; ``internal`` for a module's own Commands."""
     if origin.link == INTERNAL.link:
         return INTERNAL.link
     return f"{origin.link} ({origin.role.value})"
 
 
 def link_and_role(text: object) -> tuple[str, str]:
-    """Return what `origin_text` wrote; two empty texts for anything else."""
+    """Return the link and role in `origin_text`'s result; two empty texts for anything else."""
     if not isinstance(text, str):
         return "", ""
     if text == INTERNAL.link:

@@ -1,4 +1,4 @@
-"""What is wrong with a log's files, counted by kind, so that the worst of them stays short."""
+"""Problems of a log's files, counted by kind, so that even the longest list stays short."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ _MOST_KINDS = 50
 
 
 class Problems:
-    """Sentences about one file; one kind is one sentence, however often it comes."""
+    """Sentences about one file; one sentence per kind, however often it occurs."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -14,7 +14,7 @@ class Problems:
         self._others = 0
 
     def note(self, what: str, offset: int) -> None:
-        """Note that ``what`` was found at that byte of the file."""
+        """Note a problem ``what`` at that byte of the file."""
         known = self._kinds.get(what)
         if known is not None:
             known[1] += 1
@@ -25,7 +25,7 @@ class Problems:
 
     @property
     def sentences(self) -> list[str]:
-        """Return one sentence a kind, each naming the file and the first place."""
+        """Return one sentence per kind, each naming the file and the first position."""
         told = [
             f"{self.name}: {what} (at byte {offset}{f', {count} times' if count > 1 else ''})"
             for what, (offset, count) in self._kinds.items()

@@ -1,4 +1,4 @@
-"""What went wrong in the program: load, gains, modes, the recording itself, errors of its log."""
+"""Faults of the program: load, gains, modes, the recording itself, errors of its log."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from up.flight_log.spans import Span, duration_text
 from up.flight_log.wrong import Judge, Level, Wrong
 
 SILENT_S = 2.0
-"""Something is logged many times a second; nothing at all for so long is told."""
+"""Something is logged many times a second; a total silence this long is reported."""
 LOG_ERROR = 4
 _MOST_LINES = 50
 _HELD = re.compile(r"(\S+) holds the reactor for more than (\d+) ms")
@@ -27,9 +27,9 @@ _RECORDER: tuple[tuple[re.Pattern[str], Level, str], ...] = (
 
 
 def held_up(facts: Facts) -> Iterator[Wrong]:
-    """Whoever held the reactor, and with it everything; logged once, counted in telemetry.
+    """Blocked event loops; logged once each, counted in telemetry.
 
-    While the program starts nobody flies by it yet: that is told, and is nothing that went wrong.
+    Nothing depends on the program during its start: a block then is reported, but is not a fault.
     """
     known = (state.time_s for state in facts.states if state.flight_mode is not None)
     begin_s = next(known, float("-inf"))
@@ -52,7 +52,7 @@ def held_up(facts: Facts) -> Iterator[Wrong]:
 
 
 def panic(facts: Facts) -> Iterator[Wrong]:
-    """Panic Mode: the load was too high and everybody sent less."""
+    """Panic Mode: the load was too high and all senders reduced their rate."""
     commands = {each.time_s: each.data for each in facts.log.messages("up.panic")}
     for span in facts.spans((at_s, data.get("panic") is True) for at_s, data in commands.items()):
         load = number_at(commands[span.begin_s], ("utilization",))
@@ -66,7 +66,7 @@ ANSWER_S = 3.0
 
 
 def gains_changed(facts: Facts) -> Iterator[Wrong]:
-    """Gains that were set while it flew, and by whom."""
+    """Gains set in flight, and by which link."""
     known: Mapping[str, Any] = {}
     answers = [
         (each.time_s, each.data.get("outcome"))
@@ -106,7 +106,7 @@ def provisional(facts: Facts) -> Iterator[Wrong]:
 
 
 def nothing_logged(facts: Facts) -> Iterator[Wrong]:
-    """A gap in everything: the program stood still, or the recording did."""
+    """A gap in all topics: the program or the recording stood still."""
     for begin_s, length_s in facts.log.gaps(SILENT_S):
         armed = facts.was_armed(Span(begin_s, begin_s + length_s))
         text = f"nothing at all was logged for {duration_text(length_s)}"
@@ -114,7 +114,7 @@ def nothing_logged(facts: Facts) -> Iterator[Wrong]:
 
 
 def recording(facts: Facts) -> Iterator[Wrong]:
-    """What the recorder says of itself: a full disk, a slow one, a file that was removed."""
+    """The recorder's own reports: a full disk, a slow one, a deleted file."""
     for line in facts.log_lines:
         for pattern, level, lead in _RECORDER:
             match = pattern.fullmatch(line.text)
@@ -123,7 +123,7 @@ def recording(facts: Facts) -> Iterator[Wrong]:
 
 
 def errors(facts: Facts) -> Iterator[Wrong]:
-    """The errors of the program's log that no other judgment tells; each text once."""
+    """The errors of the program's log that no other judgment reports; each text once."""
     seen: dict[str, list[Any]] = {}
     for line in facts.log_lines:
         if line.level >= LOG_ERROR and not _is_told_elsewhere(line):
@@ -137,7 +137,7 @@ def errors(facts: Facts) -> Iterator[Wrong]:
 
 
 def log_damaged(facts: Facts) -> Iterator[Wrong]:
-    """The log itself: cut off, damaged, parts of it unreadable."""
+    """The log itself: truncated, damaged, partly unreadable."""
     for problem in facts.log.problems:
         yield Wrong(facts.log.length_s, "warning", problem)
 
@@ -156,7 +156,7 @@ def _flies(facts: Facts, time_s: float) -> bool:
 
 
 def _holds(frame: Mapping[str, Any], culprit: str) -> float:
-    """Return how often somebody had held the reactor; the line of the log is the first time."""
+    """Return how often the event loop was blocked, at least 1: the log line is the first time."""
     return max(1.0, number_at(frame.get("counters"), ("reactor", culprit)) or 0.0)
 
 

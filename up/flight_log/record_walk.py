@@ -1,4 +1,4 @@
-"""Walks a file of MCAP from record to record, through one window, however the file ends."""
+"""Walks an MCAP file from record to record, through one window, however the file ends."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ LONGEST_HEAD = CHUNK.size + U32.size + _LONGEST_COMPRESSION + U64.size
 
 
 def fault_of_chunk(head: bytes, length: int) -> tuple[str, int]:
-    """Return what forbids to walk into a chunk, and where in its content the records begin."""
+    """Return why a chunk cannot be walked, and where in its content the records begin."""
     damaged = "a chunk is damaged and passed over"
     at = CHUNK.size + U32.size
     if len(head) < at:
@@ -56,7 +56,7 @@ def fault_of_chunk(head: bytes, length: int) -> tuple[str, int]:
 
 
 class Checksum:
-    """A CRC over the file from one place on; ``end`` is how far it has come."""
+    """A CRC over the file from one position on; ``end`` is its progress."""
 
     def __init__(self, begin: int) -> None:
         self.value = 0
@@ -64,7 +64,7 @@ class Checksum:
         self.end = begin
 
     def take(self, buffer: bytes, base: int, until: int) -> None:
-        """Go on to that byte of the file; ``buffer`` has what is missing, from ``base`` on."""
+        """Continue to that byte of the file; ``buffer`` holds the bytes from ``base`` on."""
         if until > self.end:
             self.value = crc32(memoryview(buffer)[self.end - base : until - base], self.value)
             self.end = until
@@ -73,10 +73,10 @@ class Checksum:
 class RecordWalk:
     """Yields (opcode, offset of the content in the file, its start in ``buffer``, its length).
 
-    The content is ``buffer[start:start + length]`` until the walk goes on. Records inside chunks
-    without compression come like all others. What cannot be read is noted in ``problems``;
-    ``is_complete`` says after the walk whether the file ended as it should. Raises FlightLogError
-    for what is no MCAP at all or cannot be read.
+    The content is ``buffer[start:start + length]``, valid until the next step. Records inside
+    uncompressed chunks are yielded like all others. Unreadable parts are noted in ``problems``;
+    ``is_complete`` says after the walk whether the file ended properly. Raises FlightLogError for a
+    file that is not MCAP or cannot be read.
     """
 
     def __init__(self, file: BinaryIO, problems: Problems) -> None:
@@ -148,7 +148,7 @@ class RecordWalk:
                 self._end_data(place, length)
 
     def _goes_on(self, place: int) -> bool:
-        """Return whether what follows may be a record; asked only behind a strange one."""
+        """Return whether a record may follow; called only after an unexpected one."""
         try:
             head = os.pread(self._file.fileno(), min(_HEAD, self._limit - place), place)
         except OSError as error:
@@ -178,12 +178,12 @@ class RecordWalk:
         self._problems.note(what, place)
 
     def _pass_over(self, place: int) -> bool:
-        """Go on behind a damaged place, where whole records follow again; False: none do."""
+        """Continue after a damaged position, where whole records follow again; False if none do."""
         self._go_to(place + 1)
         while (found := find_messages(self.buffer, self._pos)) < 0:
             if self._base + len(self.buffer) >= self._size:
                 return False
-            # The next window begins before the end of this one: a run may lie across.
+            # The next window begins before the end of this one: a run may cross the boundary.
             at = self._base + max(self._pos + 1, len(self.buffer) - _ACROSS)
             self._go_to(at)
             self._has(min(_WINDOW, self._size - at))
@@ -248,7 +248,7 @@ class RecordWalk:
             self._note_end(place)
 
     def _has(self, needed: int) -> bool:
-        """Return whether so many bytes follow, and have them in the window."""
+        """Return whether this many bytes follow, and load them into the window."""
         if len(self.buffer) - self._pos >= needed:
             return True
         place = self._base + self._pos
@@ -264,7 +264,7 @@ class RecordWalk:
         return len(self.buffer) >= needed
 
     def _go_to(self, place: int) -> None:
-        """Go on at that byte of the file, reading all that lies between for the checksums."""
+        """Continue at that byte of the file, reading all bytes between for the checksums."""
         while place - self._base > len(self.buffer):
             self._pos = len(self.buffer)
             if not self._has(1):

@@ -1,4 +1,4 @@
-"""Finds where records go on after a damaged place in a file: a bad block of a memory card."""
+"""Finds the next record after a damaged position in a file: a bad block of a memory card."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ import re
 from up.flight_log.mcap_format import MESSAGE, RECORD, Opcode
 
 WITNESSES = 3
-"""So many whole records must follow each other: text never looks like that."""
+"""This many whole records must follow each other: text never looks like that."""
 LONGEST = 64 * 1024
-"""Of a record that is taken for one here; what a flight logs is far shorter."""
+"""Maximum length of a record accepted here; the records of a flight are far shorter."""
 LONGEST_RECORD = 16 * 1024 * 1024
-"""What is longer (but a chunk, which is walked into) is passed over; no window ever is."""
+"""Longer records (except chunks, which are walked) are skipped; no window gets larger."""
 _LIKELY = re.compile(rb"\x05[\s\S]{3}\0{5}")
 LAST = int(max(Opcode))
 
 
 def find_messages(buffer: bytes, begin: int) -> int:
-    """Return where, from ``begin`` on, a message and its followers begin; -1: nowhere here.
+    """Return where, from ``begin`` on, a message and its followers begin; -1 if not found.
 
     All of them must lie in the buffer.
     """
@@ -28,13 +28,13 @@ def find_messages(buffer: bytes, begin: int) -> int:
 
 
 def may_follow(head: bytes, left: int) -> bool:
-    """Return whether a record may begin with these bytes where ``left`` bytes are left."""
+    """Return whether a record can begin with these bytes where ``left`` bytes are left."""
     if len(head) < RECORD.size:
         return True
     opcode: int
     length: int
     opcode, length = RECORD.unpack_from(head)
-    # One that was cut off fits no more, but tells no absurd length.
+    # A truncated record no longer fits, but its length is plausible.
     return opcode != 0 and length <= max(left, LONGEST_RECORD)
 
 

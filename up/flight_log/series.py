@@ -18,9 +18,9 @@ def _numbers() -> array[float]:
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """Values and when they were, seconds from the log's first message.
+    """Values and their times, seconds from the log's first message.
 
-    In eight bytes each: as a list of Python's floats an hour of them would take four times that.
+    Eight bytes each: a list of Python floats for an hour would take four times that.
     """
 
     times_s: array[float] = field(default_factory=_numbers)
@@ -31,13 +31,13 @@ class Series:
         return bool(self.values)
 
     def add(self, time_s: float, value: float | None) -> None:
-        """Add what is known at a time."""
+        """Add a value at a time."""
         if value is not None:
             self.times_s.append(time_s)
             self.values.append(value)
 
     def at(self, time_s: float, within_s: float) -> float | None:
-        """Return the value at a time, between its neighbours; None where they are too far apart."""
+        """Interpolate the value at a time; None if its neighbours are too far apart."""
         after = bisect_left(self.times_s, time_s)
         if after < len(self.times_s) and self.times_s[after] == time_s:
             return self.values[after]
@@ -51,14 +51,14 @@ class Series:
 
 
 class Columns:
-    """Collects a series for each field (dotted paths) of the messages that it is given."""
+    """Collects a series for each field (dotted paths) of its messages."""
 
     def __init__(self, fields: Sequence[str]) -> None:
         self.series = {name: Series() for name in fields}
         self._paths = [(tuple(name.split(".")), self.series[name].add) for name in fields]
 
     def take(self, time_s: float, data: Mapping[str, Any]) -> None:
-        """Take what one message tells."""
+        """Add the values of one message."""
         for path, add in self._paths:
             add(time_s, number_at(data, path))
 
@@ -80,7 +80,7 @@ def turn(degrees: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ErrorFigures:
-    """How far one series was from another: its root mean square and its greatest."""
+    """The distance of one series from another: its root mean square and its maximum."""
 
     rms: float
     greatest: float
@@ -89,7 +89,7 @@ class ErrorFigures:
 def error_of(
     series: Series, truth: Series, *, is_angle: bool
 ) -> tuple[Series, ErrorFigures | None]:
-    """Return what was measured less what was true, where both are known, and its figures."""
+    """Return measured minus true values, where both are known, and their statistics."""
     error = Series()
     for time_s, value in zip(series.times_s, series.values, strict=True):
         true = truth.at(time_s, within_s=0.5)

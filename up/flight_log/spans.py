@@ -1,4 +1,4 @@
-"""Stretches of a flight in which something held."""
+"""Spans of a flight in which a condition held."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """From when to when, s; ``is_open``: it held at the end of the log still."""
+    """Start and end, s; ``is_open``: the condition still held at the end of the log."""
 
     begin_s: float
     end_s: float
@@ -16,12 +16,12 @@ class Span:
 
     @property
     def length_s(self) -> float:
-        """Return how long it held, s."""
+        """Return the length, s."""
         return self.end_s - self.begin_s
 
     @property
     def length_text(self) -> str:
-        """Return how long it held as people say it: for 1.2 s, for 2 min 05 s."""
+        """Return the length in words: for 1.2 s, for 2 min 05 s."""
         return f"for {duration_text(self.length_s)}" + (" until the end" if self.is_open else "")
 
 
@@ -41,7 +41,7 @@ def spans_of(states: Iterable[tuple[float, bool]], end_s: float) -> list[Span]:
 
 
 def joined(spans: Sequence[Span], apart_s: float) -> list[Span]:
-    """Return the spans, those as one that are not further apart."""
+    """Return the spans, merging those that are at most this far apart."""
     found: list[Span] = []
     for span in spans:
         if found and span.begin_s - found[-1].end_s <= apart_s:

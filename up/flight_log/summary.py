@@ -28,7 +28,7 @@ SOURCES: dict[str, str] = {
     "battery": "android.battery",
     "telemetry": TELEMETRY,
 }
-"""Whose longest gap is told, by the names that telemetry has for readings."""
+"""Readings whose longest gap is reported, by their names in telemetry."""
 ALTITUDE = "up.altitude.change"
 BATTERY = "android.battery"
 MARK = "black_box.mark"
@@ -38,7 +38,7 @@ _MOST_VETOES = 100
 
 @dataclass(frozen=True, slots=True)
 class ModeSpan:
-    """A stretch that was flown in one mode; times in s."""
+    """A span flown in one mode; times in s."""
 
     mode: str
     begin_s: float
@@ -47,7 +47,7 @@ class ModeSpan:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """An event that somebody on the ground noted."""
+    """An event that the ground recorded."""
 
     time_s: float
     text: str
@@ -55,10 +55,10 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class FlightSummary:
-    """What a flight was; what the log does not tell is None or empty.
+    """The summary of a flight; values that the log does not contain are None or empty.
 
-    Altitudes are above sea level. ``gaps_s`` is the longest silence of each source that spoke.
-    ``vetoes`` are what forbade arming at some time. ``warnings`` and ``errors`` count lines of the
+    Altitudes are above sea level. ``gaps_s`` is the longest silence of each source that sent data.
+    ``vetoes`` lists every arming veto of the flight. ``warnings`` and ``errors`` count lines of the
     program's log.
     """
 
@@ -88,12 +88,12 @@ class FlightSummary:
 
     @property
     def armed_s(self) -> float:
-        """Return for how long it was armed, s."""
+        """Return how long it was armed, s."""
         return sum(span.length_s for span in self.armed)
 
 
 def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
-    """Return the summary of a flight; ``facts`` spares a second look (see `wrongs`)."""
+    """Return the summary of a flight; ``facts`` avoids a second pass (see `wrongs`)."""
     facts = facts or Facts(log)
     flight = log.metadata.get("flight", {})
     way = way_of(log)
@@ -141,7 +141,7 @@ def _modes(facts: Facts) -> Iterator[ModeSpan]:
 
 
 def altitudes_m(log: FlightLog) -> Iterator[float]:
-    """Yield the altitudes (m) of the source that was followed, not those that were required."""
+    """Yield the measured altitudes (m) of the followed source."""
     for _, data in followed(log, "altitude", ALTITUDE):
         altitude_m = number_at(data, ("altitude",))
         if altitude_m is not None:
@@ -155,7 +155,7 @@ def _gaps_s(log: FlightLog) -> Iterator[tuple[str, float]]:
 
 
 def _vetoes(facts: Facts) -> list[str]:
-    """Return the board's and the program's vetoes in the order in which they were first told."""
+    """Return the board's and the program's vetoes in the order of their first report."""
     seen: dict[str, None] = {}
     for each in _told_vetoes(facts):
         seen[each] = None

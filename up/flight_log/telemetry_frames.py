@@ -1,4 +1,4 @@
-"""The telemetry of a flight, frame after frame, as the ground saw it or would have seen it."""
+"""The telemetry of a flight, frame by frame, as the ground received or would have received it."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from up.flight_log.way import fixes
 
 TELEMETRY = "up.telemetry.update"
 MISSING_S = 0.5
-"""So long after a logged frame the frames are made from the other topics."""
+"""After this long without a logged frame, frames are built from the other topics."""
 _SILENT_S = 1.5
-"""Where nothing came for longer, the aircraft may have said nothing: no frame is made up."""
+"""After a longer gap the aircraft may have sent nothing: no frame is built."""
 _SHORTEST_S = 0.01
 _WARM_UP_S = 10.0
 _BEACON = "_beacon"
@@ -34,9 +34,9 @@ class Frame:
 def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Iterator[Frame]:
     """Yield the telemetry in the order of time (docs/protocols.md 6).
 
-    Where telemetry was logged it is given as it is. Where none was (nobody wanted it, the link was
-    away), a frame is made every ``period_s`` from the Commands, with the ages of that moment.
-    ``since_s`` begins later. Raises FlightLogError when a file cannot be read any more.
+    Logged telemetry is returned unchanged. Without it (no subscriber, or no link), a frame is built
+    every ``period_s`` from the Commands, with the ages of that moment. ``since_s`` skips the time
+    before it. Raises FlightLogError when a file can no longer be read.
     """
     if _is_all_there(log):
         for message in log.messages(TELEMETRY, since_s=since_s):
@@ -48,7 +48,7 @@ def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Itera
     due_s = newest_s = logged_s = -1.0
     for message in log.messages(TELEMETRY, *TOPICS, since_s=max(0.0, since_s - _WARM_UP_S)):
         now_s = message.time_s
-        # Who sent telemetry up to then stands still when nothing at all is logged.
+        # After recent telemetry, silence in all topics means that the program stood still.
         limit_s = MISSING_S if newest_s - logged_s < MISSING_S else _SILENT_S
         while 0.0 <= due_s < min(now_s, newest_s + limit_s):
             if due_s >= since_s:

@@ -93,4 +93,4 @@ PROPERTIES: dict[str, Any] = {
         }
     ),
 }
-"""What a module contributes besides is in the messages and not in the schema."""
+"""Additional content of modules is in the messages and not in the schema."""

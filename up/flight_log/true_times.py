@@ -1,4 +1,4 @@
-"""Which times of a log cannot be: a damaged message may claim any moment of 584 years."""
+"""Impossible times in a log: a damaged message may claim any moment of 584 years."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from statistics import median_low
 
 _SECOND_NS = 1_000_000_000
 FAR_NS = 60 * _SECOND_NS
-"""A recorder writes in the order of time; what came so much earlier or later is looked at."""
+"""A recorder writes in the order of time; a larger jump is checked."""
 ENDLESS_NS = 3600 * _SECOND_NS
-"""A last message so far from the rest is none of the flight: nothing follows it."""
+"""A last message this far from the rest does not belong to the flight: nothing follows it."""
 _NEIGHBOURS = 16
 
 
 def strays(times_ns: Sequence[int]) -> Iterator[int]:
-    """Yield the places of times, in the order of the file, that their neighbours contradict.
+    """Yield the positions of times, in the order of the file, that their neighbours contradict.
 
-    A jump that the next messages make as well is none: the flight goes on there.
+    A jump that the next messages confirm is accepted: the flight continues there.
     """
     steps = list(map(sub, times_ns[1:], times_ns))
     if not steps or (max(steps) <= FAR_NS and min(steps) >= -FAR_NS):
@@ -31,7 +31,7 @@ def strays(times_ns: Sequence[int]) -> Iterator[int]:
 
 
 def _beginning(first: Sequence[int]) -> int:
-    """Return the time from which the first message is judged."""
+    """Return the time against which the first message is checked."""
     middle = median_low(first)
     near = sum(abs(each - middle) <= FAR_NS for each in first)
     return middle if 2 * near > len(first) else first[0]
@@ -44,9 +44,9 @@ def _is_stray(times_ns: Sequence[int], place: int, before: int) -> bool:
     near_it = sum(abs(each - time_ns) <= FAR_NS for each in after)
     earlier = times_ns[max(0, place - _NEIGHBOURS) : place]
     if 4 * sum(abs(each - time_ns) <= FAR_NS for each in (*earlier, *after)) > len(after):
-        # Damage does not hit the same moment again and again: several sources take turns.
+        # Damage does not hit the same moment repeatedly: several sources take turns.
         return False
     if near_before == near_it:
-        # Nothing says which of the two is right, at the end of a file above all.
+        # Which of the two is right cannot be decided, especially at the end of a file.
         return not after and place >= _NEIGHBOURS and abs(time_ns - before) > ENDLESS_NS
     return near_before > near_it

@@ -1,4 +1,4 @@
-"""The way of the aircraft over the ground: its length, its speed, how far from home it was."""
+"""The track of the aircraft over the ground: length, speed, distance from home."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from up.flight_log.json_message import number_at
 
 LOCATION = "up.location.update"
 _STEP_M = 5.0
-"""A smaller step is the receiver's noise: an aircraft that stands has no way."""
+"""A smaller step is receiver noise: a standing aircraft covers no distance."""
 _FASTEST_M_S = 150.0
 """A faster step is a jump of the receiver."""
 _JUMPS = 3
@@ -22,7 +22,7 @@ _SPEED_OVER_S = 2.0
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """A place, degrees (WGS 84); altitude m and speed m/s where the receiver tells them."""
+    """A position, degrees (WGS 84); altitude m and speed m/s if the receiver reports them."""
 
     time_s: float
     latitude_deg: float
@@ -33,7 +33,7 @@ class Fix:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """Metres and metres a second; None where there are too few places."""
+    """Metres and metres per second; None if there are too few positions."""
 
     length_m: float | None
     farthest_m: float | None
@@ -43,7 +43,7 @@ class Way:
 
 
 def fixes(log: FlightLog) -> Iterator[Fix]:
-    """Yield the places of the source that was followed; a repeated one is none."""
+    """Yield the positions of the followed source; a repeated one does not count."""
     followed = Followed(log)
     last: tuple[float, float] | None = None
     for message in log.messages(LOCATION):
@@ -57,7 +57,7 @@ def fixes(log: FlightLog) -> Iterator[Fix]:
 
 
 def way_of(log: FlightLog) -> Way:
-    """Return the way from the first place, which is home."""
+    """Return the track from the first position, which is home."""
     home = last = marked = None
     length_m = farthest_m = 0.0
     told_m_s: list[float] = []
@@ -71,7 +71,7 @@ def way_of(log: FlightLog) -> Way:
             jumps += 1
             if jumps < _JUMPS:
                 continue
-            # It stays there: it was the place before that was wrong, or nothing came for long.
+            # It stays there: the earlier position was wrong, or none arrived for a long time.
             home = home if farthest_m else fix
             last = marked = fix
         jumps = 0

@@ -1,4 +1,4 @@
-"""Something that went wrong in a flight."""
+"""A fault in a flight."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ Level = Literal["info", "warning", "alarm"]
 
 @dataclass(frozen=True, slots=True)
 class Wrong:
-    """What went wrong, in plain words; ``time_s`` counts from the log's first message.
+    """A fault in plain words; ``time_s`` counts from the log's first message.
 
-    ``length_s``: for how long, where it lasted. ``code`` and ``values``: the same for programs, of
-    those kinds that have a code.
+    ``length_s``: its duration, if it lasted. ``code`` and ``values``: the same for programs, for
+    kinds that have a code.
     """
 
     time_s: float
@@ -28,4 +28,4 @@ class Wrong:
 
 
 Judge = Callable[[Facts], Iterator[Wrong]]
-"""Looks at a flight for one kind of thing; a new kind is a function and its entry in a table."""
+"""Searches a flight for one kind of fault; a new kind is a function and an entry in a table."""

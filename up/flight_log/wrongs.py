@@ -1,4 +1,4 @@
-"""What went wrong in a flight, in plain words and in the order of time."""
+"""The faults of a flight, in plain words and in the order of time."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ _LONGEST_TEXT = 500
 
 
 def wrongs(log: FlightLog, facts: Facts | None = None) -> list[Wrong]:
-    """Return what went wrong; texts are one line, safe for a terminal.
+    """Return the faults; texts are one line, safe for a terminal.
 
-    ``facts`` spares a second look at what another summary of the same log has read.
+    ``facts`` reuses the data that another summary of the same log has read.
     """
     facts = facts or Facts(log)
     found = [wrong for judge in JUDGMENTS for wrong in _bounded(judge(facts))]
@@ -35,7 +35,7 @@ def wrongs(log: FlightLog, facts: Facts | None = None) -> list[Wrong]:
 
 
 def _bounded(found: Iterable[Wrong]) -> Iterator[Wrong]:
-    """Yield the first of one kind, and of the rest how many they are."""
+    """Yield the first faults of a kind, and the number of the rest."""
     more: Wrong | None = None
     count = 0
     for count, each in enumerate(found, 1):

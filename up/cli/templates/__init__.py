@@ -1,1 +1,1 @@
-"""What 'up create' writes, as string.Template files, one for each file."""
+"""The files that 'up create' writes, as string.Template files."""
