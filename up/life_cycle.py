@@ -17,21 +17,21 @@ from up.up import Up
 
 START_LIMIT_S = 10.0
 STOP_LIMIT_S = 1.8
-"""For all stops together; the program is ended by force a little later."""
+"""For all stops together; a little later the process is ended by force."""
 ONE_STOP_LIMIT_S = 1.5
-"""For one that hangs; what is left of the time is shared by those that come after it."""
-# sys.exit() in a module is a fault of that module, no wish of the program.
+"""For one module that hangs; the modules after it share the rest of STOP_LIMIT_S."""
+# sys.exit() in a module is a fault of that module; it must not end the program.
 _FAULTS = (Exception, SystemExit)
 
 
 class BootStoppedError(Exception):
-    """The start came to an end that the system must not run with; the text is one sentence."""
+    """The start ended in a state in which the system must not run; the text is one sentence."""
 
 
 class LifeCycle:
-    """Takes an initialized Up through start and stop, each module guarded and bounded in time.
+    """Starts and stops the modules of an initialized Up, each guarded and bounded in time.
 
-    What needs a module that failed is not started either. A failure is an arming veto by name.
+    Modules that need a failed one are not started either. A failure is an arming veto by name.
     """
 
     log = Logger()
@@ -50,9 +50,9 @@ class LifeCycle:
         self._is_stopping = False
 
     async def start(self) -> None:
-        """Start every module in order; raises BootStoppedError with the reason of the end.
+        """Start every module in order; raises BootStoppedError with the reason for the end.
 
-        A stop meanwhile gives up the module that starts, and starts no other.
+        A stop during the start abandons the starting module and starts no other.
         """
         for module in list(self._up.modules):
             if self._is_stopping:
@@ -71,9 +71,9 @@ class LifeCycle:
             self._check_sources()
 
     async def stop(self) -> None:
-        """Stop what was started, in reverse; one that hangs or raises does not keep the others.
+        """Stop the started modules in reverse; one that hangs or raises does not block the others.
 
-        What a start that is given up has opened is closed first. It takes STOP_LIMIT_S at most.
+        First closes what an abandoned start has opened. Takes STOP_LIMIT_S at most.
         """
         self._is_stopping = True
         unfinished = self._unfinished
@@ -98,7 +98,7 @@ class LifeCycle:
 
     @property
     def is_healthy(self) -> bool:
-        """Return whether every started module says that it does its work."""
+        """Return whether every started module reports that it works."""
         for module in self.started:
             try:
                 if not module.is_healthy:
@@ -137,7 +137,7 @@ class LifeCycle:
         return result
 
     async def _close(self, module: BaseStartedModule, limit_s: float) -> None:
-        """Stop a module that is not started: what its start opened may be half open."""
+        """Stop a module that is not started: its start may have opened resources."""
         try:
             await self._bounded(module.stop(), limit_s)
         except TimeoutError:
@@ -168,7 +168,7 @@ class LifeCycle:
             )
 
     def _bounded(self, work: Coroutine[Any, Any, Any], limit_s: float) -> Deferred[Any]:
-        """Return what becomes of the work; after the limit a TimeoutError, whatever it does."""
+        """Return the outcome of the work; after the limit a TimeoutError, whatever it does."""
         task: Deferred[Any] = Deferred.fromCoroutine(work)
         outcome: Deferred[Any] = Deferred(lambda _: task.cancel())
 

@@ -1,4 +1,4 @@
-"""Deep merging of what modules contribute to telemetry (thesis 4.1.2)."""
+"""Deep merging of the modules' telemetry content (thesis 4.1.2)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ DEEPEST = 16
 LONGEST = 1000
 _INT_LIMIT = 2**63
 _PLAIN = frozenset((bool, int, float, str, type(None)))
-"""Spares what is never a map the question whether it is one, which is slow."""
+"""Types that are never a map: skips the slow isinstance check."""
 
 
 def merge(
@@ -19,12 +19,12 @@ def merge(
 ) -> dict[str, Any]:
     """Merge (module name, content) pairs; maps are merged, everything else is a value.
 
-    Two different values under one key are a conflict: ``on_conflict(key path, first module, later
-    module)`` is told, the earlier value stays and only the later module's key is dropped. Numbers
-    that are not finite become null. What JSON or a General Message does not have (other types,
-    nesting beyond ``DEEPEST``, text or lists beyond ``LONGEST``, whole numbers of more than 64
-    bits, lone surrogates) is dropped as a conflict of the module with itself, and so is the rest
-    of a map that fails while it is read.
+    Two different values under one key are a conflict: calls ``on_conflict(key path, first module,
+    later module)``, keeps the earlier value and drops only the later module's key. Numbers that are
+    not finite become null. Values that JSON or a General Message cannot hold (other types, nesting
+    beyond ``DEEPEST``, text or lists beyond ``LONGEST``, integers of more than 64 bits, lone
+    surrogates) are dropped as a conflict of the module with itself, and so is the rest of a map
+    that raises while being read.
     """
     merged: dict[str, Any] = {}
     owners: dict[tuple[str, ...], str] = {}

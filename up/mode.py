@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class Mode(Enum):
-    """How the system runs; ``AUTO`` is Flight Controller Mode until no Arduino answers."""
+    """The mode of the system; ``AUTO`` is Flight Controller Mode until no Arduino answers."""
 
     AUTO = "auto"
     FLIGHT_CONTROLLER = "flight controller"

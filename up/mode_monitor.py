@@ -1,4 +1,4 @@
-"""Which mode the system is in, and what the ground is told of it (thesis 2.4.7, 4.1.3)."""
+"""The mode of the system, as telemetry shows it (thesis 2.4.7, 4.1.3)."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ BOARD_LINK = "arduino"
 
 
 class ModeMonitor(BaseStartedModule):
-    """Says Black Box Mode provisionally while no frame of the Arduino comes, in mode ``auto``.
+    """Reports Black Box Mode provisionally while no frame of the Arduino arrives, in mode ``auto``.
 
-    Flight Controller Mode comes back by itself when the Arduino answers. Without the wish
-    ``auto`` the mode is what the configuration says.
+    Flight Controller Mode returns automatically when the Arduino answers. Any other
+    configured mode is constant.
     """
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:

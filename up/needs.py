@@ -1,4 +1,4 @@
-"""How a module says which other modules it uses; the loader orders and fills in by it."""
+"""Declares which other modules a module uses; the loader orders and injects them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _M = TypeVar("_M")
 
 @dataclass(slots=True, eq=False)
 class Need:
-    """A declared reference to the loaded module of a class; ``optional``: None where absent."""
+    """A declared reference to the loaded module of a class; if ``optional``, None when absent."""
 
     wanted: type[BaseModule]
     optional: bool
@@ -34,21 +34,21 @@ class Need:
 
 
 def needs(module: type[_M]) -> _M:
-    """Declare a module that this one cannot do without: ``serial = needs(SerialProvider)``.
+    """Declare a module that this one requires: ``serial = needs(SerialProvider)``.
 
-    The needed module is initialized and started before, stopped after, and its absence is an
-    error of the boot.
+    The needed module is initialized and started before, stopped after, and its absence is a boot
+    error.
     """
     return cast(_M, Need(cast(Any, module), optional=False))
 
 
 def wants(module: type[_M]) -> _M | None:
-    """Declare a module that this one uses where it is loaded, and does without where not."""
+    """Declare a module that this one uses if it is loaded; otherwise the reference is None."""
     return cast("_M | None", Need(cast(Any, module), optional=True))
 
 
 def declared_needs(cls: type) -> tuple[Need, ...]:
-    """Return what a module class declared, its base classes' declarations among them."""
+    """Return the declarations of a module class, including those of its base classes."""
     found: dict[str, Need] = {}
     for base in reversed(cls.__mro__):
         found.update({n: each for n, each in vars(base).items() if isinstance(each, Need)})

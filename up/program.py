@@ -1,4 +1,4 @@
-"""A program that runs an application on Up: from the command line to the exit status."""
+"""The program of an Up application: from the command line to the exit status."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class Program:
         return self._exit_status
 
     def stop(self, why: str) -> None:
-        """Stop everything and then the reactor; a second call changes nothing."""
+        """Stop everything and then the reactor; idempotent."""
         if self._stopping:
             return
         self._stopping = True
@@ -110,7 +110,7 @@ class Program:
         self._tell_ports()
         self._notifier.ready(f"{len(self._life.started)} modules run")
         self._collector.start()
-        # After the reactor's next wait, which is before the second call: this turn is the start's.
+        # Runs after the reactor's next wait: the current turn belongs to the start.
         later = self._reactor.callLater
         later(0, later, 0, setattr, self._monitor, "has_started", True)
         self.log.info("{count} modules run", count=len(self._life.started))
@@ -141,7 +141,7 @@ class Program:
         self._signals += 1
         if self._signals > 1:
             _force(128 + number)
-        # Asked for here, as something may hold the reactor that would have to do it.
+        # Requested here, because a blocked event loop could not do it.
         self._forced_end.ask(EXIT_STOPPED)
         self._reactor.callFromThread(self.stop, signal.Signals(number).name)
 
@@ -156,8 +156,8 @@ def run_application(
 ) -> int:
     """Run the application that a folder belongs to; return the exit status.
 
-    A folder without any configuration file is refused unless ``use_defaults``. What a user can
-    mend is one sentence a problem on stderr, all at once, and exit status 2.
+    A folder without any configuration file is refused unless ``use_defaults``. Errors that a user
+    can fix are all printed on stderr, one sentence each, with exit status 2.
     """
     from twisted.internet import reactor
 
@@ -197,14 +197,14 @@ def _more_problems(
     config_folder: Path | None,
     environ: Mapping[str, str],
 ) -> list[str]:
-    """Return what ``up check`` finds: the error that ended the boot hides those behind it."""
+    """Return the result of ``up check``: the error that ended the boot hides later ones."""
     try:
         context = make_context(application, reactor, config_folder, environ)
     except ConfigErrors:
         words = {**environ, "UP_MODE": Mode.AUTO.value}
         context = make_context(application, reactor, config_folder, words)
     except BootError:
-        # No such folder or no such mode: there is nothing that could be looked at.
+        # The folder or mode does not exist: there is nothing to check.
         return []
     return check_application(application, context).problems
 
@@ -215,7 +215,7 @@ def make_context(
     config_folder: Path | None,
     environ: Mapping[str, str] = os.environ,
 ) -> Context:
-    """Return the context of a run; raises ConfigErrors or BootError for a wrong UP_MODE."""
+    """Return the context of a run; raises ConfigErrors, or BootError for an invalid UP_MODE."""
     folder = application.config_folder if config_folder is None else config_folder.resolve()
     if config_folder is not None and not folder.is_dir():
         raise BootError(f"--config {config_folder}: no such folder")

@@ -1,4 +1,4 @@
-"""The base of the Registrars of cogs that were made for the prototype of Up.
+"""The base of the Registrars of cogs written for the prototype of Up.
 
 New cogs extend ``up.cogs.up_registrant.UpRegistrant`` instead.
 """
@@ -21,10 +21,10 @@ from up.loading.external_modules import ModuleEntry
 
 
 class UpRegistrar:
-    """Enters a cog's modules and creates its configuration, with the prototype's vocabulary.
+    """Registers a cog's modules and creates its configuration, with the prototype's interface.
 
     An old cog's ``Registrar`` overrides ``register`` and calls the methods below; it works on the
-    application that the current folder belongs to.
+    application of the current folder.
     """
 
     EXTERNAL_MODULES_FILE = _FILE
@@ -37,12 +37,12 @@ class UpRegistrar:
         self._modules: dict[ModuleEntry, None] = {}
 
     def register(self) -> bool:
-        """Register what the cog's manifest lists."""
+        """Register the modules of the cog's manifest."""
         self._register_modules_from_file()
         return self._write_external_modules()
 
     def finish(self) -> bool:
-        """Write what was registered; tell whether the cog was not registered like that before."""
+        """Write the registration; return whether it changed."""
         registry = Registry(self._application.root)
         self.changed |= registry.add(self.cog_name, tuple(self._modules), self.source)
         return self.changed

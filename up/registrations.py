@@ -1,4 +1,4 @@
-"""What a module registered with the system, so that it can be taken back as a whole."""
+"""The registrations of a module, so that they can be undone as a whole."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ Undo = Callable[[], object]
 class Registrations:
     """Notes what is registered while a module is initialized and started.
 
-    Whatever the system offers for registering says with ``note_undo`` how it is taken back. A
-    start that goes on later keeps its module: the note is a context variable, which coroutines
-    carry along.
+    Every registering method of the system calls ``note_undo`` with the undo function. An
+    asynchronous start keeps its module: the current registrations are a context variable, which
+    coroutines inherit.
     """
 
     def __init__(self) -> None:
@@ -24,7 +24,7 @@ class Registrations:
 
     @contextmanager
     def noted(self) -> Iterator[None]:
-        """Note what is registered meanwhile, also by coroutines that begin meanwhile."""
+        """Note registrations inside the context, including those of coroutines started in it."""
         token = _noting.set(self)
         try:
             yield
@@ -32,18 +32,18 @@ class Registrations:
             _noting.reset(token)
 
     def undo(self) -> None:
-        """Take everything back, the newest first; what comes after is taken back at once."""
+        """Undo everything, newest first; later registrations are undone immediately."""
         self._is_over = True
         while self._undos:
             self._undos.pop()()
 
     def keep(self) -> None:
-        """Let everything stand for good; what comes after is not noted."""
+        """Keep everything permanently; later registrations are not noted."""
         self._is_kept = True
         self._undos.clear()
 
     def add(self, undo: Undo) -> None:
-        """Note one thing."""
+        """Note one undo function."""
         if self._is_over:
             undo()
         elif not self._is_kept:
@@ -54,7 +54,7 @@ _noting: ContextVar[Registrations | None] = ContextVar("registrations", default=
 
 
 def note_undo(undo: Undo) -> None:
-    """Say how what was just registered is taken back; to do so must be harmless at any time."""
+    """Note how to undo the registration just made; the function must be harmless at any time."""
     registrations = _noting.get()
     if registrations is not None:
         registrations.add(undo)

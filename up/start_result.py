@@ -1,4 +1,4 @@
-"""What a module's start came to (thesis 4.1.3)."""
+"""The result of a module's start (thesis 4.1.3)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class StartResult(Enum):
-    """How the boot goes on after a module's start."""
+    """How the boot continues after a module's start."""
 
     STARTED = "started"
     FAILED_GO_ON = "failed, go on"
@@ -14,4 +14,4 @@ class StartResult(Enum):
 
 
 class StartFailedError(Exception):
-    """Raised by a start that failed for a reason that a user can mend; the text is one sentence."""
+    """Raised by a start that failed for a reason that a user can fix; the text is one sentence."""

@@ -1,4 +1,4 @@
-"""Asks every module for its telemetry, merges it and sends it (thesis 4.1.2, 4.1.5)."""
+"""Collects every module's telemetry, merges it and sends it (thesis 4.1.2, 4.1.5)."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from up.system.clock import Timer
 
 DEFAULT_PERIOD_MS = 100.0
 IDLE_LOOK_S = 2.0
-"""How soon a subscriber is noticed that begins to want telemetry without a link that comes up."""
+"""Polling period for a subscriber that starts to want telemetry without a new link."""
 
 
 class TelemetryController(BaseStartedModule):
     """Publishes a TelemetryCommand every period; the ground sets the period, panic lengthens it.
 
     A module whose ``telemetry_content`` raises contributes nothing to that frame; a conflict drops
-    the later module's key. Each is named once and counted. Nothing is collected while nobody wants
-    it: a subscriber may have a ``wants_telemetry`` that is false as long as its own peers are away.
+    the later module's key. Each is logged once and counted. Nothing is collected without a
+    consumer: a subscriber may have a ``wants_telemetry`` that is false while it has no peers.
     """
 
     LOAD_ORDER: ClassVar[int] = sys.maxsize
@@ -45,7 +45,7 @@ class TelemetryController(BaseStartedModule):
 
     @property
     def period_ms(self) -> float:
-        """Return the period that is kept now."""
+        """Return the current period."""
         return max(self.wanted_period_ms, float(self.panic_delay_ms))
 
     @property
@@ -59,7 +59,7 @@ class TelemetryController(BaseStartedModule):
 
     @property
     def is_wanted(self) -> bool:
-        """Return whether a subscriber of telemetry wants it now."""
+        """Return whether a subscriber of telemetry wants it."""
         return any(
             getattr(getattr(handler, "__self__", None), "wants_telemetry", True)
             for handler in self.up.command_executor.handlers_of(TelemetryCommand)
@@ -106,19 +106,19 @@ class TelemetryController(BaseStartedModule):
     def _reschedule(self) -> None:
         if self._timer is None or not self._timer.active():
             return
-        # A longer period begins after the frame that tells it to the ground.
+        # A longer period begins after the frame that reports it to the ground.
         if self._sent_s + self.period_ms / 1000 < self._due_s:
             self._timer.cancel()
             self._schedule()
 
     def _schedule(self) -> None:
-        # Counted from the frame before: whoever sets the period again and again delays nothing.
+        # Counted from the previous frame: repeated changes of the period cause no delay.
         now_s = self.context.reactor.seconds()
         self._due_s = max(self._sent_s + self.period_ms / 1000, now_s)
         self._timer = self.context.reactor.callLater(self._due_s - now_s, self._transmit)
 
     def _transmit(self) -> None:
-        # The first frame is always collected: a module whose telemetry fails is named at once.
+        # The first frame is always collected, so that failing telemetry is reported immediately.
         if self.frames and not self.is_wanted:
             self._timer = self.context.reactor.callLater(IDLE_LOOK_S, self._transmit)
             self._due_s = self.context.reactor.seconds() + IDLE_LOOK_S
@@ -143,7 +143,7 @@ class TelemetryController(BaseStartedModule):
             if content is None or isinstance(content, Mapping):
                 return content
             raise TypeError(f"telemetry_content is {type(content).__name__}, no map")
-        except (Exception, SystemExit):  # noqa: BLE001 - a fault must not cost the whole frame
+        except (Exception, SystemExit):  # noqa: BLE001 - a fault costs one module's part of the frame
             self.faults += 1
             if self._said.first(module.path):
                 self.logger.failure("the telemetry of {name} failed", name=module.class_name)

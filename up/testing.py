@@ -1,4 +1,4 @@
-"""For the tests of modules: a small system whose time only the test moves."""
+"""Tools for testing modules: a small system whose time only the test advances."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _STEP_S = 0.005
 class StillClock(Clock):
     """A reactor without sockets, whose time stands still until ``advance``.
 
-    What threads hand over waits until it is taken with ``take_call``.
+    Calls from threads wait until the test runs them with ``take_call``.
     """
 
     def __init__(self) -> None:
@@ -36,18 +36,18 @@ class StillClock(Clock):
         self._handed_over: queue.Queue[Callable[[], Any]] = queue.Queue()
 
     def callFromThread(self, call: Callable[..., Any], *args: Any, **kwargs: Any) -> None:  # noqa: N802
-        """Keep a call for the thread that moves the clock."""
+        """Queue a call for the thread that moves the clock."""
         self._handed_over.put(lambda: call(*args, **kwargs))
 
     def take_call(self, timeout_s: float = THREAD_LIMIT_S) -> None:
-        """Wait for a thread's next call and make it; raises queue.Empty when none comes."""
+        """Wait for a thread's next call and run it; raises queue.Empty after the timeout."""
         self._handed_over.get(timeout=timeout_s)()
 
 
 class Bench:
     """A system of the given module classes, initialized; ``clock`` moves its time.
 
-    Configuration is read from a folder, which may be empty. Raises BootError as a boot would.
+    Reads configuration from a folder, which may be empty. Raises BootError as a boot would.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class Bench:
         self._life = LifeCycle(self.up)
 
     def module(self, cls: type[_M]) -> _M:
-        """Return the module of a class; raises LookupError where it is not in the system."""
+        """Return the module of a class; raises LookupError if it is not in the system."""
         found = self.up.get_module(cls)
         if found is None:
             raise LookupError(f"{cls.__name__} is not in this system")
@@ -78,7 +78,7 @@ class Bench:
         self._finish(self._life.stop())
 
     def advance(self, *steps_s: float) -> None:
-        """Let time pass, one step after the other."""
+        """Advance time in steps."""
         self.clock.pump(steps_s)
 
     def _finish(self, work: Coroutine[Any, Any, None]) -> None:
@@ -88,7 +88,7 @@ class Bench:
         while not outcome:
             if time.monotonic() > deadline_s:
                 raise TimeoutError(f"not done after {THREAD_LIMIT_S:.0f} s")
-            # Threads need real time to end; the modules' own limits count in the clock's.
+            # Threads need real time to end; the modules' own limits use the fake clock's.
             time.sleep(_STEP_S)
             self.clock.advance(_STEP_S)
         if hasattr(outcome[0], "raiseException"):

@@ -1,4 +1,4 @@
-"""The assembled system: modules, bus, and what they share (thesis 3.2.1)."""
+"""The assembled system: modules, bus, and their shared services (thesis 3.2.1)."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from up.registrations import Registrations, note_undo
 from up.vetoes import Vetoes
 
 LOG_INTERVAL_S = 30.0
-"""A refused Command or a fault of a thread is logged immediately, and then as a count so often."""
+"""A refused Command or a thread's fault is logged immediately, then as a count per interval."""
 
 _M = TypeVar("_M")
 
 
 class Up:
-    """Everything that modules reach: each other, the bus, the receiver, the vetoes.
+    """The services that modules use: each other, the bus, the receiver, the vetoes.
 
     Built by UpLoader; ``initialize`` takes the modules through the initialization phase, and
     LifeCycle starts and stops them.
@@ -106,7 +106,7 @@ class Up:
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return what the system itself contributes to telemetry."""
+        """Return the system's own part of telemetry."""
         executor = self.command_executor
         now_s = self.context.reactor.seconds()
         return {
@@ -125,7 +125,7 @@ class Up:
         }
 
     def advertise_port(self, name: str, port: int) -> None:
-        """Say which port a module really bound; the log and a supervisor are told."""
+        """Set the port that a module bound; it is logged and reported to the supervisor."""
         self.ports[name] = port
         note_undo(lambda: self._take_port_back(name, port))
         self.log.info("{name} listens on port {port}", name=name, port=port)
@@ -140,9 +140,9 @@ class Up:
         return CommandLink(name, role, send, self.context.reactor, **more)
 
     def initialize(self) -> None:
-        """Take every module, then every handler, through the initialization phase.
+        """Run the initialization phase of every module, then of every handler.
 
-        A module that raises is taken out, with what needs it; it becomes an arming veto by name.
+        A module that raises is removed, with those that need it; it becomes an arming veto by name.
         """
         for module in list(self._modules):
             missing = self.missing_need(module)
@@ -152,25 +152,25 @@ class Up:
             try:
                 with self.registrations_of(module).noted():
                     module.initialize(self)
-            except (Exception, SystemExit) as error:  # noqa: BLE001 - one module, not all of them
+            except (Exception, SystemExit) as error:  # noqa: BLE001 - a fault costs one module
                 self.log.failure("{name} failed to initialize", name=module.path)
                 self.exclude(module, f"failed to initialize: {type(error).__name__}: {error}")
         for handler in self._handlers:
             self._register(handler)
 
     def registrations_of(self, module: BaseModule) -> Registrations:
-        """Return what notes the registrations of a module."""
+        """Return the registrations of a module."""
         return self._registrations[id(module)]
 
     def missing_need(self, module: BaseModule) -> BaseModule | None:
-        """Return a module that this one cannot do without and that was excluded, or None."""
+        """Return an excluded module that this one needs, or None."""
         return next((each for each in needed_by(module) if each in self._excluded), None)
 
     def exclude(self, module: BaseModule, reason: str) -> None:
-        """Take a module that failed out of the system; it is an arming veto by name.
+        """Remove a failed module from the system; it is an arming veto by name.
 
-        Its subscriptions, routes and ports are taken back, its telemetry and other modules'
-        ``wants`` of it end. What needs it is for the caller to exclude as well.
+        Removes its subscriptions, routes, ports and telemetry, and sets other modules' ``wants`` of
+        it to None. The caller must exclude the modules that need it.
         """
         self._excluded.append(module)
         self.registrations_of(module).undo()

@@ -19,8 +19,8 @@ from up.up import Up
 class UpLoader:
     """Loads an application.
 
-    ``plan`` says what would be loaded without starting anything; ``create`` builds the system from
-    it. Raises ConfigErrors, CogImportError or BootError, each a sentence for the user.
+    ``plan`` returns what would be loaded without starting anything; ``create`` builds the system
+    from it. Raises ConfigErrors, CogImportError or BootError, each with a sentence for the user.
     """
 
     def __init__(self, application: Application, context: Context) -> None:
@@ -28,7 +28,7 @@ class UpLoader:
         self._context = context
 
     def plan(self) -> Plan:
-        """Return the ordered modules, the Commands, and why the rest is left out."""
+        """Return the ordered modules, the Commands, and the reasons against the rest."""
         disabled = self._context.config(DISABLED_MODULES).disabled_modules or ()
         found = discover(self._application, disabled)
         plan = select(found, BUILTIN_MODULES, self._context, disabled)
@@ -37,12 +37,12 @@ class UpLoader:
         return plan
 
     def create(self) -> Up:
-        """Return the system, initialized and ready to be started."""
+        """Return the system, initialized and ready to start."""
         up = Up(self.plan(), self._context)
         up.initialize()
         return up
 
 
 def load_application(start: Path, context: Context) -> Up:
-    """Find the application that a folder belongs to and return its system."""
+    """Find the application of a folder and return its system."""
     return UpLoader(Application.find(start), context).create()

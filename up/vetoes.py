@@ -1,4 +1,4 @@
-"""What forbids arming, by name."""
+"""The arming vetoes, by name."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from up.registrations import note_undo
 class Vetoes:
     """The reasons against arming: those of this program, and those that others report.
 
-    Only this program's own are told to the Arduino; both are shown to the ground.
+    Only this program's own go to the Arduino; the ground sees both.
     """
 
     def __init__(self) -> None:
@@ -20,7 +20,7 @@ class Vetoes:
 
     @property
     def on_changed(self) -> Callable[[], object]:
-        """Return what is called when this program's vetoes change; whoever listens sets it."""
+        """The callback for changes of this program's vetoes; set by the listener."""
         return self._on_changed
 
     @on_changed.setter
@@ -41,12 +41,12 @@ class Vetoes:
             self.on_changed()
 
     def clear(self, name: str) -> None:
-        """Take a veto back; one that is not there is no error."""
+        """Remove a veto; an unknown name is harmless."""
         if self._own.pop(name, None) is not None:
             self.on_changed()
 
     def report(self, who: str, reasons: tuple[str, ...]) -> None:
-        """Note what another part (the Arduino) says forbids arming."""
+        """Note the reasons against arming of another part (the Arduino)."""
         self._reported[who] = reasons
 
     @property
@@ -56,7 +56,7 @@ class Vetoes:
 
     @property
     def all(self) -> list[str]:
-        """Return every reason, for people."""
+        """Return every reason, for display."""
         own = [f"{name}: {reason}" for name, reason in self._own.items()]
         others = [f"{who}: {each}" for who, some in self._reported.items() for each in some]
         return own + others

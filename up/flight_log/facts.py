@@ -66,7 +66,7 @@ class Facts:
 
     @cached_property
     def log_lines(self) -> list[LogLine]:
-        """Return the warnings and errors of the program's log, and their summary."""
+        """Return warnings and errors of the program's log, and refusals and resumed recordings."""
         return [line for line in self._all_lines() if line.level >= 3 or _is_told(line.text)]
 
     @cached_property

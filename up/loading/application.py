@@ -15,7 +15,7 @@ UP_FILE = "UpFile"
 
 @dataclass(frozen=True, slots=True)
 class UpFileConfig:
-    """Marks the folder of an application on Up."""
+    """Marks the folder of an Up application."""
 
     package: str = key("", "The Python package that this folder is; empty: the folder's name.")
     config: str = key("config", "Where the configuration lies, from this folder.")
@@ -25,12 +25,12 @@ UP_FILE_CONFIG = ConfigFile(UP_FILE, UpFileConfig)
 
 
 class NoApplicationError(Exception):
-    """No UpFile, or more than one, where one was looked for; the text is one sentence."""
+    """The search found no UpFile, or more than one; the text is one sentence."""
 
 
 @dataclass(frozen=True, slots=True)
 class Application:
-    """Where an application lies: its folder, its package, its configuration."""
+    """The location of an application: its folder, its package, its configuration."""
 
     root: Path
     package: str
@@ -47,8 +47,8 @@ class Application:
     def find(cls, start: Path) -> Application:
         """Return the application that a folder belongs to.
 
-        The folder itself or one above it has the UpFile, or exactly one folder directly inside
-        does. Raises NoApplicationError with a sentence that says where it looked.
+        The UpFile is in that folder or one above it, or in exactly one direct subfolder. Raises
+        NoApplicationError with a sentence that names the searched places.
         """
         start = start.resolve()
         for folder in (start, *start.parents):
@@ -66,7 +66,7 @@ class Application:
         )
 
     def make_importable(self) -> None:
-        """Let ``import <package>`` find this folder, whatever its name and wherever it lies."""
+        """Make ``import <package>`` find this folder, whatever its name and location."""
         known = sys.modules.get(self.package)
         if known is not None and self.root in map(Path, getattr(known, "__path__", ())):
             return

@@ -1,4 +1,4 @@
-"""Looks at a whole application without starting it, and collects everything that is wrong."""
+"""Checks a whole application without starting it, and collects all problems."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from up.loading.selection import select
 
 @dataclass(slots=True)
 class Findings:
-    """What a check came to: sentences for people, each with its place where it has one."""
+    """The result of a check: sentences for people, each with its place if it has one."""
 
     problems: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
@@ -36,7 +36,7 @@ def check_application(
 ) -> Findings:
     """Return every problem of configuration and modules in the context's mode, and the plan.
 
-    ``more_files`` are configuration files that others than modules read.
+    ``more_files`` are configuration files that no module reads.
     """
     findings = Findings()
     read_files(context, (APPLICATION, DISABLED_MODULES), findings)
@@ -58,7 +58,7 @@ def check_application(
 
 
 def read_files(context: Context, files: Iterable[ConfigFile[Any]], findings: Findings) -> None:
-    """Read configuration into the context; defaults stand in for what cannot be read."""
+    """Read configuration into the context; uses the defaults for an invalid file."""
     for file in files:
         try:
             context.config(file)
@@ -74,7 +74,7 @@ def _check_graph(
     try:
         plan = findings.plan = select(found, BUILTIN_MODULES, context, disabled)
         take_commands(plan, found, disabled)
-        # What needs a module of a cog that cannot be imported would only repeat that error.
+        # A module that needs one of a cog that cannot be imported would only repeat that error.
         if not found.cog_errors:
             plan.modules = order(plan.modules, plan.left_out)
     except BootError as error:

@@ -1,4 +1,4 @@
-"""Takes the Commands and handlers that were found into the plan."""
+"""Adds the discovered Commands and handlers to the plan."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _FAULTS = (DuplicateCommandError, ValueError, TypeError, NameError)
 
 
 def take_commands(plan: Plan, found: Discovered, disabled: Container[str]) -> None:
-    """Add the Commands that can be registered and the handlers that register themselves.
+    """Add the valid Commands, and the handlers that register themselves.
 
-    One that is broken becomes a problem, one that is disabled is rejected, and with a Command its
-    handlers are.
+    A broken one becomes a problem, a disabled one is rejected, and a rejected Command's handlers
+    are rejected too.
     """
     registry = CommandRegistry(BUILTIN_COMMANDS)
     for cls in found.commands:
@@ -54,7 +54,7 @@ def _take_handler(
 
 
 class _NoCommandError(Exception):
-    """What a handler says that it handles cannot be published."""
+    """The Command that a handler names cannot be published."""
 
 
 def _check_command(cls: type[BaseCommandHandler], registry: CommandRegistry) -> None:

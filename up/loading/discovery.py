@@ -1,4 +1,4 @@
-"""Finds the classes that an application and its cogs bring."""
+"""Finds the classes of an application and its cogs."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from up.loading.application import Application
 from up.loading.external_modules import EXTERNAL_MODULES, CogEntry
 from up.loading.problem import LoadProblem, problem_of
 
-# A file may raise anything while it is imported, and one that exits must not end the program.
+# The import of a file may raise anything, and one that exits must not end the program.
 IMPORT_FAULTS = (Exception, SystemExit)
 MODULE_FOLDERS = ("modules", "flight_controller")
 COMMAND_FOLDER = "commands"
 
 
 class CogImportError(Exception):
-    """A registered cog cannot be imported; the text is one sentence that names the way out."""
+    """A registered cog cannot be imported; the text is one sentence that names the remedy."""
 
 
 @dataclass(slots=True)
 class Discovered:
-    """The classes that were found, in the order of finding, and what could not be read."""
+    """The classes found, in the order of discovery, and the problems."""
 
     modules: list[type[BaseModule]] = field(default_factory=list)
     commands: list[type[BaseCommand]] = field(default_factory=list)
@@ -40,7 +40,7 @@ class Discovered:
     disabled_files: set[str] = field(default_factory=set)
 
     def add(self, cls: type, origin: str) -> None:
-        """Put a class where its base class belongs; one that was found before stays once."""
+        """Add a class to the list of its base class; repeated classes count once."""
         if cls in self.origins:
             return
         self.origins[cls] = origin
@@ -53,10 +53,10 @@ class Discovered:
 
 
 def discover(application: Application, disabled: Iterable[str] = ()) -> Discovered:
-    """Return what an application and its registered cogs bring.
+    """Return the classes of an application and its registered cogs.
 
     A registered cog that cannot be imported raises CogImportError, one sentence for each class; a
-    broken file of the application's own is a problem in the result, unless ``disabled`` lists its
+    broken file of the application itself is a problem in the result, unless ``disabled`` lists its
     name.
     """
     found = survey(application, disabled)
@@ -102,7 +102,7 @@ def _command_modules(found: Discovered, cog: str) -> Iterator[ModuleType]:
     try:
         place = importlib.import_module(package).__path__
     except IMPORT_FAULTS as error:
-        # A cog without Commands is whole; one that is not there was reported with its modules.
+        # A cog may have no Commands; a missing cog was reported with its modules.
         if not (isinstance(error, ModuleNotFoundError) and error.name in (cog, package)):
             found.cog_errors.append(_no_commands(package, cog, error))
         return
@@ -125,7 +125,7 @@ def _reason(error: BaseException) -> str:
 def discover_folder(
     found: Discovered, application: Application, folder: str, disabled: frozenset[str]
 ) -> None:
-    """Add the classes of every Python file of one folder; one that is broken is a problem."""
+    """Add the classes of every Python file of one folder; a broken file is a problem."""
     place = application.root / folder
     if not place.is_dir():
         return
@@ -152,7 +152,7 @@ def discover_folder(
 
 
 def _classes_of(module: ModuleType) -> Iterator[type]:
-    """Yield the loadable classes that a module defines itself; helpers and imports are not."""
+    """Yield the loadable classes that a module defines itself, without helpers and imports."""
     for cls in vars(module).values():
         if not inspect.isclass(cls) or cls.__module__ != module.__name__:
             continue

@@ -1,4 +1,4 @@
-"""external_modules.yml: which modules the registered cogs bring (thesis 4.3.2)."""
+"""external_modules.yml: the modules of the registered cogs (thesis 4.3.2)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ EXTERNAL_MODULES_FILE = "external_modules.yml"
 
 @dataclass(frozen=True, slots=True)
 class ModuleEntry:
-    """One class of a cog: its name and the module that it is imported from."""
+    """One class of a cog: its name and the module to import it from."""
 
     class_name: str = key("", "Name of the class.", max_length=200)
     prefix: str = key("", "Module that the class is imported from.", max_length=300)
@@ -25,7 +25,7 @@ class ModuleEntry:
         return f"{self.prefix}.{self.class_name}"
 
     def problems(self) -> Iterable[tuple[str, str]]:
-        """Yield what keeps the entry from naming a class."""
+        """Yield the reasons why the entry does not name a class."""
         if not self.class_name.isidentifier():
             yield "class_name", "must be the name of a class"
         if not all(part.isidentifier() for part in self.prefix.split(".")):
@@ -34,7 +34,7 @@ class ModuleEntry:
 
 @dataclass(frozen=True, slots=True)
 class CogEntry:
-    """What one cog brings."""
+    """The entries of one cog."""
 
     modules: tuple[ModuleEntry, ...] = items(ModuleEntry, "Classes that are loaded.")
     source: Literal["cogfile", "manual"] = key("manual", "Who registered the cog.")

@@ -1,4 +1,4 @@
-"""Which configuration files a set of modules reads."""
+"""The configuration files that a set of modules reads."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Orders modules by what they need, and fills their references in."""
+"""Orders modules by their needs, and fills in their references."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from up.needs import declared_needs
 def order(
     modules: Sequence[BaseModule], left_out: Mapping[type[BaseModule], str] = MappingProxyType({})
 ) -> list[BaseModule]:
-    """Return the modules so that each comes after what it needs; ``LOAD_ORDER`` breaks ties.
+    """Return the modules so that each comes after those that it needs; ``LOAD_ORDER`` breaks ties.
 
-    References are filled in. Raises BootError with one sentence for each missing need, or for a
-    circular one; ``left_out`` tells why a class that was found is not among the modules.
+    Fills in the references. Raises BootError with one sentence for each missing or circular need;
+    ``left_out`` gives the reason why a discovered class is not among the modules.
     """
     absent: list[tuple[BaseModule, type[BaseModule]]] = []
     uses = {id(module): _fill(module, modules, absent) for module in modules}
@@ -44,7 +44,7 @@ def order(
 
 
 def needed_by(module: BaseModule) -> list[BaseModule]:
-    """Return the modules that a filled-in module cannot do without."""
+    """Return the modules that a filled-in module needs."""
     return [
         getattr(module, need.attribute)
         for need in declared_needs(type(module))
@@ -53,7 +53,7 @@ def needed_by(module: BaseModule) -> list[BaseModule]:
 
 
 def forget_wanted(module: BaseModule, failed: Container[BaseModule]) -> None:
-    """Let a module do without what it only wanted and what has failed."""
+    """Clear a module's optional reference to a module that has failed."""
     references = vars(module).get("_references", {})
     for need in declared_needs(type(module)):
         if need.optional and references.get(need.attribute) in failed:

@@ -1,4 +1,4 @@
-"""What is loaded, in which order, and why the rest is not."""
+"""The modules to load, their order, and the reasons against the rest."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from up.loading.problem import LoadProblem
 
 @dataclass(frozen=True, slots=True)
 class Rejected:
-    """A class that was found and is not loaded, and why."""
+    """A discovered class that is not loaded, and the reason."""
 
     path: str
     reason: str
@@ -20,7 +20,7 @@ class Rejected:
 
 @dataclass(slots=True)
 class Plan:
-    """The modules in their order, the Commands and handlers, what was left out, what is broken."""
+    """The modules in order, the Commands and handlers, the classes left out, the problems."""
 
     modules: list[BaseModule] = field(default_factory=list)
     commands: list[type[BaseCommand]] = field(default_factory=list)
@@ -29,8 +29,8 @@ class Plan:
     problems: list[LoadProblem] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
     left_out: dict[type[BaseModule], str] = field(default_factory=dict)
-    """Why a module class that was found is not loaded, rejected or broken."""
+    """The reason why a discovered module class is left out, rejected or broken."""
 
 
 class BootError(Exception):
-    """The system cannot boot as it is configured; the text is one sentence."""
+    """The configured system cannot boot; the text is one sentence."""

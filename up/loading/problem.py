@@ -1,4 +1,4 @@
-"""What kept a file or a class from being loaded."""
+"""The reason why a file or class could not be loaded."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from pathlib import Path
 
 @dataclass(frozen=True, slots=True)
 class LoadProblem:
-    """A file or class of the application, and why it is not part of the system.
+    """A file or class of the application, and the reason why it is not part of the system.
 
-    ``name`` is what ``disabled_modules.yml`` can list to accept its absence. The daemon flies on
+    ``name`` is the entry of ``disabled_modules.yml`` that accepts its absence. The daemon runs
     without it but does not arm.
     """
 
@@ -24,7 +24,7 @@ class LoadProblem:
 
 
 def problem_of(name: str, path: Path, error: BaseException) -> LoadProblem:
-    """Return the problem that an exception while importing or building means, at its line."""
+    """Return the problem for an exception while importing or building, with its line."""
     if isinstance(error, SyntaxError) and error.filename:
         return LoadProblem(name, f"{error.filename}:{error.lineno or 1}", f"syntax: {error.msg}")
     line = None

@@ -1,4 +1,4 @@
-"""Chooses among the classes that were found: mode, ``load()``, disabled list, overrides."""
+"""Selects among the discovered classes: mode, ``load()``, disabled list, overrides."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ def select(
     context: Context,
     disabled: Iterable[str],
 ) -> Plan:
-    """Return the plan with the chosen modules, not yet ordered.
+    """Return the plan with the selected modules, not yet ordered.
 
-    Raises BootError when two unrelated modules replace one provider, a sentence for each.
+    Raises BootError when two unrelated modules replace one provider, one sentence for each.
     """
     plan = Plan(problems=list(found.problems))
     refused = set(disabled)

@@ -1,4 +1,4 @@
-"""Logging: one readable line an event for people and the journal, JSON lines for programs."""
+"""Logging: one readable line per event for people and the journal, JSON lines for programs."""
 
 from up.log.limits import Limited, Once
 from up.log.setup import Logging, start_logging

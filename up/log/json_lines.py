@@ -23,9 +23,9 @@ _MAX_FIELD = 1000
 
 
 class RotatingFile:
-    """A file that lines are added to; at `rotate_bytes` it becomes `<name>.1`, the oldest goes.
+    """An append-only file; at `rotate_bytes` it becomes `<name>.1` and the oldest is deleted.
 
-    `keep` old files stay (0: none). The methods raise OSError and are to be called one at a time.
+    `keep` old files stay (0: none). The methods raise OSError and are not thread-safe.
     """
 
     def __init__(self, path: Path, rotate_bytes: int, keep: int) -> None:
@@ -36,7 +36,7 @@ class RotatingFile:
         self._size = 0
 
     def open(self) -> None:
-        """Open the file, with its folder, and end a line that a crash left open."""
+        """Open the file, creating its folder, and end a line that a crash left incomplete."""
         self.path.parent.mkdir(parents=True, exist_ok=True)
         flags = os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_NONBLOCK | os.O_CLOEXEC
         self._descriptor = os.open(self.path, flags, 0o644)
@@ -51,7 +51,7 @@ class RotatingFile:
         self._put(line)
 
     def close(self) -> None:
-        """Close the file; harmless when it is closed."""
+        """Close the file; idempotent."""
         descriptor, self._descriptor = self._descriptor, -1
         if descriptor >= 0:
             os.close(descriptor)
@@ -79,9 +79,9 @@ class RotatingFile:
 
 @implementer(ILogObserver)
 class JsonLinesObserver:
-    """Writes every event of level `least` and above as one JSON object a line, from any thread.
+    """Writes every event of level `least` and above as one JSON object per line, thread-safe.
 
-    When the disk refuses, it stops for good and calls `on_failure` once with the sentence.
+    After a write error it stops permanently and calls `on_failure` once with the sentence.
     """
 
     def __init__(
@@ -124,7 +124,7 @@ class JsonLinesObserver:
                 reason = error.strerror or str(error)
                 with contextlib.suppress(OSError):
                     self._file.close()
-        # Outside the lock: who is told may log.
+        # Outside the lock: the callback may log.
         self._on_failure(f"cannot write {self._file.path}, logging to it stops: {reason}")
 
 

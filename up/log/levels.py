@@ -1,4 +1,4 @@
-"""How severe an event is, in the words of configuration files, people and the journal."""
+"""The severity of an event, in configuration files, messages and the journal."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ _PRIORITIES = {
 }
 
 
-# "log_legacy" marks what comes through Twisted's old module, which nobody here uses.
+# "log_legacy" marks events of Twisted's old log module, which this project does not use.
 _TWISTED = ("twisted.", "log_legacy")
 
 
 def level_named(name: str) -> NamedConstant:
-    """Return the level for debug, info, warn or warning, or error, in any case; else ValueError."""
+    """Return the level for debug, info, warn, warning or error in any case; raises ValueError."""
     try:
         return _BY_NAME[name.lower()]
     except KeyError:
@@ -42,7 +42,7 @@ def level_named(name: str) -> NamedConstant:
 
 
 def level_of(event: LogEvent) -> NamedConstant:
-    """Return the level of an event; what Twisted says about its own doings is for debugging."""
+    """Return the level of an event; Twisted's own events count as debug."""
     level = event.get("log_level", LogLevel.info)
     if level is LogLevel.info and str(event.get("log_namespace", "")).startswith(_TWISTED):
         return LogLevel.debug
@@ -50,7 +50,7 @@ def level_of(event: LogEvent) -> NamedConstant:
 
 
 def word_of(level: NamedConstant) -> str:
-    """Return the word for people."""
+    """Return the display name."""
     return _WORDS.get(level, "INFO")
 
 

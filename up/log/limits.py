@@ -1,4 +1,4 @@
-"""What keeps a log readable when one thing happens again and again."""
+"""Limits repeated log events."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ Emit = Callable[..., None]
 
 
 class Once:
-    """Remembers what was said already: at most `limit` things, beyond which nothing is first."""
+    """Remembers keys seen: at most `limit` of them, beyond which no key counts as new."""
 
     def __init__(self, limit: int = 1000) -> None:
         self._limit = limit
         self._seen: set[Hashable] = set()
 
     def first(self, key: Hashable) -> bool:
-        """Tell whether this is the first time that the key is asked for."""
+        """Return whether the key is new, and remember it."""
         if key in self._seen or len(self._seen) >= self._limit:
             return False
         self._seen.add(key)
@@ -28,7 +28,7 @@ class Once:
 
 @dataclass(slots=True)
 class _Held:
-    """What was held back in the running interval, with the newest event."""
+    """The events suppressed in the current interval, with the newest one."""
 
     call: Timer
     emit: Emit
@@ -38,9 +38,9 @@ class _Held:
 
 
 class Limited:
-    """Lets one event a key through in `interval_s`, and then tells how many more there were.
+    """Passes one event per key in `interval_s`, and then reports how many more there were.
 
-    For the reactor's thread. Beyond `limit` keys in one interval all the others share one.
+    For the reactor's thread. Beyond `limit` keys in one interval the rest share one key.
     """
 
     def __init__(self, clock: Clock, interval_s: float, limit: int = 1000) -> None:
@@ -50,7 +50,7 @@ class Limited:
         self._held: dict[Hashable, _Held] = {}
 
     def log(self, emit: Emit, format_: str, *, key: Hashable = None, **fields: Any) -> None:
-        """Log by `emit` (a logger's method), now or counted; the format is the key if none is."""
+        """Log by `emit` (a logger's method), now or counted; the format is the default key."""
         key = format_ if key is None else key
         if key not in self._held and len(self._held) >= self._limit:
             key = _OTHERS
@@ -63,7 +63,7 @@ class Limited:
             held.more += 1
 
     def stop(self) -> None:
-        """Say what is still held back and forget it."""
+        """Report the suppressed events and reset."""
         held_back, self._held = self._held, {}
         for held in held_back.values():
             held.call.cancel()

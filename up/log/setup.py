@@ -1,4 +1,4 @@
-"""Where a program's log goes, said once at its start."""
+"""Sets up the destinations of a program's log."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Logging:
         self._json_lines = json_lines
 
     def stop(self) -> None:
-        """Take the observers away and close the file."""
+        """Remove the observers and close the file."""
         for observer in self._observers:
             self._publisher.removeObserver(observer)
         if self._json_lines is not None:
@@ -57,9 +57,9 @@ def start_logging(
 ) -> Logging:
     """Send events of `level` and above to `stream` (stderr) and, as JSON lines, to `json_path`.
 
-    At `rotate_bytes` the file is renamed and begun anew; `keep` old ones stay. Raises ValueError
-    for an unknown level. No write error is raised: a file that cannot be written is given up,
-    which is said once on the stream. `beginner` and `publisher` belong together.
+    At `rotate_bytes` the file is renamed and a new one started; `keep` old ones stay. Raises
+    ValueError for an unknown level. Write errors are not raised: after one the file is no longer
+    written, which the stream reports once. `beginner` and `publisher` belong together.
     """
     least = level_named(level)
     stream = sys.stderr if stream is None else stream
@@ -76,7 +76,7 @@ def start_logging(
 
 
 def _say(observer: TextObserver, what: str) -> None:
-    """Tell people directly, past the publisher that is just in the middle of an event."""
+    """Write directly to the stream, bypassing the publisher that is handling an event."""
     observer(
         {
             "log_level": LogLevel.error,

@@ -1,4 +1,4 @@
-"""Events as lines for people and for the journal."""
+"""Formats events as lines for people and for the journal."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MAX_TEXT = 4000
 
 
 def source_of(event: LogEvent) -> str:
-    """Return who speaks: the logger's name."""
+    """Return the logger's name."""
     source = _short(str(event.get("log_namespace") or "-"))
     if source == "log_legacy":
         source = event.get("log_system") or "-"
@@ -27,9 +27,9 @@ def source_of(event: LogEvent) -> str:
 
 
 def text_of(event: LogEvent) -> str:
-    """Return what an event says, in one line without control characters, at most 4000 long.
+    """Return an event's text, in one line without control characters, at most 4000 characters.
 
-    A failure that was expected (logged below critical) adds its own sentence.
+    Appends the message of an expected failure (logged below critical).
     """
     text = formatEvent(event)
     failure = event.get("log_failure")
@@ -43,7 +43,7 @@ def text_of(event: LogEvent) -> str:
 
 
 def traceback_of(event: LogEvent, least: NamedConstant) -> str:
-    """Return the traceback of a bug, or of any failure when everything is logged; else ''."""
+    """Return the traceback of a bug, or of any failure at level debug; otherwise ''."""
     failure = event.get("log_failure")
     if failure is None or (least > LogLevel.debug and level_of(event) < LogLevel.critical):
         return ""
@@ -51,9 +51,9 @@ def traceback_of(event: LogEvent, least: NamedConstant) -> str:
 
 
 def is_journal(stream: TextIO | None, environ: Mapping[str, str]) -> bool:
-    """Tell whether the stream leads into systemd's journal (sd-daemon: JOURNAL_STREAM).
+    """Return whether the stream leads to systemd's journal (sd-daemon: JOURNAL_STREAM).
 
-    The variable outlives a redirection, so its device and inode must be the stream's.
+    The variable survives a redirection, so its device and inode must match the stream's.
     """
     named = environ.get("JOURNAL_STREAM")
     if stream is None or not named:
@@ -67,10 +67,10 @@ def is_journal(stream: TextIO | None, environ: Mapping[str, str]) -> bool:
 
 @implementer(ILogObserver)
 class TextObserver:
-    """Writes every event of level `least` and above to a stream, from whatever thread.
+    """Writes every event of level `least` and above to a stream, thread-safe.
 
-    A stream that refuses to take a line loses that line; nothing is raised. A program that was
-    started with its stderr closed has None for a stream.
+    A line that the stream refuses is lost; nothing is raised. The stream is None for a program that
+    was started with its stderr closed.
     """
 
     def __init__(self, stream: TextIO | None, least: NamedConstant, journal: bool) -> None:
@@ -105,7 +105,7 @@ class TextObserver:
                     stream.write(text.encode("ascii", "backslashreplace").decode())
                 stream.flush()
             except (OSError, ValueError):
-                # Nobody is left to tell: the stream is full, broken or closed.
+                # The stream is full, broken or closed: there is no other place to report it.
                 return
 
 
@@ -116,6 +116,6 @@ def _clock_text(event: LogEvent) -> str:
 
 
 def _short(namespace: str) -> str:
-    """Return a class's bare name, which is what people call a module; other names stay whole."""
+    """Return a class's bare name, the display name of a module; other names stay whole."""
     last = namespace.rpartition(".")[2]
     return last if last[:1].isupper() else namespace

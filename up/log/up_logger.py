@@ -6,9 +6,9 @@ from twisted.logger import Logger
 
 
 class UpLogger:
-    """Gives out loggers by name."""
+    """Creates loggers by name."""
 
     @classmethod
     def get_logger(cls, name: str = "up") -> Logger:
-        """Return a logger whose events say that they come from `name`."""
+        """Return a logger whose events carry `name`."""
         return Logger(namespace=name)

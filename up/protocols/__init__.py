@@ -1,1 +1,1 @@
-"""Every byte of the wires: pure codecs, and transports that hold no meaning."""
+"""The wire formats: pure codecs, and transports that do not interpret messages."""

@@ -1,4 +1,4 @@
-"""The words for what the Arduino's status tells by numbers and bits (docs/protocols.md 2.7)."""
+"""Texts for the numbers and bits of the Arduino's status (docs/protocols.md 2.7)."""
 
 from __future__ import annotations
 
@@ -13,6 +13,6 @@ VETOES = (
     "the profile is invalid",
     "a veto that this program does not know",
 )
-"""What forbids arming, from bit 0 on."""
+"""The reasons against arming, from bit 0 on."""
 RESET_CAUSES = ("power-on", "external", "brown-out", "watchdog")
-"""Why the board started last, from bit 0 on."""
+"""The cause of the board's last start, from bit 0 on."""

@@ -21,8 +21,8 @@ def _states_before() -> tuple[int, ...]:
     return tuple(zero ^ (byte << 8) for byte in range(256))
 
 
-# The first COBS code stands in front of the sequence. A CRC that begins in the state which this
-# code turns into the initial one spares the copy that would cut it off.
+# The first COBS code precedes the sequence. A CRC that starts in the state which this code turns
+# into the initial one avoids a copy to cut it off.
 _STATE_BEFORE = _states_before()
 
 
@@ -51,8 +51,8 @@ class CheckedEncoder:
 class CheckedDecoder:
     """Finds checked frames in a stream of bytes.
 
-    Holds at most one unfinished frame; a longer one is dropped as it streams by. A frame whose
-    CRC is right counts for the sequence even if its type is unknown: it did arrive.
+    Holds at most one unfinished frame and drops a longer one while receiving it. A frame with a
+    valid CRC counts for the sequence even if its type is unknown: it did arrive.
     """
 
     def __init__(self, sizes: Mapping[int, int]) -> None:
@@ -89,7 +89,7 @@ class CheckedDecoder:
         return []
 
     def reset(self) -> None:
-        """Forget the unfinished frame and the sequence: the line was opened anew."""
+        """Discard the unfinished frame and the sequence: the line was reopened."""
         self._tail = b""
         self._is_skipping = False
         self._expected_sequence = -1
@@ -102,7 +102,7 @@ class CheckedDecoder:
         self._is_skipping = False
 
     def _decode(self, pieces: list[bytes]) -> list[Frame]:
-        """Return the good frames among `pieces`; written flat, this is the hot path."""
+        """Return the valid frames among `pieces`; written flat because it is the hot path."""
         counters = self.counters
         size_of = self._sizes.get
         state_before = _STATE_BEFORE
@@ -114,7 +114,7 @@ class CheckedDecoder:
                 if length:
                     counters.format_errors += 1
                 continue
-            # Below 255 bytes every code stands where a zero was: put the zeros back.
+            # Below 255 bytes every code replaces a zero: put the zeros back.
             position = piece[0]
             if position != length:
                 patched = bytearray(piece)

@@ -6,11 +6,11 @@ _LONGEST_RUN = 254
 
 
 class CobsError(ValueError):
-    """The bytes are not COBS: a zero inside, or a code that points beyond the end."""
+    """The bytes are not valid COBS: a zero inside, or a code that points beyond the end."""
 
 
 def encode(plain: bytes) -> bytes:
-    """Return `plain` without any zero byte; one byte longer, and one more for each full run."""
+    """Return `plain` without zero bytes; one byte longer, and one more for each full run."""
     encoded = bytearray()
     for run in plain.split(b"\0"):
         start = 0

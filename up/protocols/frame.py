@@ -1,4 +1,4 @@
-"""What a decoder of the serial line hands on, and what it counts."""
+"""The output of a serial decoder, and its counters."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ Frame = tuple[int, bytes, int]
 """Type byte, payload, sequence (0 in thesis framing)."""
 
 UNFINISHED_TIMEOUT_S = 0.1
-"""How long an unfinished frame may wait for its next byte (docs/protocols.md 2.1)."""
+"""Timeout of an unfinished frame (docs/protocols.md 2.1)."""
 
 LONGEST_PAYLOAD = 96
 
 
 @dataclass(slots=True)
 class FrameCounters:
-    """Counts since the decoder was made; they survive a reopened line."""
+    """Counts since the decoder was created; they survive a reopened line."""
 
     frames: int = 0
     crc_errors: int = 0
@@ -26,10 +26,10 @@ class FrameCounters:
 
 
 class SilenceTimer:
-    """Tells when the newest byte is more than 100 ms old.
+    """Reports when the newest byte is more than 100 ms old.
 
-    `heard` may not know the time; then the age runs from the next look at the clock, which is
-    later and so never drops a frame too early. Times are monotonic seconds.
+    `heard` may not know the time; then the age counts from the next clock reading, which is later
+    and so never drops a frame too early. Times are monotonic seconds.
     """
 
     __slots__ = ("_heard_s", "_is_fresh")
@@ -39,13 +39,13 @@ class SilenceTimer:
         self._is_fresh = False
 
     def heard(self, now: float | None) -> None:
-        """Note that bytes came."""
+        """Note that bytes arrived."""
         self._heard_s = now
         self._is_fresh = now is None
 
     def has_expired(self, now: float) -> bool:
-        """Return whether the newest byte is too old for its frame to go on."""
+        """Return whether the newest byte is too old for its frame to continue."""
         if self._is_fresh:
             self.heard(now)
-        # Added, not subtracted: a timer set for this very moment must find it expired.
+        # Added, not subtracted: a timer set for exactly this time must find it expired.
         return self._heard_s is not None and now >= self._heard_s + UNFINISHED_TIMEOUT_S

@@ -17,31 +17,31 @@ class FrameEncoder(Protocol):
 
     @property
     def opening(self) -> bytes:
-        """What an end sends first after it opened the line."""
+        """The bytes that an end sends first after it opened the line."""
 
     @property
     def last_sequence(self) -> int:
-        """The sequence of the newest frame; answers carry it. 0 in thesis framing."""
+        """The sequence of the newest frame, which answers carry; 0 in thesis framing."""
 
     def encode(self, type_: int, payload: bytes = b"") -> bytes:
-        """Return one frame, to be written at once."""
+        """Return one frame, to be written immediately."""
 
 
 class FrameDecoder(Protocol):
-    """Turns the bytes of the line into frames, whatever they are cut into."""
+    """Turns the bytes of the line into frames, in pieces of any size."""
 
     @property
     def counters(self) -> FrameCounters:
-        """What was received and what was dropped."""
+        """Counters of received and dropped frames."""
 
     def feed(self, data: bytes, now: float | None = None) -> list[Frame]:
         """Return the frames that `data` completes; `now` is monotonic seconds."""
 
     def expire(self, now: float) -> list[Frame]:
-        """Drop what is unfinished 100 ms after its newest byte; return what silence completes."""
+        """Drop an unfinished frame 100 ms after its newest byte; return those that silence ends."""
 
     def reset(self) -> None:
-        """Forget everything but the counters: the line was opened anew."""
+        """Discard everything but the counters: the line was reopened."""
 
 
 def make_framing(name: str, sizes: Mapping[int, int]) -> tuple[FrameEncoder, FrameDecoder]:

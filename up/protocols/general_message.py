@@ -25,7 +25,7 @@ _CLOSING = b"]}"
 
 @dataclass(frozen=True, slots=True)
 class GeneralMessage:
-    """One message: which Command, its fields, and what asks for an answer or tells freshness."""
+    """One message: its Command, its fields, its id and its beacon."""
 
     name: str
     data: dict[str, Any] = field(default_factory=dict)
@@ -33,8 +33,8 @@ class GeneralMessage:
     beacon: int | None = None
 
 
-class MalformedMessage(ValueError):  # noqa: N818 - a message that is malformed, the protocol's word
-    """A line that is no General Message; `id` is set where it could still be read."""
+class MalformedMessage(ValueError):  # noqa: N818 - the protocol's term
+    """A line that is not a General Message; `id` is set if it could be read."""
 
     def __init__(self, reason: str, id: str | None = None) -> None:
         super().__init__(reason)
@@ -49,7 +49,7 @@ def decode(line: bytes, longest: int = LONGEST_LINE) -> GeneralMessage:
 
 
 def decode_object(line: bytes, longest: int) -> dict[str, Any]:
-    """Return a JSON object of at most `longest` bytes, as strictly read as a General Message.
+    """Return a JSON object of at most `longest` bytes, parsed as strictly as a General Message.
 
     Raises MalformedMessage.
     """
@@ -87,7 +87,7 @@ def encode(
 ) -> bytes:
     """Return one line with its LF, the keys in the order of the protocol.
 
-    Raises ValueError for NaN, infinity and what JSON cannot hold, naming the key, and for a
+    Raises ValueError, naming the key, for NaN, infinity and values that JSON cannot hold, and for a
     line of more than 16 KiB.
     """
     fields: dict[str, Any] = {"name": name, "data": data, "id": id}
@@ -140,10 +140,10 @@ def _encodable(id_: str | None) -> str | None:
 
 
 def _id_despite_fault(text: str) -> str | None:
-    """Return the id of an object that breaks a rule but is JSON, so that it can be nacked."""
+    """Return the id of a JSON object that violates a rule, so that it can be nacked."""
     try:
         fields = _LENIENT.decode(text)
-        # A repeated key leaves no telling which id was meant; see _lenient_object.
+        # With a repeated key the intended id is unknown; see _lenient_object.
         return _encodable(_read_id(fields.get("id"))) if isinstance(fields, dict) else None
     except (ValueError, RecursionError):
         return None
@@ -171,7 +171,7 @@ def _has_lone_surrogate(value: object) -> bool:
 
 
 def _find_fault(value: object, path: str, depth: int = 2) -> str | None:
-    """Return what JSON cannot hold in `value`, by its key path; None: nothing found."""
+    """Return a sentence with the key path of a value that JSON cannot hold, or None."""
     if depth > DEEPEST_NESTING:
         return f"{path} is nested deeper than {DEEPEST_NESTING}"
     if isinstance(value, float):

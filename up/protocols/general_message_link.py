@@ -25,24 +25,24 @@ CLOSING_LIMIT_S = 1.0
 
 
 class GeneralMessageLink(Interface):
-    """What the callbacks get, on TCP and UDP alike."""
+    """The link that the callbacks receive, on TCP and UDP alike."""
 
     @property
     def peer(self) -> str:
-        """Host and port of the other side as text; empty while there is none."""
+        """Host and port of the peer as text; empty while there is none."""
 
     @property
     def heard_s(self) -> float:
-        """The clock's time of the newest byte or datagram from the other side."""
+        """The clock's time of the peer's newest byte or datagram."""
 
     def send(self, message: bytes) -> bool:
-        """Send an encoded message in order; False: dropped and counted."""
+        """Send an encoded message in order; False if it was dropped and counted."""
 
     def send_newest(self, message: bytes) -> bool:
         """Send an encoded message that replaces an older one still waiting."""
 
     def close(self) -> None:
-        """Give the link up."""
+        """Close the link."""
 
 
 _log = Logger()
@@ -53,7 +53,7 @@ OnLost = Callable[[Any, str], object]
 
 
 def permits(bucket: TokenBucket, peer: str, waiting: int = 1) -> bool:
-    """Take a token for the next of ``waiting`` messages; False: all of them are dropped.
+    """Take a token for the next of ``waiting`` messages; without one, drop all: False.
 
     The first drop is logged; `bucket.refused` counts.
     """
@@ -71,12 +71,13 @@ def permits(bucket: TokenBucket, peer: str, waiting: int = 1) -> bool:
 
 
 class GeneralMessageProtocol(Protocol):
-    """One connection; make a new one for each.
+    """One connection; create a new one for each.
 
-    The callbacks get this link first: `on_message` a message, `on_malformed` a line that is none,
-    `on_connected` nothing more, `on_lost` the reason as text. `malformed`, `output.dropped`,
-    `output.replaced`, `dropped_too_long` and `bucket.refused` count; `bucket` may be shared by the
-    connections of one peer. A line of more than `longest_line` bytes is malformed.
+    Every callback gets this link as its first argument: `on_message` also a message, `on_malformed`
+    an invalid line, `on_connected` nothing else, `on_lost` the reason as text. Counters:
+    `malformed`, `output.dropped`, `output.replaced`, `dropped_too_long` and `bucket.refused`; the
+    connections of one peer may share `bucket`. A line of more than `longest_line` bytes is
+    malformed.
     """
 
     transport: Any
@@ -120,15 +121,15 @@ class GeneralMessageProtocol(Protocol):
         return self._heard_s
 
     def send(self, message: bytes) -> bool:
-        """Send `message` in order; False: there is no link, or 64 KiB wait already."""
+        """Send `message` in order; False without a link, or when 64 KiB wait already."""
         return self.output.send(message)
 
     def send_newest(self, message: bytes) -> bool:
-        """Send `message`; of what a slow peer cannot take only the newest is kept."""
+        """Send `message`; a slow peer gets only the newest."""
         return self.output.send_newest(message)
 
     def close(self) -> None:
-        """Send what waits and close; a peer that does not take it within 1 s is cut off."""
+        """Send waiting data and close; aborts if the peer does not take it within 1 s."""
         if self._is_open:
             self._is_open = False
             self.output.finish()
@@ -136,13 +137,13 @@ class GeneralMessageProtocol(Protocol):
             self.transport.loseConnection()
 
     def abort(self) -> None:
-        """Cut the connection off at once."""
+        """Abort the connection immediately."""
         self._is_open = False
         if self.transport is not None:
             self.transport.abortConnection()
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Set the socket up and tell that the link is there."""
+        """Configure the socket and report the connection."""
         address = self.transport.getPeer()
         self.peer = f"{address.host}:{address.port}"
         watch_peer(self.transport, self._user_timeout_ms)
@@ -152,7 +153,7 @@ class GeneralMessageProtocol(Protocol):
         self._on_connected(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Hand on the messages that `data` completes."""
+        """Deliver the messages that `data` completes."""
         self._heard_s = self._clock.seconds()
         lines = self._lines.feed(data)
         for index, line in enumerate(lines):
@@ -169,7 +170,7 @@ class GeneralMessageProtocol(Protocol):
                 self._on_message(self, message)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
-        """Tell that the link is gone; an unfinished line goes with it."""
+        """Report the lost connection; an unfinished line is discarded."""
         self._is_open = False
         self._lines.reset()
         if self._timer is not None and self._timer.active():

@@ -1,4 +1,4 @@
-"""General Messages on UDP: one object a datagram, one peer at a time."""
+"""General Messages over UDP: one object per datagram, one peer at a time."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ _MAX_PACKET_SIZE = 65536
 
 
 class GeneralMessageDatagrams(DatagramProtocol):
-    """One port, one peer: an address keeps its place until it is silent for `idle_timeout_s`.
+    """One port, one peer: an address stays the peer until it is silent for `idle_timeout_s`.
 
-    The callbacks are those of `GeneralMessageProtocol`. An empty datagram is a heartbeat.
-    `malformed`, `dropped` (could not be sent), `foreign` (from another address) and
-    `bucket.refused` (beyond the rate) count.
+    The callbacks are those of `GeneralMessageProtocol`. An empty datagram is a heartbeat. Counters:
+    `malformed`, `dropped` (send failed), `foreign` (from another address) and `bucket.refused`
+    (beyond the rate).
     """
 
     transport: Any
@@ -70,32 +70,32 @@ class GeneralMessageDatagrams(DatagramProtocol):
         return self._heard_s
 
     def send(self, message: bytes) -> bool:
-        """Send one datagram; False: nobody was heard, or the system took it not."""
+        """Send one datagram; False without a peer, or when the system refuses it."""
         if self._address is None or self.transport is None:
             self.dropped += 1
             return False
         try:
             self.transport.write(message, self._address)
         except (OSError, MessageLengthError):
-            # A full socket buffer or a network that is down: datagrams may be lost.
+            # The socket buffer is full or the network is down: datagrams may be lost.
             self.dropped += 1
             return False
         return True
 
     def send_newest(self, message: bytes) -> bool:
-        """Send one datagram; none ever waits, so the newest wins by itself."""
+        """Send one datagram; datagrams never wait, so the newest always wins."""
         return self.send(message)
 
     def close(self) -> None:
-        """Give the peer up; the next datagram is a new link."""
+        """Drop the peer; the next datagram is a new link."""
         self._lose("closed")
 
     def startProtocol(self) -> None:  # noqa: N802 - Twisted's name
-        """Let longer messages in than the 8 KiB at which a port cuts datagrams off."""
+        """Allow messages longer than the 8 KiB to which a port truncates datagrams."""
         self.transport.maxPacketSize = _MAX_PACKET_SIZE
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
-        """Hand on the one message of a datagram."""
+        """Deliver the one message of a datagram."""
         if addr != self._address:
             if not self._admits(datagram, addr):
                 self.foreign += 1
@@ -123,7 +123,7 @@ class GeneralMessageDatagrams(DatagramProtocol):
         self._lose("the port was closed")
 
     def _admits(self, datagram: bytes, addr: Any) -> bool:
-        """Return whether an address that is not the peer's becomes the peer's."""
+        """Return whether another address becomes the peer."""
         return self._address is None
 
     def _check_idle(self) -> None:

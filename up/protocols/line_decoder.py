@@ -1,4 +1,4 @@
-"""Lines out of a stream of bytes, each bounded."""
+"""Splits a stream of bytes into lines of bounded length."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ LONGEST_LINE = 16384
 
 
 class LineDecoder:
-    """Cuts a stream into lines at LF and takes a CR before it away.
+    """Splits a stream at LF and removes a CR before it.
 
-    A line longer than `max_length` bytes, LF included, is dropped up to its LF and counted;
-    memory stays below that bound whatever comes. Empty lines are heartbeats and are left out.
+    A line longer than `max_length` bytes, LF included, is dropped up to its LF and counted; memory
+    stays below that bound for any input. Empty lines are heartbeats and are left out.
     """
 
     def __init__(self, max_length: int = LONGEST_LINE) -> None:
@@ -47,7 +47,7 @@ class LineDecoder:
         return lines
 
     def reset(self) -> None:
-        """Forget an unfinished line: the next byte is another connection's."""
+        """Discard an unfinished line: the next byte belongs to another connection."""
         self._parts.clear()
         self._held = 0
         self._is_skipping = False

@@ -1,4 +1,4 @@
-"""What waits to leave on a link: messages in order, of each kind of news only the newest."""
+"""The send queue of a link: messages in order, of replaceable kinds only the newest."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ Make = Callable[[], bytes]
 
 @implementer(IPullProducer)
 class BaseOutput:
-    """Hands a transport the next bytes only after it has sent the ones before.
+    """Hands a transport the next bytes only after it has sent the previous ones.
 
-    The transport asks for more each time that its buffer is empty, so whatever is newer can still
-    take the place of what waits here. `replaced` counts news that newer ones made old.
+    The transport asks for more each time its buffer is empty, so that newer data can still replace
+    waiting data. `replaced` counts replaced messages.
     """
 
     def __init__(self) -> None:
@@ -32,12 +32,12 @@ class BaseOutput:
         self._news: dict[str, Make] = {}
 
     def start(self, transport: Any) -> None:
-        """Begin to send on `transport`."""
+        """Start sending on `transport`."""
         self._transport = transport
         transport.registerProducer(self, False)
 
     def finish(self) -> None:
-        """Hand over all that waits, so that the transport can close when it is sent."""
+        """Hand over all waiting data, so that the transport can close after sending it."""
         if self._transport is not None:
             self.resumeProducing()
             self._transport.unregisterProducer()
@@ -53,7 +53,7 @@ class BaseOutput:
             self._size += len(message)
 
     def _put_news(self, kind: str, make: Make, *, may_leave: bool) -> None:
-        """Send what `make` returns in place of news of this kind that still wait."""
+        """Send the result of `make`, replacing a waiting message of this kind."""
         if kind in self._news:
             self.replaced += 1
         if may_leave:
@@ -64,7 +64,7 @@ class BaseOutput:
             self._news[kind] = make
 
     def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Send what waits: the transport has sent everything else."""
+        """Send waiting data: the transport's buffer is empty."""
         waiting, self._messages, self._size = self._messages, [], 0
         news, self._news = self._news, {}
         waiting.extend(make() for make in news.values())
@@ -73,7 +73,7 @@ class BaseOutput:
             self._transport.write(b"".join(waiting))
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Forget what waits: the connection is gone."""
+        """Discard waiting data: the connection is gone."""
         self._transport = None
         self._messages.clear()
         self._size = 0
@@ -81,14 +81,14 @@ class BaseOutput:
 
 
 class LinkOutput(BaseOutput):
-    """Telemetry is the only news; `dropped` counts messages beyond `PENDING_LIMIT` bytes."""
+    """Only telemetry is replaceable; `dropped` counts messages beyond `PENDING_LIMIT` bytes."""
 
     def __init__(self) -> None:
         super().__init__()
         self.dropped = 0
 
     def send(self, message: bytes) -> bool:
-        """Send `message` after those before it; False: dropped."""
+        """Send `message` after those before it; False if dropped."""
         if self._transport is None or self._size + len(message) > PENDING_LIMIT:
             self.dropped += 1
             return False
@@ -96,10 +96,10 @@ class LinkOutput(BaseOutput):
         return True
 
     def send_newest(self, message: bytes) -> bool:
-        """Send `message` in place of one that still waits; False: there is no link.
+        """Send `message` in place of one that still waits; False without a link.
 
-        While the peer acknowledges nothing it waits for the next one, which replaces it: TCP
-        would deliver all that it was given, late and in order.
+        While the peer acknowledges nothing, a message waits until the next one replaces it: TCP
+        would deliver everything it was given, late and in order.
         """
         if self._transport is None:
             return False

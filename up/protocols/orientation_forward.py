@@ -1,4 +1,4 @@
-"""The Orientation Forward Protocol: six floats a frame, from the phone (docs/protocols.md 3)."""
+"""The Orientation Forward Protocol: frames of six floats from the phone (docs/protocols.md 3)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _MAGNITUDE = 0x7FFFFFFF
 
 
 OrientationValues = tuple[float, float, float, float, float, float]
-"""The fields of an `OrientationFrame`, in its order, without their names."""
+"""The fields of an `OrientationFrame` in order, as a plain tuple."""
 
 
 class OrientationFrame(NamedTuple):
@@ -37,7 +37,7 @@ def encode(frame: OrientationFrame) -> bytes:
 
 
 def decode_datagram(datagram: bytes) -> OrientationFrame | None:
-    """Return the one frame of a datagram; None: another size, or a value out of range."""
+    """Return the one frame of a datagram; None for another size, or a value out of range."""
     if len(datagram) != FRAME_SIZE:
         return None
     values = _FRAME.unpack(datagram)
@@ -47,8 +47,8 @@ def decode_datagram(datagram: bytes) -> OrientationFrame | None:
 class OrientationDecoder:
     """Finds frames in the bytes of one connection; holds less than one frame.
 
-    They come as plain tuples: to name the fields of each takes as long as to decode it, so that
-    is left to whoever reads them (`OrientationFrame._make`).
+    Returns plain tuples: naming the fields of a frame takes as long as decoding it, so the reader
+    does it if needed (`OrientationFrame._make`).
     `dropped` counts frames with a value that is not finite or out of range.
     """
 
@@ -61,7 +61,7 @@ class OrientationDecoder:
         if self._remainder:
             data = self._remainder + data
         length = len(data)
-        if length == FRAME_SIZE:  # As a phone sends them: spare the work for many.
+        if length == FRAME_SIZE:  # The usual case: one frame.
             self._remainder = b""
             values = _FRAME.unpack(data)
             if _is_in_range(values):
@@ -118,8 +118,8 @@ def _range_masks(count: int) -> tuple[int, int, int]:
 def _are_all_in_range(block: bytes, count: int) -> bool:
     """Return whether every float is finite and within its limit.
 
-    IEEE 754 magnitudes are ordered like the integers of their bits, infinity and NaN on top. So
-    one addition over all frames carries into a sign bit wherever a magnitude passes its limit.
+    IEEE 754 magnitudes are ordered like the integers of their bits, infinity and NaN on top. So one
+    addition over all frames carries into a sign bit wherever a magnitude exceeds its limit.
     """
     magnitude, addend, sign = _range_masks(count)
     return not ((int.from_bytes(block, "big") & magnitude) + addend) & sign

@@ -1,4 +1,4 @@
-"""Where orientation from the phone arrives, on TCP and on UDP."""
+"""Receives orientation from the phone, over TCP and UDP."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from up.system.clock import Clock, Timer
 from up.system.token_bucket import TokenBucket
 
 TAKEOVER_SILENCE_S = 1.0
-"""How long a source must be silent before another one is taken over."""
+"""How long a source must be silent before another one may replace it."""
 MAX_FRAMES_HZ = 500.0
 MAX_BURST = 50
 """Frames of one source beyond its rate and burst are dropped."""
@@ -35,7 +35,7 @@ OnSourceLost = Callable[[str, str], object]
 
 @dataclass(slots=True)
 class OrientationCounters:
-    """Frames handed on, dropped ones, sources replaced and refused, frames beyond the rate."""
+    """Counters of frames delivered and dropped, sources replaced and refused, and rate excess."""
 
     frames: int = 0
     dropped: int = 0
@@ -48,7 +48,7 @@ class OrientationFactory(Factory):
     """The TCP side: a connection is the source until it closes or is silent for 1 s.
 
     `on_orientation` gets a frame and the source as text, `on_connected` the source, `on_lost` the
-    source and why. A connection that was replaced is told as lost before the new one connects.
+    source and the reason. A replaced connection is reported as lost before the new one connects.
     """
 
     noisy = False
@@ -72,7 +72,7 @@ class OrientationFactory(Factory):
 
     @property
     def source(self) -> str:
-        """Return host and port of the source; empty: there is none."""
+        """Return host and port of the source; empty without one."""
         return "" if self._current is None else self._current.source
 
     def buildProtocol(self, addr: IAddress | None) -> Protocol:  # noqa: N802 - Twisted's name
@@ -94,7 +94,7 @@ class OrientationFactory(Factory):
         self._on_connected(connection.source)
 
     def received(self, source: str, frames: list[OrientationValues]) -> None:
-        """Hand on frames of the source, at most `MAX_FRAMES_HZ` and the newest of a burst."""
+        """Deliver frames of the source, at most `MAX_FRAMES_HZ` and the newest of a burst."""
         self._heard_s = self._clock.seconds()
         self.counters.too_many += max(0, len(frames) - MAX_BURST)
         for values in frames[-MAX_BURST:]:
@@ -105,7 +105,7 @@ class OrientationFactory(Factory):
                 self.counters.too_many += 1
 
     def lost(self, connection: _OrientationConnection, why: str) -> None:
-        """Forget `connection` if it is the source."""
+        """Remove `connection` if it is the source."""
         if connection is self._current:
             self._current = None
             self._on_lost(connection.source, why)
@@ -144,15 +144,15 @@ class _OrientationConnection(Protocol):
         self._server.lost(self, why_lost(reason))
 
     def drop(self) -> None:
-        """Cut this connection off; nothing of it is heard any more."""
+        """Abort this connection; its remaining data are ignored."""
         self._is_dropped = True
         self.transport.abortConnection()
 
 
 class OrientationDatagrams(DatagramProtocol):
-    """The UDP side: the address heard last, until it was silent for 1 s.
+    """The UDP side: the last address received from, until it is silent for 1 s.
 
-    The callbacks are those of `OrientationFactory`. Only a good frame makes or keeps a source.
+    The callbacks are those of `OrientationFactory`. Only a valid frame makes or keeps a source.
     """
 
     noisy = False
@@ -177,7 +177,7 @@ class OrientationDatagrams(DatagramProtocol):
         self._timer: Timer | None = None
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
-        """Hand on the frame of a datagram of the one source."""
+        """Deliver the frame of a datagram of the one source."""
         if addr != self._address and self._address is not None:
             self._check_silence()
             if self._address is not None:
@@ -201,11 +201,11 @@ class OrientationDatagrams(DatagramProtocol):
 
     @property
     def source(self) -> str:
-        """Return host and port of the source; empty: there is none."""
+        """Return host and port of the source; empty without one."""
         return "" if self._address is None else self._source
 
     def drop(self, why: str) -> None:
-        """Give the source up."""
+        """Drop the source."""
         self._lose(why)
 
     def stopProtocol(self) -> None:  # noqa: N802 - Twisted's name

@@ -1,4 +1,4 @@
-"""One open serial port in the reactor: reads in big pieces, writes each frame at once."""
+"""One open serial port in the reactor: reads large pieces, writes each frame immediately."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ _READ_SIZE = 65536
 
 @implementer(IReadWriteDescriptor)
 class SerialDescriptor:
-    """Hands bytes from and to one descriptor until it fails; then it tells why, once.
+    """Transfers bytes from and to one descriptor until it fails; then reports the failure, once.
 
-    A frame is written at once when nothing waits before it. Commands wait in order, up to
-    `pending_limit` bytes; of each stream only the newest frame waits. It does not own the
-    descriptor: whoever made it closes it.
+    A frame is written immediately when none waits before it. Commands wait in order, up to
+    `pending_limit` bytes; of each stream only the newest frame waits. The creator of the descriptor
+    owns and closes it.
     """
 
     def __init__(
@@ -47,18 +47,18 @@ class SerialDescriptor:
         self._why_lost = "the port was unplugged or closed by the other side"
 
     def start(self) -> None:
-        """Begin to read."""
+        """Start reading."""
         self._reactor.addReader(self)
 
     def stop(self) -> None:
-        """Leave the reactor; nothing is read, written or told any more."""
+        """Leave the reactor; no more reads, writes or callbacks."""
         if not self._is_stopped:
             self._is_stopped = True
             self._reactor.removeReader(self)
             self._reactor.removeWriter(self)
 
     def write(self, frame: bytes) -> bool:
-        """Write or queue a frame; False: too much waits, the frame was not taken."""
+        """Write or queue a frame; False if the queue is full and the frame was not accepted."""
         if not self._is_writing:
             self._write_now(frame)
             return True
@@ -69,11 +69,11 @@ class SerialDescriptor:
         return True
 
     def write_newest(self, key: Hashable, frame: bytes) -> bool:
-        """Write a frame, or keep it as the newest of `key`; True: an older one was replaced."""
+        """Write a frame, or keep it as the newest of `key`; True if it replaced an older one."""
         if not self._is_writing:
             self._write_now(frame)
             return False
-        # Taken out first, so that streams which wait take turns in the order of their news.
+        # Removed first, so that waiting streams take turns in the order of their frames.
         is_replacing = self._newest.pop(key, None) is not None
         self._newest[key] = frame
         return is_replacing
@@ -87,7 +87,7 @@ class SerialDescriptor:
         return "serial"
 
     def doRead(self) -> Exception | None:  # noqa: N802 - Twisted's name
-        """Read what is there."""
+        """Read the available bytes."""
         try:
             data = os.read(self._number, _READ_SIZE)
         except BlockingIOError:
@@ -100,7 +100,7 @@ class SerialDescriptor:
         return None
 
     def doWrite(self) -> Exception | None:  # noqa: N802 - Twisted's name
-        """Write what waits, as far as the port takes it."""
+        """Write waiting frames, as far as the port accepts them."""
         while not self._is_stopped:
             if not self._rest:
                 self._rest = self._take_next()
@@ -118,7 +118,7 @@ class SerialDescriptor:
         return None
 
     def connectionLost(self, reason: Failure) -> None:  # noqa: N802 - Twisted's name
-        """Tell that the port is gone; the reactor has let go of it already."""
+        """Report the lost port; the reactor has removed it already."""
         if not self._is_stopped:
             self.stop()
             self._on_lost(self._why_lost)
@@ -129,7 +129,7 @@ class SerialDescriptor:
         except BlockingIOError:
             written = 0
         except OSError as error:
-            # Told later, as a fault of reading is: never from inside the caller's write.
+            # Reported later, like a read fault: never from inside the caller's write.
             self._failed(error)
             self._is_writing = True
             self._reactor.callLater(0, self.connectionLost, None)

@@ -1,4 +1,4 @@
-"""The serial line as a transport of the reactor; it comes back after a fault."""
+"""The serial line as a transport of the reactor; it reopens after a fault."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from up.system.clock import Timer
 
 FIRST_DELAY_S = 0.2
 LONGEST_DELAY_S = 1.6
-"""Between attempts to open; below the 2 s within which a line that is back is used again."""
+"""Between attempts to open; below the 2 s within which a restored line is used again."""
 
 PENDING_LIMIT = 1024
 
 
 class SerialLike(Protocol):
-    """A port that somebody else opened, as pyserial's."""
+    """A port opened elsewhere, such as pyserial's."""
 
     def fileno(self) -> int:
         """Return the descriptor."""
@@ -30,7 +30,7 @@ class SerialLike(Protocol):
 
 @dataclass(slots=True)
 class SerialLineCounters:
-    """Times opened and lost; frames that did not leave."""
+    """Counts of opens and losses, and of frames that were not sent."""
 
     opened: int = 0
     lost: int = 0
@@ -39,11 +39,11 @@ class SerialLineCounters:
 
 
 class SerialLine:
-    """Opens a port, keeps it open and hands bytes both ways, without a thread.
+    """Opens a port, keeps it open and transfers bytes both ways, without a thread.
 
-    `open_port` returns a non-blocking descriptor or an object that has one, and raises OSError
-    with one sentence. Callbacks: `on_bytes(data)`, `on_opened()`, `on_lost(why)` for an open port
-    that went, `on_open_failed(why)` for each new reason why it cannot be opened.
+    `open_port` returns a non-blocking descriptor or an object that has one, and raises OSError with
+    one sentence. Callbacks: `on_bytes(data)`, `on_opened()`, `on_lost(why)` for an open port that
+    failed, `on_open_failed(why)` for each new reason why it cannot be opened.
     """
 
     def __init__(
@@ -74,11 +74,11 @@ class SerialLine:
 
     @property
     def is_open(self) -> bool:
-        """Whether the port is open now."""
+        """Whether the port is open."""
         return self._descriptor is not None
 
     def start(self) -> bool:
-        """Try to open the port now, and go on trying; return whether it is open already."""
+        """Try to open the port, and retry until it opens; return whether it is open already."""
         if not self._is_started:
             self._is_started = True
             self._delay_s = FIRST_DELAY_S
@@ -86,7 +86,7 @@ class SerialLine:
         return self.is_open
 
     def stop(self) -> None:
-        """Close the port at once and stay closed; `on_lost` is not called."""
+        """Close the port immediately and keep it closed; does not call `on_lost`."""
         self._is_started = False
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
@@ -95,14 +95,14 @@ class SerialLine:
             self._close()
 
     def write(self, frame: bytes) -> bool:
-        """Send a frame in order; False: the line is closed or stuck, dropped and counted."""
+        """Send a frame in order; False: the line is closed or stuck, the frame dropped, counted."""
         if self._descriptor is not None and self._descriptor.write(frame):
             return True
         self.counters.dropped += 1
         return False
 
     def write_newest(self, key: Hashable, frame: bytes) -> bool:
-        """Send a frame that takes the place of one of the same `key` still waiting."""
+        """Send a frame that replaces a waiting one with the same `key`."""
         if self._descriptor is None:
             self.counters.dropped += 1
             return False
@@ -111,7 +111,7 @@ class SerialLine:
         return True
 
     def reopen(self) -> None:
-        """Close the port and open it anew, as after a fault."""
+        """Close the port and reopen it, as after a fault."""
         if self._descriptor is not None:
             self._descriptor.stop()
             self._lost("to be opened anew")
@@ -144,7 +144,7 @@ class SerialLine:
             self._on_open_failed(why)
 
     def _received(self, data: bytes) -> None:
-        # Bytes prove the port: one that opens and dies at once must not be opened in a hurry.
+        # Only received bytes prove the port: one that opens and then fails is retried slowly.
         self._delay_s = FIRST_DELAY_S
         self._on_bytes(data)
 

@@ -1,4 +1,4 @@
-"""Opening a serial port by termios: raw, 8N1, no flow control, ours alone."""
+"""Opens a serial port by termios: raw, 8N1, no flow control, exclusive."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ class SerialPortError(OSError):
 def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
     """Return a non-blocking descriptor of the port, set up; raises SerialPortError.
 
-    With `clear_hupcl` closing the port leaves DTR as it is, so that opening it again does not
-    reset an Arduino that flies. What arrived before is thrown away.
+    With `clear_hupcl` closing the port leaves DTR unchanged, so that reopening it does not reset an
+    Arduino in flight. Input that arrived before is discarded.
     """
     speed = getattr(termios, f"B{baud}", None)
     if speed is None:
@@ -43,20 +43,20 @@ def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
 
 
 def close_serial(descriptor: int) -> None:
-    """Close the port at once; bytes that it has not sent yet are thrown away.
+    """Close the port immediately and discard unsent bytes.
 
-    A port that is closed with unsent bytes may otherwise hold the program for half a minute.
+    Otherwise closing a port with unsent bytes may block the program for half a minute.
     """
     try:
         termios.tcflush(descriptor, termios.TCOFLUSH)
     except termios.error:
-        pass  # A port that was unplugged has nothing to flush.
+        pass  # An unplugged port has nothing to flush.
     finally:
         os.close(descriptor)
 
 
 def _set_up(descriptor: int, speed: int, *, clear_hupcl: bool) -> None:
-    """Set HUPCL and everything else in one call, as the first thing done to the port."""
+    """Set HUPCL and all other options in one call, as the first operation on the port."""
     attributes = termios.tcgetattr(descriptor)
     attributes[_IFLAG] = termios.IGNBRK
     attributes[_OFLAG] = 0
@@ -73,7 +73,7 @@ def _set_up(descriptor: int, speed: int, *, clear_hupcl: bool) -> None:
 
 
 def _claim(descriptor: int, path: str) -> None:
-    """Keep others out: a lock for those who ask, exclusive use for those who do not."""
+    """Exclude other programs: an advisory lock, and exclusive use for those that ignore it."""
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -1,4 +1,4 @@
-"""Socket options that let a link notice quickly that its peer has gone."""
+"""Socket options that detect a lost peer quickly."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ UNSENT_LIMIT = 4096
 
 
 def watch_peer(transport: Any, user_timeout_ms: int) -> None:
-    """Send at once, probe a silent peer, hold little back, and give up on unacknowledged bytes.
+    """Disable Nagle, probe a silent peer, buffer little, and give up on unacknowledged bytes.
 
-    Without a user timeout TCP goes on for minutes after a gap and then delivers what is stale.
+    Without a user timeout TCP continues for minutes after a gap and then delivers stale data.
     """
     transport.setTcpNoDelay(True)
     transport.setTcpKeepAlive(True)
@@ -32,21 +32,21 @@ def watch_peer(transport: Any, user_timeout_ms: int) -> None:
 
 
 def set_user_timeout(transport: Any, user_timeout_ms: int) -> None:
-    """Close the connection when sent bytes stay unacknowledged for so long; 0: the system's."""
+    """Close the connection when sent bytes stay unacknowledged this long; 0: the system default."""
     set_option(transport, "TCP_USER_TIMEOUT", user_timeout_ms)
 
 
 def set_option(transport: Any, name: str, value: int) -> None:
-    """Set a TCP option by its name where the platform has it."""
+    """Set a TCP option by name if the platform has it."""
     option = getattr(socket, name, None)
     if option is not None:
-        # A peer that has already gone leaves a socket that takes no options.
+        # The socket of a peer that has already gone accepts no options.
         with contextlib.suppress(OSError):
             transport.getHandle().setsockopt(socket.IPPROTO_TCP, option, value)
 
 
 def is_stalled(transport: Any) -> bool:
-    """Return whether the kernel repeats sent bytes that the peer has not acknowledged in time."""
+    """Return whether the kernel is retransmitting bytes that the peer has not acknowledged."""
     # Absent: another platform, or a transport without a socket.
     with contextlib.suppress(OSError, AttributeError):
         info = transport.getHandle().getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, 3)
@@ -55,7 +55,7 @@ def is_stalled(transport: Any) -> bool:
 
 
 def why_lost(reason: Failure) -> str:
-    """Return in a few words why a connection ended; Twisted's own are for programmers."""
+    """Return in a few words why a connection ended; Twisted's own texts are for programmers."""
     if reason.check(ConnectionDone):
         return "closed"
     if reason.check(ConnectionAborted):

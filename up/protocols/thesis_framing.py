@@ -22,10 +22,10 @@ class ThesisEncoder:
 
 
 class ThesisDecoder:
-    """Finds bare frames in a stream of bytes that may hold plain text too.
+    """Finds bare frames in a stream of bytes that may also hold plain text.
 
-    Nothing marks a frame, so an unknown byte is dropped alone and counted. The sequence of every
-    frame is 0. Of `sizes` the size of `!` is ignored: its payload is the refused type or empty.
+    Frames have no delimiter, so an unknown byte is dropped alone and counted. The sequence of every
+    frame is 0. The size of `!` in `sizes` is ignored: its payload is the refused type or empty.
     """
 
     def __init__(self, sizes: Mapping[int, int]) -> None:
@@ -43,7 +43,7 @@ class ThesisDecoder:
         return frames
 
     def expire(self, now: float) -> list[Frame]:
-        """Drop what is unfinished after 100 ms; a `!` that was left waiting is returned."""
+        """Drop an unfinished frame after 100 ms; return a `!` that was waiting."""
         if not self._tail or not self._silence.has_expired(now):
             return []
         frames = self._take(self._tail, is_silent=True)
@@ -53,7 +53,7 @@ class ThesisDecoder:
         return frames
 
     def reset(self) -> None:
-        """Forget the unfinished frame: the line was opened anew."""
+        """Discard the unfinished frame: the line was reopened."""
         self._tail = b""
         self._silence = SilenceTimer()
 
@@ -85,10 +85,10 @@ class ThesisDecoder:
         return frames
 
     def _refused_size(self, buffer: bytes, start: int, *, is_silent: bool) -> int | None:
-        """Return how many bytes belong to a `!` before `start`; None: wait for more.
+        """Return how many bytes belong to a `!` before `start`; None to wait for more.
 
-        A type without payload is taken as the refused one: to read the refusal of an Arm as
-        `!` and *armed* would be the worse mistake.
+        A type without payload is taken as the refused one: reading the refusal of an Arm as `!` and
+        *armed* would be the worse error.
         """
         if start == len(buffer):
             return 0 if is_silent else None

@@ -1,1 +1,1 @@
-"""The providers: what the system knows, from whom, and how old it is (thesis 3.2.2)."""
+"""The providers: the system's readings, their sources and their ages (thesis 3.2.2)."""

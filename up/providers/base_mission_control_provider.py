@@ -1,4 +1,4 @@
-"""The connection with the ground station, whatever it is made of (thesis 4.1.5, 4.2.3)."""
+"""The connection with the ground station, over any transport (thesis 4.1.5, 4.2.3)."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from up.protocols.general_message import encode
 
 
 class BaseMissionControlProvider(BaseStartedModule):
-    """Sends telemetry and Commands to the ground; extend it to say how.
+    """Sends telemetry and Commands to the ground; a subclass implements the transport.
 
-    Telemetry is newest-wins: ``_transmit_newest`` may replace a frame that has not left yet.
+    Telemetry is newest-wins: ``_transmit_newest`` may replace a frame that is still unsent.
     Commands keep their order: ``_transmit_data``.
     """
 
@@ -26,13 +26,13 @@ class BaseMissionControlProvider(BaseStartedModule):
         self.up.command_executor.register_command(TelemetryCommand, self.transmit_telemetry)
 
     def transmit_telemetry(self, command: TelemetryCommand) -> None:
-        """Send a frame of telemetry; the frame before it is dropped if it has not left."""
+        """Send a frame of telemetry; it replaces an unsent one."""
         self._transmit_newest(encode(command.NAME, command.content, None, command.beacon))
 
     send_telemetry = transmit_telemetry
 
     def send_command(self, command: BaseCommand, command_id: str | None = None) -> bool:
-        """Send a Command to the ground; returns whether it left or waits in order to leave."""
+        """Send a Command to the ground; return whether it was sent or queued."""
         sent = self._transmit_data(encode(command.NAME, command.data, command_id))
         if not sent:
             self.unsent += 1
@@ -40,7 +40,7 @@ class BaseMissionControlProvider(BaseStartedModule):
 
     @abstractmethod
     def _transmit_data(self, message: bytes) -> bool:
-        """Send one encoded message in order; return whether it was taken."""
+        """Send one encoded message in order; return whether it was accepted."""
 
     @abstractmethod
     def _transmit_newest(self, message: bytes) -> None:

@@ -1,4 +1,4 @@
-"""The base of the providers that a Command feeds."""
+"""The base of the providers that Commands update."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ _T = TypeVar("_T")
 
 
 class BaseProvider(BaseStartedModule, Generic[_T]):
-    """Keeps the newest reading of one kind from the source that it follows.
+    """Keeps the newest reading of one kind from the followed source.
 
     Subclasses name the ``READING`` (its key in ``age_ms`` and ``source`` of telemetry), the
-    ``COMMAND`` that feeds it and ``MAX_AGE_S``, after which a source is not fresh any more; they
-    turn the Command into the value in ``_value_of`` and hear of changes in ``_on_changed``.
+    ``COMMAND`` that updates it and ``MAX_AGE_S``, after which a source is no longer fresh; they
+    convert the Command to the value in ``_value_of`` and receive changes in ``_on_changed``.
     """
 
     CONFIG = PROVIDERS
@@ -42,7 +42,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
 
     @property
     def reading(self) -> Reading[_T] | None:
-        """Return the newest reading of the followed source, however old; None: there was none."""
+        """Return the newest reading of the followed source, however old; None before the first."""
         return self._reading
 
     def usable(self, max_age_s: float) -> Reading[_T] | None:
@@ -54,7 +54,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
 
     @property
     def value(self) -> _T | None:
-        """Return the newest value, whatever its age: for showing, never for control."""
+        """Return the newest value, whatever its age: for display, never for control."""
         return None if self._reading is None else self._reading.value
 
     @property
@@ -65,15 +65,15 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         return round(self._reading.age_s(self._seconds()) * 1000)
 
     def _value_of(self, command: Any) -> _T | None:
-        """Return the value that a Command carries; None when it is not for this reading."""
+        """Return the value in a Command; None if it is not for this reading."""
         raise NotImplementedError
 
     def _is_valid(self, command: Any) -> bool:
-        """Return whether the source calls the value valid."""
+        """Return whether the source marks the value as valid."""
         return True
 
     def _on_changed(self, reading: Reading[_T]) -> None:
-        """Hear of a new reading."""
+        """Called for a new reading."""
 
     def _on_command(self, command: Any) -> None:
         value = self._value_of(command)
@@ -101,6 +101,6 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
             self._log_info(f"{self.READING} comes from {source}")
 
     def _ages(self) -> dict[str, Any]:
-        """Return the part of telemetry that every reading has."""
+        """Return the part of telemetry common to all readings."""
         source = None if self._reading is None else self._reading.source
         return {"age_ms": {self.READING: self.age_ms}, "source": {self.READING: source}}

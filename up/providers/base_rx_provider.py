@@ -1,4 +1,4 @@
-"""What the pilot's receiver says."""
+"""The inputs of the pilot's receiver."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 
 
 class BaseRXProvider(BaseProvider[RXCommand]):
-    """Makes the receiver's inputs available, us of pulse; valid while every channel is."""
+    """Provides the receiver's inputs, us of pulse; valid while every channel is."""
 
     READING = "rx"
     COMMAND: ClassVar[type[BaseCommand]] = RXCommand
@@ -28,7 +28,7 @@ class BaseRXProvider(BaseProvider[RXCommand]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the inputs; absent as long as no peer sent any."""
+        """Return the inputs; absent until a peer sends some."""
         channels = self.get_channels()
         return self._ages() if channels is None else {"rx": channels, **self._ages()}
 
@@ -41,4 +41,4 @@ class BaseRXProvider(BaseProvider[RXCommand]):
 
 
 class UpRXProvider(BaseRXProvider):
-    """The receiver's inputs, from whichever link brings them."""
+    """The receiver's inputs, from any link."""

@@ -1,4 +1,4 @@
-"""A value that knows where it is from and how old it is."""
+"""A value with its source and age."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _T = TypeVar("_T")
 
 @dataclass(frozen=True, slots=True)
 class Reading(Generic[_T]):
-    """A value, its source, its monotonic time in seconds and whether the source calls it valid."""
+    """A value, its source, its monotonic time in seconds and whether the source marks it valid."""
 
     value: _T
     source: str

@@ -1,4 +1,4 @@
-"""Which of several sources of one reading is followed."""
+"""Selects which of several sources of one reading is followed."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class SourceArbiter:
     """Follows the freshest source of the highest priority.
 
     A source is fresh while its data are at most ``max_age_s`` old. A source of lower priority is
-    taken when those above it are not fresh; going back to a higher one needs ``RETURN_AFTER_S`` of
-    good data from it, without an invalid one between. Times are monotonic seconds.
+    followed when those above it are not fresh; returning to a higher one needs ``RETURN_AFTER_S``
+    of valid data from it, without an invalid one between. Times are monotonic seconds.
     """
 
     def __init__(self, max_age_s: float, on_switch: Callable[[str, str], object]) -> None:
@@ -30,7 +30,7 @@ class SourceArbiter:
         self._sources: dict[str, _Source] = {}
 
     def accepts(self, source: str, priority: int, now_s: float) -> bool:
-        """Note valid data of a source and return whether they are to be used."""
+        """Note valid data of a source and return whether to use them."""
         known = self._sources.get(source)
         if known is None:
             known = self._sources[source] = _Source(priority, now_s, now_s)
@@ -43,7 +43,7 @@ class SourceArbiter:
         return self._takes_over(source, known, now_s)
 
     def note_invalid(self, source: str, now_s: float) -> None:
-        """Note data that the source itself calls invalid: its good time begins anew."""
+        """Note data that the source itself marks invalid: its valid time restarts."""
         known = self._sources.get(source)
         if known is not None:
             known.good_since_s = now_s

@@ -12,7 +12,7 @@ from up.providers.reading import Reading
 
 
 class UpAltitudeProvider(BaseProvider[float]):
-    """Makes the altitude available, m above sea level, and the altitude that is asked for."""
+    """Provides the altitude, m above sea level, and the required altitude."""
 
     READING = "altitude"
     COMMAND: ClassVar[type[BaseCommand]] = AltitudeCommand
@@ -29,7 +29,7 @@ class UpAltitudeProvider(BaseProvider[float]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the altitude, and the one that was asked for."""
+        """Return the measured and the required altitude."""
         return {
             "altitude": self.altitude,
             "altitude_required": self.required_altitude,
@@ -47,4 +47,4 @@ class UpAltitudeProvider(BaseProvider[float]):
         self._on_altitude_changed()
 
     def _on_altitude_changed(self) -> None:
-        """Hear of a new altitude."""
+        """Called for a new altitude."""

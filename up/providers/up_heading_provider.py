@@ -13,7 +13,7 @@ from up.providers.reading import Reading
 
 
 class UpHeadingProvider(BaseProvider[float]):
-    """Makes the actual and the required heading available, deg clockwise from north."""
+    """Provides the measured and the required heading, deg clockwise from north."""
 
     READING = "heading"
     COMMAND: ClassVar[type[BaseCommand]] = HeadingCommand
@@ -48,7 +48,7 @@ class UpHeadingProvider(BaseProvider[float]):
         self._on_actual_heading_changed()
 
     def _on_actual_heading_changed(self) -> None:
-        """Hear of a new measured heading."""
+        """Called for a new measured heading."""
 
     def _on_required_heading_changed(self) -> None:
-        """Hear of a new heading that is asked for."""
+        """Called for a new required heading."""

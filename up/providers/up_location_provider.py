@@ -1,4 +1,4 @@
-"""The location of the aircraft, and its way home."""
+"""The location of the aircraft, and the distance and bearing to home."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from up.providers.reading import Reading
 
 
 class UpLocationProvider(BaseProvider[LocationCommand]):
-    """Makes the position (WGS 84) available, and distance and bearing to the first one."""
+    """Provides the position (WGS 84), and distance and bearing to the first one."""
 
     READING = "location"
     COMMAND: ClassVar[type[BaseCommand]] = LocationCommand
@@ -51,7 +51,7 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
 
     @property
     def required_bearing(self) -> float | None:
-        """Return the bearing that leads to the first position, deg clockwise from north."""
+        """Return the bearing to the first position, deg clockwise from north."""
         if self._reading is None or self.home is None:
             return None
         return bearing_deg(*_point(self._reading.value), *_point(self.home))
@@ -75,7 +75,7 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
         self._on_location_changed()
 
     def _on_location_changed(self) -> None:
-        """Hear of a new location."""
+        """Called for a new location."""
 
 
 def _point(location: LocationCommand) -> tuple[float, float]:

@@ -12,7 +12,7 @@ from up.providers.base_provider import BaseProvider
 
 
 class UpOrientationProvider(BaseProvider[OrientationCommand]):
-    """Makes attitude (deg) and rates (deg/s) available, from the Arduino or the phone."""
+    """Provides attitude (deg) and rates (deg/s), from the Arduino or the phone."""
 
     READING = "orientation"
     COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand
@@ -23,7 +23,7 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
         return value
 
     def _is_valid(self, command: Any) -> bool:
-        # Modules build the Command unchecked; one NaN would stay in a controller for ever.
+        # Modules build the Command without validation; one NaN would persist in a controller.
         return isfinite(
             command.roll_deg
             + command.pitch_deg

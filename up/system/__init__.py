@@ -1,1 +1,1 @@
-"""What programs ask of the operating system: supervision, addresses, time."""
+"""Operating system services: supervision, addresses, time."""

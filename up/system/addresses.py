@@ -1,4 +1,4 @@
-"""Which network addresses may be trusted with plain, unauthenticated traffic."""
+"""Network addresses that may be trusted with plain, unauthenticated traffic."""
 
 from functools import lru_cache
 from ipaddress import IPv4Address, IPv6Address, ip_address, ip_network
@@ -28,11 +28,11 @@ def _parsed(host: str) -> IPv4Address | IPv6Address:
 
 @lru_cache(maxsize=4096)
 def is_private(host: str) -> bool:
-    """Say whether a literal address is loopback, private, link local, ULA or carrier-grade NAT.
+    """Return whether a literal address is loopback, private, link local, ULA or carrier-grade NAT.
 
-    A wildcard such as 0.0.0.0 is not private (Python's `ipaddress` says it is): it stands for
-    every address. An IPv4 address inside IPv6 is judged as IPv4; a scope (`%eth0`) is ignored.
-    Raises ValueError when `host` is no literal address.
+    A wildcard such as 0.0.0.0 is not private (Python's `ipaddress` says it is): it stands for every
+    address. An IPv4 address inside IPv6 is judged as IPv4; a scope (`%eth0`) is ignored. Raises
+    ValueError when `host` is not a literal address.
     """
     address = _parsed(host)
     return any(
@@ -41,7 +41,7 @@ def is_private(host: str) -> bool:
 
 
 def is_wildcard(host: str) -> bool:
-    """Say whether a listener on `host` hears every interface: empty, 0.0.0.0 or ::.
+    """Return whether a listener on `host` listens on every interface: empty, 0.0.0.0 or ::.
 
     Raises ValueError when `host` is neither empty nor a literal address.
     """
@@ -49,12 +49,12 @@ def is_wildcard(host: str) -> bool:
 
 
 def plain(host: str) -> str:
-    """Return the address as people write it: without scope, IPv4 inside IPv6 as IPv4."""
+    """Return the display form of the address: without scope, IPv4 inside IPv6 as IPv4."""
     return str(_parsed(host))
 
 
 def neighbourhood(host: str) -> str:
-    """Return what counts as one source: an IPv4 address, or the /64 network of an IPv6 one."""
+    """Return the unit counted as one source: an IPv4 address, or the /64 network of an IPv6 one."""
     address = _parsed(host)
     if isinstance(address, IPv4Address):
         return str(address)

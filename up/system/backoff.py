@@ -1,4 +1,4 @@
-"""How long a link to a proxy waits between two attempts."""
+"""The delay between two connection attempts of a link to a proxy."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Callable
 
 FIRST_S = 0.3
 LONGEST_S = 2.4
-"""Attempts begin at most so far apart: a link that works again is found within 3 s."""
+"""Maximum distance between attempts: a restored link is found within 3 s."""
 JITTER = 0.2
 
 
 class Backoff:
-    """Doubles the distance between the beginnings of attempts, each shortened by up to a fifth.
+    """Doubles the distance between the starts of attempts, each shortened by up to a fifth.
 
-    The jitter keeps many peers from coming back to a proxy in one instant.
+    The jitter keeps many peers from reconnecting to a proxy at the same moment.
     """
 
     def __init__(self, draw: Callable[[], float] = random.random) -> None:
@@ -22,11 +22,11 @@ class Backoff:
         self._next_s = FIRST_S
 
     def reset(self) -> None:
-        """Begin anew: the link was good."""
+        """Reset after a successful connection."""
         self._next_s = FIRST_S
 
     def pause_s(self, spent_s: float = 0.0) -> float:
-        """Return how long to wait after an attempt that took ``spent_s``, at least ``FIRST_S``."""
+        """Return the delay after an attempt that took ``spent_s``, at least ``FIRST_S``."""
         distance_s = self._next_s * (1 - JITTER * self._draw())
         self._next_s = min(self._next_s * 2, LONGEST_S)
         return max(FIRST_S * (1 - JITTER), distance_s - spent_s)

@@ -1,4 +1,4 @@
-"""What the project asks of a reactor's clock, and a clock that no wall clock moves."""
+"""The part of a reactor's clock that the project uses, and a monotonic clock for reactors."""
 
 import time
 from collections.abc import Callable
@@ -6,17 +6,17 @@ from typing import Any, Protocol
 
 
 class Timer(Protocol):
-    """A call that was asked for and has not come yet; Twisted's DelayedCall is one."""
+    """A scheduled call; Twisted's DelayedCall is one."""
 
     def active(self) -> bool:
-        """Say whether the call is still to come."""
+        """Return whether the call is still pending."""
 
     def cancel(self) -> None:
-        """Take the call back; raises when it is not active."""
+        """Cancel the call; raises when it is not active."""
 
 
 class Clock(Protocol):
-    """Time in seconds and calls later; a Twisted reactor and `task.Clock` are such clocks."""
+    """Time in seconds and delayed calls; a Twisted reactor and `task.Clock` are such clocks."""
 
     def seconds(self) -> float:
         """Return the time in seconds."""
@@ -28,9 +28,9 @@ class Clock(Protocol):
 
 
 def use_monotonic_time(reactor: Any) -> None:
-    """Let the reactor's timers follow the monotonic clock.
+    """Make the reactor's timers use the monotonic clock.
 
-    Twisted's reactors read the wall clock: set back by a day, every timer waits a day longer.
-    Call it in a program's main, before anything is scheduled.
+    Twisted's reactors read the wall clock: if it is set back by a day, every timer waits a day
+    longer. Call this in a program's main, before scheduling anything.
     """
     reactor.seconds = time.monotonic

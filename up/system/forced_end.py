@@ -1,4 +1,4 @@
-"""Ends a process that cannot end by itself."""
+"""Ends a process that does not end normally."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from collections.abc import Callable
 
 
 class ForcedEnd:
-    """A thread that, once asked, ends the process after ``after_s`` seconds unless called off.
+    """A thread that, on request, ends the process after ``after_s`` seconds unless cancelled.
 
-    It lives outside the reactor, so it works while something holds the reactor. ``ask`` may be
-    called from a signal handler: it takes no lock that the interrupted code may hold.
+    It runs outside the reactor, so it works while the event loop is blocked. ``ask`` may be called
+    from a signal handler: it takes no lock that the interrupted code may hold.
     """
 
     def __init__(self, after_s: float, end: Callable[[int], object] = os._exit) -> None:
@@ -23,15 +23,15 @@ class ForcedEnd:
         self._thread = threading.Thread(target=self._run, name="forced-end", daemon=True)
 
     def start(self) -> None:
-        """Begin to wait."""
+        """Start waiting for a request."""
         self._thread.start()
 
     def ask(self, status: int) -> None:
-        """End the process with this exit status after a while; the first one asked for counts."""
+        """End the process with this exit status after the delay; the first request counts."""
         self._asked.put(status)
 
     def call_off(self) -> None:
-        """End nothing any more."""
+        """Cancel: the process is no longer ended."""
         self._called_off.set()
 
     def _run(self) -> None:

@@ -1,8 +1,8 @@
-"""When Python's garbage collector may stop the program: never while it is busy.
+"""Runs Python's garbage collector only while the program is idle.
 
-A full collection of a program of this size takes tens of milliseconds. What lives after the start
-is frozen out of sight, the automatic collector is off, and young garbage is collected once a second
-between two turns of the reactor; bus and codecs make no cycles, so there is little of it.
+A full collection of a program of this size takes tens of milliseconds. Objects that exist after the
+start are frozen, the automatic collector is off, and young garbage is collected once a second
+between two turns of the reactor; bus and codecs create no cycles, so there is little of it.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ class QuietCollector:
         self._call: Timer | None = None
 
     def start(self) -> None:
-        """Freeze what lives now and take over."""
+        """Freeze the existing objects and replace the automatic collector."""
         gc.collect()
         gc.freeze()
         gc.disable()
         self._schedule()
 
     def stop(self) -> None:
-        """Give the work back to Python."""
+        """Restore Python's automatic collector."""
         if self._call is not None and self._call.active():
             self._call.cancel()
         gc.enable()

@@ -1,4 +1,4 @@
-"""Whether the Host of an HTTP request names this machine."""
+"""Whether the Host header of an HTTP request names this machine."""
 
 import re
 from collections.abc import Collection
@@ -12,9 +12,10 @@ _AUTHORITY = re.compile(
 
 
 def names_this_machine(host: str | None, names: Collection[str]) -> bool:
-    """Return whether a Host header is a literal address or one of `names` (in small letters).
+    """Return whether a Host header is a literal address or one of `names` (in lower case).
 
-    Any other name may point here by DNS rebinding: the page of another site then reads the answer.
+    Any other name may resolve to this machine by DNS rebinding: another site's page could then read
+    the answer.
     """
     match = _AUTHORITY.fullmatch(host or "")
     if match is None:

@@ -1,4 +1,4 @@
-"""What a supervised program tells systemd: ready, stopping, status, still alive."""
+"""Notifications to systemd: ready, stopping, status, watchdog."""
 
 import os
 import socket
@@ -8,10 +8,10 @@ from up.system.clock import Clock, Timer
 
 
 class Notifier:
-    """Sends sd_notify datagrams; does nothing where no supervisor listens.
+    """Sends sd_notify datagrams; does nothing without a supervisor.
 
-    Source: sd_notify(3). `address` is the value of NOTIFY_SOCKET: a path, or a name in the
-    abstract namespace when it begins with `@`; None or empty: nobody listens.
+    Source: sd_notify(3). `address` is the value of NOTIFY_SOCKET: a path, or a name in the abstract
+    namespace when it begins with `@`; None or empty without a supervisor.
     """
 
     def __init__(self, address: str | None) -> None:
@@ -21,27 +21,27 @@ class Notifier:
 
     @classmethod
     def from_environment(cls, environ: Mapping[str, str] = os.environ) -> "Notifier":
-        """Return the notifier that NOTIFY_SOCKET asks for."""
+        """Return the notifier for NOTIFY_SOCKET."""
         return cls(environ.get("NOTIFY_SOCKET"))
 
     def ready(self, status: str = "") -> bool:
-        """Say that start-up is complete; return whether somebody was told."""
+        """Report that start-up is complete; return whether the datagram was sent."""
         return self._send("READY=1", status)
 
     def stopping(self, status: str = "") -> bool:
-        """Say that the program is about to end; return whether somebody was told."""
+        """Report that the program is stopping; return whether the datagram was sent."""
         return self._send("STOPPING=1", status)
 
     def status(self, text: str) -> bool:
-        """Show one line of text in `systemctl status`; return whether somebody was told."""
+        """Set the status line of `systemctl status`; return whether the datagram was sent."""
         return self._send("", text)
 
     def variable(self, name: str, value: str) -> bool:
-        """Tell a value of our own, such as bound ports; systemd ignores names with X_."""
+        """Send a custom value, such as bound ports; systemd ignores names with X_."""
         return self._send(f"{name}={value}".replace("\n", " "), "")
 
     def watchdog(self) -> bool:
-        """Say that the program is alive; return whether somebody was told."""
+        """Send a watchdog ping; return whether the datagram was sent."""
         return self._send("WATCHDOG=1", "")
 
     def _send(self, state: str, status: str) -> bool:
@@ -55,13 +55,13 @@ class Notifier:
                 line.setblocking(False)
                 line.sendto("\n".join(words).encode("utf-8", "replace"), self._address)
         except OSError:
-            # A supervisor that went away or is busy must never hurt what it supervises.
+            # A supervisor that is gone or busy must never harm the program that it supervises.
             return False
         return True
 
 
 def watchdog_period_s(environ: Mapping[str, str] = os.environ) -> float | None:
-    """Return the watchdog's period in seconds, None when this process is not watched."""
+    """Return the watchdog's period in seconds, None if this process has no watchdog."""
     usec = environ.get("WATCHDOG_USEC", "")
     pid = environ.get("WATCHDOG_PID", "")
     if not (usec.isascii() and usec.isdigit()) or int(usec) == 0:
@@ -72,7 +72,7 @@ def watchdog_period_s(environ: Mapping[str, str] = os.environ) -> float | None:
 
 
 class WatchdogPinger:
-    """Pings the supervisor at half the period that it asks for, only while `healthy()`.
+    """Pings the supervisor at half the watchdog period, only while `healthy()`.
 
     Without WATCHDOG_USEC in the environment `start` does nothing.
     """
@@ -92,12 +92,12 @@ class WatchdogPinger:
         self._call: Timer | None = None
 
     def start(self) -> None:
-        """Ping now and from now on; a second start changes nothing."""
+        """Ping immediately and then periodically; idempotent."""
         if self.interval_s is not None and self._call is None:
             self._ping()
 
     def stop(self) -> None:
-        """Ping no more."""
+        """Stop pinging."""
         call, self._call = self._call, None
         if call is not None and call.active():
             call.cancel()

@@ -1,4 +1,4 @@
-"""The process of a running program: the file with its number, the signals that it ignores."""
+"""The PID file of a running program, and the signals that it ignores."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 VARIABLE = "UP_PID_FILE"
-"""Names the file; taken out of the environment, as it belongs to one process."""
+"""Names the file; removed from the environment, as it belongs to one process."""
 
 
 class PidFileHeld(Exception):  # noqa: N818 - the text is the message
-    """Another process runs under this file; `holder` is its number."""
+    """Another process holds this file; `holder` is its PID."""
 
     def __init__(self, path: Path, holder: str) -> None:
         super().__init__(f"process {holder} runs already (pid file {path})")
@@ -24,7 +24,7 @@ class PidFileHeld(Exception):  # noqa: N818 - the text is the message
 class PidFile:
     """Locked from `take` until `release` or the end of the process, however it ends.
 
-    A file that no process locks is stale and is written again.
+    A file without a lock is stale and is overwritten.
     """
 
     def __init__(self, path: Path) -> None:
@@ -32,7 +32,7 @@ class PidFile:
         self._descriptor: int | None = None
 
     def take(self) -> None:
-        """Write this process's number; raises PidFileHeld and OSError."""
+        """Write this process's PID; raises PidFileHeld and OSError."""
         flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW
         while True:
             descriptor = os.open(self.path, flags, 0o644)
@@ -60,12 +60,12 @@ class PidFile:
 
 @contextmanager
 def service(environ: MutableMapping[str, str] = os.environ) -> Iterator[None]:
-    """Run a program's main: ignore SIGUSR1 and SIGUSR2, and keep the file that UP_PID_FILE names.
+    """Run a program's main: ignore SIGUSR1 and SIGUSR2, and hold the file that UP_PID_FILE names.
 
-    Raises SystemExit with a sentence where the file cannot be kept.
+    Raises SystemExit with a sentence if the file cannot be held.
     """
     for number in (signal.SIGUSR1, signal.SIGUSR2):
-        # A handler, not SIG_IGN, which programs that this one starts would inherit.
+        # A handler, not SIG_IGN, which child processes would inherit.
         signal.signal(number, lambda *_: None)
     path = environ.pop(VARIABLE, "")
     file = PidFile(Path(path).absolute())

@@ -1,4 +1,4 @@
-"""Who may speak the plain, unauthenticated protocol to a listener."""
+"""Decides which peers may use the plain, unauthenticated protocol."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ _LOGGED_LIMIT = 20
 
 
 class PlainPeers:
-    """Judges the addresses of a plain listener: public ones are refused unless accepted.
+    """Checks the addresses of a plain listener: public ones are refused unless accepted.
 
-    A listener on a wildcard address judges each peer when it comes. ``key`` is the configuration
-    key that accepts public peers, for the sentence that names it. ``refused`` counts peers.
+    A listener on a wildcard address checks each peer on arrival. ``key`` is the configuration key
+    that accepts public peers, for the messages. ``refused`` counts peers.
     """
 
     log = Logger()
@@ -25,7 +25,7 @@ class PlainPeers:
         self._logged: set[str] = set()
 
     def refusal_of(self, address: str) -> str:
-        """Return why nobody may listen on ``address``, one sentence; empty: it is permitted."""
+        """Return why listening on ``address`` is forbidden, one sentence; empty if permitted."""
         try:
             if self._accepts_public or is_wildcard(address) or is_private(address):
                 return ""
@@ -37,9 +37,9 @@ class PlainPeers:
         )
 
     def permits(self, host: str) -> bool:
-        """Return whether a peer with this literal address may speak; count and name one that not.
+        """Return whether a peer with this literal address may connect; count and log a refused one.
 
-        Something else than a literal address is not permitted.
+        Refuses anything that is not a literal address.
         """
         try:
             if self._accepts_public or is_private(host):

@@ -1,4 +1,4 @@
-"""Names who holds the reactor for too long."""
+"""Reports the module or handler that blocks the event loop for too long."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _NOT_TO_BLAME = frozenset({*sys.stdlib_module_names, "twisted", "zope"})
 class ReactorMonitor:
     """A thread that an alarm wakes when the reactor has not waited for ``BUDGET_S``.
 
-    The hold is blamed on the module or handler that stands in the reactor thread's stack at that
-    moment: logged once each, counted once a hold. None longer than the budget escapes, be it a
-    dispatch of the bus, a timer or a connection's data. While nothing is held nothing is woken. A
-    reactor without `epoll` or `poll` is not watched.
+    The block is attributed to the module or handler in the reactor thread's stack at that moment:
+    logged once for each, counted once per block. It detects every block longer than the budget,
+    whether in a dispatch of the bus, a timer or a connection's data. While nothing blocks, the
+    thread sleeps. A reactor without `epoll` or `poll` is not monitored.
 
-    Until ``has_started`` a hold is normal (modules open files, garbage is collected): it is logged
+    Until ``has_started`` a block is normal (modules open files, garbage is collected): it is logged
     as information and not counted.
     """
 
@@ -47,14 +47,14 @@ class ReactorMonitor:
         self._thread = threading.Thread(target=self._run, name="reactor-monitor", daemon=True)
 
     def start(self) -> None:
-        """Begin to watch the calling thread, which is the reactor's and the main one.
+        """Start monitoring the calling thread, which is the reactor's and the main one.
 
-        To be called before other threads are started: they must not take the alarm either.
+        Call it before other threads start: they must not receive the alarm either.
         """
         if not hasattr(self._reactor, "_poller"):
             return
         self._reactor_thread = threading.get_ident()
-        # A thread that does not block the signal would die of it, and the process with it.
+        # A thread that does not block the signal would be killed by it, and the process with it.
         signal.signal(signal.SIGALRM, _ignore)
         signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGALRM,))
         self._poller = WatchedPoller(self._reactor._poller, BUDGET_S)
@@ -63,12 +63,12 @@ class ReactorMonitor:
         self._thread.start()
 
     def stop(self) -> None:
-        """Watch no more."""
+        """Stop monitoring."""
         if self._poller is None:
             return
         self._reactor._poller, self._poller = self._poller.poller, None
         self._is_stopped = True
-        # Wakes the thread, if nothing else does.
+        # Wakes the thread if nothing else does.
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.pthread_kill(self._thread.ident or 0, signal.SIGALRM)
         self._thread.join(JOIN_S)
@@ -104,7 +104,7 @@ class ReactorMonitor:
 
 
 def culprit_in(frame: FrameType | None) -> str:
-    """Return who stands in a stack: the innermost module or handler, else a function's name."""
+    """Return the innermost module or handler in a stack, otherwise a function's name."""
     innermost = frame
     while frame is not None:
         owner = frame.f_locals.get("self")
@@ -115,7 +115,7 @@ def culprit_in(frame: FrameType | None) -> str:
 
 
 def _function_in(innermost: FrameType | None) -> str:
-    """Return the innermost function that neither Python nor Twisted brings."""
+    """Return the innermost function outside Python and Twisted."""
     frame = innermost
     while frame is not None:
         name = frame.f_globals.get("__name__", "?")
@@ -128,4 +128,4 @@ def _function_in(innermost: FrameType | None) -> str:
 
 
 def _ignore(number: int, frame: FrameType | None) -> None:
-    """Take an alarm that came when nobody waited for it."""
+    """Consume an alarm that arrived while no thread waited for it."""

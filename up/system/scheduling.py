@@ -10,9 +10,9 @@ log = Logger()
 
 
 def use_realtime_priority(priority: int) -> bool:
-    """Run this process under SCHED_FIFO with a priority of 1 to 99; 0 leaves it as it is.
+    """Run this process under SCHED_FIFO with a priority of 1 to 99; 0 changes nothing.
 
-    Returns whether the system permitted it; a refusal is said with the way to permit it.
+    Returns whether the system permitted it; logs a refusal with the remedy.
     """
     if priority == 0:
         return False

@@ -1,4 +1,4 @@
-"""Lets a signal wake the reactor, wherever the process was when it came."""
+"""Wakes the reactor on a signal, wherever the process was when it arrived."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _AT_ONCE = 4096
 
 @implementer(IReadDescriptor)
 class SignalWakeup:
-    """Ends the reactor's wait when a signal comes.
+    """Ends the reactor's wait when a signal arrives.
 
     Python runs a handler only between two instructions: without this, a signal that another thread
-    receives, or that comes just before the wait, would be heard when the next timer is due.
+    receives, or that arrives just before the wait, would be handled only at the next timer.
     """
 
     def __init__(self, reactor: Any) -> None:
@@ -27,7 +27,7 @@ class SignalWakeup:
         self._writer.setblocking(False)
 
     def start(self) -> None:
-        """Begin; to be called from the main thread."""
+        """Install; call it from the main thread."""
         signal.set_wakeup_fd(self._writer.fileno(), warn_on_full_buffer=False)
         self._reactor.addReader(self)
 
@@ -36,11 +36,11 @@ class SignalWakeup:
         return self._reader.fileno()
 
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
-        """Forget the bytes; that they came is what they say."""
+        """Discard the bytes; only their arrival matters."""
         self._reader.recv(_AT_ONCE)
 
     def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
-        """End; the reactor calls this when it stops."""
+        """Uninstall; the reactor calls this when it stops."""
         signal.set_wakeup_fd(-1)
         self._reader.close()
         self._writer.close()

@@ -1,4 +1,4 @@
-"""How many events a link may cause: a burst, and a rate in the long run."""
+"""Limits the events of a link: a burst, and a long-term rate."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from up.system.clock import Clock
 
 
 class TokenBucket:
-    """Permits ``burst`` events immediately and ``rate_hz`` a second in the long run.
+    """Permits ``burst`` events immediately and ``rate_hz`` per second in the long term.
 
-    ``refused`` counts the events that were not permitted.
+    ``refused`` counts the refused events.
     """
 
     def __init__(self, clock: Clock, rate_hz: float, burst: float) -> None:
@@ -20,7 +20,7 @@ class TokenBucket:
         self._refilled_s = clock.seconds()
 
     def take(self) -> bool:
-        """Take a token; False: there is none, and the event is counted as refused."""
+        """Take a token; without one, return False and count the event as refused."""
         now_s = self._clock.seconds()
         self._tokens = min(self._burst, self._tokens + (now_s - self._refilled_s) * self._rate_hz)
         self._refilled_s = now_s

@@ -1,4 +1,4 @@
-"""Opens UDP ports without leaving a socket behind."""
+"""Opens UDP ports without leaking sockets."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ MAX_DATAGRAMS_PER_TURN = 64
 class _FairPort(Port):
     """Returns to the reactor after `MAX_DATAGRAMS_PER_TURN`.
 
-    Twisted's port reads 256 KiB per turn: thousands of short datagrams, and any number of empty
-    ones.
+    Twisted's port reads 256 KiB per turn: thousands of short datagrams, and an unlimited number of
+    empty ones.
     """
 
     log = Logger()
@@ -29,7 +29,7 @@ class _FairPort(Port):
                 return
             try:
                 self.protocol.datagramReceived(datagram, address[:2])
-            except Exception:  # noqa: BLE001 - as in Twisted's port: one datagram, not the port
+            except Exception:  # noqa: BLE001 - as in Twisted's port: a fault costs one datagram
                 self.log.failure("a datagram could not be handled")
 
 
@@ -37,7 +37,7 @@ def listen_udp(reactor: Any, number: int, protocol: Any, address: str = "") -> A
     """Listen on a UDP port and return it; raises CannotListenError.
 
     Twisted's own ``listenUDP`` leaves the socket of a refused bind to the garbage collector. A
-    reactor that adopts no sockets has none, as a simulated one: there ``listenUDP`` does.
+    reactor that cannot adopt sockets, such as a simulated one, uses ``listenUDP``.
     """
     if not hasattr(reactor, "adoptDatagramPort"):
         return reactor.listenUDP(number, protocol, interface=address)

@@ -1,4 +1,4 @@
-"""A reactor's poller that has an alarm run while the reactor works, and none while it waits."""
+"""A reactor's poller with an alarm that runs only while the reactor works."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import Any
 
 
 class WatchedPoller:
-    """Stands in for the `epoll` or `poll` object of a Twisted reactor.
+    """Replaces the `epoll` or `poll` object of a Twisted reactor.
 
-    SIGALRM is sent to the process when the reactor has not come back to wait within ``budget_s``.
-    Two calls of setitimer(2) a round cost 1 us; a thread that looks every 20 ms costs half a per
-    cent of a core. ``is_waiting`` tells which of the two it is.
+    The process receives SIGALRM when the reactor does not return to its wait within ``budget_s``.
+    Two calls of setitimer(2) per round cost 1 us; a thread that polls every 20 ms costs half a per
+    cent of a core. ``is_waiting`` is true during the wait.
     """
 
     def __init__(self, poller: Any, budget_s: float) -> None:
@@ -26,7 +26,7 @@ class WatchedPoller:
     def poll(
         self, *arguments: Any, _set: Any = signal.setitimer, _real: int = signal.ITIMER_REAL
     ) -> Any:
-        """Wait as the poller does."""
+        """Wait like the wrapped poller."""
         _set(_real, 0.0)
         self.is_waiting = True
         try:
