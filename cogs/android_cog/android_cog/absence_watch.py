@@ -1,4 +1,4 @@
-"""Acts when something stays away for too long."""
+"""Acts on an absence that lasts too long."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from up.system.clock import Clock, Timer
 
 
 class AbsenceWatch:
-    """Calls ``act`` once ``delay_s`` after ``begin``, unless it is cancelled before."""
+    """Calls ``act`` once, ``delay_s`` after ``begin``, unless cancelled before."""
 
     def __init__(self, clock: Clock, delay_s: float, act: Callable[[], object]) -> None:
         self._clock = clock
@@ -17,12 +17,12 @@ class AbsenceWatch:
         self._timer: Timer | None = None
 
     def begin(self) -> None:
-        """Begin to wait; a second call changes nothing."""
+        """Start waiting; idempotent."""
         if self._timer is None:
             self._timer = self._clock.callLater(self._delay_s, self._over)
 
     def cancel(self) -> None:
-        """It came back."""
+        """Stop waiting: the absence is over."""
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None

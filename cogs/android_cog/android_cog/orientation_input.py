@@ -19,10 +19,10 @@ from up.system.clock import Clock
 
 
 class OrientationInput:
-    """One TCP connection, and UDP while no TCP connection brought a frame for 1 s.
+    """One TCP connection, and UDP while no TCP connection delivered a frame for 1 s.
 
-    ``permits`` judges a source's host. ``on_connected`` and ``on_lost`` tell that the first source
-    came and that the last one went.
+    ``permits`` checks a source's host. ``on_connected`` and ``on_lost`` report the arrival of the
+    first source and the loss of the last one.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class OrientationInput:
 
     @property
     def counters(self) -> dict[str, int]:
-        """Return frames, dropped frames, replaced sources, frames of others and too many."""
+        """Return frames, dropped frames, replaced sources, frames of others and excess frames."""
         parts = (self.factory.counters, self.datagrams.counters)
         return {
             "orientation_frames": sum(part.frames for part in parts),
@@ -74,7 +74,7 @@ class OrientationInput:
         }
 
     def judge_again(self) -> None:
-        """Drop the sources that are not permitted any more."""
+        """Drop the sources that are no longer permitted."""
         if self.factory.source and not self._permits(host_of(self.factory.source)):
             self.factory.close()
         if self.datagrams.source and not self._permits(host_of(self.datagrams.source)):
@@ -108,7 +108,7 @@ class OrientationInput:
 
 
 class _JudgedFactory(OrientationFactory):
-    """Takes connections only of peers that may speak."""
+    """Accepts connections only from permitted peers."""
 
     def __init__(self, clock: Clock, permits: Callable[[str], bool], **callbacks: Any) -> None:
         super().__init__(clock, **callbacks)
@@ -121,7 +121,7 @@ class _JudgedFactory(OrientationFactory):
 
 
 class _JudgedDatagrams(OrientationDatagrams):
-    """Hears only peers that may speak."""
+    """Accepts datagrams only from permitted peers."""
 
     def __init__(self, clock: Clock, permits: Callable[[str], bool], **callbacks: Any) -> None:
         super().__init__(clock, **callbacks)

@@ -1,4 +1,4 @@
-"""The phone's General Messages, on TCP or on UDP, from one phone at a time."""
+"""The phone's General Messages, over TCP or UDP, from one phone at a time."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from up.system.plain_peers import PlainPeers
 from up.system.token_bucket import TokenBucket
 
 MAX_UNDECIDED = 8
-"""Connections that have not shown yet whose they are."""
+"""Connections whose phone is not identified yet."""
 MAX_UNDECIDED_LINE = 1024
-"""Bytes of the first line of such a connection: a stranger's lines must cost next to nothing."""
+"""Bytes of the first line of such a connection: an unknown peer must cost almost nothing."""
 _FOREIGN_HZ = 10.0
 _IDENTITY = re.compile(r"([0-9a-f]{1,8})\.[0-9]+", re.ASCII)
 
@@ -41,12 +41,12 @@ OnLost = Callable[[GeneralMessageLink, str], object]
 class PhoneLink:
     """One phone owns the link until its connection closes or it is silent for 1.5 s.
 
-    A phone is known by the part before the dot of the id of its first message (docs/protocols.md
-    4); one without such an id by its host, on UDP by host and port. The same phone replaces its
-    own connection immediately. Another phone gets the nack `taken` and is closed, after its first
-    message or 1.5 s; `on_rejected` gets its address, `rejected` counts.
+    A phone is identified by the part before the dot of the id of its first message
+    (docs/protocols.md 4); one without such an id by its host, on UDP by host and port. The same
+    phone replaces its own connection immediately. Another phone gets the nack `taken` and is
+    closed, after its first message or 1.5 s; `on_rejected` gets its address, `rejected` counts.
 
-    The other callbacks get the connection or the datagrams that they concern.
+    The other callbacks get the connection, or the datagram protocol, of the event.
     """
 
     def __init__(
@@ -89,24 +89,24 @@ class PhoneLink:
 
     @property
     def current(self) -> GeneralMessageLink | None:
-        """Return the link that the phone is reached by, None while it is away."""
+        """Return the link to the phone, or None while it is absent."""
         return self._owner
 
     @property
     def host(self) -> str:
-        """Return the phone's host; empty while it is away."""
+        """Return the phone's host; empty while it is absent."""
         return "" if self._owner is None else host_of(self._owner.peer)
 
     def send_by_stream(self, message: bytes) -> bool:
-        """Send to the TCP connection in order; False: dropped."""
+        """Send to the TCP connection in order; False if dropped."""
         return self._owner is not self.datagrams and self.send(message)
 
     def send(self, message: bytes) -> bool:
-        """Send in order to wherever the phone is; False: dropped."""
+        """Send in order over the phone's current link; False if dropped."""
         return self._owner is not None and self._owner.send(message)
 
     def send_newest(self, message: bytes) -> bool:
-        """Send in place of an older message that still waits."""
+        """Send in place of an older waiting message."""
         return self._owner is not None and self._owner.send_newest(message)
 
     def is_stream(self, link: GeneralMessageLink) -> bool:
@@ -118,7 +118,7 @@ class PhoneLink:
         return GeneralMessageProtocol(self._clock, **self._callbacks)
 
     async def close(self) -> None:
-        """Give the phone up and wait until its connections are closed."""
+        """Drop the phone and wait until its connections are closed."""
         if self._open:
             self._all_closed = Deferred()
             for stream in list(self._open):
@@ -126,7 +126,7 @@ class PhoneLink:
             await self._all_closed
 
     def admits_datagram(self, datagram: bytes, addr: Any) -> bool:
-        """Return whether a datagram of an address that is not the owner's makes it the owner."""
+        """Return whether a datagram from another address makes that address the owner."""
         address = f"{addr[0]}:{addr[1]}"
         if not self._may_own("", address):
             # A few are decoded, to recognize the owner's new address and to answer another phone.
@@ -168,7 +168,7 @@ class PhoneLink:
     def _own(self, link: GeneralMessageLink, address: str, identity: str = "") -> None:
         self._replace()
         if isinstance(link, GeneralMessageProtocol):
-            # Its own until here, so that nobody else can empty the owner's.
+            # A separate bucket until here, so that no other phone can empty the owner's.
             link.bucket = self.bucket
             link.longest_line = LONGEST_LINE
         self._owner, self._address, self._identity = link, address, identity
@@ -231,7 +231,7 @@ class PhoneLink:
 
 
 class _Streams(Factory):
-    """Builds a protocol for each connection of a peer that may speak."""
+    """Builds a protocol for each connection of a permitted peer."""
 
     noisy = False
 
@@ -243,7 +243,7 @@ class _Streams(Factory):
 
 
 class _JudgedDatagrams(GeneralMessageDatagrams):
-    """Hears only peers that may speak, and of them the phone that owns the link."""
+    """Accepts permitted peers only, and of them the phone that owns the link."""
 
     noisy = False
 
@@ -252,7 +252,7 @@ class _JudgedDatagrams(GeneralMessageDatagrams):
         self._link = link
 
     def send_to(self, message: bytes, addr: Any) -> None:
-        """Send one datagram to an address that is not the peer's."""
+        """Send one datagram to an address other than the peer's."""
         with suppress(OSError):
             self.transport.write(message, addr)
 
@@ -265,11 +265,11 @@ class _JudgedDatagrams(GeneralMessageDatagrams):
 
 
 def host_of(peer: str) -> str:
-    """Return the host of a peer's text, host and port."""
+    """Return the host in a peer's text of host and port."""
     return peer.rpartition(":")[0]
 
 
 def _identity_of(message: GeneralMessage | None) -> str:
-    """Return the phone that an id names; empty: none, as in the ids of legacy phones."""
+    """Return the phone that an id names; empty for the ids of legacy phones, which name none."""
     found = _IDENTITY.fullmatch(message.id or "") if message is not None else None
     return "" if found is None else found[1]

@@ -1,4 +1,4 @@
-"""Carries Commands to the phone and its answers back to whoever asked."""
+"""Forwards Commands to the phone and its answers back to the sender."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _REMEMBERED_IDS = 512
 
 @dataclass(frozen=True, slots=True)
 class _Pending:
-    """A Command that left, and by which link and to whom: only there its answer counts."""
+    """A forwarded Command with its link and recipient: only that phone's answer counts."""
 
     via: GeneralMessageLink
     peer: str
@@ -29,10 +29,10 @@ class _Pending:
 
 
 class PhoneRoute:
-    """The route ``android``: the Command Receiver hands Commands over, and gives up after 2 s.
+    """The route ``android``: the Command Receiver hands over Commands, and times out after 2 s.
 
-    A Command leaves with the asker's id, or with one of our own when that id was used towards the
-    phone before: the phone would take it for a repetition.
+    A Command is sent with the sender's id, or with a generated one if that id was used with the
+    phone before: the phone would treat it as a repetition.
     """
 
     def __init__(self, phone: PhoneLink) -> None:
@@ -48,9 +48,9 @@ class PhoneRoute:
     def carry(
         self, command: BaseCommand, asker: CommandLink, command_id: str | None
     ) -> Deferred[None] | None:
-        """Send a Command to the phone; the result tells the phone's answer.
+        """Send a Command to the phone; the result is the phone's answer.
 
-        Without an id nobody waits: None. Raises CommandRefusedError when it cannot leave.
+        Returns None for a Command without an id. Raises CommandRefusedError if it cannot be sent.
         """
         link = self._phone.current
         if link is None:
@@ -75,7 +75,7 @@ class PhoneRoute:
     def on_answer(
         self, sender: GeneralMessageLink, command_id: str, refusal: CommandRefusedError | None
     ) -> None:
-        """Take the phone's ``up.ack`` (no refusal) or ``up.nack``; an unasked one is counted."""
+        """Take the phone's ``up.ack`` (no refusal) or ``up.nack``; count an unexpected one."""
         pending = self._pending.get(command_id)
         if pending is None or pending.via is not sender or pending.peer != sender.peer:
             self.unasked_answers += 1
@@ -87,7 +87,7 @@ class PhoneRoute:
             pending.done.errback(refusal)
 
     def on_lost(self, link: GeneralMessageLink) -> None:
-        """Answer for the Commands whose link went away: their fate is not known."""
+        """Answer the Commands whose link was lost: their outcome is unknown."""
         for command_id, pending in list(self._pending.items()):
             if pending.via is link:
                 del self._pending[command_id]

@@ -23,9 +23,9 @@ class Ports:
         self._open: list[Any] = []
 
     def open(self, number: int, key: str, factory: Any, datagrams: Any = None) -> int:
-        """Listen on TCP and, where ``datagrams`` is given, on UDP; return the number.
+        """Listen on TCP and, if ``datagrams`` is given, on UDP; return the number.
 
-        0 is any number that is free for both. Raises StartFailedError that names the port and the
+        0 selects a number that is free for both. Raises StartFailedError naming the port and the
         configuration ``key``.
         """
         for remaining in reversed(range(_TRIES if number == 0 and datagrams else 1)):
@@ -59,7 +59,7 @@ class Ports:
         return bool(self._open)
 
     async def close(self) -> None:
-        """Close what is open; a second close does nothing."""
+        """Close the open ports; idempotent."""
         closing, self._open = self._open, []
         for done in [maybeDeferred(port.stopListening) for port in closing]:
             await done

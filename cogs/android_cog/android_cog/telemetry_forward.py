@@ -1,4 +1,4 @@
-"""Telemetry for the phone: seldom, and always the newest."""
+"""Telemetry for the phone, at a low rate, always the newest frame."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from up.system.clock import Clock, Timer
 
 
 class TelemetryForward:
-    """Hands on at most one frame an interval, the newest that there is then."""
+    """Forwards at most one frame per interval, the newest one."""
 
     def __init__(
         self, clock: Clock, interval_s: float, send: Callable[[TelemetryCommand], object]
@@ -20,17 +20,17 @@ class TelemetryForward:
         self._newest: TelemetryCommand | None = None
         self._timer: Timer | None = None
         self.least_interval_s = 0.0
-        """A longer interval while it is greater than the usual one (Panic Mode)."""
+        """A longer interval, used while it exceeds the usual one (Panic Mode)."""
 
     def offer(self, frame: TelemetryCommand) -> None:
-        """Hand the frame on now, or when the interval is over unless a newer one comes."""
+        """Forward the frame now, or at the end of the interval unless a newer one replaces it."""
         if self._timer is None:
             self._send_now(frame)
         else:
             self._newest = frame
 
     def forget(self) -> None:
-        """Drop the frame that waits, and begin anew."""
+        """Drop the waiting frame and restart the interval."""
         self._newest = None
         if self._timer is not None:
             self._timer.cancel()

@@ -1,4 +1,4 @@
-"""airframe.yml: what the Arduino shall know about the aeroplane; what is not said stays."""
+"""airframe.yml: the required profile of the Arduino; null values stay unchanged."""
 
 from __future__ import annotations
 

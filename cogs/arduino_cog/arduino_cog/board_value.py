@@ -1,4 +1,4 @@
-"""One thing that the Arduino keeps, its gains or its profile: read, sent, read back."""
+"""A value stored on the Arduino, its gains or its profile: read, sent, read back."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ T = TypeVar("T")
 
 
 class Board(Protocol):
-    """What is asked of the link to the Arduino."""
+    """The operations on the link to the Arduino."""
 
     def request(self, type_: str, payload: bytes = b"", *, answer: str = "K") -> Deferred[bytes]:
-        """Ask the Arduino; raises or fails with CommandRefusedError."""
+        """Send a request to the Arduino; raises or fails with CommandRefusedError."""
 
     def send_unanswered(self, type_: str, payload: bytes) -> None:
-        """Send what an old firmware does not confirm; raises CommandRefusedError."""
+        """Send a message that an old firmware does not confirm; raises CommandRefusedError."""
 
 
 class BoardValue(Generic[T]):
-    """Reads a value by the request ``ask``, which ``answer`` answers, and sends another.
+    """Reads a value by the request ``ask``, answered by ``answer``, and sends new values.
 
-    ``held`` is what the board said last, None while that is not known. ``decode`` raises
-    ValueError for bytes that cannot be; ``what`` names the value in sentences. Failures are
-    CommandRefusedError, their texts are for the asker. ``on_changed`` hears what the board holds,
-    the first time and whenever it is something else.
+    ``held`` is the board's last reported value, None while unknown. ``decode`` raises ValueError
+    for invalid bytes; ``what`` names the value in messages. Failures are CommandRefusedError with a
+    text for the sender. ``on_changed`` is called for the board's first value and for every
+    different one.
     """
 
     def __init__(
@@ -51,15 +51,15 @@ class BoardValue(Generic[T]):
         self._told: T | None = None
 
     def read(self) -> Deferred[T]:
-        """Ask for the value; the result is what the board holds now."""
+        """Request the value; the result is the board's current value."""
         return self._board.request(self._ask, answer=self._answer).addCallback(self._on_read)
 
     def send(
         self, type_: str, payload: bytes, is_held: Callable[[T], bool], *, is_answered: bool = True
     ) -> Deferred[Any]:
-        """Send a value; the result comes when the board has it for certain.
+        """Send a value; the result fires when the board has confirmed it.
 
-        It is read back: ``is_held`` tells whether that is what was sent. An old firmware confirms
+        The value is read back: ``is_held`` compares it with the one sent. An old firmware confirms
         in no other way (``is_answered`` false). One at a time: see ``is_setting``.
         """
         done: Deferred[Any]

@@ -1,4 +1,4 @@
-"""Sends a value when it changes, and not too often."""
+"""Sends a value on change, at a limited rate."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ LEAST_PERIOD_S = 0.1
 
 
 class ChangeSender:
-    """Sends the newest payload, at most ten times a second and only when it is another one.
+    """Sends the newest payload, at most ten times a second and only when it differs.
 
-    What comes too early waits, and only the newest waits. ``send`` returns None for what did not
-    leave; it is sent again with the next offer.
+    A payload offered too early waits, and only the newest waits. ``send`` returns None for a
+    payload that was not sent; the next offer sends it again.
     """
 
     def __init__(self, clock: Clock, send: Callable[[bytes], object]) -> None:
@@ -25,7 +25,7 @@ class ChangeSender:
         self._timer: Timer | None = None
 
     def offer(self, payload: bytes) -> None:
-        """Take a new payload."""
+        """Accept a new payload."""
         if self._timer is not None:
             self._waiting = payload
             return
@@ -40,12 +40,12 @@ class ChangeSender:
         self._sent = payload if self._send(payload) is not None else None
 
     def forget(self) -> None:
-        """Forget what was sent and what waits: the next offer is sent, whoever listens now."""
+        """Discard the sent and the waiting payload: the next offer is sent to any board."""
         self._sent = None
         self.stop()
 
     def stop(self) -> None:
-        """Send nothing more of what waits."""
+        """Discard the waiting payload."""
         if self._timer is not None:
             self._timer.cancel()
         self._timer = self._waiting = None

@@ -1,4 +1,4 @@
-"""Requests to the Arduino and the answers that belong to them."""
+"""Matches requests to the Arduino with their answers."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class _Request:
 class Exchange:
     """Matches answers to requests by type and frame sequence; the result is the answer's payload.
 
-    A request that gets no answer within 500 ms is sent once more where that does no harm, then it
-    fails. ``send`` returns the frame's sequence, or None when it did not leave. Failures are
-    CommandRefusedError, their texts are for the asker.
+    A request without an answer within 500 ms is repeated once if that is harmless, then it fails.
+    ``send`` returns the frame's sequence, or None if it was not sent. Failures are
+    CommandRefusedError with a text for the sender.
     """
 
     def __init__(self, clock: Clock, send: Send) -> None:
@@ -43,7 +43,7 @@ class Exchange:
     def request(
         self, type_: str, payload: bytes = b"", *, answer: str = "K", may_repeat: bool = True
     ) -> Deferred[bytes]:
-        """Send a request; ``answer`` is the type that answers it, `K` or a type of its own."""
+        """Send a request; ``answer`` is the type of its answer, `K` or a dedicated type."""
         request = _Request(type_, payload, answer, may_repeat, Deferred(self._cancelled))
         self._waiting.append(request)
         self._transmit(request)
@@ -58,7 +58,7 @@ class Exchange:
             self.unmatched += 1
 
     def on_refused(self, type_: str, sequence: int | None, reason: str) -> bool:
-        """Take `!`; return whether it belonged to a request. A sequence of None fits any."""
+        """Take `!`; return whether it belonged to a request. A sequence of None matches any."""
         request = self._find(type_, sequence)
         if request is None:
             return False
@@ -66,7 +66,7 @@ class Exchange:
         return True
 
     def on_value(self, type_: str, payload: bytes) -> None:
-        """Take an answer that carries a value: the oldest request for it gets it."""
+        """Take an answer with a value; it completes the oldest request for it."""
         for request in self._waiting:
             if request.answer_type == type_:
                 self._finish(request).callback(payload)
@@ -74,7 +74,7 @@ class Exchange:
         self.unmatched += 1
 
     def fail_all(self, reason: str) -> None:
-        """Fail what waits: the Arduino is gone."""
+        """Fail all pending requests: the Arduino is gone."""
         for request in list(self._waiting):
             self._finish(request).errback(CommandRefusedError(reason, Code.UNAVAILABLE))
 
@@ -111,7 +111,7 @@ class Exchange:
         return request.done
 
     def _cancelled(self, done: Deferred[bytes]) -> None:
-        """Forget a request whose asker gave up, so that nothing of it is repeated."""
+        """Remove a request that its caller cancelled, so that it is not repeated."""
         for request in self._waiting:
             if request.done is done:
                 self._finish(request)

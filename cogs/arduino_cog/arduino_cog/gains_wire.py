@@ -16,9 +16,9 @@ _DIGITS_OF_F32 = 9
 
 
 def pack_gains(gains: GainSet) -> bytes:
-    """Return a set as the wire has it: 72 bytes with a rudder, 48 without.
+    """Encode a set: 72 bytes with a rudder, 48 without.
 
-    Raises ValueError when a gain is not finite or not within 0 to 50; nothing is sent then.
+    Raises ValueError when a gain is not finite or not within 0 to 50; then nothing is sent.
     """
     values = list(_values(gains))
     if not all(0 <= value <= GREATEST for value in values):
@@ -31,7 +31,7 @@ def pack_gains(gains: GainSet) -> bytes:
 
 
 def read_gains(payload: bytes) -> GainSet:
-    """Return the set in 48 or 72 bytes, each gain in the fewest digits that mean it exactly.
+    """Return the set in 48 or 72 bytes, each gain with the fewest digits that identify it.
 
     Raises ValueError when a gain is not finite or not within 0 to 50.
     """
@@ -65,9 +65,9 @@ def _loop(values: list[float]) -> LoopGains:
 
 
 def _shortest(value: float) -> float:
-    """Return the number with the fewest digits that is this one in single precision.
+    """Return the number with the fewest digits that equals this one in single precision.
 
-    The wire turns 0.7 into 0.699999988: the same gain, but nobody asked for those digits.
+    The wire turns 0.7 into 0.699999988: the same gain with digits that the user did not set.
     """
     wire = _F32.pack(value)
     for digits in range(1, _DIGITS_OF_F32):

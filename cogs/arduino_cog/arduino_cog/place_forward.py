@@ -1,4 +1,4 @@
-"""What sends a provider's readings to an Arduino with the thesis's firmware."""
+"""Sends a provider's readings to an Arduino with the thesis's firmware."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from up.providers.reading import Reading
 class PlaceForward(BaseStartedModule):
     """Forwards each new valid reading of ``source`` once, as the stream ``LETTER``.
 
-    A subclass names the ``COMMAND`` that brings readings, the provider as ``source``, and how a
-    value is packed.
+    A subclass names the ``COMMAND`` that delivers readings, the provider as ``source``, and the
+    packing of a value.
     """
 
     MODES = WITH_ARDUINO
@@ -31,7 +31,7 @@ class PlaceForward(BaseStartedModule):
     _forwarded: Reading[Any] | None = None
 
     def load(self) -> bool:
-        """Return whether the firmware is the thesis's: this project's has no use for it."""
+        """Return whether the firmware is the thesis's: this project's does not use readings."""
         return bool(self.context.config(ARDUINO).framing == "thesis")
 
     def pack(self, value: Any) -> bytes:
@@ -49,7 +49,7 @@ class PlaceForward(BaseStartedModule):
         self._sender.stop()
 
     def on_reading(self, command: Any) -> None:
-        """Forward the provider's reading when it is a new one: it heard the Command before."""
+        """Forward the provider's reading if it is new: the provider received the Command before."""
         reading = self.source.reading
         if self.started and reading is not None and reading is not self._forwarded:
             self._forwarded = reading

@@ -26,7 +26,7 @@ class Channel:
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """The airframe as the Arduino flies it; ``switch`` says what AUX1 low, middle, high select."""
+    """The airframe profile of the Arduino; ``switch`` gives the modes of AUX1 low, middle, high."""
 
     ailerons: Channel
     elevator: Channel
@@ -49,7 +49,7 @@ class Profile:
 
 
 def pack_profile(profile: Profile) -> bytes:
-    """Return the 54 bytes of `C`; raises ValueError naming what is out of range."""
+    """Return the 54 bytes of `C`; raises ValueError naming the value out of range."""
     channels = (profile.ailerons, profile.elevator, profile.throttle, profile.rudder)
     for channel in channels:
         if not -200 <= channel.trim_us <= 200:
@@ -99,7 +99,7 @@ def pack_profile(profile: Profile) -> bytes:
 
 
 def read_profile(payload: bytes) -> Profile:
-    """Return the profile in the 54 bytes of `C`; raises ValueError for an unknown mix or mode."""
+    """Decode the 54 bytes of `C`; raises ValueError for an unknown mix or mode."""
     fields = _PROFILE.unpack(payload)
     channels = [Channel(bool(fields[at] & 1), *fields[at + 1 : at + 4]) for at in (0, 4, 8, 12)]
     mix, motor, letters, *angles = fields[16:24]

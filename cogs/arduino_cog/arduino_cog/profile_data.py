@@ -1,4 +1,4 @@
-"""A profile as nested keys and values, called as in airframe.yml."""
+"""A profile as nested keys and values, with the key names of airframe.yml."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def profile_to_data(profile: Profile) -> dict[str, Any]:
 
 
 def profile_from_data(data: Mapping[str, Any]) -> Profile:
-    """Return the profile of complete data; raises KeyError where a value is missing."""
+    """Return the profile of complete data; raises KeyError for a missing value."""
     low, middle, high = (data["switch"][position] for position in _POSITIONS)
     values: dict[str, Any] = {
         servo: Channel(**{name: data[servo][name] for name in _CHANNEL}) for servo in _SERVOS
@@ -67,7 +67,7 @@ def with_changes(profile: Profile, changes: Mapping[str, Any]) -> Profile:
 
 
 def differences(held: Profile, wanted: Profile) -> list[str]:
-    """Return what differs, in words: ``rudder.trim_us 0, wanted 20``."""
+    """Return the differences, in words: ``rudder.trim_us 0, wanted 20``."""
     has = dict(flat(profile_to_data(held)))
     return [
         f"{name} {_text(has[name])}, wanted {_text(value)}"

@@ -34,14 +34,14 @@ FLIGHT_MODES = {
     "u": "OUTPUT",
     "h": "RTH",
 }
-"""Flight mode letters of our firmware, and the names that telemetry has for them."""
+"""Flight mode letters of our firmware, and their names in telemetry."""
 
 _I16_LEAST, _I16_MOST = -32768, 32767
 _CENTI = 100
 
 
 class Reason(IntEnum):
-    """Why the Arduino refuses (docs/protocols.md 2.5)."""
+    """The Arduino's reasons for a refusal (docs/protocols.md 2.5)."""
 
     UNKNOWN_TYPE = 1
     WRONG_SIZE = 2
@@ -59,7 +59,7 @@ class Reason(IntEnum):
 
 
 IN_FLIGHT = "armed, or no motor and the receiver was heard since power-on"
-"""The states in which the aircraft may be in the air, in words."""
+"""The states in which the aircraft may be in flight, in words."""
 
 _REASONS = {
     Reason.UNKNOWN_TYPE: "unknown type",
@@ -84,19 +84,19 @@ def reason_text(code: int) -> str:
 
 
 def flight_mode_name(letter: int) -> str | None:
-    """Return the name of a flight mode's letter; None for one that is not known."""
+    """Return the name of a flight mode's letter; None for an unknown one."""
     return FLIGHT_MODES.get(chr(letter))
 
 
 def pack_panic(panic: bool, delay_ms: int) -> bytes:
-    """Return the payload of `p`; `delay_ms` is 10 to 1000, else ValueError."""
+    """Return the payload of `p`; raises ValueError unless `delay_ms` is 10 to 1000."""
     if not 10 <= delay_ms <= 1000:
         raise ValueError(f"a panic delay is 10 to 1000 ms, not {delay_ms}")
     return _PANIC.pack(bool(panic), delay_ms)
 
 
 def pack_altitude(altitude_m: float) -> bytes:
-    """Return the payload of `h`: rounded half up, held within 16 bits; ValueError for NaN."""
+    """Return the payload of `h`: rounded half up, clamped to 16 bits; ValueError for NaN."""
     return _I16.pack(min(max(_half_up(altitude_m), _I16_LEAST), _I16_MOST))
 
 
@@ -106,7 +106,7 @@ def pack_heading(heading_deg: float) -> bytes:
 
 
 def pack_location(latitude_deg: float, longitude_deg: float) -> bytes:
-    """Return the payload of `l`; ValueError for what is no place."""
+    """Return the payload of `l`; ValueError for an invalid position."""
     if not (-90 <= latitude_deg <= 90 and -180 <= longitude_deg <= 180):
         raise ValueError(f"no place: {latitude_deg}, {longitude_deg}")
     return _LOCATION.pack(latitude_deg, longitude_deg)
@@ -119,7 +119,7 @@ def pack_setpoint(
     throttle_us: int | None,
     lifetime_ms: int,
 ) -> bytes:
-    """Return the payload of `S`; no throttle leaves it to the stick.
+    """Return the payload of `S`; a throttle of None leaves it to the stick.
 
     Raises ValueError for a value that is not finite or out of the range of its field.
     """

@@ -1,4 +1,4 @@
-"""What is done when the cog is registered."""
+"""The registration of the cog."""
 
 from __future__ import annotations
 

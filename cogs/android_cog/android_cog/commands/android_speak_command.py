@@ -1,4 +1,4 @@
-"""Words that the airborne phone shall say aloud."""
+"""Text for the airborne phone's voice."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ HYSTERESIS_PERCENT = 5.0
 
 
 class AndroidBatteryProvider(BaseProvider[float]):
-    """Makes the level of the phone's battery available, percent, and says when it becomes low."""
+    """Provides the level of the phone's battery, percent, and reports when it becomes low."""
 
     READING = "battery"
     COMMAND: ClassVar[type[BaseCommand]] = AndroidBatteryCommand

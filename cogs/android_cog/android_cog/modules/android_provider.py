@@ -33,15 +33,15 @@ from up.system.plain_peers import PlainPeers
 LINK = "android"
 PRIORITY = 0
 COMPETITOR_S = 10.0
-"""How long telemetry shows a phone that was rejected; it tries again more often."""
+"""How long telemetry shows a rejected phone, which retries more often."""
 _LOG_INTERVAL_S = 10.0
-"""A phone that comes and goes, or two that replace each other, must not fill the log."""
+"""A phone that reconnects often, or two that replace each other, must not fill the log."""
 
 
 class AndroidProvider(BaseStartedModule):
     """Two sockets for the phone: General Messages, and orientation.
 
-    What the phone says goes through the Command Receiver with the role of a sensor. The phone gets
+    The phone's messages go through the Command Receiver with the role of a sensor. The phone gets
     telemetry, Panic Mode, and the Commands that are routed to it. In Black Box Mode, where the
     phone is behind a cellular network, both sockets are TCP only.
     """
@@ -102,22 +102,22 @@ class AndroidProvider(BaseStartedModule):
 
     @property
     def connected(self) -> bool:
-        """Return whether the phone is there on its General Message link."""
+        """Return whether the phone is connected on its General Message link."""
         return self._is_connected
 
     @property
     def wants_telemetry(self) -> bool:
-        """Return whether there is somebody to hand telemetry on to."""
+        """Return whether there is a receiver for telemetry."""
         return self._is_connected
 
     @property
     def is_source_open(self) -> bool:
-        """Return whether readings could come."""
+        """Return whether readings can arrive."""
         return self._ports.are_open
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return whether the phone is there, another phone that was rejected, and the counters."""
+        """Return whether the phone is connected, a rejected other phone, and the counters."""
         counters = {
             **self._orientation.counters,
             "orientation_rejected": self._orientation_rejected,
@@ -136,7 +136,7 @@ class AndroidProvider(BaseStartedModule):
         return {"android": android, "counters": {"android": counters}}
 
     def send_command(self, command: BaseCommand, command_id: str | None = None) -> bool:
-        """Send a Command to the phone; return whether it left or waits in order to leave."""
+        """Send a Command to the phone; return whether it was sent or queued."""
         return self._phone.send(encode(command.NAME, command.data, command_id))
 
     async def _execute_start(self) -> None:
@@ -189,7 +189,7 @@ class AndroidProvider(BaseStartedModule):
         return self._stream_link if self._phone.is_stream(link) else self._datagram_link
 
     def _permits_orientation(self, host: str) -> bool:
-        """Return whether a host may send orientation: the phone's, any while there is none."""
+        """Return whether a host may send orientation: the phone's, or any without a phone."""
         if not self._peers.permits(host):
             return False
         is_phone = self._phone.host in ("", host)
@@ -279,6 +279,6 @@ class AndroidProvider(BaseStartedModule):
         self._on_answer(command.command_id, CommandRefusedError(command.reason, code))
 
     def _on_answer(self, command_id: str, refusal: CommandRefusedError | None) -> None:
-        """Take an answer that came on the phone's own link; anybody else's says nothing here."""
+        """Handle an answer from the phone's own link; answers from other links are ignored."""
         if self._speaker is not None and self.up.command_executor.origin.link == LINK:
             self._route.on_answer(self._speaker, command_id, refusal)

@@ -1,4 +1,4 @@
-"""The profile of the airframe: asked for and told."""
+"""The profile of the airframe: requested and reported."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class ArduinoProfileValuesCommand(BaseCommand):
 
     @classmethod
     def of(cls, profile: Profile) -> ArduinoProfileValuesCommand:
-        """Build the Command of a profile."""
+        """Return a Command with a profile."""
         return cls(profile_to_data(profile))
 
     @property
     def data(self) -> dict[str, Any]:
-        """Return the profile itself: there is no outer key."""
+        """Return the profile itself, without an outer key."""
         return self.profile

@@ -1,4 +1,4 @@
-"""What the Arduino says of itself five times a second."""
+"""The Arduino's status message, sent five times a second."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from up.protocols.board_words import RESET_CAUSES, SWITCH_POSITIONS, VETOES
 
 STATUS = Struct(">6B7H")
 VERSION = 1
-"""The version of the serial line's page that this program speaks."""
+"""The protocol version of the serial line that this program implements."""
 
 RECEIVER_WAIT_S = 5
-"""A receiver that lost power in the air is heard again within this time."""
+"""A receiver that lost power in the air is received again within this time."""
 
 _ARMED, _AT_AUTO, _RECEIVER, _IMU, _FAILSAFE, _BIAS_STORED, _GAINS_STORED, _HEARD = (
     1 << bit for bit in range(8)
@@ -53,14 +53,14 @@ class ArduinoStatusCommand(BaseCommand):
 
     @property
     def is_at_auto(self) -> bool:
-        """Return whether the pilot's switch stands at AUTO."""
+        """Return whether the pilot's switch is at AUTO."""
         return bool(self.flags & _AT_AUTO)
 
     def is_in_flight(self, has_motor: bool | None) -> bool | None:
-        """Return whether the aircraft may be in the air; None while its motor is not known.
+        """Return whether the aircraft may be in flight; None while its motor is unknown.
 
-        Armed it may. Without a motor it flies disarmed, too: only a receiver that has not been
-        heard since the start, ``RECEIVER_WAIT_S`` ago or more, proves that it does not.
+        Armed it may. Without a motor it also flies disarmed: it is not in flight only if the
+        receiver has not been received since the start, at least ``RECEIVER_WAIT_S`` ago.
         """
         if self.is_armed:
             return True
@@ -72,27 +72,27 @@ class ArduinoStatusCommand(BaseCommand):
 
     @property
     def is_receiver_valid(self) -> bool:
-        """Return whether the pilot's receiver is heard and in range."""
+        """Return whether the pilot's receiver sends valid pulses."""
         return bool(self.flags & _RECEIVER)
 
     @property
     def is_imu_valid(self) -> bool:
-        """Return whether the IMU gives good samples, so that the Arduino can stabilise."""
+        """Return whether the IMU gives valid samples, so that the Arduino can stabilise."""
         return bool(self.flags & _IMU)
 
     @property
     def is_bias_stored(self) -> bool:
-        """Return whether the gyro bias is an old one from EEPROM: it was not still at start."""
+        """Return whether the gyro bias is an old one from EEPROM: the board moved at start."""
         return bool(self.flags & _BIAS_STORED)
 
     @property
     def is_profile_valid(self) -> bool:
-        """Return whether the EEPROM's profile of the airframe, if any, can be read."""
+        """Return whether the EEPROM's profile of the airframe, if any, is valid."""
         return not self.vetoes & _PROFILE_INVALID
 
     @property
     def is_restored(self) -> bool:
-        """Return whether the last reset came in flight, and the state before it came back."""
+        """Return whether the last reset was in flight, with the state restored."""
         return bool(self.reset_cause & _RESTORED)
 
     @property
@@ -107,17 +107,17 @@ class ArduinoStatusCommand(BaseCommand):
 
     @property
     def switch_position(self) -> str | None:
-        """Return ``low``, ``middle`` or ``high``; None while it is not known."""
+        """Return ``low``, ``middle`` or ``high``; None while unknown."""
         return SWITCH_POSITIONS.get(self.switch)
 
     @property
     def veto_names(self) -> tuple[str, ...]:
-        """Return what forbids arming, in words."""
+        """Return the reasons against arming, in words."""
         return tuple(name for bit, name in enumerate(VETOES) if self.vetoes >> bit & 1)
 
     @property
     def reset_causes(self) -> str:
-        """Return why the Arduino started last, in words."""
+        """Return the cause of the Arduino's last start, in words."""
         named = [name for bit, name in enumerate(RESET_CAUSES) if self.reset_cause >> bit & 1]
         if self.reset_cause & _RESTORED:
             named.append("state restored")

@@ -1,4 +1,4 @@
-"""The altitude on its way to an Arduino with the thesis's firmware."""
+"""Forwards the altitude to an Arduino with the thesis's firmware."""
 
 from __future__ import annotations
 

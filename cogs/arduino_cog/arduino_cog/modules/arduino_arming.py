@@ -15,9 +15,9 @@ from up.needs import needs
 
 
 class ArduinoArming(BaseModule):
-    """Passes `up.arm` and `up.disarm` to the Arduino, whose answer is the answer.
+    """Passes `up.arm` and `up.disarm` to the Arduino and returns its answer.
 
-    Arming is refused here while this program has a veto, each of them named.
+    Refuses arming while this program has a veto, and names each.
     """
 
     MODES = WITH_ARDUINO
@@ -29,7 +29,7 @@ class ArduinoArming(BaseModule):
         self.up.command_executor.register_command(DisarmCommand, self.on_disarm)
 
     def on_arm(self, command: ArmCommand) -> Deferred[Any]:
-        """Arm; asked once only: a late repetition must not arm what was disarmed meanwhile."""
+        """Arm; never repeated: a late repetition must not arm after a disarm."""
         self.arduino.require_checked("arming")
         vetoes = self.up.vetoes.own
         if vetoes:

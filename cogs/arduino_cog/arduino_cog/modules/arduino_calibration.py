@@ -20,7 +20,7 @@ _END = "receiver_end"
 class ArduinoCalibration(BaseModule):
     """Passes `arduino.calibrate` to the Arduino, unless the aircraft may be in flight.
 
-    The end of the receiver's is always passed on: it was begun on the ground.
+    The end of the receiver calibration is always passed on: it began on the ground.
     """
 
     MODES = WITH_ARDUINO
@@ -31,7 +31,7 @@ class ArduinoCalibration(BaseModule):
         self.up.command_executor.register_command(ArduinoCalibrateCommand, self.on_calibrate)
 
     def on_calibrate(self, command: ArduinoCalibrateCommand) -> Deferred[Any]:
-        """Calibrate; the end of the receiver's is asked once: the second time nothing is begun."""
+        """Calibrate; the end of the receiver calibration is not repeated, as a second one fails."""
         self.arduino.require_checked("calibrating")
         if command.what != _END and self.arduino.is_in_flight:
             raise CommandRefusedError(f"calibrating is not for the air: {IN_FLIGHT}")

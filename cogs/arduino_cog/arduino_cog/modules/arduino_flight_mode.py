@@ -1,4 +1,4 @@
-"""The flight mode that the ground asks for."""
+"""The flight mode that the ground requests."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from up.needs import needs
 
 _LETTERS = {"RATE": b"r", "FBW": b"f"}
 _AUTO = {"arduino": b"s", "raspberry": b"u"}
-"""What AUTO is: attitude asked by the Raspberry Pi, or servo positions where it controls."""
+"""The mode for AUTO: setpoints of the Raspberry Pi, or servo outputs where it controls."""
 
 
 class ArduinoFlightMode(BaseModule):
-    """Passes `up.flight_mode.set` to the Arduino, which takes it with the switch at AUTO only."""
+    """Passes `up.flight_mode.set` to the Arduino, which accepts it only with the switch at AUTO."""
 
     MODES = WITH_ARDUINO
 
@@ -30,6 +30,6 @@ class ArduinoFlightMode(BaseModule):
         self.up.command_executor.register_command(FlightModeCommand, self.on_flight_mode)
 
     def on_flight_mode(self, command: FlightModeCommand) -> Deferred[Any]:
-        """Ask for the mode; there is no letter for ACRO, which the ground can never select."""
+        """Request the mode; ACRO has no letter, as the ground can never select it."""
         self.arduino.require_checked("a flight mode")
         return self.arduino.request("M", self._letters[command.mode])

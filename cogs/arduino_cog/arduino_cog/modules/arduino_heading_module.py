@@ -1,4 +1,4 @@
-"""The heading on its way to an Arduino with the thesis's firmware."""
+"""Forwards the heading to an Arduino with the thesis's firmware."""
 
 from __future__ import annotations
 

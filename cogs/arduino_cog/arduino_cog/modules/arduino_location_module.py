@@ -1,4 +1,4 @@
-"""The location on its way to an Arduino with the thesis's firmware."""
+"""Forwards the location to an Arduino with the thesis's firmware."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Outputs and setpoints on their way to the Arduino."""
+"""Sends Outputs and setpoints to the Arduino."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _pack_output = OUTPUT.pack
 class ArduinoOutput(BaseModule):
     """Sends `up.output.set` as `u` and `up.setpoint.set` as `S`; never in thesis framing.
 
-    An Output that does not leave at once is replaced by the next one: an old one has no worth.
+    An Output that is still unsent is replaced by the next one: an old one is worthless.
     """
 
     MODES = WITH_ARDUINO
@@ -32,7 +32,7 @@ class ArduinoOutput(BaseModule):
         self.up.command_executor.register_command(SetpointCommand, self.on_setpoint)
 
     def on_output(self, command: OutputCommand) -> None:
-        """Send servo positions; struct.error for what does not fit."""
+        """Send servo positions; struct.error for values that do not fit."""
         self._send_command(
             0x75,
             _pack_output(
@@ -46,7 +46,7 @@ class ArduinoOutput(BaseModule):
         )
 
     def on_setpoint(self, command: SetpointCommand) -> None:
-        """Send an attitude; ValueError for what is out of range."""
+        """Send an attitude; ValueError for values out of range."""
         payload = pack_setpoint(
             command.roll_deg,
             command.pitch_deg,

@@ -1,4 +1,4 @@
-"""Panic Mode on its way to the Arduino (thesis 3.2.5)."""
+"""Forwards Panic Mode to the Arduino (thesis 3.2.5)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from up.needs import needs
 
 
 class ArduinoPanic(BaseModule):
-    """Tells the Arduino how often to forward, when that changes and when it was reset."""
+    """Sends the Arduino its forwarding period, on every change and after its reset."""
 
     MODES = WITH_ARDUINO
 
@@ -27,13 +27,13 @@ class ArduinoPanic(BaseModule):
         self.arduino.add_board_listener(self.on_board_begun)
 
     def on_panic(self, command: PanicCommand) -> None:
-        """Pass it on; an Arduino that is not there hears of it when it comes."""
+        """Forward it; an absent Arduino receives it when it connects."""
         self._newest = command
         if self.arduino.connected:
             self._tell(command)
 
     def on_board_begun(self) -> None:
-        """Tell a board that may know nothing yet, unless it forwards at its own pace anyway."""
+        """Send the period to a new or reset board during panic."""
         if self._newest is not None and self._newest.panic:
             self._tell(self._newest)
 

@@ -1,4 +1,4 @@
-"""The profile of the airframe that the Arduino holds, and what airframe.yml wants of it."""
+"""The profile of the airframe on the Arduino, and its comparison with airframe.yml."""
 
 from __future__ import annotations
 
@@ -32,13 +32,14 @@ _VETO = AIRFRAME.filename
 
 
 class ArduinoProfile(BaseModule):
-    """Brings what airframe.yml says into the Arduino's profile, whose other values stay.
+    """Writes the values of airframe.yml to the Arduino's profile, whose other values stay.
 
-    It is read whenever a board answers that may be another one: whether it has a motor decides
-    what in flight means. It is sent only on the ground and only where it differs, again and again
-    at growing distances. Until the board holds it, arming is vetoed under the file's name. Its
-    limits of FBW are published for a flight controller on the Raspberry Pi. An airframe.yml that
-    says nothing changes and vetoes nothing, and an old firmware (thesis framing) has no profile.
+    The profile is read whenever a board answers that may be another one: whether it has a motor
+    determines the meaning of "in flight". It is sent only on the ground and only where it differs,
+    with increasing delays between attempts. Until the board has it, arming is vetoed under the
+    file's name. Its limits of FBW are published for a flight controller on the Raspberry Pi. An
+    empty airframe.yml changes and vetoes nothing, and an old firmware (thesis framing) has no
+    profile.
     """
 
     MODES = WITH_ARDUINO
@@ -56,7 +57,7 @@ class ArduinoProfile(BaseModule):
 
     @property
     def held(self) -> Profile | None:
-        """Return the profile that the Arduino said last; None while it is not known."""
+        """Return the profile that the Arduino last reported; None while unknown."""
         return self._board.held
 
     def _execute_initialization(self) -> None:
@@ -74,14 +75,14 @@ class ArduinoProfile(BaseModule):
         executor.register_command(ArduinoStatusCommand, self.on_status)
 
     def on_request(self, command: ArduinoProfileRequestCommand) -> Deferred[Any]:
-        """Answer with what the Arduino holds now."""
+        """Answer with the Arduino's current profile."""
         self.arduino.require_checked("the profile")
         if self.mission_control is None:
             raise CommandRefusedError("no ground station is configured", Code.UNAVAILABLE)
         return self._board.read().addCallback(self._send_values)
 
     def on_board_begun(self) -> None:
-        """Compare anew: this board may be another one, or know nothing yet."""
+        """Compare again: this board may be another one, or was reset."""
         self._board.held = self.arduino.has_motor = None
         self._is_settled = self._is_told = False
         self._wait_s = FIRST_WAIT_S
@@ -91,7 +92,7 @@ class ArduinoProfile(BaseModule):
         self._reconcile()
 
     def on_status(self, status: ArduinoStatusCommand) -> None:
-        """Go on with what waits: for an answer, for its time, or for the board to be disarmed."""
+        """Continue a change that waits for an answer, for its retry or for disarming."""
         if self._wishes and not status.is_profile_valid and self._board.held is not None:
             self._is_settled = False
         self._reconcile()
@@ -108,7 +109,7 @@ class ArduinoProfile(BaseModule):
             self._compare(held)
 
     def _compare(self, held: Profile) -> None:
-        """Send the profile where that is needed and harms nothing."""
+        """Send the profile if it is needed and harmless."""
         self.arduino.has_motor = held.has_motor
         if not self._wishes:
             self._is_settled = True
@@ -118,7 +119,7 @@ class ArduinoProfile(BaseModule):
         except ValueError as error:
             self._give_up(f"does not fit the Arduino's profile: {error}")
             return
-        # As the wire rounds it, so that it can be found again in what is read back.
+        # Rounded as on the wire, so that it equals the value read back.
         wanted = read_profile(payload)
         status = self.arduino.status
         changes = differences(held, wanted)
@@ -139,7 +140,7 @@ class ArduinoProfile(BaseModule):
         sent.addCallbacks(lambda _: self._on_sent(), self._on_failed)
 
     def _tell_limits(self) -> None:
-        """Let a flight controller on the Raspberry Pi fly by the same limits."""
+        """Publish the limits for a flight controller on the Raspberry Pi."""
         limits = self.config.fly_by_wire
         command = FlyByWireLimitsCommand(
             limits.roll_deg, limits.pitch_up_deg, limits.pitch_down_deg
@@ -147,7 +148,7 @@ class ArduinoProfile(BaseModule):
         self.up.command_executor.execute_command(command)
 
     def _back_off(self) -> None:
-        """Let nothing be tried for a while, the next time for longer."""
+        """Wait before the next attempt, longer each time."""
         self._next_s = self.context.reactor.seconds() + self._wait_s
         self._wait_s = min(self._wait_s * 2, LONGEST_WAIT_S)
 
@@ -157,7 +158,7 @@ class ArduinoProfile(BaseModule):
 
     def _on_sent(self) -> None:
         self._log_info("the Arduino has taken the profile")
-        # If it then says that its copy is damaged, its EEPROM is worn: it is spared.
+        # If the board then reports a damaged copy, its EEPROM is worn: do not write again.
         self._back_off()
         self._settle()
 
@@ -185,7 +186,7 @@ class ArduinoProfile(BaseModule):
     def _on_failed(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)
         self._is_asking = False
-        # A lost answer leaves open what the board holds now.
+        # After a lost answer the board's profile is unknown.
         self._board.held = None
         self._back_off()
         reason = failure.getErrorMessage()
@@ -193,7 +194,7 @@ class ArduinoProfile(BaseModule):
         self._veto(f"the Arduino's profile is not as it says: {reason}")
 
     def _tell_bus(self, held: Profile) -> None:
-        """Publish what flies, so that a flight's log has it."""
+        """Publish the current profile, for the flight log."""
         self.arduino.has_motor = held.has_motor
         self.up.command_executor.execute_command(ArduinoProfileValuesCommand.of(held))
 

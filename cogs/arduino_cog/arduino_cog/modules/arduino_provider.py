@@ -59,12 +59,12 @@ _unpack_outputs = OUTPUTS.unpack
 
 
 class ArduinoProvider(BaseStartedModule):
-    """Publishes what the Arduino sends, keeps it started, and asks it for what others want.
+    """Publishes the Arduino's data, keeps it started, and sends it the requests of other modules.
 
     Orientation (`O`, `o`), receiver inputs (`i`), servo outputs (`r`) and status (`x`) become
-    Commands of the link ``arduino``. The Start Command is sent until the Arduino forwards, the
-    veto of this program at least every 400 ms. ``add_board_listener`` tells when a board answers
-    that may know nothing yet: it was connected, or it was reset.
+    Commands of the link ``arduino``. The Start Command is sent until the Arduino forwards, the veto
+    of this program at least every 400 ms. ``add_board_listener`` reports a board without known
+    state: it was connected, or it was reset.
     """
 
     MODES = WITH_ARDUINO
@@ -85,7 +85,7 @@ class ArduinoProvider(BaseStartedModule):
         self._refusals_named: set[tuple[str, str]] = set()
 
     def load(self) -> bool:
-        """Return True; a Raspberry Pi that shall control needs more than thesis framing brings."""
+        """Return True; raises if a controlling Raspberry Pi is configured with thesis framing."""
         if (
             self.context.application.flight_controller == "raspberry"
             and self.context.config(ARDUINO).framing == "thesis"
@@ -100,22 +100,22 @@ class ArduinoProvider(BaseStartedModule):
 
     @property
     def is_checked(self) -> bool:
-        """Return whether checked framing is spoken, so that the Arduino takes every type."""
+        """Return whether checked framing is used, so that the Arduino accepts every type."""
         return self.serial.framing == "checked"
 
     @property
     def connected(self) -> bool:
-        """Return whether frames come."""
+        """Return whether frames arrive."""
         return self.serial.connected
 
     @property
     def is_armed(self) -> bool | None:
-        """Return whether the Arduino is armed; None while that is not known."""
+        """Return whether the Arduino is armed; None while unknown."""
         return None if self.status is None else self.status.is_armed
 
     @property
     def is_in_flight(self) -> bool | None:
-        """Return whether the aircraft may be in the air; None while that is not known."""
+        """Return whether the aircraft may be in flight; None while unknown."""
         return None if self.status is None else self.status.is_in_flight(self.has_motor)
 
     @property
@@ -154,22 +154,22 @@ class ArduinoProvider(BaseStartedModule):
         }
 
     def add_board_listener(self, listener: Callable[[], object]) -> None:
-        """Call ``listener`` whenever a board answers that may know nothing yet."""
+        """Call ``listener`` whenever a board answers that may be new or reset."""
         self._begun.append(listener)
 
     def request(
         self, type_: str, payload: bytes = b"", *, answer: str = "K", may_repeat: bool = True
     ) -> Deferred[bytes]:
-        """Ask the Arduino; the result is the payload of its answer (docs/protocols.md 2.3).
+        """Send a request; the result is the payload of the answer (docs/protocols.md 2.3).
 
-        Fails with CommandRefusedError; an Arduino that does not answer is asked once more where
-        ``may_repeat``. Raises CommandRefusedError when none is connected.
+        Fails with CommandRefusedError; repeats the request once without an answer if
+        ``may_repeat``. Raises CommandRefusedError when no Arduino is connected.
         """
         self.require_connected()
         return self.exchange.request(type_, payload, answer=answer, may_repeat=may_repeat)
 
     def send_unanswered(self, type_: str, payload: bytes) -> None:
-        """Send what an old firmware does not confirm; raises CommandRefusedError without one."""
+        """Send a message that gets no confirmation; raises CommandRefusedError."""
         self.require_connected()
         self.serial.send_command(type_, payload)
 
@@ -179,7 +179,7 @@ class ArduinoProvider(BaseStartedModule):
             raise CommandRefusedError(_ABSENT, Code.UNAVAILABLE)
 
     def require_checked(self, what: str) -> None:
-        """Raise CommandRefusedError where thesis framing has no message for ``what``."""
+        """Raise CommandRefusedError if thesis framing has no message for ``what``."""
         if not self.is_checked:
             raise CommandRefusedError(
                 f"{what} needs the firmware of this project: arduino.yml says framing: thesis,"
@@ -187,7 +187,7 @@ class ArduinoProvider(BaseStartedModule):
             )
 
     def send_stream(self, type_: str, payload: bytes) -> int | None:
-        """Send one of a stream that nobody answers; only the newest of a type waits."""
+        """Send a message of an unconfirmed stream; only the newest of a type waits."""
         return self.serial.send_command(type_, payload, True)
 
     def _execute_initialization(self) -> None:
@@ -233,7 +233,7 @@ class ArduinoProvider(BaseStartedModule):
         add("C", lambda payload: self.exchange.on_value("C", payload), PROFILE_SIZE)
 
     def on_line_opened(self) -> None:
-        """Greet whoever is at the other end of the line."""
+        """Greet the device at the other end of the line."""
         self._status_s = float("-inf")
         if self.is_checked:
             self._send_veto()
@@ -242,18 +242,18 @@ class ArduinoProvider(BaseStartedModule):
                 self._alive = self.context.reactor.callLater(ALIVE_S, self._keep_alive)
 
     def on_line_lost(self) -> None:
-        """Tell nobody that this program lives; silence is told apart."""
+        """Stop the keep-alive messages; a silent line is reported separately."""
         self._stop_alive()
 
     def on_line_heard(self) -> None:
-        """Say that the Arduino is there."""
+        """Report that the Arduino is connected."""
         self._log_info("the Arduino answers")
         self.up.vetoes.report(LINK, ())
         self._execute(LinkStateCommand(LINK, True))
         self._tell_begun()
 
     def on_line_silent(self) -> None:
-        """Say that the Arduino is gone; what it said last is not known any more."""
+        """Report that the Arduino is gone; its last values are unknown from now on."""
         self.status = None
         self.up.vetoes.report(LINK, (_ABSENT,))
         self.exchange.fail_all(_ABSENT)
@@ -318,7 +318,7 @@ class ArduinoProvider(BaseStartedModule):
         if previous is not None and status.uptime_s < previous.uptime_s:
             self._on_reset(status)
         elif previous is None and status.is_restored:
-            # It was silent meanwhile, or it is this program that starts: said all the same.
+            # It was silent before, or this program just started: reported in both cases.
             self._log_warning(f"the Arduino flies after a reset{_causes_of(status)}")
         self._execute(status, ORIGIN)
         self._execute(flight_state_of(status, self.has_motor), ORIGIN)
@@ -348,17 +348,17 @@ class ArduinoProvider(BaseStartedModule):
             self._note_refusal(type_, "")
 
     def _on_echo(self, payload: bytes) -> None:
-        """Take the confirmation of an old firmware; nothing waits for it."""
+        """Take the confirmation of an old firmware; no request waits for it."""
 
     def _note_refusal(self, type_: str, reason: str) -> None:
-        """Count what a stream was refused for, and log each kind once."""
+        """Count the refusal of a stream message, and log each kind once."""
         self.counters["refused_frames"] += 1
         if (type_, reason) not in self._refusals_named:
             self._refusals_named.add((type_, reason))
             self._log_info(f"the Arduino refused {type_!r}: {reason or 'no reason given'}")
 
     def _keep_alive(self) -> None:
-        """Say that this program lives, and start an Arduino that does not forward."""
+        """Send the keep-alive, and start an Arduino that does not forward."""
         self._alive = self.context.reactor.callLater(ALIVE_S, self._keep_alive)
         self._send_veto()
         if self._seconds() - self._status_s > STATUS_LIMIT_S:
@@ -385,7 +385,7 @@ def _causes_of(status: ArduinoStatusCommand) -> str:
 
 
 def flight_state_of(status: ArduinoStatusCommand, has_motor: bool | None) -> FlightStateCommand:
-    """Return who flies, in the words that flight controllers listen for."""
+    """Return the authority, in the terms that flight controllers use."""
     return FlightStateCommand(
         flight_mode_name(status.mode),
         status.is_armed,

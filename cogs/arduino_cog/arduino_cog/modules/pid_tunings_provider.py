@@ -1,4 +1,4 @@
-"""The gains that the Arduino flies, and their copy in pids.yml (thesis 3.3.2, 4.2.4)."""
+"""The gains that the Arduino uses, and their copy in pids.yml (thesis 3.3.2, 4.2.4)."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ _VETO = PIDS.filename
 
 
 class PIDTuningsProvider(BaseModule):
-    """Keeps the gains of the Arduino and pids.yml together; the Arduino's are the truth.
+    """Keeps the gains of the Arduino and pids.yml equal; the Arduino's are authoritative.
 
-    When a board answers that may know nothing yet its gains are read. A good pids.yml is sent to
-    it once, only on the ground and only where it differs or the EEPROM holds none. A set
-    from the ground is taken whole, in flight too, and saved after the Arduino confirmed it. An old
-    firmware (thesis framing) says nothing of arming: it gets pids.yml only when it is met for
-    the first time and its throttle output is low.
+    The gains of a new or reset board are read. A valid pids.yml is sent to it once, only on the
+    ground and only if it differs or the EEPROM holds none. A set from the ground is accepted as a
+    whole, in flight too, and saved after the Arduino confirmed it. An old firmware (thesis framing)
+    does not report arming: it gets pids.yml only at its first connection and while its throttle
+    output is low.
     """
 
     MODES = WITH_ARDUINO
@@ -46,17 +46,17 @@ class PIDTuningsProvider(BaseModule):
         self._is_told = False
 
     def load(self) -> bool:
-        """Return whether the Arduino is the flight controller, so that its gains are flown."""
+        """Return whether the Arduino is the flight controller, so that it uses its gains."""
         return bool(self.context.application.flight_controller == "arduino")
 
     @property
     def held(self) -> GainSet | None:
-        """Return the gains that the Arduino said last; None while they are not known."""
+        """Return the gains that the Arduino last reported; None while unknown."""
         return self._board.held
 
     @property
     def pids(self) -> GainSet | None:
-        """Return the gains that the Arduino holds, with pids.yml's navigation; None: not known."""
+        """Return the Arduino's gains, with pids.yml's navigation; None while unknown."""
         return None if self.held is None else self.held.completed(self._saved)
 
     def _execute_initialization(self) -> None:
@@ -74,7 +74,7 @@ class PIDTuningsProvider(BaseModule):
         executor.register_command(ArduinoStatusCommand, self.on_status)
 
     def on_board_begun(self) -> None:
-        """Read the gains of a board that may be another one, or know nothing yet."""
+        """Read the gains of a board that may be another one, or was reset."""
         self._board.held = None
         self._is_told = False
         if not self._is_thesis:
@@ -82,12 +82,12 @@ class PIDTuningsProvider(BaseModule):
         self._board.read().addCallbacks(lambda _: self._reconcile(), self._on_failed)
 
     def on_status(self, status: ArduinoStatusCommand) -> None:
-        """Send pids.yml when a board that was in flight, or not known not to be, is not."""
+        """Send pids.yml when a board leaves flight, or is first known to be on the ground."""
         if self.held is not None:
             self._reconcile()
 
     def on_tunings(self, command: PIDTuningsCommand) -> Deferred[Any]:
-        """Answer a request, or take a set: the outcome is that of the Arduino."""
+        """Answer a request, or set the gains: the outcome is the Arduino's."""
         gains = command.gains
         return self._answer() if gains is None else self._set(gains)
 
@@ -112,14 +112,14 @@ class PIDTuningsProvider(BaseModule):
             raise CommandRefusedError("the ground station is not connected", Code.UNAVAILABLE)
 
     def _tell_bus(self, held: GainSet) -> None:
-        """Publish what flies, so that a flight's log has it."""
+        """Publish the current gains, for the flight log."""
         self.up.command_executor.execute_command(self._values_of(held))
 
     def _values_of(self, held: GainSet) -> PIDTuningsValuesCommand:
         return PIDTuningsValuesCommand.of(held.completed(self._saved))
 
     def _reconcile(self) -> None:
-        """Send pids.yml to the board, if that is needed and harms nothing."""
+        """Send pids.yml to the board, if it is needed and harmless."""
         if self._is_pushed or self._board.is_setting or not self._may_push():
             return
         self._is_pushed = True
@@ -131,7 +131,7 @@ class PIDTuningsProvider(BaseModule):
         self._transmit(wanted).addErrback(self._on_failed)
 
     def _may_push(self) -> bool:
-        """Return whether pids.yml may go to the board now: on the ground for certain, and good."""
+        """Return whether pids.yml may be sent: it is valid and the board surely on the ground."""
         if self.held is None or not self._is_good or not self._is_saved:
             return False
         if self._is_thesis:
@@ -171,13 +171,13 @@ class PIDTuningsProvider(BaseModule):
         return self._transmit(gains).addCallback(self._save, gains)
 
     def _transmit(self, gains: GainSet) -> Deferred[Any]:
-        """Send a set; the result comes when the Arduino has it for certain."""
+        """Send a set; the result fires when the Arduino has confirmed it."""
         try:
             payload = pack_gains(gains)
         except ValueError as error:
             raise CommandRefusedError(str(error), Code.INVALID) from None
         type_ = "g" if gains.has_rudder else "t"
-        # Reading back says what is flown now; an old firmware confirms in no other way.
+        # Reading back shows the gains in use; an old firmware confirms in no other way.
         return self._board.send(
             type_,
             payload,
@@ -186,7 +186,7 @@ class PIDTuningsProvider(BaseModule):
         )
 
     def _save(self, _: object, gains: GainSet) -> Deferred[Any]:
-        """Keep what the Arduino confirmed; the disk may take its time, the bus does not wait."""
+        """Save the confirmed gains without blocking the bus on the disk."""
         self._is_pushed = True
         whole = gains.completed(self.held or gains)
         return self._keeper.save(whole).addCallbacks(lambda _: self._load(), self._on_unsaved)
@@ -201,5 +201,5 @@ class PIDTuningsProvider(BaseModule):
 
 
 def _in_form_of(sent: GainSet, held: GainSet) -> bytes:
-    """Return what is held as the wire has it, without the rudder where none was sent."""
+    """Return the board's gains in the wire's form, without the rudder if none was sent."""
     return pack_gains(held if sent.has_rudder else without_rudder(held))
