@@ -1,4 +1,4 @@
-"""How Commands of a class are written: worked out once in a program."""
+"""The encoding of a Command class, computed once per program."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from up.flight_log.command_schema import schema_of
 
 @dataclass(frozen=True, slots=True)
 class CommandForm:
-    """The schema of a class's data, and what turns a Command into them."""
+    """The schema of a class's data, and the function that encodes a Command."""
 
     schema: dict[str, Any]
     encode: Encode
@@ -22,7 +22,7 @@ _forms: dict[type[BaseCommand], CommandForm] = {}
 
 
 def form_of(cls: type[BaseCommand]) -> CommandForm:
-    """Return the form of a class; the first time takes half a millisecond on a PC."""
+    """Return the form of a class; the first call takes half a millisecond on a PC."""
     form = _forms.get(cls)
     if form is None:
         form = _forms[cls] = CommandForm(schema_of(cls), encoder_of(cls))

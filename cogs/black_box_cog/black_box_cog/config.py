@@ -76,7 +76,7 @@ class BlackBoxConfig:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what does not fit together, and what no folder can be."""
+        """Yield contradictions between the keys, and an impossible folder."""
         try:
             folder = Path(self.folder).expanduser()
         except RuntimeError:

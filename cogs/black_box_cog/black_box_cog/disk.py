@@ -1,4 +1,4 @@
-"""Everything that the recorder asks of the operating system; each of these calls may block."""
+"""All calls of the recorder to the operating system; each of them may block."""
 
 from __future__ import annotations
 
@@ -10,44 +10,44 @@ _NEW = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
 
 
 class Disk:
-    """The file system, for the recorder's thread alone; the methods raise OSError."""
+    """The file system, for the recorder's thread only; the methods raise OSError."""
 
     def create(self, path: Path) -> int:
-        """Open a file that is not there yet and hold it: whoever rotates leaves it alone."""
+        """Create a new file and lock it, so that no other recorder deletes it."""
         descriptor = os.open(path, _NEW, 0o644)
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            # Not every file system has locks; the file is ours by its name.
+            # Not every file system has locks; the file's name is unique anyway.
             return descriptor
         return descriptor
 
     def write(self, descriptor: int, data: memoryview) -> int:
-        """Write at the end; return how many bytes went."""
+        """Append data; return the number of bytes written."""
         return os.write(descriptor, data)
 
     def sync(self, descriptor: int) -> None:
-        """Wait until what was written is on the disk."""
+        """Wait until the written data are on the disk."""
         os.fdatasync(descriptor)
 
     def truncate(self, descriptor: int, size: int) -> None:
-        """Cut the file."""
+        """Truncate the file."""
         os.ftruncate(descriptor, size)
 
     def is_linked(self, descriptor: int) -> bool:
-        """Return whether the file has a name still."""
+        """Return whether the file still has a name."""
         return os.fstat(descriptor).st_nlink > 0
 
     def close(self, descriptor: int) -> None:
-        """Close the file, and let go of it."""
+        """Close the file and release its lock."""
         os.close(descriptor)
 
     def make_folder(self, folder: Path) -> None:
-        """Make a folder with those above it."""
+        """Create a folder and its parents."""
         folder.mkdir(parents=True, exist_ok=True)
 
     def open_folder(self, folder: Path) -> int:
-        """Open a folder, to be synced or held."""
+        """Open a folder, to sync or lock it."""
         return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
 
     def sync_folder(self, folder: Path) -> None:
@@ -59,7 +59,7 @@ class Disk:
             os.close(descriptor)
 
     def free_bytes(self, folder: Path) -> int:
-        """Return what is free to this user."""
+        """Return the free space for this user."""
         status = os.statvfs(folder)
         return status.f_bavail * status.f_frsize
 
@@ -84,5 +84,5 @@ class Disk:
         return False
 
     def remove(self, path: Path) -> None:
-        """Delete a file; one that went already is no error."""
+        """Delete a file; a missing one is not an error."""
         path.unlink(missing_ok=True)

@@ -1,7 +1,7 @@
-"""Commands as JSON, cheaply: a flight brings hundreds a second.
+"""Fast JSON encoding of Commands: a flight produces hundreds per second.
 
-A Command whose fields are numbers is written through a template that is made for the types of its
-values: a third of what a JSON encoder takes. Numbers have twelve significant digits.
+A Command with numeric fields is written through a template for the types of its values: a third of
+a JSON encoder's time. Numbers have twelve significant digits.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _ENCODER = json.JSONEncoder(
 
 
 def json_of(content: Any) -> str:
-    """Return JSON of what is made of dicts, lists and values; numbers that are none are null."""
+    """Return the JSON of dicts, lists and values; numbers that are not finite become null."""
     try:
         return _ENCODER.encode(content)
     except ValueError:
@@ -37,7 +37,7 @@ def json_of(content: Any) -> str:
 
 
 def encoder_of(cls: type[BaseCommand]) -> Encode:
-    """Return what turns Commands of a class into JSON objects."""
+    """Return the function that turns Commands of a class into JSON objects."""
     if issubclass(cls, TelemetryCommand):
         return lambda command: json_of({**command.content, "_beacon": command.beacon})
     fields = wire_fields(cls)
@@ -47,7 +47,7 @@ def encoder_of(cls: type[BaseCommand]) -> Encode:
 
 
 class OriginTexts:
-    """The origin as it ends a JSON object, kept for the few origins that there are."""
+    """The origin as the end of a JSON object, cached because there are few."""
 
     def __init__(self) -> None:
         self._texts: dict[int, tuple[Origin, str]] = {}
@@ -59,7 +59,7 @@ class OriginTexts:
             if len(self._texts) >= _ORIGINS_LIMIT:
                 self._texts.clear()
             known = origin, f"{json.dumps(KEY)}:{json.dumps(origin_text(origin))}}}"
-            # The origin is kept along, so that no other can have its id.
+            # The origin stays referenced, so that no other object can get its id.
             self._texts[id(origin)] = known
         if text == "{}":
             return f"{{{known[1]}".encode("ascii")
@@ -87,7 +87,7 @@ def _by_template(names: Sequence[str], keys: Sequence[str]) -> Encode:
 
 
 def _template(heads: Sequence[str], types: Sequence[type]) -> str:
-    """Return the template for values of these types; empty: there is none."""
+    """Return the template for values of these types; empty if there is none."""
     if not all(each in _PLACES for each in types):
         return ""
     places = (head + _PLACES[each] for head, each in zip(heads, types, strict=True))

@@ -1,4 +1,4 @@
-"""What is known of a flight before it begins: who flies, by which program and configuration."""
+"""The metadata of a flight, known before it begins: aircraft, program, configuration."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _FILE_LIMIT_BYTES = 256 * 1024
 
 @dataclass(frozen=True, slots=True)
 class FlightFacts:
-    """The words of a flight, and where the rest is found when the flight begins.
+    """The metadata of a flight; versions and configuration are read when it begins.
 
     ``packages`` are the top-level packages whose versions are of interest.
     """
@@ -46,12 +46,12 @@ class FlightFacts:
         return found
 
     def prepare(self) -> Iterator[None]:
-        """Find the versions beforehand, in pieces."""
+        """Read the versions in advance, in pieces."""
         for package in self.packages:
             yield from look_for(package)
 
     def config_files(self) -> list[tuple[str, bytes]]:
-        """Return the configuration as it is now; a file that cannot be read is left out."""
+        """Return the current configuration; a file that cannot be read is left out."""
         return list(_read_all(self.config_folder)) if self.config_folder is not None else []
 
 

@@ -1,4 +1,4 @@
-"""The folder of the flights: numbers for new ones, room for what comes."""
+"""The folder of the flights: numbers new ones and frees space."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ _ATTEMPTS = 100
 
 
 class NoRoomError(Exception):
-    """Too little is free, and no flight is left to delete; the text is one sentence."""
+    """The disk is too full, and no flight is left to delete; the text is one sentence."""
 
 
 class FlightFolder:
-    """Makes the files of flights, and deletes old ones; the methods raise OSError."""
+    """Creates the files of flights, and deletes old ones; the methods raise OSError."""
 
     def __init__(self, disk: Disk, path: Path, total_bytes: float, keep_free_bytes: float) -> None:
         self.path = path
@@ -41,7 +41,7 @@ class FlightFolder:
         raise FileExistsError(f"no free number up to {number} in {self.path}")
 
     def create_part(self, last: FlightFile) -> tuple[FlightFile, int]:
-        """Let a flight go on in another file; return it and an open descriptor."""
+        """Continue a flight in another file; return it and an open descriptor."""
         self._disk.make_folder(self.path)
         file = last
         for _ in range(_ATTEMPTS):
@@ -51,10 +51,10 @@ class FlightFolder:
         raise FileExistsError(f"no free part up to {file.part} of {last.path}")
 
     def make_room(self, current: FlightFile | None = None) -> list[FlightFile]:
-        """Delete the oldest until the rest fits, and return what was deleted.
+        """Delete the oldest flights until the rest fits, and return those deleted.
 
-        Whole flights go, of the current one its oldest parts, but never a file that anybody
-        records into. Raises NoRoomError when too little is free even so.
+        Deletes whole flights, and the oldest parts of the current one, but never a file that a
+        recorder still writes. Raises NoRoomError if the space is still too small.
         """
         self._disk.make_folder(self.path)
         files = flight_files(self.path)
@@ -90,10 +90,10 @@ class FlightFolder:
 
     @contextlib.contextmanager
     def _held(self) -> Iterator[None]:
-        """Hold the folder while a number is chosen: another daemon may be at it."""
+        """Lock the folder while choosing a number: another daemon may do the same."""
         descriptor = self._disk.open_folder(self.path)
         try:
-            # Without locks two flights may have one number; their names differ all the same.
+            # Without locks two flights may get one number; their names still differ.
             with contextlib.suppress(OSError):
                 fcntl.flock(descriptor, fcntl.LOCK_EX)
             yield
@@ -104,7 +104,7 @@ class FlightFolder:
 def _oldest_first(
     files: list[FlightFile], current: FlightFile | None
 ) -> Iterator[list[FlightFile]]:
-    """Yield what is deleted together: whole flights, then the parts of the current one."""
+    """Yield the units of deletion: whole flights, then the parts of the current one."""
     flights: dict[tuple[int, str, str], list[FlightFile]] = {}
     for file in files:
         flights.setdefault(file.flight, []).append(file)

@@ -1,4 +1,4 @@
-"""Makes the files of a flight, one after the other."""
+"""Creates the files of a flight, one after the other."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from up.flight_log.flight_file import FlightFile
 
 
 class FlightParts:
-    """Opens the next file of the flight that is on; ``make_timeline`` begins one for a new flight.
+    """Opens the next file of the current flight; ``make_timeline`` creates one for a new flight.
 
     The methods raise OSError and NoRoomError.
     """
@@ -39,7 +39,7 @@ class FlightParts:
         self._last: FlightFile | None = None
 
     def open(self, entries: Sequence[Entry] = ()) -> Part:
-        """Open a file that begins with these entries; without success none is left."""
+        """Open a file that begins with these entries; a failure leaves no file."""
         if self._last is None:
             self._timeline = self._make_timeline()
         self._folder.make_room(self._last)
@@ -61,15 +61,15 @@ class FlightParts:
         return part
 
     def make_room(self) -> None:
-        """Delete old flights while one is recorded."""
+        """Delete old flights during the recording."""
         self._folder.make_room(self._last)
 
     def end_flight(self) -> None:
-        """Let the next file be another flight's."""
+        """Start a new flight with the next file."""
         self._last = None
 
     def jump_s(self) -> float | None:
-        """Return how far the wall clock jumped from the log's time; None: it did not."""
+        """Return how far the wall clock jumped from the log's time, or None."""
         return self._timeline.jump_s()
 
     def _create(self) -> tuple[FlightFile, int]:

@@ -1,4 +1,4 @@
-"""What was said before a flight, or while there is no file, kept for the file to come."""
+"""Entries from before a flight, or from a time without a file, kept for the next file."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from collections.abc import Iterable
 from black_box_cog.intake import Entry, LogLine
 
 HELD = 1000
-"""So much of what was said before a flight goes into its log."""
+"""This much from before a flight goes into its log."""
 _HELD_LINES = 300
 
 
 class HeldEntries:
-    """The newest entries, and of those before them the lines of the program's log."""
+    """The newest entries, and the older lines of the program's log."""
 
     def __init__(self) -> None:
         self._entries: deque[Entry] = deque()
         self._lines: deque[Entry] = deque(maxlen=_HELD_LINES)
 
     def hold(self, entries: Iterable[Entry]) -> int:
-        """Take what came; return how many Commands had to go for it."""
+        """Add entries; return how many Commands were dropped for them."""
         gone = 0
         for entry in entries:
             if len(self._entries) >= HELD:
@@ -34,10 +34,10 @@ class HeldEntries:
 
     @property
     def all(self) -> list[Entry]:
-        """Return them in the order in which they came."""
+        """Return the entries in the order of arrival."""
         return [*self._lines, *self._entries]
 
     def clear(self) -> None:
-        """Hold nothing any more: it is written."""
+        """Discard all entries: they are written."""
         self._entries.clear()
         self._lines.clear()

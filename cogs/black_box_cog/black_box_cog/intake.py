@@ -1,4 +1,4 @@
-"""What the rest of the program does for the recorder: appending to a queue, and no more."""
+"""The program's side of the recorder: it only appends to a queue."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class LogLine:
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """What came for a topic of its own: an object, encoded as JSON."""
+    """An object for a dedicated topic, encoded as JSON."""
 
     topic: str
     text: str
@@ -39,16 +39,16 @@ _OWN = Origin("log", Role.INTERNAL)
 
 
 LIMIT_BYTES = 16_000_000
-"""What may wait in memory, roughly."""
+"""Approximate bound of the memory of waiting entries."""
 _COMMAND_BYTES = 300
 _FRAME_BYTES = 12_000
-"""A frame of telemetry as a tree of Python's, about four times what it is as JSON."""
+"""A frame of telemetry as a tree of Python's, about four times the size of its JSON."""
 
 
 class Intake:
-    """A queue from any thread to the recorder's; what does not fit in is counted.
+    """A queue from any thread to the recorder's; entries beyond its bounds are counted.
 
-    ``limit`` bounds the entries, ``LIMIT_BYTES`` what they take, by their kind and their text.
+    ``limit`` bounds the entries, ``LIMIT_BYTES`` their memory, estimated by kind and text length.
     """
 
     def __init__(self, limit: int, now: Callable[[], float] = time.perf_counter) -> None:
@@ -56,16 +56,16 @@ class Intake:
         self._limit = limit
         self._now = now
         self._entries: deque[Entry] = deque()
-        # Each is counted up by one thread alone, or under the lock: none is ever read half.
+        # Each is incremented by one thread only, or under the lock: no torn reads.
         self._observed_bytes = self._noted_bytes = self._taken_bytes = 0
-        # A signal's handler may log while its thread logs.
+        # A signal handler may log while its thread logs.
         self._noting = threading.RLock()
 
     def observe(self, command: BaseCommand, origin: Origin) -> None:
         """Take a Command from the bus, on the reactor's thread."""
         kind = type(command)
         if kind is RecordCommand:
-            # Its content comes by itself, as Recorded, when it was permitted.
+            # If permitted, its content arrives separately, as Recorded.
             return
         size = _COMMAND_BYTES if kind is not TelemetryCommand else _FRAME_BYTES
         observed = self._observed_bytes + size
@@ -79,7 +79,7 @@ class Intake:
             self.dropped += 1
 
     def note(self, subject: LogLine | Recorded, origin: Origin = _OWN) -> None:
-        """Take anything else, from any thread."""
+        """Take any other entry, from any thread."""
         size = _size_of(subject)
         with self._noting:
             noted = self._noted_bytes + size
@@ -100,7 +100,7 @@ class Intake:
         return taken
 
     def __len__(self) -> int:
-        """Return how many wait."""
+        """Return how many entries wait."""
         return len(self._entries)
 
 

@@ -1,4 +1,4 @@
-"""A file that takes whole records or none."""
+"""A file that accepts whole records or none."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from black_box_cog.disk import Disk
 
 
 class LogFile:
-    """Collects records and writes them together; what fails half-way is cut back.
+    """Collects records and writes them together; a partial write is truncated.
 
-    After an OSError of ``flush`` or ``sync`` the file holds whole records only, as far as the disk
-    took them, and is to be closed. ``size`` is their length, ``lost`` how many did not fit.
+    After an OSError of ``flush`` or ``sync`` the file holds only whole records, as far as the disk
+    accepted them, and must be closed. ``size`` is their length, ``lost`` how many did not fit.
     """
 
     def __init__(self, disk: Disk, path: Path, descriptor: int) -> None:
@@ -25,11 +25,11 @@ class LogFile:
         self._records: list[bytes] = []
 
     def put(self, record: bytes) -> None:
-        """Take one record; it is written with the next ``flush``."""
+        """Add one record; the next ``flush`` writes it."""
         self._records.append(record)
 
     def flush(self) -> None:
-        """Write what was taken; raises OSError."""
+        """Write the added records; raises OSError."""
         records, self._records = self._records, []
         if not records:
             return
@@ -45,17 +45,17 @@ class LogFile:
         self.size += written
 
     def sync(self) -> None:
-        """Wait until what was written is on the disk; raises OSError."""
+        """Wait until the written data are on the disk; raises OSError."""
         self._disk.sync(self._descriptor)
         self.is_synced = True
 
     @property
     def is_linked(self) -> bool:
-        """Return whether the file has a name still; raises OSError."""
+        """Return whether the file still has a name; raises OSError."""
         return self._disk.is_linked(self._descriptor)
 
     def close(self) -> None:
-        """Close the file; harmless when it is closed."""
+        """Close the file; idempotent."""
         descriptor, self._descriptor = self._descriptor, -1
         if descriptor >= 0:
             with contextlib.suppress(OSError):
@@ -69,6 +69,6 @@ class LogFile:
                 break
             whole += len(record)
         self.size += whole
-        # If not even this goes, a reader finds half a record at the end and stops there.
+        # If this fails too, a reader finds half a record at the end and stops there.
         with contextlib.suppress(OSError):
             self._disk.truncate(self._descriptor, self.size)

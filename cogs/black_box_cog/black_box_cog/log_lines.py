@@ -1,4 +1,4 @@
-"""The lines of the program's log on their way into the flight log."""
+"""Forwards the lines of the program's log to the flight log."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ from up.log.text import source_of, text_of
 
 @implementer(ILogObserver)
 class LogLines:
-    """Hands every event of level info and above on, from whatever thread it comes.
+    """Forwards every event of level info and above, from any thread.
 
-    It only hands on: what the recorder itself logs is recorded too and makes no circle.
+    It only forwards: the recorder's own events are recorded too, without recursion.
     """
 
     def __init__(self, note: Callable[[LogLine], object]) -> None:
         self._note = note
 
     def start(self) -> None:
-        """Begin to listen."""
+        """Start observing."""
         globalLogPublisher.addObserver(cast(ILogObserver, self))
 
     def stop(self) -> None:
-        """Listen no more; harmless at any time."""
+        """Stop observing; harmless at any time."""
         globalLogPublisher.removeObserver(cast(ILogObserver, self))
 
     def __call__(self, event: LogEvent) -> None:
-        """Hand one event on, in its words of this moment."""
+        """Forward one event, formatted immediately."""
         level = level_of(event)
         if level >= LogLevel.info:
             number = LOG_LEVELS.get(level.name, 0)

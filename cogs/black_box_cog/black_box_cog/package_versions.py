@@ -1,7 +1,7 @@
-"""The versions of what is installed.
+"""The versions of the installed packages.
 
-Read from the metadata beside the packages, as importlib.metadata would take more memory than all
-else that the recorder needs.
+Read from the metadata beside the packages, as importlib.metadata would take more memory than the
+rest of the recorder.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ _known: dict[Path, dict[str, str]] = {}
 
 
 def version_of(package: str) -> str:
-    """Return the version of the distribution that an imported package came with, or ''."""
+    """Return the version of the distribution of an imported package, or ''."""
     for _ in look_for(package):
         pass
     places = (_known.get(place, {}) for place in _places(package))
@@ -35,7 +35,7 @@ def _places(package: str) -> tuple[Path, ...]:
     origin = getattr(sys.modules.get(package), "__file__", None)
     if origin is None:
         return ()
-    # What is installed editable has its metadata elsewhere on the path.
+    # An editable installation has its metadata elsewhere on the path.
     return (Path(origin).resolve().parent.parent, *map(Path, sys.path))
 
 

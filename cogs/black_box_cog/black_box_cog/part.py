@@ -39,7 +39,7 @@ class _Channel:
 
 
 class Part:
-    """Writes one file from its head to its summary; what raises OSError is the file's.
+    """Writes one file from its head to its summary; an OSError comes from the file.
 
     A Command that cannot be encoded is left out: ``unwritten`` counts by topic.
     """
@@ -54,7 +54,7 @@ class Part:
         self._origins = OriginTexts()
 
     def head(self, facts: FlightFacts) -> Iterator[None]:
-        """Write what a file begins with, in pieces: all of them are to be walked through."""
+        """Write the head of a file, in pieces; the caller must exhaust the iterator."""
         started = timestamp_text(self._timeline.start_unix_s)
         self._writer.start()
         self._writer.add_metadata("flight", facts.flight(started) | {"part": str(self.name.part)})
@@ -67,7 +67,7 @@ class Part:
             yield
 
     def put(self, entry: Entry) -> None:
-        """Take one entry; it is written with the next flush of the file."""
+        """Add one entry; the next flush of the file writes it."""
         time_s, subject, origin = entry
         kind = subject.topic if type(subject) is Recorded else type(subject)
         time_ns = self._timeline.log_ns(time_s)
@@ -79,7 +79,7 @@ class Part:
                 data = self._origins.ended(subject.text, origin)
             else:
                 data = _line(subject, time_ns)
-        except Exception:  # noqa: BLE001 - a Command of anybody's making must not end the recording
+        except Exception:  # noqa: BLE001 - an invalid Command must not end the recording
             self.unwritten[getattr(subject, "NAME", LOG_TOPIC)] += 1
             return
         self._writer.message(channel.number, time_ns, data)
@@ -87,13 +87,13 @@ class Part:
             self._writer.message(self._place().number, time_ns, _place(subject, time_ns))
 
     def finish(self) -> None:
-        """Write the summary, which lets a viewer open the file at any place at once."""
+        """Write the summary, with which a viewer can open the file at any position immediately."""
         self._writer.finish()
         self.file.flush()
         self.file.sync()
 
     def _open(self, kind: Any, subject: Any) -> _Channel:
-        """Write schema and channel of what comes for the first time."""
+        """Write schema and channel of a new topic."""
         if isinstance(subject, BaseCommand):
             cls = type(subject)
             form = form_of(cls)
@@ -145,7 +145,7 @@ def _place(command: LocationCommand, time_ns: int) -> bytes:
         "position_covariance": [variance, 0.0, 0.0, 0.0, variance, 0.0, 0.0, 0.0, variance],
         "position_covariance_type": 1 if variance else 0,
     }
-    # A height that nobody knows is none, and not that of the sea.
+    # An unknown altitude is left out; 0 would mean sea level.
     if command.altitude_m is not None:
         content["altitude"] = command.altitude_m
     return json.dumps(content, separators=(",", ":")).encode("ascii")

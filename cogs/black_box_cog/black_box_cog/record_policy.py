@@ -1,4 +1,4 @@
-"""What may come into the log under a topic of its own."""
+"""Decides which objects get a topic in the log."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _RESERVED = "up."
 
 
 class RecordPolicy:
-    """Bounds number, size and rate of what a companion records, and keeps others' topics theirs."""
+    """Bounds number, size and rate of a companion's records, and protects others' topics."""
 
     def __init__(self, registry: CommandRegistry, clock: Clock) -> None:
         self._registry = registry
@@ -27,7 +27,7 @@ class RecordPolicy:
         self._count = 0
 
     def checked(self, command: RecordCommand) -> Recorded:
-        """Return what is recorded; raises CommandRefusedError with the reason."""
+        """Return the record; raises CommandRefusedError with the reason."""
         self._check_topic(command.topic)
         self._check_rate()
         if KEY in command.content:

@@ -1,4 +1,4 @@
-"""The recorder: takes what came, writes it, keeps the disk in bounds; all of it on one thread."""
+"""The recorder: takes entries, writes them, limits the disk use; all on one thread."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ BUSY_S = 0.2
 """Between two rounds while a flight is recorded."""
 IDLE_S = 1.0
 LINGER_S = 600.0
-"""A flight is over when nothing has come from outside for so long."""
+"""A flight ends after this time without external data."""
 ROOM_EVERY_S = 10.0
 HUNG_S = 3.0
-"""A round that takes longer is told as a problem while it lasts."""
+"""A longer round is reported as a problem while it lasts."""
 _TAKE = 500
 _SOURCES = (Role.BOARD, Role.SENSOR)
 
 
 class Recorder:
-    """``work`` is one round, ``finish`` the last; nothing raised by the disk leaves them.
+    """``work`` is one round, ``finish`` the last; they raise no error of the disk.
 
-    The interpreter is let go between small pieces, so that control never waits for it long.
-    ``status`` and ``last_source_s`` may be read from any thread.
+    Small pieces of work release the interpreter, so that control never waits long. ``status`` and
+    ``last_source_s`` may be read from any thread.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class Recorder:
 
     @property
     def status(self) -> RecorderStatus:
-        """Return what was true after the last round; of one that does not end, that it does not."""
+        """Return the state after the last round, or that the current one does not end."""
         told_s, status = self._told
         silent_s = self._now() - told_s
         if silent_s < HUNG_S:
@@ -84,16 +84,16 @@ class Recorder:
 
     @property
     def round_s(self) -> float:
-        """Return how long the next round may wait."""
+        """Return the maximum delay of the next round."""
         return IDLE_S if self._part is None else BUSY_S
 
     def prepare(self, steps: Iterable[object]) -> None:
-        """Do beforehand, in small pieces, what a flight's begin would do at once."""
+        """Do in advance, in small pieces, the work of a flight's start."""
         self._pace.walk(steps)
 
     def work(self) -> None:
-        """Write what has come."""
-        # What a round that failed had taken is lost.
+        """Write the queued entries."""
+        # The entries of a failed round are lost.
         self._dropped += self._in_hand
         waiting = len(self._intake)
         while waiting > 0:
@@ -114,7 +114,7 @@ class Recorder:
         self._tell(self._now())
 
     def finish(self) -> None:
-        """Write what is left, and the summary."""
+        """Write the remaining entries, and the summary."""
         self._pace.hurry()
         self.work()
         if self._part is not None:
@@ -136,7 +136,7 @@ class Recorder:
         return self._config.always or self._now() - self._last_outside_s < LINGER_S
 
     def _begin(self) -> None:
-        """Open a file, with what was held for it; a problem is kept instead."""
+        """Open a file with the held entries; a failure is kept as the problem."""
         try:
             part = self._open(self._held.all)
         except (OSError, NoRoomError) as error:
@@ -170,10 +170,10 @@ class Recorder:
             self._fail(error)
 
     def _care_for(self, part: Part) -> None:
-        """Force the file onto the disk, look after its size, its name and the clock."""
+        """Sync the file, and check its size, its name and the clock."""
         now_s = self._now()
         try:
-            # The round after this one would come too late.
+            # The next round would be too late.
             if now_s + BUSY_S > self._synced_s + self._config.sync_s:
                 if not part.file.is_synced:
                     part.file.sync()
@@ -194,7 +194,7 @@ class Recorder:
             self._fail(error)
 
     def _look_after(self, part: Part) -> Part:
-        """Say what happened to file and clock; return the part that is recorded into now."""
+        """Report changes of file and clock; return the part that is now recorded."""
         if not part.file.is_linked:
             self.log.warn("{path} was removed; a new file is begun", path=str(part.name.path))
             part.file.close()
@@ -218,7 +218,7 @@ class Recorder:
         return part
 
     def _end(self, part: Part) -> None:
-        """Finish and close the file; what the disk refuses is kept as the problem."""
+        """Finish and close the file; a disk error is kept as the problem."""
         self._part = None
         try:
             part.finish()
@@ -231,12 +231,12 @@ class Recorder:
         part.file.close()
 
     def _fail(self, error: Exception) -> None:
-        """Stop recording politely, and say so once."""
+        """Stop recording cleanly, and report it once."""
         part, self._part = self._part, None
         if part is not None:
             self._dropped += part.file.lost
             if isinstance(error, NoRoomError):
-                # The disk is not full yet: the file ends as it should.
+                # The disk is not full yet: the file ends properly.
                 self._end(part)
             else:
                 self._close(part)

@@ -1,4 +1,4 @@
-"""Makes the recorder, on the thread that it lives on, and works out beforehand what it needs."""
+"""Creates the recorder on its own thread, and prepares its data in advance."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def make_recorder(
     context: Any,
     is_over: Callable[[], bool],
 ) -> Recorder:
-    """Return a recorder for which everything is ready, unless the program is over meanwhile."""
+    """Return a prepared recorder, unless the program ends in the meantime."""
     disk = Disk()
     total, keep_free = config.total_size_mb * MEGABYTE, config.keep_free_mb * MEGABYTE
     folder = FlightFolder(disk, folder_of(config.folder), total, keep_free)
@@ -37,12 +37,12 @@ def make_recorder(
 def _preparations(
     facts: FlightFacts, registry: CommandRegistry, is_over: Callable[[], bool]
 ) -> Iterator[None]:
-    """Yield after each piece of what a flight's begin would have to work out at once."""
+    """Yield after each piece of the preparation that a flight's start would need."""
     yield from facts.prepare()
     for cls in registry:
         if is_over():
             return
-        # One that anybody made wrongly is left out when it comes, and said then.
+        # An invalid class is left out when its first Command arrives, and reported then.
         with contextlib.suppress(Exception):
             form_of(cls)
         yield
@@ -63,7 +63,7 @@ def _facts(up: Any, context: Any) -> FlightFacts:
 
 
 def _aircraft(up: Any, context: Any) -> str:
-    """Return the name that the ground knows this aircraft by."""
+    """Return the aircraft's name on the ground."""
     provider = up.mission_control_provider
     config = None if provider is None or provider.CONFIG is None else provider.config
     return getattr(config, "aircraft", "") or context.instance or "default"

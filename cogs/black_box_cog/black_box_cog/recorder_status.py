@@ -1,4 +1,4 @@
-"""What the recorder tells of itself."""
+"""The recorder's status."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class RecorderStatus:
-    """Whether a file is written, which, the size of its flight, what is lost, what is wrong."""
+    """Whether a file is written, its name, the size of its flight, the losses, the problem."""
 
     recording: bool = False
     file: str | None = None

@@ -9,9 +9,9 @@ JUMP_S = 60.0
 
 
 class Timeline:
-    """Turns the monotonic time of an entry into the log's, which no wall clock tears.
+    """Converts the monotonic time of an entry to the log's, unaffected by wall clock jumps.
 
-    ``now`` is the clock that entries are stamped with, ``wall_ns`` the wall clock.
+    ``now`` is the clock of the entries' times, ``wall_ns`` the wall clock.
     """
 
     def __init__(
@@ -34,9 +34,9 @@ class Timeline:
         return self.log_ns(self._now()) / 1e9
 
     def jump_s(self) -> float | None:
-        """Return how far the wall clock is from the log's time, when it jumped by a minute.
+        """Return the distance of the wall clock from the log's time after a jump of a minute.
 
-        None: it did not since it was last told.
+        None without a new jump since the last report.
         """
         away_s = (self._wall_ns() - self.log_ns(self._now())) / 1e9
         if abs(away_s - self._told_s) < JUMP_S:

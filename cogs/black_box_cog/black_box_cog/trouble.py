@@ -1,4 +1,4 @@
-"""Why the flight is not recorded: said once a kind, and kept for telemetry."""
+"""The reason why the flight is not recorded: logged once per kind, and shown in telemetry."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ RETRY_S = 60.0
 
 
 class Trouble:
-    """The problem with the disk that there is now; ``problem`` None: there is none."""
+    """The current problem of the disk; ``problem`` is None without one."""
 
     def __init__(self, log: Logger, folder: Path) -> None:
         self.problem: str | None = None
@@ -22,15 +22,15 @@ class Trouble:
         self._retry_s = float("-inf")
 
     def is_time_to_try(self, now_s: float) -> bool:
-        """Return whether a file may be begun."""
+        """Return whether a file may be opened."""
         return now_s >= self._retry_s
 
     def wait(self, now_s: float) -> None:
-        """Try again in a minute only."""
+        """Retry only after a minute."""
         self._retry_s = now_s + RETRY_S
 
     def note(self, error: Exception) -> None:
-        """Keep what the disk refused."""
+        """Keep the disk's error."""
         reason = getattr(error, "strerror", None) or str(error)
         path = getattr(error, "filename", None) or self._folder
         kind = getattr(error, "errno", None) or type(error)
@@ -42,5 +42,5 @@ class Trouble:
             )
 
     def forget(self) -> None:
-        """Hear that it is over."""
+        """Note that the problem is over."""
         self.problem = self._kind = None

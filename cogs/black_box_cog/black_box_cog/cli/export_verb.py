@@ -29,11 +29,11 @@ RATE_HZ = 10.0
 MOST_ROWS = 10_000_000
 STDOUT = Path("-")
 _NOT_IN_A_TABLE = ("log", "/location")
-"""Words, which no rate fits, and Foxglove's copy of the position."""
+"""Texts, which have no rate, and Foxglove's copy of the position."""
 
 
 def run(values: argparse.Namespace) -> int:
-    """Write a flight in another form."""
+    """Convert a flight to another format."""
     if values.format != "csv" and (values.topic or values.rate):
         raise CliError(f"--topic and --rate say what a csv is, not a {values.format}", status=2)
     flight = flight_of(values)
@@ -125,6 +125,6 @@ def _names(log: FlightLog, flight: Flight) -> tuple[str, str]:
 
 
 def _file_name(topic: str) -> str:
-    """Return a topic as the name of a file: no folder, nothing that a shell or a disk dislikes."""
+    """Return a topic as a file name without folders or special characters."""
     plain = "".join(c if c.isascii() and (c.isalnum() or c in "._-") else "_" for c in topic)
     return f"{plain.strip('._')[:100] or 'topic'}.csv"

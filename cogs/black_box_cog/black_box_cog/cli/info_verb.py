@@ -20,7 +20,7 @@ from up.flight_log.summary import FlightSummary, Wrong, summarise, wrongs
 
 
 def run(values: argparse.Namespace) -> int:
-    """Tell what a flight was."""
+    """Print the summary of a flight."""
     flight = flight_of(values)
     log = read(flight)
     try:

@@ -27,7 +27,7 @@ HEAD = ("no.", "start", "length", "aircraft", "armed", "highest", "size", "")
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Line:
-    """A flight with what the list tells of it."""
+    """A flight with its line of the list."""
 
     flight: Flight
     overview: Overview
@@ -35,7 +35,7 @@ class Line:
 
     @property
     def note(self) -> str:
-        """Return what is special, in words."""
+        """Return the remarks, in words."""
         if self.is_recording:
             return "being recorded"
         if self.overview.fault is not None:
@@ -44,12 +44,12 @@ class Line:
 
     @property
     def has_wrong_clock(self) -> bool:
-        """Return whether the flight cannot have begun when its log says."""
+        """Return whether the logged start of the flight is impossible."""
         return self.overview.fault is None and not is_clock_right(self.overview.start_unix_s)
 
 
 def run(values: argparse.Namespace) -> int:
-    """List the flights, the newest last."""
+    """List the flights, newest last."""
     folder = folder_of(values)
     if not folder.is_dir() and values.folder is not None:
         raise CliError(f"{folder} is no folder")
@@ -73,7 +73,7 @@ def run(values: argparse.Namespace) -> int:
 
 
 def lines_of(flights: Sequence[Flight], cache: OverviewCache) -> list[Line]:
-    """Return a line for every flight; what was read once is not read again."""
+    """Return a line for every flight, from the cache where possible."""
     lines = []
     with Progress("reading flight", len(flights)) as progress:
         for number, flight in enumerate(flights, 1):

@@ -1,4 +1,4 @@
-"""What a user meant who named a topic or a field that a log does not have."""
+"""Suggestions for a topic or a field that a log does not have."""
 
 from __future__ import annotations
 

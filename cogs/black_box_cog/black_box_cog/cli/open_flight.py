@@ -1,4 +1,4 @@
-"""The log of the flight that a verb was asked for."""
+"""Opens the log of the flight that a verb names."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _LARGE = 20_000_000
 
 def flight_of(values: argparse.Namespace) -> Flight:
     """Return the flight that FLIGHT names; raises CliError and ConfigErrors."""
-    # Only what is no path needs a folder, and so a configuration without mistakes.
+    # Only a name that is not a path needs the folder, and so a valid configuration.
     try:
         flight = find_flight(values.flight, lambda: folder_of(values))
     except FlightLogError as error:

@@ -1,4 +1,4 @@
-"""What the list of flights tells of one."""
+"""The summary of one flight for the list of flights."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ _ALTITUDES_OTHERWISE = ("up.location.update", "up.telemetry.update")
 
 @dataclass(frozen=True, slots=True)
 class Overview:
-    """A line of the list; ``fault`` is why a flight could not be read, None where it could.
+    """A line of the list; ``fault`` is the reason if a flight could not be read, otherwise None.
 
-    ``highest_m`` is above sea level, None where nothing told an altitude.
+    ``highest_m`` is above sea level, None without a logged altitude.
     """
 
     aircraft: str = ""
@@ -32,7 +32,7 @@ class Overview:
 
 
 def overview_of(flight: Flight) -> Overview:
-    """Read a flight once, and of its messages only those that the list needs."""
+    """Read a flight once, decoding only the messages that the list needs."""
     try:
         log = FlightLog.read(flight.paths)
         return Overview(
@@ -48,7 +48,7 @@ def overview_of(flight: Flight) -> Overview:
 
 
 def is_being_recorded(path: Path) -> bool:
-    """Return whether the black box still writes into a file: it holds a lock on it."""
+    """Return whether the black box still writes the file: it holds a lock on it."""
     try:
         with path.open("rb") as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)

@@ -1,4 +1,4 @@
-"""What was read of flights before, so that a list of hundreds is there at once."""
+"""A cache of flight summaries, so that a list of hundreds appears immediately."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ MOST = 5000
 
 
 class OverviewCache:
-    """Overviews by flight, good for as long as its files keep size and time of change.
+    """Overviews by flight, valid while its files keep size and modification time.
 
-    It is only a help: a cache that cannot be read or written is none.
+    Optional: a cache that cannot be read or written is ignored.
     """
 
     def __init__(self, path: Path) -> None:
@@ -30,7 +30,7 @@ class OverviewCache:
         self._has_news = False
 
     def get(self, flight: Flight) -> Overview | None:
-        """Return what is known of a flight as it lies there now."""
+        """Return the cached overview of a flight, or None if its files changed."""
         entry = self._entries.get(_key(flight))
         state = _state(flight)
         if not isinstance(entry, dict) or state is None or entry.get("state") != state:
@@ -41,7 +41,7 @@ class OverviewCache:
             return None
 
     def put(self, flight: Flight, overview: Overview) -> None:
-        """Keep an overview; one that tells a fault is looked at anew each time."""
+        """Keep an overview; one with a fault is read again each time."""
         state = _state(flight)
         if state is not None and overview.fault is None:
             entry = {"state": state, "overview": dataclasses.asdict(overview)}
@@ -49,7 +49,7 @@ class OverviewCache:
             self._has_news = True
 
     def save(self) -> None:
-        """Write what is new; the oldest entries go."""
+        """Write the new entries; the oldest are removed."""
         if not self._has_news:
             return
         kept = dict(list(self._entries.items())[-MOST:])
@@ -59,7 +59,7 @@ class OverviewCache:
 
 
 def cache_path(environ: Mapping[str, str]) -> Path:
-    """Return where the cache lies (XDG Base Directory Specification)."""
+    """Return the path of the cache (XDG Base Directory Specification)."""
     folder = environ.get("XDG_CACHE_HOME", "")
     base = Path(folder) if folder.startswith("/") else Path.home() / ".cache"
     return base / "raspilot" / "flights.json"

@@ -12,7 +12,7 @@ from up.cli.verb import add_verb
 from up.flight_log.flight_options import PLACE, take_folder
 
 LOG_VERBS = "up.log_verbs"
-"""The group of entry points by which other distributions add verbs below `up log`."""
+"""The group of entry points for verbs that other distributions add below `up log`."""
 _EPILOG = """\
 FLIGHT is the number of a flight ('up log list' tells it), 'last', a file of a flight, or a folder
 that holds the parts of one.
@@ -45,10 +45,10 @@ examples:
 
 
 class MixedParser(argparse.ArgumentParser):
-    """A parser that, with ``is_mixed``, takes a list of positional arguments around its options.
+    """A parser that, with ``is_mixed``, accepts positional arguments before and after options.
 
-    argparse gives such a list nothing that comes after an option: it offers
-    ``parse_intermixed_args`` for that, but not to the parsers below a verb.
+    argparse ignores positional arguments after an option: it has ``parse_intermixed_args`` for
+    that, but does not use it for the parsers below a verb.
     """
 
     is_mixed = False
@@ -56,7 +56,7 @@ class MixedParser(argparse.ArgumentParser):
     def parse_known_args(  # type: ignore[override]
         self, args: Sequence[str] | None = None, namespace: Any = None
     ) -> tuple[argparse.Namespace, list[str]]:
-        """Parse; what it calls comes here again and goes the usual way."""
+        """Parse; parse_intermixed_args calls this again, and then the base class parses."""
         if not self.is_mixed:
             return super().parse_known_args(args, namespace)
         self.is_mixed = False
@@ -67,7 +67,7 @@ class MixedParser(argparse.ArgumentParser):
 
 
 def add(verbs: Any) -> None:
-    """Add `up log` with its verbs, and those that other distributions bring."""
+    """Add `up log` with its verbs, and those of other distributions."""
     log = verbs.add_parser(
         "log",
         help="look at recorded flights: list, info, export, plot, report",
@@ -86,7 +86,7 @@ def add(verbs: Any) -> None:
 
 
 def take_flight(parser: argparse.ArgumentParser) -> None:
-    """Add the argument FLIGHT and the options that say where flights are."""
+    """Add the argument FLIGHT and the options that select the folder of flights."""
     parser.add_argument(
         "flight", metavar="FLIGHT", help="its number, 'last', a file, or a folder of parts"
     )
@@ -152,7 +152,7 @@ def _take_output(parser: argparse.ArgumentParser, what: str, text: str) -> None:
 
 
 def _place(values: argparse.Namespace) -> Path:
-    # Imported when it is asked for, so that help stays quick.
+    # Imported on use, which keeps help fast.
     from black_box_cog.cli.place import folder_of
 
     return folder_of(values)

@@ -1,4 +1,4 @@
-"""Where the flights are that a verb looks at."""
+"""The folder of flights that a verb reads."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from up.loading.application import NoApplicationError
 
 
 def folder_of(values: argparse.Namespace) -> Path:
-    """Return ``--folder``, else what black_box.yml says, else where the black box writes.
+    """Return ``--folder``, otherwise the folder in black_box.yml, otherwise the default one.
 
     Outside of an application, and without ``--config``, there is no black_box.yml. Raises
-    ConfigErrors, and CliError for a ``--file`` that leads nowhere.
+    ConfigErrors, and CliError for a ``--file`` that does not exist.
     """
     if values.folder is not None:
         return Path(values.folder)

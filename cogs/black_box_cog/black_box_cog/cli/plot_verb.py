@@ -35,7 +35,7 @@ _STYLES = ("-", "--", "-.", ":")
 
 
 def run(values: argparse.Namespace) -> int:
-    """Draw a flight."""
+    """Plot a flight."""
     if not has_matplotlib():
         raise CliError(MISSING)
     flight = flight_of(values)
@@ -83,7 +83,7 @@ def _fields(log: FlightLog, named: Sequence[str]) -> bytes:
 
 
 def _panels(log: FlightLog, fields: Sequence[tuple[str, str]]) -> Iterator[Panel]:
-    """Yield a panel for every unit: what can be compared stands together."""
+    """Yield a panel for every unit, so that comparable values share one."""
     by_unit: dict[str, list[tuple[str, str]]] = {}
     for topic, field in fields:
         unit = _unit(log, topic, field) or field.rpartition(".")[2]
@@ -99,7 +99,7 @@ def _panels(log: FlightLog, fields: Sequence[tuple[str, str]]) -> Iterator[Panel
 
 
 def _split(log: FlightLog, named: str) -> tuple[str, str]:
-    """Return topic and field of what a user named; raises CliError with what there is."""
+    """Return topic and field of a name; raises CliError that lists the known ones."""
     parts = named.split(".")
     for at in range(len(parts) - 1, 0, -1):
         topic, field = ".".join(parts[:at]), ".".join(parts[at:])
@@ -109,7 +109,7 @@ def _split(log: FlightLog, named: str) -> tuple[str, str]:
 
 
 def known_fields(log: FlightLog) -> list[str]:
-    """Return every ``topic.field`` with numbers, as far as the beginning of each topic tells."""
+    """Return every ``topic.field`` with numbers, according to each topic's first messages."""
     found: dict[str, None] = {}
     for topic in log.topics:
         for number, message in enumerate(log.messages(topic)):

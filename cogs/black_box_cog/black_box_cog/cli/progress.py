@@ -1,4 +1,4 @@
-"""A line that says how far a long work is, where somebody watches."""
+"""A progress line for long operations on a terminal."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ _BETWEEN_S = 0.1
 
 
 class Progress:
-    """Says ``text 12 of 300`` on a terminal once the work has taken half a second.
+    """Shows ``text 12 of 300`` on a terminal once the operation has taken half a second.
 
-    Use it as a context: the line is gone afterwards. Nothing is said to a file or a pipe.
+    Use it as a context: the line is removed at the end. Prints nothing to a file or a pipe.
     """
 
     def __init__(self, text: str, count: int, stream: TextIO | None = None) -> None:
@@ -26,7 +26,7 @@ class Progress:
         self._has_spoken = False
 
     def at(self, number: int) -> None:
-        """Say that the work is at this item, the first is 1."""
+        """Report the current item; the first is 1."""
         if self._is_seen and time.monotonic() >= self._due_s:
             self._due_s = time.monotonic() + _BETWEEN_S
             self._has_spoken = True
@@ -42,7 +42,7 @@ class Progress:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Take the line away."""
+        """Remove the line."""
         if self._has_spoken:
             self._say("\r\x1b[K")
 

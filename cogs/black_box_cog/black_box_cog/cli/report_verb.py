@@ -18,7 +18,7 @@ from up.flight_log.mcap_format import FlightLogError
 
 
 def run(values: argparse.Namespace) -> int:
-    """Write the page that explains a flight."""
+    """Write the report of a flight."""
     flight = flight_of(values)
     log = read(flight)
     folder = values.output or default_folder(flight)
@@ -36,7 +36,7 @@ def run(values: argparse.Namespace) -> int:
 
 
 def default_folder(flight: Flight) -> Path:
-    """Return where a report goes that was not told: beside the flight, else where the user is."""
+    """Return the default place of a report: beside the flight, otherwise the current folder."""
     name = f"{flight.name}-report"
     beside = flight.paths[0].parent
     return beside / name if os.access(beside, os.W_OK) else Path(name)

@@ -1,4 +1,4 @@
-"""What the verbs show on a terminal."""
+"""The terminal output of the verbs."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ def warn(text: str) -> None:
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]], right: Sequence[int] = ()) -> str:
-    """Return lines with aligned columns; those numbered in ``right`` end at one place.
+    """Return lines with aligned columns; those numbered in ``right`` are right-aligned.
 
-    Whatever a terminal would carry out is escaped.
+    Control characters are escaped.
     """
     cells = [[printable(cell) for cell in row] for row in (head, *rows)]
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]

@@ -1,4 +1,4 @@
-"""An event that somebody on the ground wants to find again in the log."""
+"""An event that the user on the ground marks in the log."""
 
 from __future__ import annotations
 

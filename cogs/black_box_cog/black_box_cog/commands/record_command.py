@@ -1,4 +1,4 @@
-"""What a companion on board wants to have in the flight log."""
+"""An object that a companion computer adds to the flight log."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Flights as files of other programs: tables, tracks."""
+"""Exports of flights to other programs' formats: tables, tracks."""

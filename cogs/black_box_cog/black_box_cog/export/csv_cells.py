@@ -1,4 +1,4 @@
-"""What stands in the cells of a table."""
+"""The cells of a table."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _FORMULA = ("=", "+", "-", "@")
 
 
 def flat(data: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the values of a message under dotted paths; an empty inner map yields nothing."""
+    """Yield the values of a message by dotted paths; an empty inner map yields nothing."""
     for key, value in data.items():
         path = f"{prefix}{key}"
         if isinstance(value, Mapping):
@@ -23,9 +23,9 @@ def flat(data: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]
 
 
 def cell(value: Any) -> str:
-    """Return a value as a cell: numbers in full precision, nothing for null and for no number.
+    """Return a value as a cell: numbers in full precision, empty for null and not-a-number.
 
-    Text keeps to one line; one that a spreadsheet would calculate gets an apostrophe before it.
+    Text becomes one line; one that a spreadsheet would read as a formula gets an apostrophe first.
     """
     if value is None:
         return ""

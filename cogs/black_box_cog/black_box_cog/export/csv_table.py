@@ -1,4 +1,4 @@
-"""Messages as rows: every message of one topic, or everything at one rate."""
+"""Messages as rows: every message of one topic, or all topics at one rate."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ TIME, WALL_TIME, AGE = "time_s", "time", "age_s"
 
 
 class Message(Protocol):
-    """What a table needs of a message in a log."""
+    """The attributes of a logged message that a table needs."""
 
     @property
     def topic(self) -> str:
@@ -28,7 +28,7 @@ class Message(Protocol):
 
 
 def columns_of(messages: Iterable[Message]) -> dict[str, list[str]]:
-    """Return the dotted paths of each topic, in the order in which they came first."""
+    """Return the dotted paths of each topic, in the order of first appearance."""
     columns: dict[str, dict[str, None]] = {}
     for message in messages:
         paths = columns.setdefault(message.topic, {})
@@ -40,7 +40,7 @@ def columns_of(messages: Iterable[Message]) -> dict[str, list[str]]:
 def topic_rows(
     messages: Iterable[Message], paths: list[str], start_unix_s: float
 ) -> Iterator[list[str]]:
-    """Yield the head and a row for every message of one topic."""
+    """Yield the header and a row for every message of one topic."""
     yield [cell(name) for name in (TIME, WALL_TIME, *paths)]
     for message in messages:
         found = dict(flat(message.data))
@@ -54,10 +54,10 @@ def wide_rows(
     length_s: float,
     rate_hz: float,
 ) -> Iterator[list[str]]:
-    """Yield the head and ``rate_hz`` rows a second with the newest values of every topic.
+    """Yield the header and ``rate_hz`` rows per second with the newest values of every topic.
 
-    ``messages`` are in the order of time. Each topic has a column that says how old its values are
-    (seconds): a source that has fallen silent keeps its last values, and its age grows.
+    ``messages`` are in the order of time. Each topic has a column with the age of its values
+    (seconds): a silent source keeps its last values while their age grows.
     """
     head = [TIME, WALL_TIME]
     for topic, paths in columns.items():

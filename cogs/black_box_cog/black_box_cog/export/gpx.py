@@ -25,7 +25,7 @@ _HEAD = f"""\
 
 
 def gpx_lines(track: Track) -> Iterator[str]:
-    """Yield the document piece by piece.
+    """Yield the document in pieces.
 
     Speed (m/s) and course (degrees) are in Garmin's track point extension, version 2, because GPX
     1.1 has no elements for them.

@@ -27,11 +27,10 @@ _STYLE = """\
 
 
 def kml_lines(track: Track) -> Iterator[str]:
-    """Yield the document piece by piece.
+    """Yield the document in pieces.
 
-    The line stands above the ground at the altitudes that were measured, above sea level; a flight
-    without altitudes lies on the ground. The second placemark is the same track with its times,
-    for the time slider.
+    The line is drawn at the measured altitudes above sea level; a flight without altitudes lies on
+    the ground. The second placemark is the same track with its times, for the time slider.
     """
     yield _HEAD
     yield f"<name>{xml_text(track.name)}</name>"
@@ -51,7 +50,7 @@ def kml_lines(track: Track) -> Iterator[str]:
 def _line(track: Track) -> Iterator[str]:
     yield "<Placemark><name>Track</name><styleUrl>#track</styleUrl><MultiGeometry>\n"
     for segment in track.segments:
-        # A line has two ends.
+        # A line needs two points.
         if len(segment) > 1:
             mode, heights_m = _heights(segment)
             yield f"<LineString><extrude>1</extrude><tessellate>1</tessellate>{mode}<coordinates>\n"
@@ -82,7 +81,7 @@ def _with_times(track: Track) -> Iterator[str]:
 
 
 def _heights(points: Sequence[TrackPoint]) -> tuple[str, list[float]]:
-    """Return the altitude mode and a height each; one that is not known is as the one before."""
+    """Return the altitude mode and a height for each; an unknown one repeats the previous one."""
     known = [point.altitude_m for point in points if is_known(point.altitude_m)]
     height_m = known[0] if known else None
     if height_m is None:

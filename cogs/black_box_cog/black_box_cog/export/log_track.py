@@ -1,4 +1,4 @@
-"""The track that a flight's log tells."""
+"""The track in a flight's log."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ LOCATION, TELEMETRY, MARK = "up.location.update", "up.telemetry.update", "black_
 
 
 def points_of(log: FlightLog) -> Iterator[TrackPoint]:
-    """Yield the positions in the order of time: of several sources the one that was followed.
+    """Yield the positions of the followed source in the order of time.
 
-    Where no source was logged, those of telemetry; a place that was told twice counts once.
+    Without a logged source these are telemetry's; a repeated position counts once.
     """
     start = log.start_unix_s
     if LOCATION in log.topics:
@@ -34,7 +34,7 @@ def points_of(log: FlightLog) -> Iterator[TrackPoint]:
 
 
 def track_of(log: FlightLog, name: str, description: str) -> Track:
-    """Return the track, with the first position as the home and the marks where they were set."""
+    """Return the track, with the first position as the home, and the marks at their positions."""
     segments = list(segments_of(points_of(log)))
     places = []
     if segments:

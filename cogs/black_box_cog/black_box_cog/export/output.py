@@ -1,4 +1,4 @@
-"""Files that are written whole, and never over another one that nobody gave up."""
+"""Writes files atomically, and never overwrites one without permission."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from up.cli.cli_error import CliError
 
 @contextlib.contextmanager
 def new_file(path: Path, *, may_overwrite: bool = False) -> Iterator[BinaryIO]:
-    """Give a file to write into; what goes wrong leaves none, and an older one as it was.
+    """Yield a file to write to; an error leaves no new file, and an older one unchanged.
 
-    Raises CliError where there is one already, or where the disk refuses.
+    Raises CliError if the file exists, or for a failed write.
     """
     if not may_overwrite and os.path.lexists(path):
         raise _taken(path)
@@ -35,7 +35,7 @@ def new_file(path: Path, *, may_overwrite: bool = False) -> Iterator[BinaryIO]:
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder where there is none, in one that is there: a mistyped way makes no folders.
+    """Create a missing folder in an existing one: a mistyped path creates no folders.
 
     Raises CliError.
     """
@@ -48,7 +48,7 @@ def make_folder(folder: Path) -> None:
 
 
 def write_file(path: Path, data: bytes, *, may_overwrite: bool = False) -> None:
-    """Write a file at once, as ``new_file`` does."""
+    """Write a file in one call, as ``new_file`` does."""
     with new_file(path, may_overwrite=may_overwrite) as file:
         file.write(data)
 
@@ -56,7 +56,7 @@ def write_file(path: Path, data: bytes, *, may_overwrite: bool = False) -> None:
 def _name(temporary: Path, path: Path, may_overwrite: bool) -> None:
     if not may_overwrite:
         try:
-            # Unlike rename, link refuses a name that was taken in the meantime.
+            # Unlike rename, link refuses a name that was created in the meantime.
             os.link(temporary, path)
             return
         except FileExistsError:

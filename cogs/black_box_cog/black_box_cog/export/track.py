@@ -1,4 +1,4 @@
-"""Where an aircraft was: values that every form of a track is written from."""
+"""The track of an aircraft: the values from which every track format is written."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from datetime import UTC, datetime
 from typing import TypeGuard
 
 GAP_S = 10.0
-"""After a silence as long as this a track goes on in a new segment."""
+"""After a gap this long a track continues in a new segment."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrackPoint:
-    """A position (WGS 84), when, and what was known besides; None is not known."""
+    """A position (WGS 84), its time, and other known values; None is unknown."""
 
     unix_s: float
     latitude_deg: float
@@ -26,7 +26,7 @@ class TrackPoint:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A named point beside the track: the home, a mark of the user."""
+    """A named point beside the track: the home or a user's mark."""
 
     point: TrackPoint
     name: str
@@ -34,7 +34,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Track:
-    """The segments of one flight, its name and the places on its way."""
+    """The segments of one flight, its name and its waypoints."""
 
     name: str
     description: str
@@ -43,13 +43,13 @@ class Track:
 
 
 def is_on_earth(point: TrackPoint) -> bool:
-    """Return whether the point can be drawn at all: finite and within the globe."""
+    """Return whether the point can be drawn: finite and within the globe."""
     latitude, longitude = point.latitude_deg, point.longitude_deg
     return abs(latitude) <= 90 and abs(longitude) <= 180
 
 
 def segments_of(points: Iterable[TrackPoint], gap_s: float = GAP_S) -> Iterator[list[TrackPoint]]:
-    """Yield the points cut where nothing was heard for ``gap_s``; impossible ones are dropped."""
+    """Yield the points split at gaps of ``gap_s``; impossible ones are dropped."""
     segment: list[TrackPoint] = []
     for point in points:
         if not is_on_earth(point):
@@ -63,7 +63,7 @@ def segments_of(points: Iterable[TrackPoint], gap_s: float = GAP_S) -> Iterator[
 
 
 def utc_text(unix_s: float) -> str | None:
-    """Return a time as 2026-05-01T12:00:00.250Z; None for one that no calendar has."""
+    """Return a time as 2026-05-01T12:00:00.250Z; None outside the calendar's range."""
     try:
         moment = datetime.fromtimestamp(unix_s, UTC)
     except (OverflowError, ValueError, OSError):
@@ -72,12 +72,12 @@ def utc_text(unix_s: float) -> str | None:
 
 
 def degrees_text(degrees: float) -> str:
-    """Return degrees with 7 decimals, a centimetre, and never an exponent."""
+    """Return degrees with 7 decimals (a centimetre), without an exponent."""
     return f"{degrees:.7f}"
 
 
 def longitude_text(degrees: float) -> str:
-    """Return a longitude from -180 up to, and without, 180."""
+    """Return a longitude from -180 to below 180."""
     text = degrees_text(degrees)
     return "-180.0000000" if text == "180.0000000" else text
 

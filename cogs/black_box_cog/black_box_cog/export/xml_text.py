@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from xml.sax.saxutils import escape
 
-# XML 1.0, 2.2: what may stand in a document; the rest cannot even be written as a reference.
+# XML 1.0, 2.2: the permitted characters; the rest cannot even be written as a reference.
 _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 

@@ -1,4 +1,4 @@
-"""Records the flight: everything that goes over the bus, and the log of the program."""
+"""Records the flight: all Commands on the bus, and the program's log."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from black_box_cog.recorder import Recorder
 
 SOURCE_S = 10.0
-"""The recorder asks for telemetry itself for so long after a word of the Arduino or the phone."""
+"""The recorder wants telemetry for this long after data of the Arduino or the phone."""
 FIRST_LOOK_S = 1.0
 PAUSE_S = 0.005
 LATER = (
@@ -46,31 +46,31 @@ LATER = (
     "black_box_cog.recorder",
     "black_box_cog.recorder_maker",
 )
-"""What only the recorder's thread needs, in the order of import: the start does not wait for it."""
+"""Imports for the recorder's thread only, in order: the start does not wait for them."""
 
 
 class BlackBox(BaseThreadModule):
     """Observes the bus; its thread writes. The reactor's thread only appends to a queue."""
 
     CONFIG = BLACK_BOX
-    # First to start and last to stop: what the others say meanwhile is recorded.
+    # First to start and last to stop, to record the other modules' start and stop.
     LOAD_ORDER: ClassVar[int] = -sys.maxsize
 
     recorder: Recorder | None = None
 
     def load(self) -> bool:
-        """Return whether flights are to be recorded."""
+        """Return whether flights are recorded."""
         enabled: bool = self.config.enabled
         return enabled
 
     @property
     def status(self) -> RecorderStatus:
-        """Return what the recorder tells of itself."""
+        """Return the recorder's status."""
         return RecorderStatus() if self.recorder is None else self.recorder.status
 
     @property
     def wants_telemetry(self) -> bool:
-        """Return whether a flight is recorded and the Arduino or the phone was heard just now."""
+        """Return whether a flight is recorded and the Arduino or the phone sent data recently."""
         return (
             self.config.telemetry
             and self.recorder is not None
@@ -80,7 +80,7 @@ class BlackBox(BaseThreadModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return whether it records, into which file, and what is wrong."""
+        """Return whether it records, into which file, and its problem."""
         return {"black_box": asdict(self.status)}
 
     def _execute_initialization(self) -> None:
@@ -112,17 +112,17 @@ class BlackBox(BaseThreadModule):
             self.recorder = self._make_recorder()
             super()._run()
             self.recorder.finish()
-        except Exception:  # noqa: BLE001 - the last words of a thread; nobody else would tell
+        except Exception:  # noqa: BLE001 - without this the thread would end silently
             self.faults += 1
             self.logger.failure("{name} does not record any more", name=self.class_name)
 
     def _make_recorder(self) -> Recorder:
-        """Return the recorder, whose code comes in pieces: all at once would hold control up."""
+        """Return the recorder, importing its code in pieces: all in one would delay control."""
         for name in LATER:
             importlib.import_module(name)
             self.stop_event.wait(PAUSE_S)
         if not gc.isenabled():
-            # As with what was there at the start: no collection is to walk through it again.
+            # As for objects of the start: no collection needs to visit it again.
             gc.freeze()
         from black_box_cog.recorder_maker import make_recorder
 
@@ -130,7 +130,7 @@ class BlackBox(BaseThreadModule):
         return make_recorder(self.intake, self.config, up, context, self.stop_event.is_set)
 
     def _on_telemetry(self, command: TelemetryCommand) -> None:
-        """Do nothing: the observer has it; who subscribes is asked whether frames are wanted."""
+        """Do nothing: the observer records it; a subscriber can say whether frames are wanted."""
 
     def _on_mark(self, command: MarkCommand) -> None:
         self._refuse_without_file()

@@ -1,1 +1,1 @@
-"""Pictures of a flight, drawn with matplotlib where it is installed."""
+"""Pictures of a flight, drawn with matplotlib if it is installed."""

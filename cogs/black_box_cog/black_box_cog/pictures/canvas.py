@@ -1,4 +1,4 @@
-"""The paper that is drawn on: the only place that knows how matplotlib is had and how it saves."""
+"""The drawing surface: the only module that imports matplotlib and saves its figures."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 MISSING = "matplotlib is not installed: pip install 'raspilot[log]' brings it"
 _COLOURS = 128
-"""A picture of lines has few; a palette makes its file a third as large."""
+"""A line drawing has few colours; a palette makes its file a third as large."""
 
 
 class PictureError(Exception):
-    """There is no picture: the text is one sentence for the user."""
+    """A picture cannot be drawn; the text is one sentence for the user."""
 
 
 class Sheet:
-    """A figure on which everything is placed in inches from its upper left corner."""
+    """A figure on which positions are in inches from the upper left corner."""
 
     def __init__(
         self, figure: Figure, theme: Theme, place: tuple[float, float, float, float] | None = None
@@ -35,12 +35,12 @@ class Sheet:
         self._left, self._top, self.width, self.height = place or (0.0, 0.0, *self._paper)
 
     def part(self, left: float, top: float, width: float, height: float) -> Sheet:
-        """Return a part of this sheet as a sheet of its own."""
+        """Return a part of this sheet as a separate sheet."""
         place = (self._left + left, self._top + top, width, height)
         return Sheet(self._figure, self.theme, place)
 
     def axes(self, left: float, top: float, width: float, height: float) -> Axes:
-        """Return new axes at a place."""
+        """Return new axes at a position."""
         paper_width, paper_height = self._paper
         return self._figure.add_axes(
             (
@@ -52,17 +52,17 @@ class Sheet:
         )
 
     def size_of(self, axes: Axes) -> tuple[float, float]:
-        """Return how wide and how high axes are, inches."""
+        """Return the width and height of axes, inches."""
         box = axes.get_position()
         return box.width * self._paper[0], box.height * self._paper[1]
 
     def text(self, left: float, top: float, words: str, **options: Any) -> None:
-        """Write words whose upper left corner is at a place."""
+        """Write text with its upper left corner at a position."""
         x, y = (self._left + left) / self._paper[0], 1 - (self._top + top) / self._paper[1]
         self._figure.text(x, y, words, va="top", ha="left", **options)
 
     def text_width(self, words: str, size: float) -> float:
-        """Return how many inches wide words are."""
+        """Return the width of a text, inches."""
         text = self._figure.text(0, 0, words, size=size)
         extent = text.get_window_extent(renderer=self._figure.canvas.get_renderer())  # type: ignore[attr-defined]
         text.remove()
@@ -70,17 +70,16 @@ class Sheet:
 
 
 def has_matplotlib() -> bool:
-    """Return whether pictures can be drawn here, without the cost of drawing one."""
+    """Return whether matplotlib is available, without the cost of importing it."""
     return importlib.util.find_spec("matplotlib") is not None
 
 
 def png_of(
     paint: Callable[[Sheet], None], width_in: float, height_in: float, dpi: int, theme: Theme
 ) -> bytes:
-    """Return what ``paint`` draws as a PNG, without a date: the same drawing is the same bytes.
+    """Return the drawing of ``paint`` as a PNG without a date: equal drawings are equal bytes.
 
-    The user's own style and matplotlib's global state stay out of it. Raises PictureError where
-    matplotlib is missing.
+    Ignores the user's style and matplotlib's global state. Raises PictureError without matplotlib.
     """
     try:
         matplotlib = importlib.import_module("matplotlib")
@@ -124,7 +123,7 @@ def _style(theme: Theme) -> dict[str, Any]:
         "xtick.labelcolor": theme.muted,
         "ytick.labelcolor": theme.muted,
         "text.color": theme.ink,
-        # A dollar sign from a log begins no formula.
+        # A dollar sign from a log must not begin a formula.
         "text.parse_math": False,
         "legend.frameon": False,
         "legend.fontsize": 8.5,

@@ -1,4 +1,4 @@
-"""What is drawn over time: values, without any drawing."""
+"""The data of charts over time, without any drawing."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from dataclasses import dataclass
 
 MOST_POINTS = 4000
 GREATEST = 1e15
-"""What is greater is a fault of whoever said it, and no axis can show it beside the rest."""
+"""A larger value is a fault of its sender, and no axis can show it beside the rest."""
 GAP_S = 1.0
 _LAPSES = 6.0
 
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """One line: ``colour`` is one of a theme's names, ``gap_s`` after what silence it breaks.
+    """One line: ``colour`` names a theme colour, ``gap_s`` is the silence that breaks the line.
 
-    Without ``gap_s`` that is a second, or six of its own usual periods if that is longer.
+    Without ``gap_s`` that is a second, or six of its usual periods if that is longer.
     """
 
     label: str
@@ -41,14 +41,14 @@ class Panel:
     curves: Sequence[Curve]
     right_unit: str = ""
     about: float | None = None
-    """A level that gets a thin line."""
+    """A value marked by a thin line."""
     least_range: float = 0.0
     share: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class Band:
-    """A part of the flight with a name: its mode."""
+    """A named part of the flight: its mode."""
 
     begin_s: float
     end_s: float
@@ -57,7 +57,7 @@ class Band:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A moment at which something happened."""
+    """A moment with an event."""
 
     at_s: float
     is_bad: bool = False
@@ -65,7 +65,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """What all panels of a flight have behind them."""
+    """The background that all panels of a flight share."""
 
     length_s: float
     bands: Sequence[Band] = ()
@@ -73,19 +73,19 @@ class Stage:
 
 
 def drawable(curve: Curve, most: int = MOST_POINTS) -> tuple[list[float], list[float]]:
-    """Return the points to draw: no more than needed, every peak kept, silences left open."""
+    """Return the points to draw: few, with every peak kept and gaps left open."""
     return thinned(*broken(curve.times_s, curve.values, curve.gap_s), most)
 
 
 def is_drawable(value: float) -> bool:
-    """Return whether a value can stand on an axis."""
+    """Return whether an axis can show a value."""
     return abs(value) <= GREATEST
 
 
 def broken(
     times_s: Sequence[float], values: Sequence[float], gap_s: float | None = None
 ) -> tuple[list[float], list[float]]:
-    """Return the points with a gap (nan) wherever nothing came for ``gap_s``."""
+    """Return the points with a break (nan) at every gap of ``gap_s``."""
     limit_s = usual_gap_s(times_s) if gap_s is None else gap_s
     found_s: list[float] = []
     found: list[float] = []
@@ -101,7 +101,7 @@ def broken(
 
 
 def usual_gap_s(times_s: Sequence[float]) -> float:
-    """Return after what time without a value a source is silent: by its own median period."""
+    """Return the time without a value after which a source is silent: from its median period."""
     if len(times_s) < 3:
         return GAP_S
     periods = sorted(after - before for before, after in itertools.pairwise(times_s))
@@ -111,7 +111,7 @@ def usual_gap_s(times_s: Sequence[float]) -> float:
 def thinned(
     times_s: Sequence[float], values: Sequence[float], most: int = MOST_POINTS
 ) -> tuple[list[float], list[float]]:
-    """Return about ``most`` points at most: of each short stretch the least and the greatest."""
+    """Return about ``most`` points at most: the minimum and maximum of each short stretch."""
     if len(values) <= most:
         return list(times_s), list(values)
     width = math.ceil(2 * len(values) / most)
@@ -119,7 +119,7 @@ def thinned(
     for begin in range(0, len(values), width):
         stretch = range(begin, min(begin + width, len(values)))
         known = [at for at in stretch if not math.isnan(values[at])]
-        # Of a stretch with a silence in it one open point is enough to break the line.
+        # One open point is enough to break the line in a stretch with a gap.
         silent = [at for at in stretch if math.isnan(values[at])][:1]
         extremes = (
             {min(known, key=values.__getitem__), max(known, key=values.__getitem__)}

@@ -14,7 +14,7 @@ _TRACK_IN, _BETWEEN_IN = 5.6, 0.3
 
 
 def overview_height_in(panels: Sequence[Panel], stage: Stage) -> float:
-    """Return how high the picture is."""
+    """Return the height of the picture."""
     below_in = timeline_height_in(panels, stage, _panels_in()) if panels else 0.0
     return HEAD_IN + max(below_in, _TRACK_IN)
 
@@ -27,7 +27,7 @@ def draw_overview(
     stage: Stage,
     track: TrackView | None,
 ) -> None:
-    """Draw what there is of both: the one that is missing leaves its place free."""
+    """Draw what is available of both; a missing one leaves its place empty."""
     sheet.text(0.62, 0.12, title, size=14, weight="bold")
     sheet.text(0.62, 0.38, subtitle, size=9, color=sheet.theme.muted)
     below_in = sheet.height - HEAD_IN

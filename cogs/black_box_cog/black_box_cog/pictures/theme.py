@@ -1,7 +1,7 @@
-"""Colours for daylight and for the dark.
+"""Colours for light and dark pages.
 
-The lines of one panel can be told apart by people who see colours differently (Okabe and Ito 2008);
-in the dark the same hues are lighter.
+The lines of one panel can be distinguished with colour blindness (Okabe and Ito 2008); the dark
+theme uses the same hues, lighter.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Theme:
-    """What a picture is drawn with; the report's page has the same paper and ink."""
+    """The colours of a picture; the report's page has the same background and text colours."""
 
     name: str
     paper: str

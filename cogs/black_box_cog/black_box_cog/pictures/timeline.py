@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 STRIP_IN, PANEL_IN, FOOT_IN = 0.22, 1.45, 0.42
 HEAD_IN, NARROW_HEAD_IN, NARROW_IN = 0.4, 0.58, 6.0
-"""Above a panel: its title and its legend, one below the other where it is narrow."""
+"""Space above a panel for its title and its legend, stacked where it is narrow."""
 LEFT_IN, RIGHT_IN, RIGHT_AXIS_IN = 0.62, 0.22, 0.5
 _NAME_PT = 8.0
 _STEPS_S = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200)
@@ -21,7 +21,7 @@ _LABEL_IN = 0.8
 
 
 def timeline_height_in(panels: Sequence[Panel], stage: Stage, width_in: float) -> float:
-    """Return how high the picture of these panels is."""
+    """Return the height of the picture of these panels."""
     strip_in = STRIP_IN if stage.bands else 0.0
     head_in = _head_in(width_in)
     return strip_in + sum(head_in + PANEL_IN * panel.share for panel in panels) + FOOT_IN
@@ -47,7 +47,7 @@ def draw_timeline(sheet: Sheet, panels: Sequence[Panel], stage: Stage) -> None:
 
 
 def time_text(seconds: float) -> str:
-    """Return a time on the axis: 1:30, or 12.5 where minutes would say nothing."""
+    """Return a time on the axis: 1:30, or 12.5 for a short span."""
     if seconds % 1:
         return f"{seconds:g}"
     whole = round(seconds)
@@ -57,7 +57,7 @@ def time_text(seconds: float) -> str:
 
 
 def limits(panel: Panel, is_right: bool) -> tuple[float, float] | None:
-    """Return the ends of an axis: all values, some air, never less than the least range."""
+    """Return the limits of an axis: all values, some margin, never less than the least range."""
     known = [
         value
         for curve in panel.curves
@@ -70,9 +70,9 @@ def limits(panel: Panel, is_right: bool) -> tuple[float, float] | None:
     low, high = min(known), max(known)
     least = (5.0 if is_right else panel.least_range) or abs(high) * 0.02 or 1.0
     extra = max(0.0, least - (high - low)) / 2 + 0.06 * max(high - low, least)
-    # Ends that floating point cannot tell apart are no axis.
+    # Limits that floating point cannot distinguish are not an axis.
     extra = max(extra, 1e-9 * max(abs(low), abs(high)))
-    # What cannot be below nothing is not drawn so.
+    # Quantities that cannot be negative get no negative axis.
     return (min(low, 0.0) if low >= 0 > low - extra else low - extra), high + extra
 
 
@@ -151,7 +151,7 @@ def _draw_curve(axes: Axes, curve: Curve, sheet: Sheet) -> list[Any]:
         linewidth=curve.width,
         label=curve.label,
         drawstyle="steps-post" if curve.is_step else "default",
-        # A line needs two points; fewer would not be seen.
+        # A line needs two points to be visible.
         marker="o" if is_rare else "",
         markersize=3.5,
         zorder=3,

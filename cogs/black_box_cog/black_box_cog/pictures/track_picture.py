@@ -20,7 +20,7 @@ _STEPS_S = (1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600)
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """Where something was: metres east and north of the home, nan where nothing is known."""
+    """Positions: metres east and north of the home, nan where unknown."""
 
     times_s: Sequence[float]
     east_m: Sequence[float]
@@ -29,7 +29,7 @@ class Path:
 
 @dataclass(frozen=True, slots=True)
 class Wind:
-    """The mean wind: its speed, and where it comes from."""
+    """The mean wind: its speed, and the direction that it comes from."""
 
     speed_m_s: float
     from_deg: float
@@ -37,17 +37,17 @@ class Wind:
 
 @dataclass(frozen=True, slots=True)
 class TrackView:
-    """All that the picture of a track shows."""
+    """The content of the picture of a track."""
 
     path: Path
     truth: Path | None = None
     wind: Wind | None = None
     marks: Sequence[float] = ()
-    """When the user set marks, seconds."""
+    """Times of the user's marks, seconds."""
 
 
 def draw_track(sheet: Sheet, view: TrackView) -> None:
-    """Draw where it flew, north up."""
+    """Draw the track, north up."""
     theme, path = sheet.theme, view.path
     is_narrow = sheet.width < NARROW_IN
     top_in = 0.62 if is_narrow else 0.42
@@ -132,7 +132,7 @@ def _dots(axes: Axes, view: TrackView, sheet: Sheet) -> None:
 
 
 def _frame(axes: Axes, path: Path, truth: Path | None, sheet: Sheet) -> None:
-    """Let a metre be as long both ways, with air around the track."""
+    """Use one scale for both axes, with a margin around the track."""
     paths = [path] if truth is None else [path, truth]
     east = [0.0, *(each.east_m[at] for each in paths for at in _known(each))]
     north = [0.0, *(each.north_m[at] for each in paths for at in _known(each))]
@@ -146,7 +146,7 @@ def _frame(axes: Axes, path: Path, truth: Path | None, sheet: Sheet) -> None:
 
 
 def _draw_wind(axes: Axes, wind: Wind, sheet: Sheet) -> None:
-    """Draw where the wind blows to, above the upper left corner."""
+    """Draw the direction to which the wind blows, above the upper left corner."""
     to_rad = math.radians(wind.from_deg + 180)
     width_in, height_in = sheet.size_of(axes)
     reach_in = 0.14

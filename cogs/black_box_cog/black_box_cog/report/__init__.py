@@ -1,1 +1,1 @@
-"""The report of a flight: one page that explains it."""
+"""The report of a flight: one HTML page."""

@@ -1,4 +1,4 @@
-"""What was asked of the aircraft: by the sticks in Fly By Wire, by setpoints, by the failsafe."""
+"""The required attitude: from the sticks in Fly By Wire, from setpoints, from the failsafe."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ PROFILE = "arduino.profile.values"
 _CENTRE_US, _HALF_TRAVEL_US = 1500.0, 500.0
 _LIMITS = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
 _CIRCLE = {"circle_bank_deg": 20.0, "glide_pitch_deg": -3.0}
-"""What a new Arduino has (docs/airframe.md), until the log tells of its profile."""
+"""The Arduino's default (docs/airframe.md), until the log contains its profile."""
 
 
 class Demand:
-    """Bank and pitch that were asked for, in the modes in which an attitude is asked at all."""
+    """The required bank and pitch, in the modes that have a required attitude."""
 
     def __init__(self, log: FlightLog) -> None:
         self.roll = Series()

@@ -1,4 +1,4 @@
-"""What happened in a flight, one line each, in the order of time."""
+"""The events of a flight, one line each, in the order of time."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _TEXT_FIELDS = {"black_box.mark": "text", "simulator.event": "event"}
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something that happened, in plain words."""
+    """An event in plain words."""
 
     time_s: float
     text: str
@@ -30,7 +30,7 @@ class Event:
 
 
 def events_of(log: FlightLog, facts: Facts) -> list[Event]:
-    """Return what happened, at most 400 events and then a word about the rest."""
+    """Return the events, at most 400 and then a line about the rest."""
     found = [*_states(facts), *_told(log), *_lines(facts)]
     found.sort(key=lambda event: event.time_s)
     if len(found) > MOST:
@@ -89,7 +89,7 @@ def _told(log: FlightLog) -> Iterator[Event]:
 
 
 def _is_news(topic: str, data: Mapping[str, Any], states: dict[str, bool]) -> bool:
-    """Return whether a state is another one now; at first there is no link and no panic."""
+    """Return whether a state changed; the initial state has no link and no panic."""
     key = {"up.link.state": "connected", "up.panic": "panic"}.get(topic)
     if key is None:
         return True

@@ -1,4 +1,4 @@
-"""All that a report needs of a log, read in a few passes."""
+"""The data that a report needs from a log, read in a few passes."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ GROUND_LINKS = ("ground", "mission_control")
 
 @dataclass(slots=True)
 class Evidence:
-    """Series by their names; what the log does not tell is empty."""
+    """Series by name; empty if the log does not contain them."""
 
     log: FlightLog
     attitude: dict[str, Series]
@@ -61,7 +61,7 @@ class Evidence:
 
 
 def evidence_of(log: FlightLog) -> Evidence:
-    """Read it; raises FlightLogError when a file cannot be read any more."""
+    """Read it; raises FlightLogError when a file can no longer be read."""
     told = partial(_told, log)
     known, states, held_up = _from_frames(log)
     followed_by = partial(followed, log)
@@ -88,7 +88,7 @@ def evidence_of(log: FlightLog) -> Evidence:
 
 
 def bands_of(log: FlightLog) -> list[Band]:
-    """Return which mode flew when, without the rest of the evidence."""
+    """Return the modes and their times, without the rest of the evidence."""
     return list(_bands(log, [] if STATE in log.topics else _from_frames(log)[1]))
 
 
@@ -100,9 +100,9 @@ def _told(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, An
 
 
 def _from_frames(log: FlightLog) -> tuple[dict[str, Series], list[tuple[float, str]], Series]:
-    """Return the series of telemetry, the modes that it told, and how often it was held up.
+    """Return the series of telemetry, its modes, and how often the program was held up.
 
-    The frames of an hour together would take too much memory: each is looked at and let go.
+    The frames of an hour would take too much memory together: each is read and released.
     """
     found, held_up = Columns(FRAME_FIELDS), Series()
     states: list[tuple[float, str]] = []
@@ -118,7 +118,7 @@ def _from_frames(log: FlightLog) -> tuple[dict[str, Series], list[tuple[float, s
 
 
 def _mode_of(data: Mapping[str, Any]) -> str:
-    """Return the mode; a lost receiver's circle is one of its own."""
+    """Return the mode; the circle of the receiver's failsafe is a separate one."""
     arduino = data.get("arduino")
     is_failsafe = data.get("failsafe")
     if is_failsafe is None and isinstance(arduino, dict):
@@ -128,7 +128,7 @@ def _mode_of(data: Mapping[str, Any]) -> str:
 
 
 def _bands(log: FlightLog, states: list[tuple[float, str]]) -> Iterator[Band]:
-    """Yield which mode flew when: as the board says, else as telemetry does."""
+    """Yield the modes and their times: from the board's state, otherwise from telemetry."""
     told = ((time_s, _mode_of(data)) for time_s, data in _told(log, STATE))
     begin_s, name = 0.0, ""
     for time_s, now in told if STATE in log.topics else states:
@@ -141,7 +141,7 @@ def _bands(log: FlightLog, states: list[tuple[float, str]]) -> Iterator[Band]:
 
 
 def _silences(log: FlightLog) -> dict[str, Series]:
-    """Return how long the silence was in which each moment lies: of board, phone and ground."""
+    """Return the length of the silence around each moment: of board, phone and ground."""
     found = {}
     positions = first_link(log, LOCATION)
     phone = "phone" if positions in ("", "android") else f"positions ({positions})"
@@ -158,12 +158,12 @@ def _silences(log: FlightLog) -> dict[str, Series]:
 
 
 def first_link(log: FlightLog, topic: str) -> str:
-    """Return the link that the first message of a topic came from; empty: there is none."""
+    """Return the link of a topic's first message; empty if there is none."""
     return next((link_and_role(data.get(KEY))[0] for _, data in _told(log, topic)), "")
 
 
 def _silence(times_s: list[float], end_s: float) -> Series:
-    """Return the longest silence that touches each second (of a long flight: each stretch)."""
+    """Return the longest silence that overlaps each second (in a long flight: each step)."""
     step_s = max(1.0, end_s / _MOST_STEPS)
     longest: dict[int, float] = {}
     for last_s, next_s in pairwise((*times_s, end_s)):
@@ -176,7 +176,7 @@ def _silence(times_s: list[float], end_s: float) -> Series:
 
 
 def _ground_away(log: FlightLog) -> Series:
-    """Return how long each time without any ground station was."""
+    """Return the length of each period without a ground station."""
     series = Series()
     connected: dict[str, bool] = {}
     since_s: float | None = None

@@ -1,4 +1,4 @@
-"""All that the page of a report tells, found once."""
+"""The content of a report, computed once."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MOST_MARKS = 60
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """A flight as a report sees it; ``name`` is what its files are called."""
+    """The findings of a flight; ``name`` is the base name of its files."""
 
     name: str
     number: int | None
@@ -34,7 +34,7 @@ class Findings:
 
 
 def findings_of(log: FlightLog, name: str, number: int | None = None) -> Findings:
-    """Look at a flight; raises FlightLogError when a file cannot be read any more."""
+    """Analyse a flight; raises FlightLogError when a file can no longer be read."""
     facts = Facts(log)
     summary, wrong = summarise(log, facts), wrongs(log, facts)
     evidence = evidence_of(log)

@@ -24,8 +24,8 @@ def write_report(
 ) -> list[Path]:
     """Write page and pictures; return the files, the page first.
 
-    Without matplotlib the page has its words and tables and a track of its own; ``on_missing`` is
-    told. Raises CliError where a file is there already or the disk refuses, FlightLogError.
+    Without matplotlib the page has text, tables and an SVG track, and ``on_missing`` is called.
+    Raises CliError for an existing file or a failed write, FlightLogError.
     """
     if not may_overwrite and (folder / PAGE).exists():
         raise CliError(f"{folder / PAGE} is there already: say --force to overwrite it")

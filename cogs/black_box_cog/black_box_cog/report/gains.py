@@ -1,4 +1,4 @@
-"""The gains that flew, and who changed them when."""
+"""The gains in use, and their changes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ VALUES, TUNINGS = "arduino.pids.values", "arduino.pids.tunings"
 
 @dataclass(frozen=True, slots=True)
 class GainSet:
-    """Gains by loop, axis and term at a time; ``by`` is who set them, "" when they were told."""
+    """Gains by loop, axis and term at a time; ``by`` is the origin, "" for a reported set."""
 
     time_s: float
     values: dict[Key, float]
@@ -21,7 +21,7 @@ class GainSet:
 
 
 def gain_sets(log: FlightLog) -> list[GainSet]:
-    """Return the sets in the order of time, each only where it differs from the one before."""
+    """Return the sets in the order of time, without unchanged ones."""
     found: list[GainSet] = []
     asked_by = ""
     for message in log.messages(*(topic for topic in (VALUES, TUNINGS) if topic in log.topics)):
@@ -36,7 +36,7 @@ def gain_sets(log: FlightLog) -> list[GainSet]:
 
 
 def asked_sets(log: FlightLog) -> list[GainSet]:
-    """Return what was asked for, whether or not the board took it."""
+    """Return the requested sets, accepted by the board or not."""
     return [
         GainSet(message.time_s, gains_of(data), str(message.data.get(KEY, "")))
         for message in (log.messages(TUNINGS) if TUNINGS in log.topics else ())
@@ -46,7 +46,7 @@ def asked_sets(log: FlightLog) -> list[GainSet]:
 
 
 def changes(before: GainSet, after: GainSet) -> list[tuple[Key, float | None, float | None]]:
-    """Return which gains differ, with both values."""
+    """Return the gains that differ, with both values."""
     keys = dict.fromkeys([*before.values, *after.values])
     pairs = ((key, before.values.get(key), after.values.get(key)) for key in keys)
     return [(key, old, new) for key, old, new in pairs if old != new]

@@ -17,7 +17,7 @@ _MOST_POINTS = 6000
 
 
 def track_view(evidence: Evidence, marks: Sequence[float]) -> TrackView | None:
-    """Return what the picture of the track shows; None where the log tells no position."""
+    """Return the content of the track's picture; None if the log contains no position."""
     log = evidence.log
     segments = list(segments_of(points_of(log)))
     latitude, longitude = evidence.truth["latitude_deg"], evidence.truth["longitude_deg"]
@@ -36,7 +36,7 @@ def track_view(evidence: Evidence, marks: Sequence[float]) -> TrackView | None:
 
 
 def place_error_m(evidence: Evidence) -> Series:
-    """Return how far (m) each measured position was from the true one at its time."""
+    """Return the distance (m) of each measured position from the true one at its time."""
     latitude, longitude = evidence.truth["latitude_deg"], evidence.truth["longitude_deg"]
     found = Series()
     if not latitude:
@@ -50,7 +50,7 @@ def place_error_m(evidence: Evidence) -> Series:
 
 
 def _path(segments: Iterable[Sequence[TrackPoint]], home: TrackPoint, start_unix_s: float) -> Path:
-    """Return the segments as one path, open (nan) between them; long ones are thinned."""
+    """Return the segments as one path, broken (nan) between them; long ones are thinned."""
     segments = list(segments)
     every = max(1, sum(map(len, segments)) // _MOST_POINTS)
     narrow = math.cos(math.radians(home.latitude_deg))
@@ -71,7 +71,7 @@ def _path(segments: Iterable[Sequence[TrackPoint]], home: TrackPoint, start_unix
 
 
 def _wind(evidence: Evidence) -> Wind | None:
-    """Return the mean wind where the log has it: only a simulated flight does."""
+    """Return the mean wind if the log has it: only simulated flights do."""
     north, east = evidence.truth["wind_north_m_s"], evidence.truth["wind_east_m_s"]
     if not north or not east:
         return None

@@ -1,4 +1,4 @@
-"""HTML that cannot be broken by what it tells: all text is escaped unless it was made here."""
+"""Safe HTML: all text is escaped unless this module created it."""
 
 from __future__ import annotations
 
@@ -10,16 +10,15 @@ _VOID = frozenset({"br", "img", "meta", "source"})
 
 
 class Markup(str):
-    """HTML made by this module; every other text is text."""
+    """HTML from this module; every other string is text."""
 
     __slots__ = ()
 
 
 def tag(name: str, /, *children: str | None, **attributes: str | int | None) -> Markup:
-    """Return an element; None among its children or attributes is left out.
+    """Return an element; a None among its children or attributes is left out.
 
-    An attribute's name may end in ``_`` where Python has a word of that name; ``_`` inside is
-    ``-``.
+    An attribute's name may end in ``_`` to avoid a Python keyword; an inner ``_`` becomes ``-``.
     """
     words = [name]
     for key, value in attributes.items():
@@ -33,12 +32,12 @@ def tag(name: str, /, *children: str | None, **attributes: str | int | None) -> 
 
 
 def join(*children: str | None) -> Markup:
-    """Return the children one after the other."""
+    """Return the children joined."""
     return Markup("".join(map(markup, filter(None, children))))
 
 
 def markup(text: str) -> Markup:
-    """Return text as HTML; what is no printable character, a line's end too, is shown escaped."""
+    """Return text as HTML; non-printable characters, line ends too, are shown escaped."""
     return text if isinstance(text, Markup) else Markup(html.escape(printable(text)))
 
 

@@ -1,4 +1,4 @@
-"""The pictures of a report: for wide and for narrow screens, for daylight and for the dark."""
+"""The pictures of a report: for wide and narrow screens, for light and dark pages."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TRACK_WIDE_IN, TRACK_NARROW_IN = (6.4, 6.0), (4.2, 4.6)
 
 @dataclass(frozen=True, slots=True)
 class ImageSet:
-    """One picture four times, as PNGs; ``wide`` is for daylight and for paper."""
+    """One picture in four versions, as PNGs; ``wide`` is also the one for print."""
 
     name: str
     wide: bytes
@@ -27,7 +27,7 @@ class ImageSet:
     narrow: bytes
     narrow_dark: bytes
     ratio: float
-    """Of the wide one, height to width."""
+    """Ratio of height to width of the wide version."""
 
 
 def image_sets(findings: Findings) -> Iterator[ImageSet]:

@@ -1,4 +1,4 @@
-"""The page of a report: one HTML file that needs nothing else and asks nobody."""
+"""The page of a report: one self-contained HTML file without network access."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from up.flight_log.spans import duration_text
 from up.version import VERSION
 
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
-"""Even what slipped through an escape could neither run nor ask anybody."""
+"""Even content that slipped through an escape could neither run nor load anything."""
 _NARROW = "(max-width: 44rem)"
 _DARK = "screen and (prefers-color-scheme: dark)"
 
 
 def page_of(findings: Findings, images: Mapping[str, ImageSet], missing: str = "") -> str:
-    """Return the page; ``missing`` says why there are no pictures where there are none."""
+    """Return the page; ``missing`` is the reason if there are no pictures."""
     return f"<!doctype html>\n{_html(findings, images, missing)}\n"
 
 

@@ -1,4 +1,4 @@
-"""Which panels a report draws of what a log tells."""
+"""Selects the panels that a report draws from a log."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from up.flight_log.series import Series, error_of
 _COLOURS = dict(zip(CHANNELS, ("blue", "vermilion", "green", "purple"), strict=True))
 _STYLES = dict(zip(CHANNELS, ("-", "--", "-.", ":"), strict=True))
 _LIFETIME_S = 0.5
-"""So long after the last one nobody asks any more; a setpoint lives half as long."""
+"""A required attitude ends this long after the last one; a setpoint lives half as long."""
 
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """Panels that stand together: ``name`` is the file's, ``caption`` says how to read them."""
+    """Panels of one picture: ``name`` is the file's, ``caption`` explains them."""
 
     name: str
     title: str
@@ -26,7 +26,7 @@ class Picture:
 
 
 def pictures_of(evidence: Evidence) -> Iterator[Picture]:
-    """Yield the pictures over time of which the log tells anything."""
+    """Yield the pictures over time for which the log has data."""
     for picture in (
         _attitude(evidence),
         _heights(evidence),
@@ -183,7 +183,7 @@ def _curve(
     is_step: bool = False,
     gap_s: float | None = None,
 ) -> list[Curve]:
-    """Return the curve, or none where there is nothing to draw."""
+    """Return the curve, or None without values."""
     if not series:
         return []
     curve = Curve(

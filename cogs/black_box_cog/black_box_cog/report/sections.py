@@ -1,4 +1,4 @@
-"""The parts of a report that are words and numbers."""
+"""The text and tables of a report."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def figures(findings: Findings) -> Markup:
 
 
 def wrong_list(findings: Findings) -> Markup:
-    """Return what went wrong, each kind in the order of its first time."""
+    """Return the faults, each kind in the order of its first time."""
     items = [
         tag(
             "li",
@@ -46,7 +46,7 @@ def wrong_list(findings: Findings) -> Markup:
 
 
 def _each_time(group: WrongGroup) -> Markup | None:
-    """Return when each of several was, to be unfolded."""
+    """Return the times of a repeated fault, folded."""
     if len(group.members) == 1:
         return None
     lines = [tag("p", f"{clock_text(each.time_s)} {each.text}") for each in group.members]
@@ -54,7 +54,7 @@ def _each_time(group: WrongGroup) -> Markup | None:
 
 
 def modes(findings: Findings) -> Markup:
-    """Return which mode was flown when, and what was silent for how long."""
+    """Return the modes with their times, and the silences with their lengths."""
     summary = findings.summary
     rows = [
         [clock_text(band.begin_s), band.name, duration_text(band.end_s - band.begin_s)]
@@ -71,7 +71,7 @@ def modes(findings: Findings) -> Markup:
 
 
 def events(findings: Findings) -> Markup | None:
-    """Return what happened, in the order of time."""
+    """Return the events, in the order of time."""
     items = [
         tag(
             "li",
@@ -85,10 +85,10 @@ def events(findings: Findings) -> Markup | None:
 
 
 def truth(findings: Findings) -> Markup | None:
-    """Return how far what was measured was from the truth, in figures."""
+    """Return the errors of the measured values against the truth."""
     evidence = findings.evidence
     rows = []
-    # Where nobody measured a position the log has the true one, and says so.
+    # Without measured positions the log has the true ones, marked as such.
     has_source = first_link(findings.log, LOCATION) != "simulator"
     for each in findings.summary.estimate_errors:
         rows.append([each.axis, f"{each.rms_deg:.2f} deg", f"{each.worst_deg:.2f} deg"])
@@ -106,7 +106,7 @@ def truth(findings: Findings) -> Markup | None:
 def gains(findings: Findings) -> Markup | None:
     """Return the gains at the beginning, and each change with both values.
 
-    Where the board was never asked for its gains: those that it was asked to take.
+    If the board never reported its gains, these are the requested ones.
     """
     sets = gain_sets(findings.log)
     verb = "changed"
@@ -132,7 +132,7 @@ def _changed(gains: GainSet, verb: str) -> str:
 
 
 def record(findings: Findings) -> Markup:
-    """Return what the log itself is: files, versions, topics, what is damaged."""
+    """Return the log's metadata: files, versions, topics, damage."""
     log = findings.log
     seconds = max(log.length_s, 1e-9)
     facts = [

@@ -1,4 +1,4 @@
-"""The track as a drawing inside the page, for where no pictures can be drawn."""
+"""The track as an SVG in the page, for a report without pictures."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def svg_track(view: TrackView) -> Markup:
 
 
 class _Field:
-    """Metres to places in the drawing."""
+    """Converts metres to positions in the drawing."""
 
     def __init__(self, east_m: float, north_m: float, half_m: float) -> None:
         self.east_m, self.north_m, self.half_m = east_m, north_m, half_m

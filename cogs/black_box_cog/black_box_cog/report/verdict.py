@@ -10,7 +10,7 @@ from up.flight_log.spans import duration_text
 from up.flight_log.summary import FlightSummary, Wrong
 
 LEVELS = {"alarm": "bad", "warning": "warning", "info": "info"}
-"""A level of what went wrong, as the page's style has it."""
+"""A level of a fault, as a CSS class of the page."""
 
 
 def verdict_of(summary: FlightSummary, wrongs: Sequence[Wrong]) -> tuple[str, str]:

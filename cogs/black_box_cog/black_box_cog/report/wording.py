@@ -1,13 +1,13 @@
-"""How times, sizes and dates of a flight are told to a person."""
+"""Formats times, sizes and dates of a flight for people."""
 
 from __future__ import annotations
 
 from datetime import datetime
 
 EARLIEST_UNIX_S = 1_735_689_600.0
-"""2025: no flight was recorded before; a Raspberry Pi without a clock starts long before."""
+"""2025: no earlier flight was recorded; a Raspberry Pi without a clock starts long before."""
 SIMULATED_UNIX_S = 946_684_800.0
-"""2000-01-01: when the flights of the simulator's scenarios begin; they have no date."""
+"""2000-01-01: the start of the simulator scenarios' flights, which have no date."""
 _MEGABYTE = 1e6
 _DAY_S = 86400.0
 
@@ -19,7 +19,7 @@ def clock_text(seconds: float) -> str:
 
 
 def start_text(unix_s: float) -> str:
-    """Return the local time of a start; says so where the clock cannot have been right."""
+    """Return the local time of a start, with a remark if the clock was certainly wrong."""
     if unix_s == SIMULATED_UNIX_S:
         return "no date (simulated)"
     if not unix_s:
@@ -32,7 +32,7 @@ def start_text(unix_s: float) -> str:
 
 
 def is_clock_right(unix_s: float, now_unix_s: float | None = None) -> bool:
-    """Return whether a flight can have begun then: not before this program, nor tomorrow."""
+    """Return whether a flight can begin at that time: not before this program, nor tomorrow."""
     if unix_s == SIMULATED_UNIX_S:
         return True
     now_unix_s = datetime.now().timestamp() if now_unix_s is None else now_unix_s
@@ -40,5 +40,5 @@ def is_clock_right(unix_s: float, now_unix_s: float | None = None) -> bool:
 
 
 def size_text(count: int) -> str:
-    """Return a file's size in megabytes, as disks and their makers count them."""
+    """Return a file's size in megabytes (decimal)."""
     return f"{count / _MEGABYTE:.1f} MB"

@@ -1,4 +1,4 @@
-"""What went wrong, told once for each kind, however often it came."""
+"""Faults grouped by kind, however many there are."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from up.flight_log.spans import duration_text
 from up.flight_log.summary import Wrong
 
 WITHOUT_LENGTH_S = 3.0
-"""So long a thing weighs that happens in a moment, as a reset does."""
+"""The length assumed for a momentary fault, such as a reset."""
 _LEVELS = ("alarm", "warning", "info")
 _DURATION = r"(?:\d+ h \d+ min|\d+ min \d+ s|[\d.]+ s)"
 _FOR = re.compile(rf" for {_DURATION}(?: until the end)?")
@@ -20,28 +20,28 @@ _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 
 @dataclass(frozen=True, slots=True)
 class WrongGroup:
-    """Things of one kind and level, in the order of time."""
+    """Faults of one kind and level, in the order of time."""
 
     members: tuple[Wrong, ...]
 
     @property
     def level(self) -> str:
-        """Return how bad the kind is."""
+        """Return the level of the kind."""
         return self.members[0].level
 
     @property
     def time_s(self) -> float:
-        """Return when it came first."""
+        """Return the first time."""
         return self.members[0].time_s
 
     @property
     def worst(self) -> Wrong:
-        """Return the longest of them, the earliest of several."""
+        """Return the longest of them, the earliest of equals."""
         return max(self.members, key=lambda each: (each.length_s, -each.time_s))
 
     @property
     def text(self) -> str:
-        """Return it in one line: that of the only one, or how many they are and the longest."""
+        """Return one line: the text of a single fault, or the number and the longest."""
         worst, count = self.worst, len(self.members)
         if count == 1:
             return worst.text
@@ -60,7 +60,7 @@ def groups_of(wrongs: Sequence[Wrong]) -> list[WrongGroup]:
 
 
 def worst_of(wrongs: Sequence[Wrong]) -> Wrong:
-    """Return the worst: by level, then by how long it lasted, then the earliest."""
+    """Return the worst: by level, then by length, then the earliest."""
     return min(
         wrongs,
         key=lambda each: (
