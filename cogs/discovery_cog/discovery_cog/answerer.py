@@ -1,4 +1,4 @@
-"""Answers the question where the Raspberry Pi is (docs/protocols.md 7)."""
+"""Answers discovery requests for the Raspberry Pi's address (docs/protocols.md 7)."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ LONGEST_QUESTION = 512
 
 
 class Answerer(DatagramProtocol):
-    """Answers any datagram of up to 512 bytes with our address on the asker's subnet, as text.
+    """Answers any datagram of up to 512 bytes with our address on the sender's subnet, as text.
 
-    Only askers on private networks are answered: whoever asks from elsewhere looks for a machine
-    to attack or lets us write to somebody else. ``counters`` tells what was not answered, and why.
+    Answers private networks only: a request from elsewhere searches for a target, or uses this host
+    to send to a third party. ``counters`` counts the requests without an answer, by reason.
     """
 
     noisy = False
@@ -32,7 +32,7 @@ class Answerer(DatagramProtocol):
         self._own_address_towards = own_address_towards
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
-        """Answer a question."""
+        """Answer a request."""
         host, port = addr[0], addr[1]
         if len(datagram) > LONGEST_QUESTION:
             self.counters["too_long"] += 1
@@ -51,7 +51,7 @@ class Answerer(DatagramProtocol):
         try:
             self.transport.write(own.encode("ascii"), (host, port))
         except OSError:
-            # The network went away between the two lines; the phone asks again.
+            # The network was lost between the two calls; the phone repeats its request.
             self.counters["unreachable"] += 1
         else:
             self.counters["answered"] += 1

@@ -1,4 +1,4 @@
-"""Which of this machine's addresses a peer can reach it by."""
+"""The address of this machine at which a peer can reach it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import socket
 
 
 def own_address_towards(host: str, port: int) -> str | None:
-    """Return our IPv4 address on the way to a peer; None: there is no way.
+    """Return our IPv4 address on the route to a peer, or None without a route.
 
     A connected UDP socket asks the routing table; nothing is sent.
     """

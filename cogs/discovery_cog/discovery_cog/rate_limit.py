@@ -1,4 +1,4 @@
-"""How often each asker is answered."""
+"""Limits the answers to each sender."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ MAX_ANSWERS_HZ = 256.0
 
 
 class RateLimit:
-    """Permits ``per_second`` answers a second to each asker, and remembers ``askers`` at most.
+    """Permits ``per_second`` answers per second to each sender; remembers ``askers`` at most.
 
-    All askers together get `MAX_ANSWERS_HZ`: a flood of invented addresses costs bounded memory
-    and bounded traffic.
+    All senders together get `MAX_ANSWERS_HZ`: a flood of forged addresses costs bounded memory and
+    bounded traffic.
     """
 
     def __init__(self, clock: Clock, per_second: int = 10, askers: int = 256) -> None:
@@ -25,11 +25,11 @@ class RateLimit:
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
 
     def __len__(self) -> int:
-        """Return how many askers are remembered."""
+        """Return how many senders are remembered."""
         return len(self._buckets)
 
     def permits(self, asker: str) -> bool:
-        """Count a question and return whether it may be answered."""
+        """Count a request and return whether it may be answered."""
         bucket = self._buckets.pop(asker, None)
         if bucket is None:
             bucket = TokenBucket(self._clock, self._per_second, self._per_second)

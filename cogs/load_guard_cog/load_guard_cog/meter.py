@@ -1,4 +1,4 @@
-"""How loaded the machine and this process are."""
+"""The load of the machine and of this process."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ _LEAST_S = 1e-3
 
 
 class Meter(Protocol):
-    """Something that measures load."""
+    """Measures load."""
 
     def load_percent(self) -> float:
         """Return the load since the last call, 0 to 100."""
 
     def memory_percent(self) -> float:
-        """Return the part of the memory that is used, 0 to 100."""
+        """Return the share of the memory in use, 0 to 100."""
 
 
 class PsutilMeter:
@@ -37,6 +37,6 @@ class PsutilMeter:
         return min(100.0, max(machine, own))
 
     def memory_percent(self) -> float:
-        """Return the part of the machine's memory that is in use."""
+        """Return the share of the machine's memory in use."""
         used: float = psutil.virtual_memory().percent
         return used

@@ -1,4 +1,4 @@
-"""When panic begins and ends: thresholds with a gap, and a dwell time."""
+"""Switches panic by two thresholds and a dwell time."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ class RemoteServerConfig:
     port: int = key(3003, "TCP port of the proxy's airborne side.", minimum=1, maximum=65535)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what no host is called."""
+        """Yield a problem for an invalid host."""
         if not _HOST.fullmatch(self.url):
             yield "url", "must be a host name or an address alone, without http:// and port"
 
@@ -46,7 +46,7 @@ class ListenerConfig:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is no address."""
+        """Yield a problem for an invalid address."""
         try:
             is_wildcard(self.address)
         except ValueError:
@@ -89,13 +89,13 @@ class MissionControlConfig:
     listener: ListenerConfig = section(ListenerConfig)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what the proxy would refuse."""
+        """Yield values that the proxy would refuse."""
         if self.aircraft and not AIRCRAFT_NAME.fullmatch(self.aircraft):
             yield "aircraft", f"must be {AIRCRAFT_NAME_RULE}"
 
 
 def aircraft_name(config: MissionControlConfig, instance: str) -> str:
-    """Return the name that this aircraft goes by; ``instance`` is what a runner calls it."""
+    """Return the aircraft's name; ``instance`` is the name that a runner gave it."""
     return config.aircraft or instance or "default"
 
 

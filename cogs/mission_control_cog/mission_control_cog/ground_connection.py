@@ -11,14 +11,14 @@ from up.protocols.general_message_link import GeneralMessageProtocol
 from up.system.clock import Clock
 
 SILENT_S = 1.0
-"""A station that has said nothing for so long says no hello."""
+"""A station that sends nothing for this long sends no hello."""
 _WORD = re.compile(rb" (seat|token)=([a-z0-9]{1,64})(?= |$)")
 
 
 class GroundConnection(GeneralMessageProtocol):
-    """General Messages; a station that says hello, as to a proxy, is answered as by one.
+    """General Messages; a hello, as to a proxy, gets the answer of a proxy.
 
-    ``on_hello`` gets the connection, whether it wants to command, and its token, and returns the
+    ``on_hello`` gets the connection, whether it requests control, and its token, and returns the
     answer. Later lines that begin with ``UP1`` are control lines of a proxy and are ignored.
     """
 
@@ -37,14 +37,14 @@ class GroundConnection(GeneralMessageProtocol):
 
     @property
     def is_known(self) -> bool:
-        """Return whether it has said hello, or will not: before, nothing may reach it.
+        """Return whether the handshake is over: before, nothing may be sent to the station.
 
-        The answer to a hello is the first that a station expects, as from a proxy.
+        A station expects the answer to its hello first, as from a proxy.
         """
         return self._first is None or self._clock.seconds() - self._made_s >= SILENT_S
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Take a hello where the first line is one, then messages."""
+        """Take a hello if the first line is one, then messages."""
         if self._first is None:
             super().dataReceived(data)
             return

@@ -1,4 +1,4 @@
-"""The ground stations that are connected to the aircraft itself, and which of them commands."""
+"""The ground stations connected to the aircraft itself, and the one that has control."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from up.system.clock import Clock
 from up.system.plain_peers import PlainPeers
 
 ALIVE_S = 3.0
-"""A holder that sent no byte for longer may lose the seat to a newcomer."""
+"""A holder that is silent for longer may lose the seat to a newcomer."""
 STATIONS_LIMIT = 8
 
 
 class Grounds:
-    """One seat that commands, as at the proxy: the first takes it, and nobody from one alive.
+    """One control seat, as at the proxy: the first station takes it and keeps it while alive.
 
-    The seat of a station that went is kept for its token for ``ALIVE_S``. A station that listens
-    takes a free seat by speaking. Stations beyond ``STATIONS_LIMIT`` are refused.
+    The seat of a disconnected station is kept for its token for ``ALIVE_S``. A station that only
+    listens takes a free seat by sending. Stations beyond ``STATIONS_LIMIT`` are refused.
     """
 
     def __init__(
@@ -64,11 +64,11 @@ class Grounds:
         return len(self._stations)
 
     def send(self, message: bytes) -> bool:
-        """Send to every station in order; False: none took it."""
+        """Send to every station in order; False if none accepted it."""
         return any([each.send(message) for each in self._stations if each.is_known])
 
     def send_newest(self, message: bytes) -> bool:
-        """Send to every station in place of what has not left."""
+        """Send to every station, replacing an unsent message."""
         return any([each.send_newest(message) for each in self._stations if each.is_known])
 
     async def close(self) -> None:
@@ -80,7 +80,7 @@ class Grounds:
             await self._all_closed
 
     def build(self) -> GroundConnection | None:
-        """Return the protocol of a new connection; None: there are enough."""
+        """Return the protocol of a new connection, or None if there are too many."""
         if len(self._stations) >= STATIONS_LIMIT:
             return None
         return GroundConnection(
@@ -147,7 +147,7 @@ class Grounds:
         now_s = self._clock.seconds()
         if self._holder is not None:
             return now_s - self._holder.heard_s > ALIVE_S
-        # Without a token nobody could come back for the seat: it is free at once.
+        # Without a token the station cannot resume the seat: it is free immediately.
         return not self._kept_token or now_s > self._kept_until_s
 
     def _seat(self, station: GroundConnection) -> None:
@@ -157,7 +157,7 @@ class Grounds:
 
 
 class _Factory(Factory):
-    """Builds a connection for a peer that may speak."""
+    """Builds a connection for a permitted peer."""
 
     noisy = False
 

@@ -15,7 +15,7 @@ _TOKEN = re.compile(r"[0-9a-f]{32,64}")
 
 @dataclass(frozen=True, slots=True)
 class HelloAnswer:
-    """What the proxy said: ``error`` is empty when the aircraft was taken in."""
+    """The answer of the proxy: ``error`` is empty when it accepted the aircraft."""
 
     token: str = ""
     error: str = ""
@@ -23,13 +23,13 @@ class HelloAnswer:
 
 
 def hello_line(aircraft: str, token: str) -> bytes:
-    """Return the line that says who this is; with the token of the last link, where there is."""
+    """Return the hello line; with the token of the last link, if there is one."""
     words = f"UP1 aircraft={aircraft}" + (f" token={token}" if token else "")
     return words.encode("ascii") + b"\n"
 
 
 def parse_answer(line: bytes) -> HelloAnswer | None:
-    """Return what the answer to a hello says; None when the line is no such answer."""
+    """Parse the answer to a hello; None if the line is not one."""
     line = line.removesuffix(b"\r")
     error = _ERROR.fullmatch(line)
     if error is not None:

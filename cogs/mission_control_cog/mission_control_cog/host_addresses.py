@@ -1,4 +1,4 @@
-"""The addresses that a configured host has."""
+"""The addresses of a configured host."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ def look_up(host: str, port: int) -> list[str]:
 
 
 class HostAddresses:
-    """Says which address of a host to try next.
+    """Selects the next address of a host to try.
 
-    Names are looked up anew for every attempt, in a daemon thread: a resolver that does not answer
+    Resolves names again for every attempt, in a daemon thread: a resolver that does not answer
     delays neither the reactor nor the end of the program, and once an address is known no attempt
-    waits for it either.
+    waits for the resolver either.
     """
 
     def __init__(self, reactor: Any, host: str, port: int, look_up: LookUp = look_up) -> None:
@@ -44,7 +44,7 @@ class HostAddresses:
         self._problem = ""
 
     async def next(self) -> str:
-        """Return the address to try; raises HostNotFoundError when none is known after 5 s."""
+        """Return the address to try; raises HostNotFoundError if none is known after 5 s."""
         if not self._is_literal:
             self._begin_look_up()
             if not self._known:
@@ -54,7 +54,7 @@ class HostAddresses:
         return self._known[0]
 
     def failed(self, address: str) -> None:
-        """Try another address next, where there is one."""
+        """Try another address next, if there is one."""
         if address in self._known:
             self._known.remove(address)
             self._known.append(address)
@@ -79,7 +79,7 @@ class HostAddresses:
         self._is_looking = False
         self._problem = problem
         if found:
-            # What was good stays the first choice as long as the name stands for it.
+            # A working address stays the first choice while the name resolves to it.
             known = [address for address in self._known if address in found]
             self._known = known + [address for address in found if address not in known]
         waiting, self._waiting = self._waiting, []

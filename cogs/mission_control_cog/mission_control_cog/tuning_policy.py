@@ -1,4 +1,4 @@
-"""When the ground may set gains."""
+"""Decides when the ground may set gains."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ KEY = "mission_control.yml: tune_in_flight"
 class TuningPolicy:
     """Refuses gains in flight and at AUTO unless the configuration accepts them.
 
-    The board's link says what in flight is; a board that does not say counts as in flight.
+    The board's link reports whether it is in flight; without a report it counts as in flight.
     """
 
     def __init__(self, tunes_in_flight: bool) -> None:
@@ -20,7 +20,7 @@ class TuningPolicy:
         self._is_in_flight = False
 
     def on_flight_state(self, command: FlightStateCommand) -> None:
-        """Take what the board says."""
+        """Take the board's state."""
         self._is_in_flight = command.is_in_flight is not False or command.is_auto
 
     def __call__(self, command: BaseCommand) -> str | None:

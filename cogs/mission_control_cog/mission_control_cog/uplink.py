@@ -1,4 +1,4 @@
-"""The link to the proxy, which comes back for ever."""
+"""The link to the proxy, which reconnects indefinitely."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ _NO_CONNECTION = (
 
 
 class Uplink:
-    """Connects, says hello, and after every failure and loss tries again.
+    """Connects, sends the hello, and retries after every failure and loss.
 
-    ``hello`` is the aircraft's name, None for a thesis client. The token of the last link takes
-    the aircraft's place at the proxy back at once. What is sent while there is no link is lost.
+    ``hello`` is the aircraft's name, None for a thesis client. The token of the last link resumes
+    the aircraft's place at the proxy immediately. Data sent without a link is lost.
     """
 
     log = Logger()
@@ -82,19 +82,19 @@ class Uplink:
         return self._link is not None and self._link.is_ready
 
     def send(self, message: bytes) -> bool:
-        """Send in order; False: there is no link, or too much waits."""
+        """Send in order; False without a link, or if too much waits."""
         return self._link is not None and self._link.send(message)
 
     def send_newest(self, message: bytes) -> bool:
-        """Send in place of an older message that has not left."""
+        """Send in place of an older unsent message."""
         return self._link is not None and self._link.send_newest(message)
 
     def start(self) -> None:
-        """Begin to connect."""
+        """Start connecting."""
         self._ended = Deferred.fromCoroutine(self._keep_connected())
 
     async def stop(self) -> None:
-        """Close the link, or give the attempt up, and try no more."""
+        """Close the link, or abandon the attempt, and stop retrying."""
         self._is_stopping = True
         if self._waiting is not None:
             self._waiting.cancel()
@@ -164,7 +164,7 @@ class Uplink:
         return self._link
 
     def _answered(self, answer: HelloAnswer) -> None:
-        # A token that was refused would be refused again: whoever has the name has it anew.
+        # A refused token would be refused again: another aircraft now has the name.
         self._token = answer.token
 
     def _ready(self, link: UplinkProtocol) -> None:

@@ -17,10 +17,10 @@ ANSWER_LIMIT_S = 5.0
 
 
 class UplinkProtocol(GeneralMessageProtocol):
-    """General Messages behind a hello; ``hello`` None begins with them at once (thesis client).
+    """General Messages after a hello; without ``hello`` immediately (thesis client).
 
-    ``on_ready`` gets the link when messages can be sent; ``on_answer`` what the proxy answered,
-    before it. A link with hello sends an empty line in every second in which it sent nothing.
+    ``on_ready`` gets the link when messages can be sent; ``on_answer`` gets the proxy's answer
+    before that. A link with hello sends an empty line in every second without other data.
     """
 
     def __init__(
@@ -47,7 +47,7 @@ class UplinkProtocol(GeneralMessageProtocol):
         return self._is_ready
 
     def send(self, message: bytes) -> bool:
-        """Send ``message`` in order; False: not ready, or too much waits."""
+        """Send ``message`` in order; False if not ready, or if too much waits."""
         if not self._is_ready:
             self.output.dropped += 1
             return False
@@ -55,7 +55,7 @@ class UplinkProtocol(GeneralMessageProtocol):
         return super().send(message)
 
     def send_newest(self, message: bytes) -> bool:
-        """Send ``message``; of what a slow peer cannot take only the newest is kept."""
+        """Send ``message``; a slow peer gets only the newest."""
         if not self._is_ready:
             return False
         self._sent_s = self._clock.seconds()
@@ -86,14 +86,14 @@ class UplinkProtocol(GeneralMessageProtocol):
             super().dataReceived(rest)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
-        """Stop the heartbeat and tell."""
+        """Stop the heartbeat and report the loss."""
         self._is_ready = False
         if self._pulse is not None and self._pulse.active():
             self._pulse.cancel()
         super().connectionLost(reason)
 
     def close(self) -> None:
-        """Send what waits and close."""
+        """Send waiting data and close."""
         self._is_ready = False
         super().close()
 

@@ -48,7 +48,7 @@ ARDUINO = ConfigFile(
 
 
 def odd_speed(config: SerialConfig) -> str:
-    """Return a sentence for a speed and a framing that seldom go together, else nothing."""
+    """Return a sentence for an unusual pair of speed and framing, otherwise an empty text."""
     if config.framing == "thesis" and config.baud_rate != THESIS_BAUD:
         return (
             f"arduino.yml: an old firmware (framing: thesis) speaks at {THESIS_BAUD} baud, not at"

@@ -9,13 +9,13 @@ from typing import Any, Protocol
 
 ARDUINO, ARDUINO_ORG, FTDI, CH340, CP210X = 0x2341, 0x2A03, 0x0403, 0x1A86, 0x10C4
 KNOWN_VENDORS = (ARDUINO, ARDUINO_ORG, FTDI, CH340, CP210X)
-"""USB vendor ids, those that only an Arduino has before those of any USB serial chip."""
+"""USB vendor ids, first those of Arduinos only, then those of any USB serial chip."""
 
 WANTED = "an Arduino by its USB id (2341, 2a03, 0403 FTDI, 1a86 CH340, 10c4 CP210x)"
 
 
 class PortInfo(Protocol):
-    """What is asked of a listed port; pyserial's ListPortInfo is one."""
+    """The attributes of a listed port; pyserial's ListPortInfo has them."""
 
     device: str
     vid: int | None
@@ -32,11 +32,11 @@ Lister = Callable[[], Iterable[Any]]
 
 
 def list_ports() -> Iterable[Any]:
-    """Return the serial ports of this machine; none when there is none at USB."""
-    # Nothing plugged in is the usual case while an Arduino is waited for, and cheap to tell.
+    """Return the serial ports of this machine; empty without a USB port."""
+    # Nothing plugged in is the usual case while waiting for an Arduino, and cheap to detect.
     if TTYS.is_dir() and not any(each.name.startswith(USB_NAMES) for each in TTYS.iterdir()):
         return ()
-    # Costs memory, and a configured port never asks for it.
+    # The import costs memory, and a configured port never needs it.
     from serial.tools.list_ports import comports
 
     return comports()
@@ -44,7 +44,7 @@ def list_ports() -> Iterable[Any]:
 
 @dataclass(frozen=True, slots=True)
 class UsbId:
-    """What stays the same when a device gets another port name."""
+    """The part of an id that stays the same when a device gets another port name."""
 
     vendor: int
     product: int | None
@@ -52,16 +52,16 @@ class UsbId:
 
     @classmethod
     def of(cls, port: PortInfo) -> UsbId | None:
-        """Return the id of a port; None when it is no USB device."""
+        """Return the id of a port; None if it is not a USB device."""
         if port.vid is None:
             return None
         return cls(port.vid, port.pid, port.serial_number)
 
 
 def find(ports: Iterable[PortInfo], known: UsbId | None) -> list[PortInfo]:
-    """Return the ports that may be an Arduino, the likeliest first.
+    """Return the ports that may be an Arduino, most likely first.
 
-    The device that was used before comes first, then the rarer vendor, then the port's name.
+    Order: the device used before, then the rarer vendor, then the port's name.
     """
     likely = [port for port in ports if port.vid in KNOWN_VENDORS]
 

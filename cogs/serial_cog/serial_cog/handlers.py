@@ -1,4 +1,4 @@
-"""Who takes which type of frame."""
+"""The handlers of each frame type."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def type_byte(type_: FrameType) -> int:
 
 
 class HandlerTable:
-    """The handlers by type, and the sizes of payloads that follow from them."""
+    """The handlers by type, and the payload sizes that they declare."""
 
     def __init__(self) -> None:
         self.by_type: dict[int, tuple[FrameHandler, ...]] = {}
@@ -30,7 +30,7 @@ class HandlerTable:
 
     @property
     def sizes(self) -> Mapping[int, int]:
-        """Return the payload size of every type that somebody handles."""
+        """Return the payload size of every type with a handler."""
         return dict(self._sizes)
 
     def add(self, type_: FrameType, handler: FrameHandler, payload_size: int) -> bool:
@@ -51,9 +51,9 @@ class HandlerTable:
         return is_new
 
     def remove(self, type_: FrameType, handler: FrameHandler | None = None) -> bool:
-        """Remove one handler of a type, or all; return whether nobody takes the type any more.
+        """Remove one handler of a type, or all; return whether the type has no handlers left.
 
-        Raises KeyError when there is none to remove.
+        Raises KeyError if there is none to remove.
         """
         number = type_byte(type_)
         before = self.by_type[number]

@@ -1,4 +1,4 @@
-"""Opens the Arduino's port, wherever it is now."""
+"""Opens the Arduino's port under its current name."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from serial_cog.finder import WANTED, Lister, PortInfo, UsbId, find, list_ports
 from up.protocols.serial_port import SerialPortError, open_serial
 
 RENAMED_PREFIXES = ("/dev/ttyUSB", "/dev/ttyACM")
-"""Names that the system gives in the order of plugging in; a device may come back with another."""
+"""Names given in the order of plugging in; a device may return under another one."""
 
 
 class PortOpener:
-    """Opens the configured port, or where none is configured the likeliest Arduino.
+    """Opens the configured port, or without one the most likely Arduino.
 
-    The USB id of what was opened is remembered, so that a device that comes back under another
-    name is found again. ``path`` is the port that was opened last. Calling it returns a
-    descriptor and raises SerialPortError with one sentence.
+    The USB id of the opened port is remembered, so that a device that returns under another name is
+    found again. ``path`` is the last opened port. Calling it returns a descriptor and raises
+    SerialPortError with one sentence.
     """
 
     def __init__(
@@ -41,13 +41,13 @@ class PortOpener:
 
     @property
     def wanted(self) -> str:
-        """Return what is looked for, for people."""
+        """Return the searched port, for messages."""
         return self._port or WANTED
 
     def has_another(self) -> bool:
-        """Return whether there is a port to try that was not silent before.
+        """Return whether there is an untried port that was not silent before.
 
-        When all were tried they are all worth a try again.
+        After all ports were tried, all count as untried again.
         """
         if self._port:
             return False
@@ -57,7 +57,7 @@ class PortOpener:
         return bool(others)
 
     def pass_over(self) -> None:
-        """Take another port next time: what is on this one does not speak."""
+        """Try another port next time: this one sends no frames."""
         self._silent.add(self.path)
         self._known = None
 

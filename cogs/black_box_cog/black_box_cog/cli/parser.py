@@ -47,7 +47,7 @@ examples:
 class MixedParser(argparse.ArgumentParser):
     """A parser that, with ``is_mixed``, accepts positional arguments before and after options.
 
-    argparse ignores positional arguments after an option: it has ``parse_intermixed_args`` for
+    argparse accepts no positional arguments after an option: it has ``parse_intermixed_args`` for
     that, but does not use it for the parsers below a verb.
     """
 

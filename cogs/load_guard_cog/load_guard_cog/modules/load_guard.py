@@ -14,11 +14,11 @@ from up.commands.system_commands import LinkStateCommand
 from up.system.clock import Timer
 
 MEMORY_EVERY_S = 5.0
-"""Memory is only shown, and looking at it costs more than looking at the load."""
+"""Memory is only displayed, and measuring it costs more than measuring the load."""
 
 
 class LoadGuard(BaseStartedModule):
-    """Publishes a PanicCommand at every switch, and again to a link that comes during panic."""
+    """Publishes a PanicCommand at every switch, and to a link that connects during panic."""
 
     CONFIG = LOAD_GUARD
 
@@ -41,14 +41,14 @@ class LoadGuard(BaseStartedModule):
 
     @property
     def delay_ms(self) -> int:
-        """Return the period that everybody shall keep now."""
+        """Return the period that all senders must keep."""
         values = self.config
         delay: int = values.panic_delay_ms if self.in_panic else values.normal_delay_ms
         return delay
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the load and what it means."""
+        """Return the load, and whether it causes panic."""
         return {
             "load": {
                 "cpu": self.cpu_utilization,

@@ -18,10 +18,10 @@ PERIOD_S = 1.0
 
 
 class SystemStateProvider(BaseStartedModule):
-    """Publishes a SystemStateCommand every second and tells the ground when it changes in kind.
+    """Publishes a SystemStateCommand every second; reports a changed kind of state to the ground.
 
-    Whoever publishes a newer state (a companion computer, say) is believed: what telemetry shows
-    is the newest Command, not this module's own view.
+    A newer state from another publisher (for example a companion computer) is accepted: telemetry
+    shows the newest Command, not this module's own view.
     """
 
     load_guard = needs(LoadGuard)

@@ -26,11 +26,11 @@ from up.system.plain_peers import PlainPeers
 
 LINK = "ground"
 _LOG_INTERVAL_S = 10.0
-"""A station that comes and goes must not fill the log."""
+"""A station that reconnects often must not fill the log."""
 
 
 class GroundListener(BaseStartedModule):
-    """Lets ground stations connect to the aircraft: one commands, the others listen.
+    """Lets ground stations connect to the aircraft: one has control, the others listen.
 
     Loaded when ``listener: port`` is configured. Telemetry and Commands to the ground go to all.
     """

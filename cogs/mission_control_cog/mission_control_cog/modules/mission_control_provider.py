@@ -1,4 +1,4 @@
-"""The connection with the ground, by way of the proxy (thesis 4.2.3)."""
+"""The connection with the ground, through the proxy (thesis 4.2.3)."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ PLAIN_KEY = "mission_control.yml: i_accept_plain"
 
 
 class Outlet(Protocol):
-    """Another way to the ground, beside the proxy."""
+    """Another link to the ground, beside the proxy."""
 
     def __len__(self) -> int:
         """Return how many ground stations are connected."""
 
     def send(self, message: bytes) -> bool:
-        """Send an encoded message in order; False: nobody is there."""
+        """Send an encoded message in order; False without a station."""
 
     def send_newest(self, message: bytes) -> bool:
-        """Send an encoded message in place of one that has not left."""
+        """Send an encoded message that replaces an unsent one."""
 
 
 class MissionControlProvider(BaseMissionControlProvider):
@@ -73,7 +73,7 @@ class MissionControlProvider(BaseMissionControlProvider):
             )
 
     def add_outlet(self, outlet: Outlet) -> None:
-        """Send to ``outlet`` too whatever goes to the ground."""
+        """Send all data for the ground to ``outlet`` too."""
         self._outlets.append(outlet)
 
     @property
@@ -83,12 +83,12 @@ class MissionControlProvider(BaseMissionControlProvider):
 
     @property
     def wants_telemetry(self) -> bool:
-        """Return whether telemetry would reach anybody."""
+        """Return whether telemetry would reach a station."""
         return self.connected or any(len(outlet) for outlet in self._outlets)
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the counters of the link, and what a ground may do over it."""
+        """Return the counters of the link, and the role of a ground on it."""
         uplink = self._uplink
         counters = {
             "connects": 0 if uplink is None else uplink.connects,
@@ -96,13 +96,13 @@ class MissionControlProvider(BaseMissionControlProvider):
             "unsent": self.unsent,
             "telemetry_faults": self._telemetry_faults,
         }
-        # A proxy's link that proves nothing may grant less than what is configured.
+        # An unprotected link to a proxy may grant less than the configured role.
         role = self._link.origin.role if self.connected else self._role
         ground = {"role": role.value, "tune_in_flight": self.config.tune_in_flight}
         return {"counters": {"mission_control": counters}, "ground": ground}
 
     def transmit_telemetry(self, command: TelemetryCommand) -> None:
-        """Send a frame of telemetry; one that cannot be encoded is said once and counted."""
+        """Send a frame of telemetry; one that cannot be encoded is logged once and counted."""
         try:
             super().transmit_telemetry(command)
         except ValueError as error:
@@ -150,10 +150,10 @@ class MissionControlProvider(BaseMissionControlProvider):
         self.up.command_executor.execute_command(LinkStateCommand(LINK, False))
 
     def _grant_role(self, host: str) -> None:
-        """Grant the configured role, or less where nothing protects a pilot's Commands.
+        """Grant the configured role, or less if nothing protects a pilot's Commands.
 
-        The address is judged at every connection, not when the configuration is read: a name may
-        stand for another address by then, and a refusal at start would take telemetry away too.
+        The address is checked at every connection, not when the configuration is read: the name may
+        resolve to another address later, and refusing to start would also stop telemetry.
         """
         role, key = self._role, ROLE_KEY
         if role is Role.PILOT and not self.config.i_accept_plain and not is_private(host):

@@ -24,26 +24,26 @@ TRY_ANOTHER_AFTER_S = 5.0
 
 
 class SerialListener(Protocol):
-    """What a user of the line hears of it, apart from frames."""
+    """The callbacks of a user of the line, apart from frames."""
 
     def on_line_opened(self) -> None:
-        """The port was opened, perhaps anew."""
+        """The port was opened or reopened."""
 
     def on_line_lost(self) -> None:
         """The port is gone."""
 
     def on_line_heard(self) -> None:
-        """Frames come: the first one is about to be handled."""
+        """Frames arrive: the first one is about to be handled."""
 
     def on_line_silent(self) -> None:
-        """No frames come any more."""
+        """Frames stopped."""
 
 
 class SerialProvider(BaseStartedModule):
     """Finds, opens and keeps the serial port; hands frames to handlers and sends frames.
 
-    An absent Arduino is no failure. ``connected`` means that frames came within ``silence_s``.
-    A handler that raises is logged with its name and counted; it harms no other.
+    An absent Arduino is not a failure. ``connected`` means that frames arrived within
+    ``silence_s``. A handler that raises is logged with its name and counted; the others still run.
     """
 
     CONFIG = ARDUINO
@@ -76,7 +76,7 @@ class SerialProvider(BaseStartedModule):
 
     @property
     def port(self) -> str:
-        """Return the port that is open, or was last; empty before the first."""
+        """Return the current or last open port; empty before the first."""
         return self._opener.path if self._line is not None else ""
 
     @property
@@ -87,12 +87,12 @@ class SerialProvider(BaseStartedModule):
 
     @property
     def connected(self) -> bool:
-        """Return whether frames came within the last ``silence_s`` seconds."""
+        """Return whether frames arrived within the last ``silence_s`` seconds."""
         return self._is_heard
 
     @property
     def is_source_open(self) -> bool:
-        """Return whether the port is open now."""
+        """Return whether the port is open."""
         return self._line is not None and self._line.is_open
 
     @property
@@ -106,30 +106,30 @@ class SerialProvider(BaseStartedModule):
         return {"counters": {"serial": dict(counts)}}
 
     def add_handler(self, type_: FrameType, handler: FrameHandler, payload_size: int = 0) -> None:
-        """Let ``handler(payload)`` take the frames of a type; raises ValueError.
+        """Call ``handler(payload)`` with the frames of a type; raises ValueError.
 
-        A frame of another payload size than ``payload_size`` is dropped and counted, as is one
-        of a type that nobody takes.
+        A frame of another payload size than ``payload_size``, or of a type without a handler, is
+        dropped and counted.
         """
         if self._table.add(type_, handler, payload_size) and self._line is not None:
             self._renew_decoder()
 
     def remove_handler(self, type_: FrameType, handler: FrameHandler | None = None) -> None:
-        """Take one handler of a type back, or all of them; raises KeyError if there is none."""
+        """Remove one handler of a type, or all of them; raises KeyError if there is none."""
         if self._table.remove(type_, handler) and self._line is not None:
             self._renew_decoder()
 
     def add_listener(self, listener: SerialListener) -> None:
-        """Tell ``listener`` when the port opens and goes, and when frames begin and end."""
+        """Notify ``listener`` when the port opens and closes, and when frames begin and end."""
         self._listeners.append(listener)
 
     def send_command(
         self, type_: FrameType, data: bytes = b"", newest_only: bool = False
     ) -> int | None:
-        """Send a frame in one write; return its sequence, or None when it could not leave.
+        """Send a frame in one write; return its sequence, or None if it was not sent.
 
-        The sequence is 0 in thesis framing. With ``newest_only`` a frame of the same type that
-        still waits is replaced. Raises ValueError for more than 96 bytes of data.
+        The sequence is 0 in thesis framing. With ``newest_only`` it replaces a waiting frame of the
+        same type. Raises ValueError for more than 96 bytes of data.
         """
         line = self._line
         if line is None or not line.is_open:
@@ -175,7 +175,7 @@ class SerialProvider(BaseStartedModule):
         self._is_heard = False
 
     def _renew_decoder(self) -> None:
-        """Let the decoder know another set of types; what it counted is kept."""
+        """Set the decoder's known types; its counters are kept."""
         self._retired.update(asdict(self._decoder.counters))
         _, self._decoder = make_framing(self.framing, self._table.sizes)
 
@@ -201,7 +201,7 @@ class SerialProvider(BaseStartedModule):
         self._log_warning(f"{why}; trying again")
 
     def _on_bytes(self, data: bytes) -> None:
-        """Hand the frames in ``data`` to their handlers; every datum goes through here."""
+        """Hand the frames in ``data`` to their handlers; all input goes through here."""
         now_s = self._bytes_s = self._seconds()
         frames = self._decoder.feed(data, now_s)
         if self._expiry is None:
@@ -218,7 +218,7 @@ class SerialProvider(BaseStartedModule):
         handlers = self._handlers
         newest = self._newest_frame
         for frame in frames:
-            # The sequence is part of the frame; in thesis framing equal frames are no repetition.
+            # The sequence is part of the frame; in thesis framing equal frames are not duplicates.
             if frame == newest and self._is_numbered:
                 self.counters["duplicates"] += 1
                 continue
@@ -226,7 +226,7 @@ class SerialProvider(BaseStartedModule):
             for handler in handlers.get(frame[0], ()):
                 try:
                     handler(frame[1])
-                except Exception:  # noqa: BLE001 - one handler's fault must not cost others a frame
+                except Exception:  # noqa: BLE001 - a fault in one handler must not affect others
                     self._handler_failed(handler, frame[0])
         self._newest_frame = newest
 
