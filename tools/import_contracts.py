@@ -1,7 +1,7 @@
-"""Checks that the arrows between the packages point one way.
+"""Checks that imports between the packages point in one direction.
 
-The contracts are generated: what a cog may import besides Up is what its ``setup.py`` lists, and
-the arrows between the programs are the table below.
+The contracts are generated: what a cog may import apart from Up is what its ``setup.py`` lists, and
+the directions between the programs are the table below.
 """
 
 from __future__ import annotations
@@ -14,24 +14,24 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-# Which of our packages each may import; nothing imports a cog but a cog that lists it.
+# The permitted imports of each package; only a cog that lists another cog may import it.
 ARROWS: dict[str, set[str]] = {
     "up": set(),
     "raspilot": {"up"},
     "up_runner": {"up"},
     "up_ground": {"up"},
     "up_proxy": {"up"},
-    # It flies daemon, ground station and the compiled firmware in its own process.
-    # Raspilot and its cogs are loaded as any application is, never imported.
+    # It runs daemon, ground station and the compiled firmware in its own process.
+    # Raspilot and its cogs are loaded like any application, never imported.
     "up_simulator": {"up", "up_ground", "up_rig"},
     "up_rig": set(),
 }
-# The parts of Up that a program on another machine may use: the proxy knows no modules, no bus.
+# The parts of Up for a program on another machine: the proxy uses no modules and no bus.
 PROXY_MAY_USE = {"config", "log", "system", "fields", "version"}
 
 
 def cogs() -> dict[str, set[str]]:
-    """Return what every in-tree cog may import, read from its ``setup.py``."""
+    """Return the permitted imports of every in-tree cog, read from its ``setup.py``."""
     found: dict[str, set[str]] = {}
     for setup in sorted(ROOT.glob("cogs/*_cog/setup.py")):
         required = _install_requires(setup)

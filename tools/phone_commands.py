@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the forms of the Commands that the app shows: ``android/raspilot/assets/commands.json``.
 
-``tools/phone_commands.py [FILE]``. They are what the ground station's page gets: every Command that
-some ground may send, of Up and of every cog that is installed. The same Commands give the same
+``tools/phone_commands.py [FILE]``. The forms equal those of the ground station's page: every
+Command that a ground may send, of Up and of every installed cog. The same Commands give the same
 bytes.
 """
 
@@ -25,7 +25,7 @@ ASSET = Path(__file__).resolve().parent.parent / "android" / "raspilot" / "asset
 
 
 def asset_text(catalogue: Catalogue) -> str:
-    """Return the content of the file; raises ValueError when a Command would be missing."""
+    """Return the content of the file; raises ValueError if a Command would be missing."""
     if catalogue.problems:
         raise ValueError(catalogue.problems[0])
     message = catalogue_message(catalogue)
@@ -36,7 +36,7 @@ def asset_text(catalogue: Catalogue) -> str:
 
 
 def main(arguments: list[str]) -> int:
-    """Write the file and say so; 1: it was left as it is, and why."""
+    """Write the file and report it; 1 if it was left unchanged, with the reason."""
     path = Path(arguments[0]) if arguments else ASSET
     try:
         text = asset_text(Catalogue.installed())

@@ -1,4 +1,4 @@
-"""`python -m up_proxy` is the program itself."""
+"""Makes `python -m up_proxy` run the program."""
 
 import sys
 

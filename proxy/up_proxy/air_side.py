@@ -1,4 +1,4 @@
-"""What comes from an aircraft goes to all its grounds."""
+"""Relays data from an aircraft to all its grounds."""
 
 from up_proxy.aircraft import Aircraft
 from up_proxy.connection import Connection
@@ -16,7 +16,7 @@ class AirSide:
         self._poller = poller
 
     def seat(self, air: Connection) -> None:
-        """Let a connection be the aircraft; one that was it before is dropped."""
+        """Make a connection the aircraft's; the previous one is dropped."""
         aircraft = self._aircraft
         displaced = aircraft.air_seat.take(air, air.token or None)
         if displaced is not None:
@@ -24,7 +24,7 @@ class AirSide:
         aircraft.announce(self._poller.now_s)
 
     def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Relay to every ground; grounds trust control lines, so none passes from here."""
+        """Relay to every ground, without control lines: grounds trust those of the proxy."""
         aircraft = self._aircraft
         if aircraft.air_seat.occupant is not connection:
             return
@@ -43,7 +43,7 @@ class AirSide:
         """Wait for the rest of the line."""
 
     def on_drained(self, connection: Connection) -> None:
-        """Let the grounds that filled the queue go on."""
+        """Resume the grounds that filled the queue."""
         if self._aircraft.air_seat.occupant is connection:
             self._resume_grounds()
 

@@ -7,9 +7,9 @@ from up_proxy.seat import Seat
 
 
 class Aircraft:
-    """Who is connected for one aircraft, and what went through.
+    """The connections of one aircraft, and its counters.
 
-    `grounds` is replaced, never changed in place, so that a walk over it stays valid.
+    `grounds` is replaced, never changed in place, so that iteration over it stays valid.
     """
 
     __slots__ = (
@@ -36,19 +36,19 @@ class Aircraft:
         self.air_bytes = 0
         self.ground_bytes = 0
         self.dropped_lines = 0
-        """Lines to slow grounds that newer ones displaced."""
+        """Lines to slow grounds that newer lines replaced."""
         self.unheard_lines = 0
-        """Lines from grounds without the seat, or for an aircraft that is not there."""
+        """Lines from grounds without the seat, or for an absent aircraft."""
         self._next_number = 1
         self._shown_online = False
         self._shown_holder: int | None = None
 
     def is_online(self, now_s: float) -> bool:
-        """Say whether the airborne side is connected and alive."""
+        """Return whether the airborne side is connected and alive."""
         return self.air_seat.holder(now_s) is not None
 
     def is_deserted(self, now_s: float) -> bool:
-        """Say whether nobody is here and no seat is kept for anybody."""
+        """Return whether there is no connection and no seat kept for a token."""
         return (
             self.air_seat.occupant is None
             and not self.grounds
@@ -57,13 +57,13 @@ class Aircraft:
         )
 
     def add_ground(self, ground: Connection) -> None:
-        """Number a ground and let it listen."""
+        """Number a ground and add it as a listener."""
         ground.number = self._next_number
         self._next_number += 1
         self.grounds = (*self.grounds, ground)
 
     def remove_ground(self, ground: Connection) -> None:
-        """Let a ground go; its seat is another matter."""
+        """Remove a ground; its seat is handled separately."""
         self.grounds = tuple(each for each in self.grounds if each is not ground)
 
     def ground(self, number: int) -> Connection | None:
@@ -74,7 +74,7 @@ class Aircraft:
         return None
 
     def announce(self, now_s: float, newcomer: Connection | None = None) -> None:
-        """Tell the grounds what has changed, and a newcomer how things stand."""
+        """Send the grounds the changes, and a new ground the current state."""
         air = self.air_seat.holder(now_s)
         online = air is not None
         if online != self._shown_online:

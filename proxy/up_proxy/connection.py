@@ -1,4 +1,4 @@
-"""One TCP connection of the relay: its socket, its unfinished line, what waits for it."""
+"""One TCP connection of the relay: its socket, its partial line, its send queue."""
 
 import select
 import socket
@@ -12,33 +12,33 @@ from up_proxy.poller import PAUSED, READ, WRITE, Poller
 IDLE_S = 15.0
 """A connection without a byte in either direction for this long is closed."""
 PACE_BYTES = 65536
-"""More than this waiting for a paced peer pauses who sends to it."""
+"""When a paced peer has more than this waiting, its senders are paused."""
 
 _READ_BYTES = 65536
 _KEPT_MAX_BYTES = LINE_MAX_BYTES + 4096
 
 
 class Owner(Protocol):
-    """Who gives a connection its meaning."""
+    """The owner of a connection, which handles its data."""
 
     def on_lines(self, connection: "Connection", lines: bytes) -> None:
         """Take whole lines; never empty, the last byte is LF."""
 
     def on_half_line(self, connection: "Connection") -> None:
-        """Look at `connection.half`, a line that has grown and not ended."""
+        """Check `connection.half`, a partial line that has grown."""
 
     def on_drained(self, connection: "Connection") -> None:
-        """Hear that nothing waits any more."""
+        """Called when the send queue is empty again."""
 
     def on_end(self, connection: "Connection", reason: str) -> None:
-        """Hear that the connection is closed; the reason is for people."""
+        """Called when the connection is closed; the reason is for people."""
 
 
 class Connection:
     """Relays whole lines without blocking and with bounded memory.
 
-    With `queue_bytes` a slow peer loses its oldest lines beyond that many; with 0 it loses none,
-    and `relay_paced` tells the sender to wait.
+    With `queue_bytes` a slow peer loses its oldest lines beyond that size; with 0 it loses none,
+    and `relay_paced` tells the sender to pause.
     """
 
     __slots__ = (
@@ -94,15 +94,15 @@ class Connection:
         return 0 if self._queue is None else len(self._queue)
 
     def is_idle(self, now_s: float) -> bool:
-        """Say whether neither direction has carried a byte for IDLE_S."""
+        """Return whether neither direction has carried a byte for IDLE_S."""
         return now_s - self.heard_s > IDLE_S and now_s - self.told_s > IDLE_S
 
     def on_ready(self, events: int) -> None:
-        """Read or write what the socket has room for."""
+        """Read or write as far as the socket permits."""
         if events & ~READ or self.paused_s is not None or self.failure is not None:
             self._on_rare(events)
             return
-        # The path of every relayed line: no call that could be spared.
+        # The path of every relayed line: avoid every unnecessary call.
         try:
             chunk = self._socket.recv(_READ_BYTES)
         except OSError as error:
@@ -118,7 +118,7 @@ class Connection:
             self._assemble(chunk)
 
     def _on_rare(self, events: int) -> None:
-        """Handle what is not simply readable: writable, paused, broken."""
+        """Handle events other than plain readable: writable, paused, broken."""
         if self.failure is not None:
             return
         if self.paused_s is not None:
@@ -170,7 +170,7 @@ class Connection:
         return queue.dropped_lines - before
 
     def relay_paced(self, lines: bytes) -> bool:
-        """Send whole lines; return whether the sender may go on."""
+        """Send whole lines; return whether the sender may continue."""
         queue = self._queue
         if queue is None:
             try:
@@ -197,7 +197,7 @@ class Connection:
             self.fail("does not read")
 
     def _keep(self, rest: bytes, sent: int) -> None:
-        """Keep what the socket did not take."""
+        """Queue the bytes that the socket did not take."""
         if self.failure is None:
             if sent:
                 self.told_s = self._poller.now_s
@@ -222,13 +222,13 @@ class Connection:
             self.owner.on_drained(self)
 
     def pause(self) -> None:
-        """Read no more until `resume`: who it sends to is slow."""
+        """Stop reading until `resume`: the receiver of its data is slow."""
         if self.paused_s is None:
             self.paused_s = self._poller.now_s
             self._watch()
 
     def resume(self) -> None:
-        """Read again."""
+        """Resume reading."""
         if self.paused_s is not None:
             self.paused_s = None
             self._watch()
@@ -242,10 +242,10 @@ class Connection:
             self._poller.change(self._socket.fileno(), events)
 
     def refuse(self, line: bytes, reason: str) -> None:
-        """Send a last line and say no more; the owner ends the connection soon.
+        """Send a last line and close the output; the owner ends the connection soon.
 
-        Closing at once would reset the connection where unread bytes wait, and the peer would
-        not read why.
+        An immediate close would reset a connection with unread bytes, and the peer would not
+        receive the reason.
         """
         self.relay(line)
         if self.failure is None:
@@ -255,13 +255,13 @@ class Connection:
                 self.fail(reason)
 
     def fail(self, reason: str) -> None:
-        """Ask for the end of the connection; the first reason counts."""
+        """Request the end of the connection; the first reason counts."""
         if self.failure is None:
             self.failure = reason
             self._poller.end_later(self)
 
     def end(self) -> None:
-        """Close the socket and tell the owner."""
+        """Close the socket and notify the owner."""
         self._poller.forget(self._socket.fileno())
         self._socket.close()
         self._queue = None

@@ -1,10 +1,10 @@
-"""Control lines between the proxy and a ground: asking for the seat and handing it over."""
+"""Control lines between the proxy and a ground: requests for the seat and its transfer."""
 
 import re
 from dataclasses import dataclass
 
 PREFIX = b"UP1 "
-"""A line that begins so is never relayed, in either direction."""
+"""Lines with this prefix are never relayed, in either direction."""
 LISTEN = b"UP1 seat listen\n"
 ONLINE = b"UP1 aircraft online\n"
 OFFLINE = b"UP1 aircraft offline\n"
@@ -14,17 +14,17 @@ _GIVE = re.compile(rb"UP1 seat give to=([0-9]{1,9})")
 
 @dataclass(frozen=True, slots=True)
 class SeatRequest:
-    """A listener asks for the seat."""
+    """A listener requests the seat."""
 
 
 @dataclass(frozen=True, slots=True)
 class SeatRelease:
-    """The holder leaves the seat free."""
+    """The holder releases the seat."""
 
 
 @dataclass(frozen=True, slots=True)
 class SeatGive:
-    """The holder hands the seat to the ground with this number."""
+    """The holder transfers the seat to the ground with this number."""
 
     to: int
 
@@ -33,7 +33,7 @@ Control = SeatRequest | SeatRelease | SeatGive
 
 
 def parse_control(line: bytes) -> Control | None:
-    """Return what a control line from a ground asks for, None when it asks for nothing known."""
+    """Parse a control line from a ground; None for an unknown request."""
     text = line.rstrip(b"\r\n")
     if text == b"UP1 seat request":
         return SeatRequest()
@@ -44,22 +44,22 @@ def parse_control(line: bytes) -> Control | None:
 
 
 def asked_line(number: int) -> bytes:
-    """Return the line that tells the holder who asks."""
+    """Return the line that tells the holder which ground requests the seat."""
     return b"UP1 seat asked by=%d\n" % number
 
 
 def command_line(token: str) -> bytes:
-    """Return the line that tells a ground that it commands now."""
+    """Return the line that tells a ground that it has control."""
     return b"UP1 seat command token=%s\n" % token.encode("ascii")
 
 
 def holder_line(number: int | None) -> bytes:
-    """Return the line that tells every ground who commands."""
+    """Return the line that tells every ground which one has control."""
     return b"UP1 seat holder=%d\n" % number if number is not None else b"UP1 seat holder=none\n"
 
 
 def without_control(lines: bytes) -> tuple[bytes, list[bytes]]:
-    """Return whole lines without the control lines among them, and the control lines.
+    """Split whole lines into those without the control lines, and the control lines.
 
     `lines` begins at the start of a line and ends with LF.
     """

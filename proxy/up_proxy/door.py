@@ -1,4 +1,4 @@
-"""One side's port: accepts, limits, judges addresses, ends what idles."""
+"""The port of one side: accepts, limits, checks addresses, closes idle connections."""
 
 import errno
 import socket
@@ -22,7 +22,7 @@ _log = UpLogger.get_logger("proxy")
 
 @dataclass(frozen=True, slots=True)
 class DoorLimits:
-    """How many connections one side takes, and from whom."""
+    """The limits of one side: number of connections and permitted addresses."""
 
     connections: int
     per_address: int
@@ -31,7 +31,7 @@ class DoorLimits:
 
 
 class Door:
-    """The listening socket of one side and every connection that came in by it."""
+    """The listening socket of one side and all its connections."""
 
     def __init__(
         self,
@@ -60,16 +60,16 @@ class Door:
 
     @property
     def port(self) -> int:
-        """The port that is heard."""
+        """The port that is listened on."""
         return int(self._listener.getsockname()[1])
 
     def open(self) -> None:
-        """Begin to accept."""
+        """Start accepting."""
         self._poller.watch(self._listener.fileno(), self)
         _log.info("{side} side listens on port {port}", side=self._side.value, port=self.port)
 
     def close(self) -> None:
-        """Accept no more and end every connection."""
+        """Stop accepting and end every connection."""
         if self._retry is not None:
             self._retry.cancel()
             self._retry = None
@@ -78,7 +78,7 @@ class Door:
             connection.fail("the proxy stops")
 
     def on_ready(self, events: int) -> None:
-        """Accept who waits."""
+        """Accept the waiting peers."""
         for _ in range(_ACCEPT_BATCH):
             try:
                 peer, address = self._listener.accept()
@@ -88,11 +88,11 @@ class Door:
                 if error.errno in _OUT_OF_DESCRIPTORS:
                     self._rest()
                     return
-                continue  # that one peer gave up before it was accepted
+                continue  # the peer closed before it was accepted
             self._take(peer, plain(address[0]))
 
     def fail(self, reason: str) -> None:
-        """Rest a while: a listening socket is not given up for one bad event."""
+        """Pause: one failure is no reason to close the listening socket."""
         self._rest()
 
     def end(self) -> None:
@@ -101,11 +101,11 @@ class Door:
         self._listener.close()
 
     def is_open(self) -> bool:
-        """Say whether the port is heard or will be in a moment."""
+        """Return whether the port is listened on or will be after a pause."""
         return self._listener.fileno() >= 0
 
     def sweep(self, now_s: float) -> None:
-        """End what has been idle, and let the opening look at its clock."""
+        """End idle connections, and call the handshake's timer."""
         for connection in self.connections:
             if connection.is_idle(now_s):
                 self.idle_closed += 1

@@ -1,4 +1,4 @@
-"""Every aircraft that somebody is connected for, by name."""
+"""All aircraft with connections, by name."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ class Party:
 
 @dataclass(slots=True)
 class Totals:
-    """What went through since the start, aircraft that are gone included."""
+    """Counters since the start, including aircraft that are gone."""
 
     air_bytes: int = 0
     ground_bytes: int = 0
@@ -29,7 +29,7 @@ class Totals:
     unheard_lines: int = 0
 
     def add(self, aircraft: Aircraft) -> None:
-        """Add what one aircraft counted."""
+        """Add the counters of one aircraft."""
         self.air_bytes += aircraft.air_bytes
         self.ground_bytes += aircraft.ground_bytes
         self.dropped_lines += aircraft.dropped_lines
@@ -37,7 +37,7 @@ class Totals:
 
 
 class Fleet:
-    """Makes an aircraft when its first connection names it, forgets it when all have left."""
+    """Creates an aircraft when its first connection names it, removes it after its last one."""
 
     def __init__(
         self, poller: Poller, journal: Journal, aircraft_max: int, listeners_max: int
@@ -53,7 +53,7 @@ class Fleet:
         return len(self._parties)
 
     def aircraft(self) -> list[Aircraft]:
-        """Return every aircraft that is known now."""
+        """Return every known aircraft."""
         return [party.aircraft for party in self._parties.values()]
 
     def totals(self) -> Totals:
@@ -65,9 +65,9 @@ class Fleet:
         return totals
 
     def party(self, name: str) -> Party:
-        """Return the aircraft of this name, new when nobody named it before.
+        """Return the aircraft of this name, creating it if it is unknown.
 
-        Raises HelloError with code `full` when there are too many.
+        Raises HelloError with code `full` if there are too many.
         """
         party = self._parties.get(name)
         if party is None:
@@ -80,9 +80,9 @@ class Fleet:
         return party
 
     def check_room(self, aircraft: Aircraft, now_s: float, token: str | None = None) -> None:
-        """Raise HelloError with code `full` when no further ground may listen.
+        """Raise HelloError with code `full` if no further ground may listen.
 
-        Who comes to command, to a free seat or with its token, always finds room.
+        A ground that takes a free seat, or resumes one with its token, is always accepted.
         """
         seat = aircraft.command_seat
         listeners = len(aircraft.grounds) - (seat.occupant is not None)
@@ -92,7 +92,7 @@ class Fleet:
             raise HelloError(FULL, "this aircraft has as many grounds as it may")
 
     def sweep(self, now_s: float) -> None:
-        """Notice who has fallen silent, and forget aircraft that all have left."""
+        """Detect silent peers, and remove aircraft without connections."""
         for name, party in list(self._parties.items()):
             aircraft = party.aircraft
             holder = aircraft.command_seat.occupant

@@ -1,4 +1,4 @@
-"""What comes from a ground: lines for the aircraft from the one that commands, control lines."""
+"""Relays data from the ground in control to the aircraft, and handles control lines."""
 
 from up_proxy.aircraft import Aircraft
 from up_proxy.connection import IDLE_S, Connection
@@ -17,13 +17,13 @@ from up_proxy.hello import SeatKind
 from up_proxy.poller import Poller
 
 ASK_INTERVAL_S = 1.0
-"""One listener's request reaches the holder at most so often."""
+"""Minimum time between two requests of one listener that reach the holder."""
 
 
 class GroundSide:
     """Owns the ground connections of one aircraft.
 
-    The one order of events: a line is judged when its end has come, by who holds the seat then.
+    A line is checked when its end arrives, against the seat's holder at that moment.
     """
 
     __slots__ = ("_aircraft", "_poller")
@@ -33,7 +33,7 @@ class GroundSide:
         self._poller = poller
 
     def admit(self, ground: Connection, asks: SeatKind, token: str | None) -> SeatKind:
-        """Add a ground and return the seat that it got; a resume token takes the seat at once."""
+        """Add a ground and return its seat; a resume token takes the seat immediately."""
         aircraft = self._aircraft
         aircraft.add_ground(ground)
         seat = aircraft.command_seat
@@ -52,7 +52,7 @@ class GroundSide:
         return SeatKind.LISTEN
 
     def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Relay what the holder says, obey control lines, drop and count the rest."""
+        """Relay the holder's lines, handle control lines, drop and count the rest."""
         aircraft = self._aircraft
         aircraft.ground_bytes += len(lines)
         if PREFIX in lines:
@@ -66,7 +66,7 @@ class GroundSide:
         """Wait for the rest of the line."""
 
     def on_drained(self, connection: Connection) -> None:
-        """Nothing waits for this ground any more."""
+        """Do nothing: the ground's send queue is empty."""
 
     def on_end(self, connection: Connection, reason: str) -> None:
         """Keep the holder's seat for its token; a thesis client has none and frees it."""
@@ -80,7 +80,7 @@ class GroundSide:
         aircraft.announce(self._poller.tick())
 
     def keep_paused_alive(self, ground: Connection, now_s: float) -> None:
-        """Count a ground that we do not read as alive, as long as that is bearable."""
+        """Count a ground whose reading is paused as alive, for a limited time."""
         if ground.paused_s is not None and now_s - ground.paused_s < IDLE_S:
             ground.heard_s = now_s
 
@@ -95,7 +95,7 @@ class GroundSide:
     def _from_listener(self, connection: Connection, lines: bytes) -> None:
         seat = self._aircraft.command_seat
         if not connection.speaks_hello and seat.is_free(self._poller.now_s):
-            # A thesis client cannot ask: it takes a free seat by speaking.
+            # A thesis client cannot request the seat: it takes a free one by sending.
             self._seat(connection)
             self._aircraft.announce(self._poller.now_s)
             self._relay(connection, lines)
@@ -103,7 +103,7 @@ class GroundSide:
             self._aircraft.unheard_lines += lines.count(b"\n")
 
     def _relay_mixed(self, connection: Connection, lines: bytes) -> None:
-        """Take lines one by one: a control line may change who commands in between."""
+        """Handle lines one by one: a control line may change the seat in between."""
         for line in lines.split(b"\n")[:-1]:
             if not line.startswith(PREFIX):
                 if connection is self._aircraft.command_seat.occupant:
@@ -150,7 +150,7 @@ class GroundSide:
                 holder.tell(asked_line(connection.number))
 
     def _seat(self, ground: Connection, tell: bool = False) -> None:
-        """Let a ground command, and tell whoever commanded until now."""
+        """Give a ground control, and notify the previous holder."""
         displaced = self._aircraft.command_seat.take(ground, ground.token or None)
         if displaced is ground:
             displaced = None

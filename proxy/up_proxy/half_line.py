@@ -1,11 +1,11 @@
-"""The beginning of a line whose end has not come yet."""
+"""The beginning of a line without its end."""
 
 LINE_MAX_BYTES = 65536
 """A connection that sends a longer line is closed."""
 
 
 class HalfLine:
-    """Cuts a stream of chunks at its last LF, so that only whole lines go on."""
+    """Cuts a stream of chunks at its last LF, so that only whole lines pass."""
 
     __slots__ = ("_held",)
 
@@ -16,11 +16,11 @@ class HalfLine:
         return len(self._held)
 
     def starts_with(self, prefix: bytes) -> bool:
-        """Say whether the unfinished line begins with `prefix`."""
+        """Return whether the partial line begins with `prefix`."""
         return self._held.startswith(prefix)
 
     def take(self, chunk: bytes) -> bytes:
-        """Return the whole lines that `chunk` completes, empty when there is none."""
+        """Return the whole lines that `chunk` completes, or empty bytes."""
         cut = chunk.rfind(b"\n") + 1
         if not cut:
             self._held += chunk

@@ -1,4 +1,4 @@
-"""The proxy's regular tick, and how late it comes."""
+"""The proxy's periodic tick, and its lateness."""
 
 from collections import deque
 from collections.abc import Callable
@@ -6,12 +6,12 @@ from collections.abc import Callable
 from up.system.clock import Clock, Timer
 
 TICK_S = 0.25
-"""How often silence, idleness and seats are looked at."""
+"""Period of the checks of silence, idleness and seats."""
 _REMEMBERED = 240
 
 
 class Heartbeat:
-    """Calls `on_tick` every TICK_S and measures by how much the event loop is late.
+    """Calls `on_tick` every TICK_S and measures the lateness of the event loop.
 
     `lag_max_s` covers the last minute.
     """
@@ -31,21 +31,21 @@ class Heartbeat:
 
     @property
     def lag_s(self) -> float:
-        """How late the last tick was, in seconds."""
+        """Lateness of the last tick, in seconds."""
         return self._lags_s[-1]
 
     @property
     def lag_max_s(self) -> float:
-        """How late the latest tick of the last minute was, in seconds."""
+        """Maximum lateness of the last minute, in seconds."""
         return max(self._lags_s)
 
     def start(self) -> None:
-        """Begin to tick."""
+        """Start ticking."""
         self._started_s = self._clock.seconds()
         self._arm()
 
     def stop(self) -> None:
-        """Tick no more."""
+        """Stop ticking."""
         timer, self._timer = self._timer, None
         if timer is not None and timer.active():
             timer.cancel()

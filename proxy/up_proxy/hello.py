@@ -1,4 +1,4 @@
-"""The first line of a connection: who it is and which seat it asks for (protocols, 9)."""
+"""The first line of a connection: its name and the seat it requests (protocols, 9)."""
 
 import re
 from dataclasses import dataclass
@@ -7,13 +7,13 @@ from enum import Enum
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 HELLO_MAX_BYTES = 512
-"""A hello is at most this long, its LF included."""
+"""Maximum length of a hello, its LF included."""
 HELLO_TIMEOUT_S = 5.0
-"""A connection that began a hello has this long to end it."""
+"""Time limit for completing a hello."""
 SILENCE_S = 1.0
-"""Who says nothing for this long is a thesis client."""
+"""A connection that sends nothing for this long is a thesis client."""
 THESIS_AIRCRAFT = "default"
-"""The aircraft of those who never say a name."""
+"""The aircraft of clients that never send a name."""
 
 MALFORMED, TAKEN, FULL, ADDRESS, TOKEN = "malformed", "taken", "full", "address", "token"
 CODES = (MALFORMED, TAKEN, FULL, ADDRESS, TOKEN)
@@ -23,14 +23,14 @@ _KEY = re.compile(r"[A-Za-z0-9_.-]+", re.ASCII)
 
 
 class Side(Enum):
-    """Which port a connection came in by."""
+    """The port of a connection."""
 
     AIRBORNE = "airborne"
     GROUND = "ground"
 
 
 class SeatKind(Enum):
-    """What a connection may do; the value is its word on the wire."""
+    """The rights of a connection; the value is its word on the wire."""
 
     AIR = "air"
     COMMAND = "command"
@@ -39,7 +39,7 @@ class SeatKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Hello:
-    """Who a connection says it is; `token` is lower case, None when none was sent."""
+    """A connection's hello; `token` is lower case, None if none was sent."""
 
     aircraft: str
     seat: SeatKind | None = None
@@ -47,7 +47,7 @@ class Hello:
 
 
 class HelloError(ValueError):
-    """Why a connection is refused: a code of CODES and one sentence."""
+    """The reason for a refusal: a code of CODES and one sentence."""
 
     def __init__(self, code: str, reason: str) -> None:
         super().__init__(reason)
@@ -60,7 +60,7 @@ def _malformed(reason: str) -> HelloError:
 
 
 def _words(line: bytes) -> dict[str, str]:
-    """Return the key=value words behind `UP1`."""
+    """Return the key=value words after `UP1`."""
     if len(line) > HELLO_MAX_BYTES:
         raise _malformed(f"a hello is at most {HELLO_MAX_BYTES} bytes")
     try:
@@ -82,7 +82,7 @@ def _words(line: bytes) -> dict[str, str]:
 
 
 def parse_hello(line: bytes, side: Side) -> Hello:
-    """Return what a first line says; its LF may be absent, unknown words are ignored.
+    """Parse a first line, with or without its LF; unknown words are ignored.
 
     Raises HelloError with code `malformed`.
     """

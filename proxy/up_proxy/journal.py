@@ -1,33 +1,33 @@
-"""What the log tells of aircraft and seats, however often they change."""
+"""Logs changes of aircraft and seats at a limited rate."""
 
 from up.log import Limited, UpLogger
 from up.system.clock import Clock
 
 INTERVAL_S = 10.0
-"""Of one aircraft, one kind of news is told at once and then at most so often."""
+"""Minimum time between two log lines of one kind about one aircraft."""
 NEWS_MAX = 100
-"""More kinds of news than this in one interval are told as one."""
+"""More kinds than this in one interval share one line."""
 _log = UpLogger.get_logger("proxy")
 
 
 class Journal:
-    """Tells who came, who went and who commands."""
+    """Logs connections, disconnections and changes of control."""
 
     def __init__(self, clock: Clock) -> None:
         self._limited = Limited(clock, INTERVAL_S, NEWS_MAX)
 
     def on_online(self, aircraft: str, host: str) -> None:
-        """Tell that an aircraft is here."""
+        """Log that an aircraft connected."""
         text = "aircraft {aircraft} is online from {host}"
         self._limited.log(_log.info, text, key=(aircraft, "air"), aircraft=aircraft, host=host)
 
     def on_offline(self, aircraft: str) -> None:
-        """Tell that an aircraft has gone or fallen silent."""
+        """Log that an aircraft disconnected or became silent."""
         text = "aircraft {aircraft} is offline"
         self._limited.log(_log.info, text, key=(aircraft, "air"), aircraft=aircraft)
 
     def on_holder(self, aircraft: str, number: int, host: str) -> None:
-        """Tell who commands."""
+        """Log which ground has control."""
         self._limited.log(
             _log.info,
             "ground {number} from {host} commands {aircraft}",
@@ -38,10 +38,10 @@ class Journal:
         )
 
     def on_no_holder(self, aircraft: str) -> None:
-        """Tell that nobody commands."""
+        """Log that no ground has control."""
         text = "nobody commands {aircraft}"
         self._limited.log(_log.info, text, key=(aircraft, "seat"), aircraft=aircraft)
 
     def stop(self) -> None:
-        """Tell what was held back."""
+        """Log the suppressed events."""
         self._limited.stop()

@@ -1,12 +1,12 @@
-"""What waits for a slow peer: whole lines, in order, bounded."""
+"""The bounded queue of a slow peer: whole lines, in order."""
 
 
 class LineQueue:
-    """Bytes that the socket did not take yet, made of whole lines.
+    """Whole lines that the socket has not taken yet.
 
-    With `limit_bytes` the oldest whole lines go first when more waits (telemetry: the newest
-    wins); with 0 nothing is ever dropped and whoever fills the queue must wait. The rest of a
-    line that has begun to leave, and control lines, are never dropped.
+    With `limit_bytes` the oldest whole lines are dropped when more waits (telemetry: the newest
+    wins); with 0 nothing is dropped and the sender must wait. The rest of a partly sent line, and
+    control lines, are never dropped.
     """
 
     __slots__ = ("_buffer", "_kept", "dropped_lines", "limit_bytes")
@@ -16,18 +16,18 @@ class LineQueue:
         self.dropped_lines = 0
         self._buffer = bytearray()
         self._kept = 0
-        """Length of the head that must leave as it is."""
+        """Length of the head that must be sent unchanged."""
 
     def __len__(self) -> int:
         return len(self._buffer)
 
     @property
     def kept_bytes(self) -> int:
-        """Length of the head that may not be dropped."""
+        """Length of the head that must not be dropped."""
         return self._kept
 
     def put_rest(self, rest: bytes) -> None:
-        """Begin the queue; of the first line, which is never dropped, a part may have left."""
+        """Start the queue; the first line, which is never dropped, may be partly sent."""
         assert not self._buffer
         self._buffer += rest
         self._kept = rest.find(b"\n") + 1
@@ -45,7 +45,7 @@ class LineQueue:
             del buffer[self._kept : cut]
 
     def put_control(self, line: bytes) -> None:
-        """Insert a control line at the first line boundary, ahead of all that may be dropped."""
+        """Insert a control line at the first line boundary, ahead of all droppable lines."""
         self._buffer[self._kept : self._kept] = line
         self._kept += len(line)
 
@@ -54,7 +54,7 @@ class LineQueue:
         return bytes(self._buffer[:size])
 
     def sent(self, count: int) -> None:
-        """Forget bytes that the socket took."""
+        """Remove bytes that the socket took."""
         buffer = self._buffer
         if count < self._kept:
             self._kept -= count

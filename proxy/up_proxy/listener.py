@@ -1,11 +1,11 @@
-"""A listening socket for many short-spoken peers."""
+"""A listening socket for many peers with short messages."""
 
 import os
 import socket
 
 LISTEN_BACKLOG = 1024
 SEND_BUFFER_BYTES = 65536
-"""Small on purpose: what the kernel holds for a slow peer is old when it arrives."""
+"""Small on purpose: data that the kernel buffers for a slow peer are stale on arrival."""
 KEEPALIVE_IDLE_S = 5
 KEEPALIVE_INTERVAL_S = 2
 KEEPALIVE_PROBES = 3
@@ -16,7 +16,7 @@ class ListenError(OSError):
 
 
 def cannot_listen(label: str, port: int, error: OSError) -> ListenError:
-    """Return the sentence that says why a port could not be opened."""
+    """Return a sentence with the reason why a port could not be opened."""
     what = os.strerror(error.errno) if error.errno else str(error)
     return ListenError(f"cannot listen on {label} {port}: {what.lower()}")
 
@@ -24,8 +24,8 @@ def cannot_listen(label: str, port: int, error: OSError) -> ListenError:
 def listen(label: str, address: str, port: int, user_timeout_ms: int) -> socket.socket:
     """Return a listening, non-blocking TCP socket; accepted sockets inherit its options.
 
-    An empty address hears every interface, IPv4 and IPv6. `user_timeout_ms` bounds how long sent
-    data may stay unacknowledged (RFC 5482). Raises ListenError.
+    An empty address listens on every interface, IPv4 and IPv6. `user_timeout_ms` bounds how long
+    sent data may stay unacknowledged (RFC 5482). Raises ListenError.
     """
     family, host = _family(address)
     listener = socket.socket(family, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)

@@ -36,7 +36,7 @@ def _port(text: str) -> int:
 
 
 def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespace:
-    """Return the command line's options; ports are None when not given."""
+    """Return the command line's options; ports are None if not given."""
     parser = argparse.ArgumentParser(
         prog="up-proxy",
         description="Relay between aircraft and ground stations: the Ground Station Proxy.",
@@ -53,7 +53,7 @@ def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespac
 
 
 def configured(options: argparse.Namespace) -> ProxyConfig:
-    """Return proxy.yml with what the command line overrides; raises ConfigErrors."""
+    """Return proxy.yml with the overrides of the command line; raises ConfigErrors."""
     config = PROXY.load(options.config or Path("config"))
     overrides = {
         name: value
@@ -64,7 +64,7 @@ def configured(options: argparse.Namespace) -> ProxyConfig:
 
 
 def raise_descriptor_limit(config: ProxyConfig) -> None:
-    """Ask for as many descriptors as the limits need, as far as the system grants them."""
+    """Raise the descriptor limit to the number needed, as far as the system permits."""
     wanted = 2 * config.limits.connections + _SPARE_DESCRIPTORS
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     if soft >= wanted or soft == resource.RLIM_INFINITY:
@@ -96,7 +96,7 @@ def run(reactor: "ProxyReactor", config: ProxyConfig) -> int:
     pinger = WatchdogPinger(reactor, proxy.is_healthy, notifier)
 
     def on_running() -> None:
-        # What start-up made stays; the collector need not walk it again and again.
+        # Objects of the start-up stay; the collector need not visit them again.
         gc.collect()
         gc.freeze()
         ports = f"airborne {proxy.airborne_port}, ground {proxy.ground_port}"

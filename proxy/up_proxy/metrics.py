@@ -1,4 +1,4 @@
-"""What the proxy tells of itself, in figures."""
+"""The metrics of the proxy."""
 
 import os
 from collections.abc import Iterable
@@ -14,7 +14,7 @@ _PREFIX = "up_proxy_"
 
 
 def resident_bytes() -> int:
-    """Return this process's resident memory; 0 where /proc does not tell."""
+    """Return this process's resident memory; 0 without /proc."""
     try:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
     except (OSError, ValueError, IndexError):
@@ -32,7 +32,7 @@ def _by_side(name: str, kind: str, text: str, air: float, ground: float) -> Metr
 
 
 def door_metrics(air: Door, ground: Door) -> Iterable[Metric]:
-    """Yield what the two ports count."""
+    """Yield the counters of the two ports."""
     yield _by_side(
         "connections", "gauge", "Open connections.", len(air.connections), len(ground.connections)
     )
@@ -62,7 +62,7 @@ def door_metrics(air: Door, ground: Door) -> Iterable[Metric]:
 
 
 def fleet_metrics(fleet: Fleet, now_s: float) -> Iterable[Metric]:
-    """Yield the sums since the start, then what each present aircraft counts."""
+    """Yield the sums since the start, then the counters of each connected aircraft."""
     totals = fleet.totals()
     yield _one("aircraft", "gauge", "Aircraft that somebody is connected for.", len(fleet))
     yield _by_side(
@@ -127,7 +127,7 @@ def _waiting_bytes(aircraft: Aircraft) -> int:
 
 
 def process_metrics(heartbeat: Heartbeat) -> Iterable[Metric]:
-    """Yield how the process itself is."""
+    """Yield the metrics of the process itself."""
     yield _one("uptime_seconds", "gauge", "Time since the start.", heartbeat.uptime_s)
     yield _one(
         "loop_lag_seconds",

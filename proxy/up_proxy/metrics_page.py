@@ -25,7 +25,7 @@ class Metric:
 
 
 def escape(text: str) -> str:
-    """Return a label's value as the format writes it between quotation marks."""
+    """Return a label's value escaped for quotation marks."""
     return text.replace("\\", "\\\\").replace("\n", "\\n").replace('"', '\\"')
 
 

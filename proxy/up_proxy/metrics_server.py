@@ -36,7 +36,7 @@ class MetricsPage(Resource):
         self._page = page
 
     def render_GET(self, request: Request) -> bytes:  # noqa: N802 - Twisted's name
-        """Return the current figures; a name that is not this machine's is refused."""
+        """Return the current metrics; refuses a Host that does not name this machine."""
         hosts = request.requestHeaders.getRawHeaders("Host", [])
         if len(hosts) != 1 or not names_this_machine(hosts[0], {"localhost"}):
             request.setResponseCode(MISDIRECTED_REQUEST, b"Misdirected Request")
@@ -76,7 +76,7 @@ class MetricsConnection(ProtocolWrapper):
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Pass on a request of bounded size; discard what follows it."""
+        """Pass on a request of bounded size; discard excess data."""
         if self.disconnecting:
             return
         super().dataReceived(data[: self._left_bytes])  # type: ignore[no-untyped-call]
@@ -86,7 +86,7 @@ class MetricsConnection(ProtocolWrapper):
             self.loseConnection()
 
     def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Send what is written, then close; the peer closes its own side."""
+        """Send written data, then close; the peer closes its own side."""
         self.disconnecting = True
         self.transport.loseWriteConnection()
 
@@ -122,7 +122,7 @@ class MetricsFactory(WrappingFactory):
         super().registerProtocol(p)  # type: ignore[no-untyped-call]
 
     def unregisterProtocol(self, p: ProtocolWrapper) -> None:  # noqa: N802 - Twisted's name
-        """Count a connection no longer."""
+        """Remove a connection."""
         self.protocols.pop(p, None)
 
 

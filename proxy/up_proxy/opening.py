@@ -1,4 +1,4 @@
-"""The beginning of a connection: from its first byte to its seat, or to its refusal."""
+"""The handshake of a connection: from its first byte to its seat or its refusal."""
 
 import secrets
 from collections.abc import Callable
@@ -28,12 +28,12 @@ from up_proxy.silent import Silent
 
 
 def new_token() -> str:
-    """Return a resume token that nobody guesses."""
+    """Return an unguessable resume token."""
     return secrets.token_hex(16)
 
 
 class Opening:
-    """Owns the connections of one side until their first line has said what they are."""
+    """Owns the connections of one side until their first line identifies them."""
 
     def __init__(
         self,
@@ -56,7 +56,7 @@ class Opening:
         self._since_s[connection] = self._poller.now_s
 
     def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Judge the first line; what follows belongs to the seat."""
+        """Check the first line; the seat's owner gets the rest."""
         del self._since_s[connection]
         if lines.startswith(b"{"):
             rest = lines
@@ -71,7 +71,7 @@ class Opening:
             connection.owner.on_lines(connection, rest)
 
     def on_half_line(self, connection: Connection) -> None:
-        """Recognise a thesis client by its first byte; bound a hello."""
+        """Recognise a thesis client by its first byte; bound the length of a hello."""
         half = connection.half
         if half is None:
             return
@@ -85,14 +85,14 @@ class Opening:
             )
 
     def on_drained(self, connection: Connection) -> None:
-        """Nothing waits for it."""
+        """Do nothing: the send queue is empty."""
 
     def on_end(self, connection: Connection, reason: str) -> None:
-        """Forget it."""
+        """Remove it."""
         self._since_s.pop(connection, None)
 
     def sweep(self, now_s: float) -> None:
-        """Take the silent for thesis clients, refuse the slow, close the refused."""
+        """Accept silent clients as thesis clients, refuse slow ones, close refused ones."""
         for connection, since_s in list(self._since_s.items()):
             if connection.half is None:
                 if now_s - since_s >= SILENCE_S:
@@ -151,7 +151,7 @@ class Opening:
                 party.ground.admit(connection, SeatKind.COMMAND, None)
                 party.aircraft.announce(self._poller.now_s, newcomer=connection)
         except HelloError as error:
-            # A thesis client would take an error line for a broken message: it gets none.
+            # A thesis client would read an error line as a malformed message: it gets none.
             self.refused[error.code] += 1
             self._leaving.begin(connection, self._poller.now_s)
             connection.fail(error.reason)

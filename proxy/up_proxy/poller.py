@@ -1,7 +1,7 @@
 """Waits for many sockets at once, inside Twisted's reactor.
 
-The reactor sees one descriptor, an epoll of our own: a relayed line then costs no reactor
-bookkeeping, and an idle connection no entry in the reactor.
+The reactor has one descriptor, our own epoll: a relayed line then costs no reactor bookkeeping, and
+an idle connection no entry in the reactor.
 """
 
 import select
@@ -17,11 +17,11 @@ from up.log import UpLogger
 READ = select.EPOLLIN | select.EPOLLRDHUP
 WRITE = select.EPOLLOUT
 PAUSED = select.EPOLLRDHUP
-"""Reads nothing, hears of a peer that is gone."""
+"""Does not read, but detects a closed peer."""
 
 _BATCH = 256
 STAY_S = 0.01
-"""Longer than a tick of the kernel: a nearer timeout would cost a timer interrupt a line."""
+"""Longer than a tick of the kernel: a shorter timeout would cost a timer interrupt per line."""
 _log = UpLogger.get_logger("proxy")
 
 
@@ -29,23 +29,23 @@ class Handler(Protocol):
     """A socket that the poller watches."""
 
     def on_ready(self, events: int) -> None:
-        """Do what the epoll events ask for, without blocking."""
+        """Handle the epoll events, without blocking."""
 
     def end(self) -> None:
-        """Close the socket and tell its owner: called outside the handling of any event."""
+        """Close the socket and notify its owner; called outside the handling of any event."""
 
     def fail(self, reason: str) -> None:
-        """Ask for the end, with its reason."""
+        """Request the end, with its reason."""
 
 
 class Reactor(Protocol):
-    """What the poller asks of the reactor."""
+    """The part of the reactor that the poller uses."""
 
     def addReader(self, reader: object) -> None:  # noqa: N802 - Twisted's name
         """Watch a descriptor."""
 
     def removeReader(self, reader: object) -> object:  # noqa: N802
-        """Watch it no more."""
+        """Stop watching it."""
 
 
 @implementer(IReadDescriptor)
@@ -62,16 +62,16 @@ class Poller:
         self.now_s = seconds()
 
     def start(self) -> None:
-        """Begin to hear events."""
+        """Start handling events."""
         self._reactor.addReader(self)
 
     def stop(self) -> None:
-        """Hear no more and close the epoll; the sockets are their owners' to close."""
+        """Stop and close the epoll; the owners close their sockets."""
         self._reactor.removeReader(self)
         self._epoll.close()
 
     def watch(self, descriptor: int, handler: Handler, events: int = READ) -> None:
-        """Call `handler.on_ready` when one of the events is there."""
+        """Call `handler.on_ready` when one of the events occurs."""
         self._handlers[descriptor] = handler
         self._epoll.register(descriptor, events)
 
@@ -80,15 +80,15 @@ class Poller:
         self._epoll.modify(descriptor, events)
 
     def forget(self, descriptor: int) -> None:
-        """Watch a descriptor no more; to be called before it is closed."""
+        """Stop watching a descriptor; call it before closing the descriptor."""
         if self._handlers.pop(descriptor, None) is not None:
             self._epoll.unregister(descriptor)
 
     def end_later(self, handler: Handler) -> None:
-        """End a handler when the present batch is through.
+        """End a handler after the current batch.
 
-        Nothing is closed inside a batch: a descriptor's number could come back within it, and
-        whoever sends to many must not see the list of them change.
+        Nothing is closed inside a batch: a descriptor's number could be reused within it, and the
+        list of receivers must not change during a send.
         """
         self._ending.append(handler)
 
@@ -98,7 +98,7 @@ class Poller:
         return self.now_s
 
     def reap(self) -> None:
-        """End what asked for its end; an end may ask for others."""
+        """End the handlers that requested it; an end may request others."""
         while self._ending:
             handler = self._ending.pop()
             handler.end()
@@ -115,10 +115,10 @@ class Poller:
         """Do nothing: the reactor calls it when it stops."""
 
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
-        """Handle the events that are there, and those that follow closely.
+        """Handle the current events, and those that follow closely.
 
-        Under load the next line comes before the reactor has finished its round: waiting for it
-        here saves that round; the reactor's own affairs wait for at most twice `stay_s`.
+        Under load the next line arrives before the reactor has finished its round: waiting for it
+        here saves that round; the reactor's other work waits for at most twice `stay_s`.
         """
         poll = self._epoll.poll
         events = poll(0, _BATCH)

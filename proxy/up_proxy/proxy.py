@@ -1,4 +1,4 @@
-"""The Ground Station Proxy as a whole: two doors, the fleet between them, its tick."""
+"""The Ground Station Proxy as a whole: two ports, the aircraft between them, its tick."""
 
 from typing import Any, Protocol
 
@@ -22,11 +22,11 @@ _log = UpLogger.get_logger("proxy")
 
 
 class PlainRefusedError(Exception):
-    """The configured address is public, and plain traffic there was not accepted."""
+    """The configured address is public, and plain traffic on it was not accepted."""
 
 
 class ProxyReactor(TcpReactor, SocketReactor, Protocol):
-    """What the program asks of the reactor."""
+    """The part of the reactor that the program uses."""
 
     def callWhenRunning(self, callable: Any) -> Any:  # noqa: N802 - Twisted's name
         """Call when the reactor runs."""
@@ -35,7 +35,7 @@ class ProxyReactor(TcpReactor, SocketReactor, Protocol):
         """Call when the reactor stops."""
 
     def callFromThread(self, callable: Any) -> Any:  # noqa: N802 - Twisted's name
-        """Call soon, from a signal handler as well."""
+        """Call soon, also from a signal handler."""
 
     def stop(self) -> None:
         """End `run`."""
@@ -71,8 +71,8 @@ class Proxy:
     def start(self) -> None:
         """Open the ports.
 
-        Raises ListenError when a port cannot be opened, PlainRefusedError when the address is
-        public and `i_accept_plain` is not true; nothing stays open then.
+        Raises ListenError if a port cannot be opened, PlainRefusedError if the address is public
+        and `i_accept_plain` is false; no port stays open then.
         """
         config = self._config
         self._check_address()
@@ -108,7 +108,7 @@ class Proxy:
         self._journal.stop()
 
     def is_healthy(self) -> bool:
-        """Say whether both ports are open."""
+        """Return whether both ports are open."""
         return len(self._doors) == 2 and all(door.is_open() for door in self._doors)
 
     def page(self) -> str:
@@ -128,7 +128,7 @@ class Proxy:
         limits = config.limits
         label = f"{side.value} port"
         listener = listen(label, config.address, port, limits.user_timeout_ms)
-        # What waits for an aircraft is bounded by pausing the ground, never by dropping lines.
+        # The queue of an aircraft is bounded by pausing the ground, never by dropping lines.
         queue_bytes = limits.queue_bytes if side is Side.GROUND else 0
         door_limits = DoorLimits(
             limits.connections, limits.per_address, queue_bytes, config.i_accept_plain

@@ -1,21 +1,21 @@
-"""A seat: one connection holds it, nobody takes it from a holder that is alive.
+"""A seat: one connection holds it, and no other can take it while that one is alive.
 
     free --take--> held --leave--> kept for its token --ALIVE_S--> free
                      |--ALIVE_S without a byte--> free to others, still the holder's until then
                      '--release--> free
 
-The aircraft's own place is such a seat, and so is the command of its grounds.
+The aircraft's own place is such a seat, and so is the control of its grounds.
 """
 
 import hmac
 from typing import Generic, Protocol, TypeVar
 
 ALIVE_S = 3.0
-"""A holder that sent no byte for longer may lose its seat to a newcomer."""
+"""A holder that is silent for longer may lose its seat to a newcomer."""
 
 
 class Occupant(Protocol):
-    """What a seat asks of the connection that holds it."""
+    """The attributes of the connection that holds a seat."""
 
     heard_s: float
     """Monotonic time of its last byte."""
@@ -25,7 +25,7 @@ T = TypeVar("T", bound=Occupant)
 
 
 class Seat(Generic[T]):
-    """Who holds the seat, and the token that takes it over at once. Times are monotonic."""
+    """The holder of the seat, and the token that takes it over immediately. Times are monotonic."""
 
     __slots__ = ("_left_s", "occupant", "token")
 
@@ -35,13 +35,13 @@ class Seat(Generic[T]):
         self._left_s = 0.0
 
     def is_free(self, now_s: float) -> bool:
-        """Say whether a newcomer may take the seat."""
+        """Return whether a newcomer may take the seat."""
         if self.occupant is not None:
             return now_s - self.occupant.heard_s > ALIVE_S
         return self.token is None or now_s - self._left_s > ALIVE_S
 
     def is_resumed_by(self, token: str | None) -> bool:
-        """Say whether this token takes the seat over at once."""
+        """Return whether this token takes the seat over immediately."""
         if token is None or self.token is None:
             return False
         return hmac.compare_digest(token, self.token)
@@ -51,7 +51,7 @@ class Seat(Generic[T]):
         return None if self.is_free(now_s) else self.occupant
 
     def take(self, occupant: T, token: str | None) -> T | None:
-        """Seat a new occupant and return the one that it displaced.
+        """Seat a new occupant and return the one that it replaced.
 
         `token` None: the seat cannot be resumed (a thesis client).
         """
@@ -61,12 +61,12 @@ class Seat(Generic[T]):
         return displaced
 
     def leave(self) -> None:
-        """Let the occupant go; the seat is kept for its token until ALIVE_S after its last byte."""
+        """Remove the occupant; the seat is kept for its token until ALIVE_S after its last byte."""
         if self.occupant is not None:
             self._left_s = self.occupant.heard_s
             self.occupant = None
 
     def release(self) -> None:
-        """Leave the seat free at once; its token is worth nothing any more."""
+        """Free the seat immediately; its token becomes invalid."""
         self.occupant = None
         self.token = None

@@ -1,4 +1,4 @@
-"""Connections that have said nothing, and may yet."""
+"""Connections that have sent nothing, and still may."""
 
 from typing import Protocol
 
@@ -7,17 +7,17 @@ from up_proxy.control import PREFIX
 
 
 class Beginning(Owner, Protocol):
-    """The owner that judges first lines."""
+    """The owner that checks first lines."""
 
     def begin(self, connection: Connection) -> None:
-        """Take a connection whose first line is to be judged."""
+        """Take a connection whose first line must be checked."""
 
 
 class Silent:
-    """Owns a connection that was taken for a thesis client because it said nothing.
+    """Owns a connection that counts as a thesis client because it sent nothing.
 
-    A hello that the network delayed past the silence is still heard: it is then the first thing
-    that the connection says.
+    A hello that the network delayed past the time limit is still accepted if it is the first data
+    of the connection.
     """
 
     def __init__(self, seated: Owner, opening: Beginning) -> None:
@@ -25,7 +25,7 @@ class Silent:
         self._opening = opening
 
     def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Go on as what the first line shows."""
+        """Continue according to the first line."""
         if lines.startswith(PREFIX):
             self._seated.on_end(connection, "said hello late")
             self._opening.begin(connection)
@@ -38,9 +38,9 @@ class Silent:
         """Wait for the rest of the line."""
 
     def on_drained(self, connection: Connection) -> None:
-        """Pass it on."""
+        """Forward the call."""
         self._seated.on_drained(connection)
 
     def on_end(self, connection: Connection, reason: str) -> None:
-        """Pass it on."""
+        """Forward the call."""
         self._seated.on_end(connection, reason)

@@ -1,4 +1,4 @@
-"""Two PID controllers after one another: angle to rotation rate to servo (thesis 3.3.2)."""
+"""Two PID controllers in series: angle to rotation rate to servo (thesis 3.3.2)."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def pitch_rate_in_turn(wanted_deg_s: float, roll_deg: float, yaw_rate_deg_s: flo
 
     A banked aircraft holds its nose only while it pitches with its turn: by the yaw rate times the
     tangent of the bank, which beyond 60 degrees falls to 0 at 90. Beyond 90 degrees of bank the
-    elevator waits, because it would pull the nose down. The firmware's flight controller computes
-    the same.
+    result is 0, because the elevator would pull the nose down. The firmware's flight controller
+    computes the same.
     """
     sine, cosine = math.sin(math.radians(roll_deg)), math.cos(math.radians(roll_deg))
     if cosine <= 0:
@@ -50,12 +50,12 @@ class Cascade:
         self._rate = limited_pid(rate, OUTPUT_LIMIT)
 
     def tune(self, rate: Gains, stabilize: Gains) -> None:
-        """Take other gains, with what the integrals hold."""
+        """Set other gains, keeping the integrals."""
         self._rate.tunings = tuple(rate)
         self._stabilize.tunings = tuple(stabilize)
 
     def reset(self) -> None:
-        """Forget the past: after a pause its integrals mean nothing."""
+        """Reset: after a pause the integrals are meaningless."""
         self._rate.reset()
         self._stabilize.reset()
 

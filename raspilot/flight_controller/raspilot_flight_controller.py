@@ -38,10 +38,10 @@ _NOT_PERMITTED = "does not fly: the board does not let it"
 
 
 class RaspilotFlightController(BaseFlightController):
-    """Computes an Output from every orientation frame while the board lets the Pi fly.
+    """Computes an Output from every orientation frame while the board gives the Pi control.
 
-    FBW: the sticks ask for bank and pitch within the limits of airframe.yml, those of a new Arduino
-    where it says nothing; the rudder is stick plus yaw damper. ACRO: the sticks pass through, where
+    FBW: the sticks require bank and pitch within the limits of airframe.yml, by default those of
+    the Arduino; the rudder is stick plus yaw damper. ACRO: the sticks pass through, when
     orientation is missing. The throttle is always the stick's. Without a valid receiver, or from an
     orientation that is not the board's, nothing is sent: the board's own failsafe acts. Loaded with
     ``flight controller: raspberry``.
@@ -67,12 +67,12 @@ class RaspilotFlightController(BaseFlightController):
         self._logged = _NOT_PERMITTED
 
     def load(self) -> bool:
-        """Only where the configuration moved the control loop to the Raspberry Pi."""
+        """Return whether the configuration moved the control loop to the Raspberry Pi."""
         return self.context.application.flight_controller == "raspberry"
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return what is flown and what is missing; Outputs are those that were delivered."""
+        """Return the flight mode and the missing readings; counts only delivered Outputs."""
         dropped = self.up.command_executor.control.refused[self.class_name]
         return {
             "flight_control": {
@@ -85,7 +85,7 @@ class RaspilotFlightController(BaseFlightController):
 
     @property
     def is_flying(self) -> bool:
-        """Return whether Outputs go to the board now: another module may have control."""
+        """Return whether Outputs reach the board: another module may have control."""
         owner = self.up.command_executor.control.owner
         return self._is_board_ready and owner == self.class_name
 
@@ -115,7 +115,7 @@ class RaspilotFlightController(BaseFlightController):
         if not self._is_board_ready or command.sequence is None:
             return
         if self.up.command_executor.origin.role is not Role.BOARD:
-            # A phone's frame could name a sequence too; only the board knows its own.
+            # A phone's frame could carry a sequence too; only the board's is valid.
             return
         rx = self.rx.usable(self.FLIGHT_MODES["ACRO"]["rx"])
         if rx is None:
@@ -127,7 +127,7 @@ class RaspilotFlightController(BaseFlightController):
         dt_s = now_s - self._computed_at_s
         self._computed_at_s = now_s
         if dt_s > LONGEST_STEP_S or self.flight_mode in (None, "ACRO"):
-            # The controllers slept: what they remember is not of this flight any more.
+            # The controllers paused: their state belongs to an earlier part of the flight.
             self._reset()
             dt_s = min(dt_s, LONGEST_STEP_S)
         if command.roll_rate_deg_s is None:
@@ -172,7 +172,7 @@ class RaspilotFlightController(BaseFlightController):
         ready = command.flight_mode == "OUTPUT"
         was_ready, self._is_board_ready = self._is_board_ready, ready
         if was_ready or not ready:
-            # Not at the first state: its first Output decides who has control.
+            # Not at the first state: its first Output takes control.
             self._log_change_of_control()
         is_news, self._state = command != self._state, command
         if not command.is_auto:
@@ -193,14 +193,14 @@ class RaspilotFlightController(BaseFlightController):
             self._log_info(text)
 
     def _ask_for_control(self, at_once: bool) -> None:
-        """Ask the board for AUTO: when its state changed, and now and then in case it was lost."""
+        """Request AUTO from the board: after a state change, and periodically in case of loss."""
         now_s = self.context.reactor.seconds()
         if at_once or now_s - self._asked_at_s >= ASK_AGAIN_S:
             self._asked_at_s = now_s
             self.up.command_executor.execute_command(FlightModeCommand("AUTO"))
 
     def _on_flight_mode(self, command: FlightModeCommand) -> None:
-        # The board takes a mode with the switch at AUTO only: what it refuses is no wish.
+        # The board accepts a mode only with the switch at AUTO; a refused mode does not count.
         if self._state is not None and self._state.is_auto:
             self._is_asked = command.mode == "AUTO"
 

@@ -1,4 +1,4 @@
-"""What the pilot's sticks ask for in Fly By Wire (thesis 3.3.2)."""
+"""The attitude that the pilot's sticks require in Fly By Wire (thesis 3.3.2)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ HALF_TRAVEL_US = 500
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Bank and pitch at full stick, in degrees; by default those of a new Arduino."""
+    """Bank and pitch at full stick, in degrees; by default those of the Arduino."""
 
     roll_deg: float = 50.0
     pitch_up_deg: float = 20.0
@@ -20,7 +20,7 @@ class Limits:
 
     @classmethod
     def of(cls, command: FlyByWireLimitsCommand) -> Limits:
-        """Return what is said, and the defaults where nothing is."""
+        """Return the configured limits, with defaults for missing ones."""
         said = {name: value for name, value in command.data.items() if value is not None}
         return replace(cls(), **said)
 
@@ -34,11 +34,11 @@ def deflection(stick_us: int) -> float:
 
 
 def roll_deg(stick_us: int, limits: Limits = DEFAULT_LIMITS) -> float:
-    """Return the bank that the ailerons stick asks for, right wing down positive."""
+    """Return the bank that the ailerons stick requires, right wing down positive."""
     return deflection(stick_us) * limits.roll_deg
 
 
 def pitch_deg(stick_us: int, limits: Limits = DEFAULT_LIMITS) -> float:
-    """Return the pitch that the elevator stick asks for, nose up positive."""
+    """Return the pitch that the elevator stick requires, nose up positive."""
     part = deflection(stick_us)
     return part * (limits.pitch_up_deg if part >= 0 else limits.pitch_down_deg)

@@ -9,7 +9,7 @@ WASHOUT_S = 2.0
 
 
 class YawDamper:
-    """A Rate PID on the washed-out yaw rate: a steady turn passes, swinging is damped."""
+    """A Rate PID on the washed-out yaw rate: passes a steady turn, damps oscillation."""
 
     __slots__ = ("_pid", "_steady_deg_s")
 
@@ -18,16 +18,16 @@ class YawDamper:
         self._steady_deg_s: float | None = None
 
     def tune(self, gains: Gains) -> None:
-        """Take other gains."""
+        """Set other gains."""
         self._pid.tunings = tuple(gains)
 
     def reset(self) -> None:
-        """Forget the past."""
+        """Reset."""
         self._pid.reset()
         self._steady_deg_s = None
 
     def deflection_us(self, yaw_rate_deg_s: float, dt_s: float) -> float:
-        """Return the rudder deflection, us, against the swinging part of a yaw rate."""
+        """Return the rudder deflection, us, against the oscillating part of a yaw rate."""
         if self._steady_deg_s is None:
             self._steady_deg_s = yaw_rate_deg_s
         self._steady_deg_s += (yaw_rate_deg_s - self._steady_deg_s) * min(1.0, dt_s / WASHOUT_S)

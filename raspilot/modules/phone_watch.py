@@ -1,4 +1,4 @@
-"""Tells the runner whether the phone of this instance is there (docs/runner.md)."""
+"""Tells the runner whether the phone of this instance is connected (docs/runner.md)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ REPEAT_S = 2.0
 
 
 class PhoneWatch(BaseStartedModule):
-    """Loaded only where a runner started the instance; it says so again for a new runner."""
+    """Loaded only if a runner started the instance; repeats the report for a new runner."""
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)

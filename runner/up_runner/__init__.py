@@ -1,1 +1,1 @@
-"""The runner: spawns and watches Raspilot instances."""
+"""The runner: starts and supervises Raspilot instances."""

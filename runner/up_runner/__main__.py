@@ -1,4 +1,4 @@
-"""`python -m up_runner` is the program itself."""
+"""Makes `python -m up_runner` run the program."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""What the runner answers: one JSON line (docs/protocols.md, section 8)."""
+"""The runner's answer: one JSON line (docs/protocols.md, section 8)."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ NOT_RUNNING = "Raspilot not running"
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """The truth about one instance at the moment of the answer.
+    """The state of one instance at the moment of the answer.
 
-    `spawned` is true only when the asker's own request started what runs. `pid` and `ports` are
-    None while nothing runs; `error` is one sentence or None.
+    `spawned` is true only if this request started the running process. `pid` and `ports` are None
+    without a process; `error` is one sentence or None.
     """
 
     instance: str | None
@@ -27,18 +27,18 @@ class Answer:
 
     @property
     def running(self) -> bool:
-        """Say whether the instance runs with its ports bound."""
+        """Return whether the instance runs with its ports bound."""
         return self.pid is not None
 
     @property
     def message(self) -> str:
-        """Return the prototype's words."""
+        """Return the prototype's message."""
         if not self.running:
             return NOT_RUNNING
         return SPAWNED if self.spawned else ALREADY_RUNNING
 
     def encode(self, my_address: str, proxy: Mapping[str, object] | None) -> bytes:
-        """Return the line for the asker at `my_address`, its line feed included."""
+        """Return the line for a client that reaches us at `my_address`, with its line feed."""
         answer = {
             "message": self.message,
             "spawned": self.spawned,

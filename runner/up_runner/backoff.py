@@ -1,4 +1,4 @@
-"""How long to wait before an instance is started again, and when to give it up."""
+"""The delay before an instance is restarted, and the limit of restarts."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ class Backoff:
 
     @property
     def count(self) -> int:
-        """Return how many ends lay within the period when the last one came."""
+        """Return how many ends were within the period at the last one."""
         return len(self._ends)
 
     def next_delay_s(self, now_s: float) -> float | None:
-        """Note an end at `now_s` and return the delay before the restart, None for no more.
+        """Note an end at `now_s` and return the delay before the restart, None to give up.
 
-        An end that is older than the period is forgotten: the delays begin anew.
+        An end older than the period no longer counts: the delays start again.
         """
         policy = self._policy
         while self._ends and now_s - self._ends[0] >= policy.period_s:
@@ -39,6 +39,6 @@ class Backoff:
         self._ends.append(now_s)
         if policy.limit is not None and len(self._ends) > policy.limit:
             return None
-        # 2**30 periods are longer than any bound; more would only overflow.
+        # 2**30 periods exceed any bound; a larger exponent would only overflow.
         doublings = min(len(self._ends) - 1, 30)
         return min(policy.delay_s * 2.0**doublings, policy.longest_delay_s)

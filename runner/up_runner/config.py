@@ -273,7 +273,7 @@ class RunnerConfig:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what no single key shows: the attribute and what is wrong with it."""
+        """Yield problems between keys: the attribute and the sentence."""
         for attribute, names in (
             ("settable", self.settable),
             ("dynamic_ports", self.dynamic_ports),

@@ -1,4 +1,4 @@
-"""A time by which something must have happened, moved cheaply as often as it does."""
+"""A timeout that is cheap to restart often."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from up.system.clock import Clock, Timer
 class Deadline:
     """Calls `missed` when `touch` was not called for `limit_s` seconds.
 
-    Touching only notes the time: the one timer looks at it when it comes, so a thousand touches
-    cost a thousand assignments. Idle until the first `touch`.
+    `touch` only stores the time: a single timer compares it when it fires, so a thousand calls cost
+    a thousand assignments. Idle until the first `touch`.
     """
 
     def __init__(self, clock: Clock, limit_s: float, missed: Callable[[], None]) -> None:
@@ -23,17 +23,17 @@ class Deadline:
 
     @property
     def running(self) -> bool:
-        """Say whether it waits for a touch."""
+        """Return whether it waits for a touch."""
         return self._timer is not None
 
     def touch(self) -> None:
-        """Begin the time anew."""
+        """Restart the timeout."""
         self._due_s = self._clock.seconds() + self._limit_s
         if self._timer is None:
             self._timer = self._clock.callLater(self._limit_s, self._look)
 
     def stop(self) -> None:
-        """Wait for nothing until the next touch."""
+        """Stop until the next touch."""
         timer, self._timer = self._timer, None
         if timer is not None and timer.active():
             timer.cancel()

@@ -29,7 +29,7 @@ NOTIFY = "notify"
 
 @dataclass(frozen=True, slots=True)
 class Application:
-    """What is run: interpreter, script, working folder, mode; `watchdog_s` of None: unwatched."""
+    """The command: interpreter, script, working folder, mode; `watchdog_s` None: no watchdog."""
 
     python: Path
     script: Path
@@ -39,10 +39,10 @@ class Application:
 
 
 class Host:
-    """Does for instances what touches the machine; what may wait for the disk, in threads.
+    """Machine access for the instances; operations that may block on the disk run in threads.
 
     `folder` holds the instances' configuration, `run_folder` their sockets and records; `environ`
-    is what they inherit.
+    is the environment that they inherit.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Host:
         self._log = Logger(namespace="runner")
 
     def prepare(self, request: Request) -> Deferred[tuple[Path, int]]:
-        """Give the instance's configuration folder and a descriptor for its log.
+        """Return the instance's configuration folder and a descriptor for its log.
 
         Fails with ConfigurationRefused or OSError.
         """
@@ -109,7 +109,7 @@ class Host:
             os.close(log)
 
     def open_ports(self, pid: int) -> Deferred[frozenset[int] | None]:
-        """Ask the kernel which ports a process has open."""
+        """Return the ports that a process has open, from the kernel."""
         return self.in_thread(listening_ports, pid)
 
     def last_words(self, name: str) -> Deferred[str | None]:
@@ -117,27 +117,27 @@ class Host:
         return self.in_thread(self.logs.last_words, name)
 
     def save(self, kept: Record) -> None:
-        """Write what the next runner must know; says it when the disk refuses."""
+        """Write the record for the next runner; log a failed write."""
         try:
             kept.save(self.run_folder.instance(kept.request.aircraft))
         except OSError as error:
             self._log.error("the state of an instance cannot be kept: {error}", error=error)
 
     def forget(self, name: str) -> None:
-        """Let the next runner not start the instance again."""
+        """Remove the record: the next runner does not restart the instance."""
         record.forget(self.run_folder.instance(name))
         with suppress(OSError):
-            # A killed instance leaves it behind.
+            # A killed instance leaves its PID file behind.
             self._pid_path(name).unlink(missing_ok=True)
 
     def load(self, name: str) -> Record | None:
-        """Return what the runner before wrote about an instance."""
+        """Return the record of the previous runner about an instance."""
         return record.load(self.run_folder.instance(name))
 
     def running(self) -> Iterator[tuple[str, int]]:
         """Yield name and number of the processes that were started from this run folder.
 
-        It finds them without any record: by the notify socket in their environment.
+        Finds them without a record: by the notify socket in their environment.
         """
         for pid, socket in sessions_with("NOTIFY_SOCKET", f"{self.run_folder.path}/"):
             name = Path(socket).parent.name
@@ -145,11 +145,11 @@ class Host:
                 yield name, pid
 
     def on_disk(self, function: Callable[..., Any], *arguments: Any) -> Deferred[Any]:
-        """Run in a thread what must not meet another change of the instances' folders."""
+        """Run in a thread, one at a time: it changes the instances' folders."""
         return self._disk.run(self.in_thread, function, *arguments)
 
     def in_thread(self, function: Callable[..., Any], *arguments: Any) -> Deferred[Any]:
-        """Run in a thread what may wait."""
+        """Run a blocking function in a thread."""
         return deferToThreadPool(self.reactor, self.reactor.getThreadPool(), function, *arguments)
 
     def _prepare(self, request: Request) -> tuple[Path, int]:

@@ -1,4 +1,4 @@
-"""What an instance asks of those around it, and what is asked of every instance."""
+"""The interfaces between an instance and the runner, and the common requirements."""
 
 from __future__ import annotations
 
@@ -18,11 +18,10 @@ from up_runner.request import Request
 
 @dataclass(frozen=True, slots=True)
 class Policy:
-    """What is asked of every instance; times in seconds.
+    """The requirements for every instance; times in seconds.
 
-    `exit_delay_s` of None: a phone that is gone never stops it. `always_restart`: it may be
-    flying, so whatever its exit status it comes back. It is not ready before it has announced its
-    `needed_ports`.
+    `exit_delay_s` None: a lost phone never stops it. `always_restart`: it may be in flight, so it
+    restarts after any exit status. It is not ready before it has announced its `needed_ports`.
     """
 
     start_limit_s: float
@@ -42,51 +41,51 @@ class Child(Protocol):
     on_end: Callable[[int | None], None]
 
     def terminate(self) -> None:
-        """Ask it to end."""
+        """Request its end."""
 
     def kill(self) -> None:
-        """End it."""
+        """Kill it."""
 
     def close(self) -> None:
-        """Watch it no more."""
+        """Stop watching it."""
 
 
 class Ear(Protocol):
-    """What hears the instance."""
+    """Receives the instance's notifications."""
 
     def drain(self) -> None:
-        """Hear now what was said."""
+        """Process the waiting notifications now."""
 
     def close(self, *, remove: bool) -> None:
-        """Hear no more."""
+        """Stop receiving."""
 
 
 class House(Protocol):
-    """What an instance asks of the runner."""
+    """The services of the runner for an instance."""
 
     def prepare(self, request: Request) -> Deferred[tuple[Path, int]]:
-        """Give the configuration folder and a descriptor for the log.
+        """Return the configuration folder and a descriptor for the log.
 
         Fails with ConfigurationRefused or OSError.
         """
 
     def listen(self, name: str, on_notification: Callable[[int, Notification], None]) -> Ear:
-        """Hear what the instance says; raises OSError."""
+        """Receive the instance's notifications; raises OSError."""
 
     def spawn(self, name: str, config: Path, log: int) -> Child:
         """Start the process and close the log's descriptor; raises OSError."""
 
     def open_ports(self, pid: int) -> Deferred[frozenset[int] | None]:
-        """Give the ports that a process has open, None when they cannot be known."""
+        """Return the ports that a process has open, None if they cannot be determined."""
 
     def last_words(self, name: str) -> Deferred[str | None]:
-        """Give what the instance's log says of its end."""
+        """Return the reason for the instance's end, from its log."""
 
     def save(self, record: Record) -> None:
-        """Keep what the next runner must know; raises nothing."""
+        """Save the record for the next runner; never raises."""
 
     def forget(self, name: str) -> None:
-        """Let the next runner know nothing; raises nothing."""
+        """Remove the record for the next runner; never raises."""
 
     def on_change(self, name: str) -> None:
-        """Take note that an instance has a new state."""
+        """Handle a new state of an instance."""

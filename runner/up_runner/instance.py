@@ -1,4 +1,4 @@
-"""One Raspilot of one aircraft: from the request that starts it to its end."""
+"""One Raspilot process of one aircraft: from the request that starts it to its end."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ PORT_LOOK_S = 0.1
 
 
 class State(enum.Enum):
-    """Where in its life an instance is."""
+    """The life cycle state of an instance."""
 
     STARTING = "starting"
     RUNNING = "running"
@@ -35,7 +35,7 @@ class State(enum.Enum):
 
 
 class Instance:
-    """Starts, watches, restarts and stops one process; `keep`: even when the first start fails."""
+    """Starts, watches, restarts and stops one process; `keep`: even if the first start fails."""
 
     def __init__(
         self, request: Request, clock: Clock, policy: Policy, house: House, *, keep: bool = False
@@ -47,7 +47,7 @@ class Instance:
         self.phone: bool | None = None
         self.last_end: str | None = None
         self.unheard = 0
-        """Notifications that came from another process than the instance's."""
+        """Notifications from another process than the instance's."""
         self._clock = clock
         self._policy = policy
         self._house = house
@@ -75,13 +75,13 @@ class Instance:
         return None if self._child is None else self._child.pid
 
     def start(self) -> Deferred[str | None]:
-        """Begin, and give None when it runs with its ports bound or the sentence why not."""
+        """Start; the result is None once it runs with its ports bound, or the failure."""
         outcome = self.outcome()
         self._begin()
         return outcome
 
     def adopt(self, child: Child, record: Record) -> None:
-        """Take over the process that an earlier runner left; raises OSError."""
+        """Adopt the process of an earlier runner; raises OSError."""
         self._listen()
         self._take(child)
         self.ports, self.phone = record.ports, record.phone
@@ -95,24 +95,24 @@ class Instance:
             self._start_limit.touch()
 
     def resume(self) -> None:
-        """Start again what ended while no runner watched."""
+        """Restart a process that ended while no runner watched it."""
         self._was_ready = True
         self._go_on("ended while no runner was there to see it")
 
     def outcome(self) -> Deferred[str | None]:
-        """Give None once it runs, or one sentence when this start fails."""
+        """Wait for the start: None once it runs, or one sentence if it fails."""
         waiting: Deferred[str | None] = Deferred()
         self._waiting.append(waiting)
         return waiting
 
     def when_ended(self) -> Deferred[None]:
-        """Give None once it has ended for good."""
+        """Wait until it has ended permanently; the result is None."""
         ended: Deferred[None] = Deferred()
         self._mourners.append(ended)
         return ended
 
     def stop(self, why: str) -> None:
-        """Ask the process to end, and end it after `kill_delay_s`."""
+        """Request the end of the process, and kill it after `kill_delay_s`."""
         if self.state in (State.STOPPING, State.ENDED):
             return
         self._log.info("stops: {why}", why=why)
@@ -136,13 +136,13 @@ class Instance:
             self._ear.close(remove=False)
 
     def answer(self, *, spawned: bool, error: str | None = None) -> Answer:
-        """Return the truth about it now."""
+        """Return the current state."""
         if self.state is State.RUNNING:
             return Answer(self.name, self.pid, self.ports, spawned and error is None, error)
         return Answer(self.name, error=error)
 
     def on_notification(self, pid: int, said: Notification) -> None:
-        """Hear what process `pid` says."""
+        """Handle a notification of process `pid`."""
         if self._child is None or pid != self._child.pid:
             self.unheard += 1
             return
@@ -187,7 +187,7 @@ class Instance:
             self._start_limit.touch()
 
     def _on_stopped_early(self) -> None:
-        """Nothing was started yet when it was asked to stop."""
+        """The stop arrived before anything was started."""
         if not self._detached:
             self._end(self._why or "stopped")
 
@@ -202,7 +202,7 @@ class Instance:
         self._said_ready = self._said_stopping = False
 
     def _confirm(self) -> None:
-        """Believe the process that its ports are bound when the kernel says so too."""
+        """Accept a process's report of bound ports if the kernel confirms it."""
         if self._timer is None and self._child is not None:
             looking = self._house.open_ports(self._child.pid)
             looking.addCallback(self._on_ports, self._child)
@@ -243,7 +243,7 @@ class Instance:
         if self.phone:
             self._exit_delay.stop()
         elif self._policy.exit_delay_s is not None and not self._exit_delay.running:
-            # From the moment that it went; an instance that repeats it gains no time.
+            # From the loss on; an instance that repeats the report gains no time.
             self._exit_delay.touch()
 
     def _on_start_limit(self) -> None:
@@ -256,7 +256,7 @@ class Instance:
         self._kill(f"Raspilot {missing} within {self._policy.start_limit_s:g} s")
 
     def _on_silence(self) -> None:
-        # The runner itself may have been held: hear first what lies in the socket.
+        # The runner itself may have been blocked: first process the socket's waiting notifications.
         self._drain()
         if not self._watchdog.running and self.state is State.RUNNING:
             self._kill(f"Raspilot hung: no sign of life for {self._policy.watchdog_s:g} s")
@@ -267,7 +267,7 @@ class Instance:
             self.stop(f"its phone was gone for {self._policy.exit_delay_s:g} s")
 
     def _on_stopping(self) -> None:
-        """Give a process that ends by itself the time to do so."""
+        """Give a process that announced its end the time for it."""
         self._said_stopping = True
         if self.state is State.RUNNING and self._timer is None and self._child is not None:
             self._rest()
@@ -312,7 +312,7 @@ class Instance:
             self._end(error)
 
     def _go_on(self, error: str) -> None:
-        """Start again after a while, unless it ended too often."""
+        """Restart after a delay, unless it ended too often."""
         self.last_end = error
         delay_s = self._backoff.next_delay_s(self._clock.seconds())
         if delay_s is None:
@@ -326,7 +326,7 @@ class Instance:
         self._tell(self.waiting_text())
 
     def waiting_text(self) -> str:
-        """Return the sentence for who asks while it waits to start again."""
+        """Return the sentence for a client while the instance waits for its restart."""
         return f"{self.last_end}; it is being started again"
 
     def _restart(self) -> None:
@@ -353,7 +353,7 @@ class Instance:
             each.callback(error)
 
     def _rest(self) -> None:
-        """Wait for nothing."""
+        """Cancel all timers."""
         for deadline in (self._start_limit, self._watchdog, self._exit_delay):
             deadline.stop()
         timer, self._timer = self._timer, None
@@ -382,7 +382,7 @@ class Instance:
         self._house.on_change(self.name)
 
     def _on_bug(self, failure: Failure) -> None:
-        """Leave no process behind that nobody watches."""
+        """Kill a process that would be left unwatched."""
         self._log.failure("a bug in the runner", failure)
         if self._child is None:
             self._end("the runner failed, see its log")

@@ -1,4 +1,4 @@
-"""The configuration folder of one instance: a base, a profile over it, a request over both."""
+"""The configuration folder of one instance: a base, then a profile, then a request."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ Settings = dict[str, Any]
 
 
 class ConfigurationRefused(ValueError):  # noqa: N818 - it names the outcome
-    """A request or a file that cannot be honoured; the text is one sentence."""
+    """A request or a file that is refused; the text is one sentence."""
 
 
 @dataclass(frozen=True, slots=True)
 class InstanceConfig:
-    """How configuration folders are put together.
+    """The rules for building configuration folders.
 
     `settable` and `dynamic_ports` map a file to keys: those that a request may set, and those that
-    are 0 unless base or profile name a port. `learned` files are kept while the profile is the
-    same. `imposed` maps a file to what the runner itself sets, over base and profile.
+    are 0 unless base or profile set a port. `learned` files are kept while the profile is the same.
+    `imposed` maps a file to values of the runner itself, over base and profile.
     """
 
     base: Path
@@ -42,7 +42,7 @@ class InstanceConfig:
     imposed: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def check(self, request: Request) -> None:
-        """Raise ConfigurationRefused when the request sets what it may not or names no profile."""
+        """Raise ConfigurationRefused for a forbidden key or an unknown profile."""
         for file, settings in request.configuration.items():
             allowed = self.settable.get(file)
             if allowed is None:
@@ -56,7 +56,7 @@ class InstanceConfig:
     def build(self, request: Request, folder: Path) -> Path:
         """Write the configuration for a request into the instance's folder and return its path.
 
-        Raises ConfigurationRefused, and OSError when the disk refuses.
+        Raises ConfigurationRefused, and OSError for a failed write.
         """
         self.check(request)
         sources = [self.base]
@@ -141,7 +141,7 @@ def _parsed(text: str, path: Path) -> Settings:
 
 
 def _merge(settings: Settings, over: Mapping[str, Any]) -> None:
-    """Lay one file over another, map by map, key by key."""
+    """Merge one file over another, map by map, key by key."""
     for key, value in over.items():
         below = settings.get(key)
         if isinstance(below, dict) and isinstance(value, dict):
@@ -151,10 +151,10 @@ def _merge(settings: Settings, over: Mapping[str, Any]) -> None:
 
 
 def _like(present: object, value: Scalar, what: str) -> Scalar:
-    """Return the value when it is of the same kind as the one that it replaces."""
+    """Return the value if it has the same type as the one that it replaces."""
     for kind, noun in ((bool, "true or false"), (int | float, "a number"), (str, "a text")):
         if isinstance(present, kind):
-            # Python counts bool among the numbers; a file does not.
+            # Python counts bool as a number; a configuration file does not.
             fits = isinstance(value, kind) and (kind is bool or not isinstance(value, bool))
             if not fits:
                 raise ConfigurationRefused(f"{what} must be {noun}")

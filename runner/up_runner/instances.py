@@ -1,4 +1,4 @@
-"""All instances of a runner: one an aircraft, at most so many, found again after a restart."""
+"""All instances of a runner: one per aircraft, limited in number, found again after a restart."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _REMEMBERED = 100
 
 
 class Instances:
-    """Starts and finds instances; at most `limit` at once, the traces of `kept` ended ones."""
+    """Starts and finds instances; runs at most `limit`, keeps the files of `kept` ended ones."""
 
     def __init__(
         self,
@@ -57,7 +57,7 @@ class Instances:
         return text + (": " if shown else "") + ", ".join(shown)
 
     def open(self) -> None:
-        """Take over what an earlier runner left, and look after the logs."""
+        """Adopt the instances of an earlier runner, and start maintaining the logs."""
         running = dict(self._host.running())
         for name in sorted({*self._host.run_folder.names(), *running}):
             self._find(name, self._host.load(name), running.get(name))
@@ -65,9 +65,9 @@ class Instances:
         self._upkeep.prune()
 
     async def spawn(self, request: Request, *, keep: bool = False) -> Answer:
-        """Start the aircraft's instance unless it runs, and answer with the truth.
+        """Start the aircraft's instance unless it runs, and return its state.
 
-        With `keep` it is started again even when its first start fails.
+        With `keep` it is restarted even if its first start fails.
         """
         name = request.aircraft
         while (instance := self._instances.get(name)) is not None:
@@ -91,7 +91,7 @@ class Instances:
         return instance.answer(spawned=True, error=error)
 
     def status(self, name: str) -> Answer:
-        """Answer how the aircraft's instance is, and start nothing."""
+        """Return the state of the aircraft's instance without starting it."""
         instance = self._instances.get(name)
         if instance is None:
             return Answer(name)
@@ -100,7 +100,7 @@ class Instances:
         return instance.answer(spawned=False, error=f"Raspilot is {instance.state.value}")
 
     def stop_all(self) -> Deferred[Any]:
-        """Stop every instance and give a result when all have ended; no new one is begun."""
+        """Stop every instance and accept no new one; fires when all have ended."""
         self._closed = True
         ends = []
         for instance in list(self._instances.values()):
@@ -109,7 +109,7 @@ class Instances:
         return DeferredList(ends)
 
     def close(self) -> None:
-        """Leave what runs to the next runner."""
+        """Leave the running instances to the next runner."""
         self._closed = True
         self._upkeep.stop()
         for instance in self._instances.values():
@@ -117,7 +117,7 @@ class Instances:
         self._instances.clear()
 
     async def _join(self, instance: Instance, request: Request) -> Answer:
-        """Answer one who asks for an instance that somebody else started."""
+        """Answer a request for an instance that another request started."""
         if instance.state is State.STARTING and (error := await instance.outcome()):
             return instance.answer(spawned=False, error=error)
         error = None
@@ -126,9 +126,9 @@ class Instances:
         return instance.answer(spawned=False, error=error)
 
     def _failed_just_now(self, request: Request) -> str | None:
-        """Return why the same request failed a moment ago: asked in a loop it is not tried again.
+        """Return why the same request failed a moment ago; it is then not tried again.
 
-        A phone that repeats itself must not keep the machine busy with starts that fail.
+        Otherwise a phone that repeats itself would keep the machine busy with failing starts.
         """
         at_s, failed, error = self._failures.get(request.aircraft, (0.0, None, ""))
         is_recent = self._host.reactor.seconds() - at_s < SAME_AGAIN_S
@@ -148,12 +148,12 @@ class Instances:
         self._on_change()
 
     def _find(self, name: str, kept: Record | None, pid: int | None) -> None:
-        """Take over, start again or forget what an earlier runner left of an instance."""
+        """Adopt, restart or remove an instance of an earlier runner."""
         child = None
         if kept is not None and kept.identity is not None:
             child = self._held(kept.identity)
         if child is None and pid is not None:
-            # Begun, but that runner did not live to write it down.
+            # Started, but that runner ended before it could write the record.
             child = self._held_by_number(pid)
             kept = Record(kept.request if kept else Request(name), keep=bool(kept and kept.keep))
         if kept is None or (child is None and not kept.keep):

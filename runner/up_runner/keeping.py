@@ -1,4 +1,4 @@
-"""What ended instances leave on the disk, and how much of it stays."""
+"""Limits the files that ended instances leave on the disk."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from pathlib import Path
 from up_runner.log_keeper import LogKeeper
 from up_runner.request import NAME
 
-# Everything that a runner ever puts into an instance's folder.
+# All names that a runner creates in an instance's folder.
 _CONTENTS = frozenset(("notify", "state.json", ".state.json.tmp", "config", "profile"))
 
 
 def remains(folders: Collection[Path]) -> set[str]:
     """Return the names of all instances that have a folder.
 
-    A folder that holds anything else is somebody else's, whatever its name: a runner may be told
-    to use a folder that others use.
+    A folder with other content does not belong to the runner, whatever its name: the configured
+    folder may be shared.
     """
     names: set[str] = set()
     for folder in folders:
@@ -30,9 +30,9 @@ def remains(folders: Collection[Path]) -> set[str]:
 def prune(
     folders: Collection[Path], logs: LogKeeper, in_use: Collection[str], keep: int
 ) -> list[str]:
-    """Remove all but the `keep` latest ended instances, and return whom; waits for the disk.
+    """Remove all but the `keep` latest ended instances, and return their names; blocks on the disk.
 
-    `in_use` are left alone and not counted. Their logs go with them.
+    Instances `in_use` stay and do not count. Their logs are removed with them.
     """
     ended = [name for name in remains(folders) if name not in in_use]
     ended.sort(key=lambda name: (max(logs.newest_s(name), _newest_s(folders, name)), name))

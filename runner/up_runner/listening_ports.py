@@ -1,4 +1,4 @@
-"""Which ports a process really has open, as the kernel tells."""
+"""The ports that a process has open, according to the kernel."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ _SOCKET = re.compile(r"socket:\[([0-9]+)\]")
 def listening_ports(pid: int, proc: Path = Path("/proc")) -> frozenset[int] | None:
     """Return the TCP ports that a process listens on and the UDP ports that it has bound.
 
-    None when this user may not look into the process. Source: proc_pid_net(5), proc_pid_fd(5).
+    None if this user may not inspect the process. Source: proc_pid_net(5), proc_pid_fd(5).
     """
     process = proc / str(pid)
     sockets: set[str] = set()
     try:
         for entry in (process / "fd").iterdir():
-            # A descriptor may be closed while we look.
+            # A descriptor may be closed in the meantime.
             try:
                 match = _SOCKET.fullmatch(str(entry.readlink()))
             except FileNotFoundError:

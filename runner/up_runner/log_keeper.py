@@ -1,8 +1,8 @@
-"""Bounded logs of instances that write to their files themselves.
+"""Bounded logs for instances that write to their files themselves.
 
-An instance outlives its runner, so its output cannot go through a pipe that the runner reads: it
-would die of the broken pipe, or lose its log, in flight. It holds its file open for appending, and
-the runner copies the file's end aside and cuts it to nothing when it has grown too long.
+An instance outlives its runner, so its output cannot go through a pipe to the runner: in flight it
+would die of the broken pipe, or lose its log. It holds its file open for appending; when the file
+is too long, the runner copies its end and truncates it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from pathlib import Path
 _END = 16384
 _SHOWN = 200
 _SHOWN_LINES = 3
-# A line of Up's own log; what a program says in plain words before it gives up has no time.
+# A line of Up's own log; a plain error message of a program that exits has no time.
 _LOGGED = re.compile(
     r"(?:\d\d:\d\d:\d\d\.\d{3} (DEBUG|INFO|WARNING|ERROR|CRITICAL)|<([2-7])>)\s*(.*)", re.ASCII
 )
@@ -27,8 +27,8 @@ _WARNING = ("WARNING", "4")
 class LogKeeper:
     """The logs of all instances: `<name>.log` and up to `keep` older ones, `.1` the newest.
 
-    Each is at most `size` bytes, and as much more as an instance writes between two calls of
-    `rotate`. Every method may wait for the disk: call them from a thread.
+    Each has at most `size` bytes, plus what an instance writes between two calls of `rotate`. Every
+    method may block on the disk: call them from a thread.
     """
 
     def __init__(self, folder: Path, size: int, keep: int) -> None:
@@ -38,7 +38,7 @@ class LogKeeper:
         self._begins: dict[str, int] = {}
 
     def path(self, name: str) -> Path:
-        """Return where an instance's log is."""
+        """Return the path of an instance's log."""
         return self.folder / f"{name}.log"
 
     def open(self, name: str) -> int:
@@ -50,9 +50,9 @@ class LogKeeper:
         return log
 
     def rotate(self, name: str) -> bool:
-        """Move the log aside when it is too long and return whether it was; raises OSError.
+        """Rotate the log if it is too long and return whether it was; raises OSError.
 
-        It is cut even when the disk is too full for a copy: that is what makes room.
+        Truncates even if the disk is too full for a copy: that frees the space.
         """
         path = self.path(name)
         try:
@@ -70,7 +70,7 @@ class LogKeeper:
         return True
 
     def last_words(self, name: str) -> str | None:
-        """Return what the log says since it was opened last, to explain why an instance ended."""
+        """Return the reason for an instance's end, from the log since it was last opened."""
         begin = self._begins.get(name, 0)
         try:
             with self.path(name).open("rb") as file:
@@ -83,7 +83,7 @@ class LogKeeper:
         return last_words(text)
 
     def newest_s(self, name: str) -> float:
-        """Return when an instance's log was written last, by the wall clock; 0 without a log."""
+        """Return the wall clock time of the last write to an instance's log; 0 without a log."""
         try:
             return self.path(name).stat().st_mtime
         except OSError:
@@ -115,10 +115,10 @@ class LogKeeper:
 
 
 def last_words(text: str) -> str | None:
-    """Return what of a log's end tells most why its writer ended, in one bounded line.
+    """Return the most informative part of a log's end, in one bounded line.
 
-    Plain sentences tell most (several that follow each other are joined), then the last error,
-    then the last warning, then whatever was said last.
+    Plain sentences come first (consecutive ones are joined), then the last error, then the last
+    warning, then the last line.
     """
     plain: list[str] = []
     found: dict[str, str] = {}
@@ -130,7 +130,7 @@ def last_words(text: str) -> str | None:
             kind = "quiet" if level in _QUIET else "warning" if level in _WARNING else "error"
             found[kind] = said
             is_block_open = False
-        # What is set in belongs to the line above, mostly to a traceback.
+        # An indented line belongs to the line above, usually to a traceback.
         elif line.strip() and not (line[0].isspace() or line.startswith("Traceback (")):
             plain = [*(plain if is_block_open else ()), line.strip()][-_SHOWN_LINES:]
             is_block_open = True

@@ -44,7 +44,7 @@ def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespac
 @service()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status: 1 cannot start, 2 wrong configuration."""
-    # Until it serves, Ctrl-C just ends it: there is nothing yet to put in order.
+    # Until it serves, Ctrl-C simply ends it: there is nothing to clean up.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     options = parse_arguments(arguments)
     folder = options.config or own_root() / "config"
@@ -84,7 +84,7 @@ def _serve(reactor: Any, runner: Any) -> None:
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, on_signal)
     reactor.addSystemEventTrigger("before", "shutdown", _stopping(runner))
-    # What start-up made stays; the collector need not walk it again and again.
+    # Objects of the start-up stay; the collector need not visit them again.
     gc.collect()
     gc.freeze()
     reactor.run(installSignalHandlers=False)

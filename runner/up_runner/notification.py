@@ -1,4 +1,4 @@
-"""What an instance tells the runner: sd_notify datagrams with two words of our own."""
+"""The notifications of an instance: sd_notify datagrams with two fields of our own."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _MAX_STATUS = 200
 
 @dataclass(frozen=True, slots=True)
 class Notification:
-    """One datagram: what it does not mention is None or False.
+    """One datagram; a missing field is None or False.
 
     `ports` are TCP or UDP ports by purpose, `phone` says whether the phone is connected.
     """
@@ -28,10 +28,10 @@ class Notification:
 
 
 def parse(datagram: bytes) -> Notification:
-    """Return what a datagram says; words that are unknown or malformed are left out.
+    """Parse a datagram; unknown or malformed fields are left out.
 
     Source: sd_notify(3) for READY, WATCHDOG, STOPPING and STATUS; X_UP_PORTS and X_UP_PHONE are
-    ours. Nothing is raised.
+    ours. Never raises.
     """
     words: dict[str, str] = {}
     for line in datagram[:MAX_BYTES].decode("utf-8", "replace").split("\n"):

@@ -1,4 +1,4 @@
-"""The socket on which one instance tells how it is."""
+"""The socket for the notifications of one instance."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _MOST_AT_ONCE = 100
 
 
 class NotifySocket:
-    """Receives an instance's datagrams and hands them to `on_notification` with the sender's pid.
+    """Receives an instance's datagrams and passes them to `on_notification` with the sender's pid.
 
-    The kernel vouches for the sender. A new socket at the same path takes over: an instance sends
-    by path and does not notice that the runner was restarted.
+    The kernel authenticates the sender. A new socket at the same path takes over: an instance sends
+    to the path and does not notice a restarted runner.
     """
 
     def __init__(
@@ -34,10 +34,10 @@ class NotifySocket:
         self._socket: socket.socket | None = None
 
     def open(self) -> None:
-        """Bind the path, whatever socket lay there; raises OSError."""
+        """Bind the path, replacing an old socket; raises OSError."""
         line = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM | socket.SOCK_NONBLOCK)
         try:
-            # Before the bind, so that no datagram comes without its sender.
+            # Set before the bind, so that every datagram has its sender.
             line.setsockopt(socket.SOL_SOCKET, socket.SO_PASSCRED, 1)
             self.path.unlink(missing_ok=True)
             line.bind(str(self.path))
@@ -49,7 +49,7 @@ class NotifySocket:
         self._reactor.addReader(self)
 
     def close(self, *, remove: bool) -> None:
-        """Hear no more; the path stays for the next runner unless `remove`."""
+        """Stop receiving; the path stays for the next runner unless `remove`."""
         line, self._socket = self._socket, None
         if line is None:
             return
@@ -60,7 +60,7 @@ class NotifySocket:
                 self.path.unlink()
 
     def drain(self) -> None:
-        """Hear now what waits in the socket: asked before anybody is called silent."""
+        """Process the waiting datagrams; called before an instance is declared silent."""
         for _ in range(_MOST_AT_ONCE):
             if self._socket is None or not self._receive(self._socket):
                 return
@@ -70,15 +70,15 @@ class NotifySocket:
         return -1 if self._socket is None else self._socket.fileno()
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
-        """Return how Twisted calls it."""
+        """Return the name for Twisted's log."""
         return f"notify {self.path.parent.name}"
 
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
-        """Hear one heap of datagrams."""
+        """Receive a batch of datagrams."""
         self.drain()
 
     def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
-        """Do nothing: a datagram socket has no connection, `close` ends it."""
+        """Do nothing: a datagram socket has no connection; `close` ends it."""
 
     def _receive(self, line: socket.socket) -> bool:
         room = socket.CMSG_SPACE(_CREDENTIALS.size) + socket.CMSG_SPACE(64)
@@ -102,7 +102,7 @@ def _sender(extra: list[tuple[int, int, bytes]]) -> int | None:
         if kind == socket.SCM_CREDENTIALS:
             pid = _CREDENTIALS.unpack(data)[0]
         elif kind == socket.SCM_RIGHTS:
-            # Nobody is asked for descriptors; kept, they would use up ours.
+            # Received descriptors are unwanted; kept, they would use up ours.
             descriptors = array.array("i")
             descriptors.frombytes(data[: len(data) // 4 * 4])
             for descriptor in descriptors:

@@ -1,4 +1,4 @@
-"""Where everything is: what the configuration leaves open, filled in."""
+"""The paths of the runner, with defaults for those missing in the configuration."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Places:
     def of(
         cls, config: RunnerConfig, config_folder: Path, environ: Mapping[str, str], uid: int
     ) -> Places:
-        """Return the places for a configuration read from `config_folder`."""
+        """Return the paths for a configuration read from `config_folder`."""
         config_folder = config_folder.absolute()
         root = Path(config.application_root or own_root()).absolute()
         black_box = config.mode == "black box"
@@ -36,7 +36,7 @@ class Places:
         return cls(
             root=root,
             script=root / config.script_path,
-            # Not resolved: the link in a virtual environment is what makes it one.
+            # Not resolved: the symbolic link is what makes it a virtual environment's interpreter.
             python=Path(config.python or sys.executable).absolute(),
             base=_in(config_folder, config.instance_config, "blackbox" if black_box else "."),
             profiles=_in(config_folder, config.profiles_folder, "profiles"),
@@ -47,7 +47,7 @@ class Places:
 
 
 def own_root() -> Path:
-    """Return the folder that this package's repository is, the working folder when it is none."""
+    """Return the folder of this package's repository, or the working folder without one."""
     repository = Path(__file__).resolve().parents[2]
     return repository if (repository / "main.py").is_file() else Path.cwd()
 

@@ -1,4 +1,4 @@
-"""A process that is known by more than its number, whoever its parent is."""
+"""A process identified by more than its number, whichever process is its parent."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ BOOT_ID = Path("/proc/sys/kernel/random/boot_id")
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """A process of this boot: its number and when it began, in clock ticks since boot.
+    """A process of this boot: its number and start time, in clock ticks since boot.
 
-    Numbers are used again; number and beginning together are not.
+    Numbers are reused; the pair of number and start time is unique.
     """
 
     pid: int
@@ -27,12 +27,12 @@ class Identity:
     boot_id: str
 
 
-class ProcessGone(Exception):  # noqa: N818 - an ordinary outcome
-    """The process that was asked for does not live any more."""
+class ProcessGone(Exception):  # noqa: N818 - a normal outcome
+    """The process does not exist any longer."""
 
 
 def identity_of(pid: int) -> Identity:
-    """Return who a living process is; raises ProcessGone for a number that nobody lives under."""
+    """Return the identity of a living process; raises ProcessGone for an unused number."""
     state, ticks, _ = _stat(pid)
     if state in "ZX":
         raise ProcessGone(f"process {pid} has ended")
@@ -40,14 +40,14 @@ def identity_of(pid: int) -> Identity:
 
 
 def boot_id() -> str:
-    """Return the kernel's name for this boot."""
+    """Return the kernel's id of this boot."""
     return BOOT_ID.read_text("ascii").strip()
 
 
 def sessions_with(variable: str, prefix: str) -> Iterator[tuple[int, str]]:
-    """Yield number and value of each session leader whose environment begins `variable` so.
+    """Yield number and value of each session leader whose `variable` has this prefix.
 
-    Only processes that this user may look into are seen.
+    Sees only processes that this user may inspect.
     """
     wanted = f"{variable}={prefix}".encode()
     for entry in Path("/proc").iterdir():
@@ -66,16 +66,16 @@ def _stat(pid: int) -> tuple[str, int, int]:
         text = Path(f"/proc/{pid}/stat").read_text("utf-8", "replace")
     except OSError:
         raise ProcessGone(f"there is no process {pid}") from None
-    # The name in parentheses may hold anything, parentheses too.
+    # The name in parentheses may hold any character, parentheses too.
     fields = text[text.rindex(")") + 2 :].split()
     return fields[0], int(fields[19]), int(fields[3])
 
 
 class Process:
-    """One running instance, held by a descriptor that no other process can come to have.
+    """One running instance, held by a descriptor that cannot refer to another process.
 
-    `on_end` is called once from the reactor with the exit status as `subprocess` counts it, None
-    when it is unknown: an earlier runner's child has none for us.
+    `on_end` is called once from the reactor with the exit status as `subprocess` counts it, or None
+    if it is unknown, as for the child of an earlier runner.
     """
 
     def __init__(
@@ -103,9 +103,9 @@ class Process:
         environ: Mapping[str, str],
         log: int,
     ) -> Process:
-        """Start a program in a session of its own with `log` as output; raises OSError.
+        """Start a program in its own session with `log` as output; raises OSError.
 
-        Nothing else is inherited. The call returns when the program was found and begun.
+        It inherits nothing else. Returns when the program was found and started.
         """
         child = subprocess.Popen(
             arguments,
@@ -117,14 +117,14 @@ class Process:
             close_fds=True,
             start_new_session=True,
         )
-        # Until it is waited for, even a child that ended at once keeps its number.
+        # Until it is reaped, even a child that ended immediately keeps its number.
         return cls(reactor, Identity(child.pid, _stat(child.pid)[1], boot_id()), child)
 
     @classmethod
     def adopt(cls, reactor: Any, identity: Identity) -> Process:
-        """Watch a process that an earlier runner began; raises ProcessGone when it is not there."""
+        """Watch a process of an earlier runner; raises ProcessGone if it does not exist."""
         process = cls(reactor, identity, None)
-        # Asked again now that the descriptor holds it: the number may have been used anew.
+        # Checked again while the descriptor holds it: the number may have been reused.
         try:
             if identity_of(identity.pid) != identity:
                 raise ProcessGone(f"process {identity.pid} is another one now")
@@ -134,17 +134,17 @@ class Process:
         return process
 
     def terminate(self) -> None:
-        """Ask it to end."""
+        """Request its end."""
         self._signal(signal.SIGTERM)
 
     def kill(self) -> None:
-        """End it and everything that it started, without asking."""
+        """Kill it and all processes that it started."""
         if self._alive():
             self._kill_group()
         self._signal(signal.SIGKILL)
 
     def close(self) -> None:
-        """Watch it no more; it goes on."""
+        """Stop watching it; it keeps running."""
         if self._open:
             self._open = False
             self._reactor.removeReader(self)
@@ -155,21 +155,21 @@ class Process:
         return self._descriptor if self._open else -1
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
-        """Return how Twisted calls it."""
+        """Return the name for Twisted's log."""
         return f"process {self.pid}"
 
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
         """Note the end of the process."""
         status = None
         if self._child is not None:
-            # What it started must not keep its ports; its number is ours until it is waited for.
+            # Its children must not keep its ports; its number stays ours until it is reaped.
             self._kill_group()
             status = self._child.wait()
         self.close()
         self.on_end(status)
 
     def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
-        """Do nothing: the reactor that stops does not end what it watches."""
+        """Do nothing: a stopping reactor does not end the watched process."""
 
     def _alive(self) -> bool:
         if not self._open:
@@ -189,7 +189,7 @@ class Process:
 
 
 def describe_status(status: int | None) -> str:
-    """Return in words how a process ended, from what `on_end` was told."""
+    """Return in words how a process ended, from the status of `on_end`."""
     if status is None:
         return "ended, unknown how: it was the child of an earlier runner"
     if status >= 0:

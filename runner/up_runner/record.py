@@ -1,4 +1,4 @@
-"""What a runner leaves for the next one about an instance."""
+"""The record of an instance that a runner leaves for the next one."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ _VERSION = 1
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """An instance as its runner last saw it.
+    """An instance's state, as its runner last saw it.
 
-    `identity` is None between two lives, while a restart is awaited. `keep` says that it shall be
-    started again when it is gone; `ready` that its ports were bound. `phone` is None as long as
-    the instance has not said whether its phone is there.
+    `identity` is None between two processes, while a restart is pending. `keep`: it must be
+    restarted when it is gone; `ready`: its ports were bound. `phone` is None until the instance has
+    reported whether its phone is connected.
     """
 
     request: Request
@@ -32,9 +32,9 @@ class Record:
     phone: bool | None = None
 
     def save(self, folder: Path) -> None:
-        """Write it into the instance's folder, whole or not at all; raises OSError."""
-        # Not synced: nothing that it speaks of outlives a power cut, and a slow disk must not
-        # hold the reactor.
+        """Write it into the instance's folder atomically; raises OSError."""
+        # Not synced: a power cut ends the processes anyway, and a slow disk must not block the
+        # reactor.
         temporary = folder / f".{NAME}.tmp"
         temporary.write_text(json.dumps(self._as_json(), indent=1, allow_nan=False) + "\n")
         temporary.replace(folder / NAME)
@@ -59,7 +59,7 @@ class Record:
 
 
 def load(folder: Path) -> Record | None:
-    """Return the record in an instance's folder; None when there is none that can be used."""
+    """Return the record in an instance's folder; None without a valid one."""
     try:
         found = json.loads((folder / NAME).read_text("utf-8"))
         if found["version"] != _VERSION:
@@ -79,12 +79,12 @@ def load(folder: Path) -> Record | None:
             ports = {str(name): int(port) for name, port in found["ports"].items()}
             record = replace(record, ports=ports)
     except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, MalformedRequest):
-        # Whatever a broken record looks like, it says nothing; the processes still tell who lives.
+        # Any broken record is ignored; the processes still show which instances live.
         return None
     return record
 
 
 def forget(folder: Path) -> None:
-    """Remove the record: the instance ended and shall not come back."""
+    """Remove the record: the instance ended and must not restart."""
     with contextlib.suppress(OSError):
         (folder / NAME).unlink()

@@ -1,4 +1,4 @@
-"""What a phone asks of the runner: one JSON line to a Request (docs/protocols.md, section 8)."""
+"""A phone's request to the runner: parses one JSON line (docs/protocols.md, section 8)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any, Literal, NoReturn
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 MAX_LINE = 64 * 1024
-"""Longest request in bytes, its line feed not counted."""
+"""Maximum length of a request in bytes, without its line feed."""
 DEFAULT_NAME = "default"
 """The instance that all nameless clients share."""
 NAME = AIRCRAFT_NAME
@@ -22,13 +22,13 @@ Scalar = bool | int | float | str
 Configuration = Mapping[str, Mapping[str, Scalar]]
 
 
-class MalformedRequest(ValueError):  # noqa: N818 - it names what came, not a fault of ours
-    """A line that is no request; the text is the sentence for the answer."""
+class MalformedRequest(ValueError):  # noqa: N818 - it names the input, not a fault of ours
+    """A line that is not a request; the text is the sentence for the answer."""
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """A request: for which aircraft, with which profile and settings, to spawn or only to tell."""
+    """A request: the aircraft, the profile and settings, and whether to start or only to query."""
 
     aircraft: str = DEFAULT_NAME
     profile: str | None = None
@@ -37,18 +37,18 @@ class Request:
 
     @property
     def wants_configuration(self) -> bool:
-        """Say whether it asks for anything but what is there."""
+        """Return whether it has a profile or settings."""
         return self.profile is not None or bool(self.configuration)
 
     def same_configuration(self, other: Request) -> bool:
-        """Say whether both ask for the same profile and settings."""
+        """Return whether both have the same profile and settings."""
         return self.profile == other.profile and self.configuration == other.configuration
 
 
 def parse(line: bytes) -> Request:
-    """Return the request in a line, its end left off or not.
+    """Return the request in a line, with or without its line end.
 
-    Unknown keys are ignored. Raises MalformedRequest with one sentence for anything else than a
+    Unknown keys are ignored. Raises MalformedRequest with one sentence for anything other than a
     request of at most MAX_LINE bytes.
     """
     line = line.strip(b" \t\r\n")

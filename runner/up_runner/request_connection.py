@@ -1,4 +1,4 @@
-"""One connection to the request port: JSON lines, or a thesis client that says anything."""
+"""One connection to the request port: JSON lines, or a thesis client that sends any bytes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ CLOSE_S = 1.0
 
 
 class Desk(typing.Protocol):
-    """What a connection asks of the port that it came to."""
+    """The services of the port for a connection."""
 
     clock: Clock
     idle_s: float
@@ -33,17 +33,17 @@ class Desk(typing.Protocol):
     log: Logger
 
     def ask(self, connection: RequestConnection, request: Request) -> Deferred[Answer]:
-        """Let a request be answered."""
+        """Start answering a request."""
 
     def encode(self, answer: Answer, host: str) -> bytes:
-        """Return the line for the asker."""
+        """Return the line for the client."""
 
     def on_gone(self, connection: RequestConnection) -> None:
-        """Forget a connection."""
+        """Remove a connection."""
 
 
 class Speech(enum.Enum):
-    """How a connection speaks, which its first byte decides."""
+    """The protocol of a connection, determined by its first byte."""
 
     UNKNOWN = "unknown"
     LINES = "lines"
@@ -52,7 +52,7 @@ class Speech(enum.Enum):
 
 @implementer(IHalfCloseableProtocol)
 class RequestConnection(Protocol):
-    """One asker. One request at a time is worked on; meanwhile nothing more is read."""
+    """One client. Handles one request at a time and reads nothing in the meantime."""
 
     transport: Any
 
@@ -64,7 +64,7 @@ class RequestConnection(Protocol):
         self._speech = Speech.UNKNOWN
         self._buffer = bytearray()
         self._searched = 0
-        """Bytes of the buffer in which no line feed is."""
+        """Bytes of the buffer known to hold no line feed."""
         self._closing = False
         self._answered = False
         self._idle = Deadline(desk.clock, desk.idle_s, self._on_idle)
@@ -75,13 +75,13 @@ class RequestConnection(Protocol):
         self._heard_all = False
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Begin to wait for the first byte."""
+        """Start waiting for the first byte."""
         self.transport.setTcpNoDelay(True)
         self.transport.registerProducer(self, True)
         self._touch()
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
-        """Forget the asker; what it asked for goes on."""
+        """Remove the client; its request continues."""
         self._closing = True
         self._idle.stop()
         self._unfinished.stop()
@@ -89,14 +89,14 @@ class RequestConnection(Protocol):
         self._desk.on_gone(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Take what came."""
+        """Handle received data."""
         if self._closing:
             return
         self._touch()
         if self._speech is Speech.UNKNOWN:
             self._speech = Speech.LINES if data.startswith(b"{") else Speech.THESIS
         if self._speech is Speech.THESIS:
-            # Whatever it says, it asks for the one nameless instance.
+            # Whatever it sends, it requests the one nameless instance.
             if not self.busy:
                 self._ask(Request())
             return
@@ -104,7 +104,7 @@ class RequestConnection(Protocol):
         self._take_lines()
 
     def readConnectionLost(self) -> None:  # noqa: N802 - Twisted's name
-        """Answer one who says no more but may still listen, as `nc -N` does."""
+        """Answer a client that sends no more but still reads, as `nc -N` does."""
         self._heard_all = True
         self._set_reading()
         if self.busy or self._closing:
@@ -116,15 +116,15 @@ class RequestConnection(Protocol):
             self.transport.loseConnection()
 
     def writeConnectionLost(self) -> None:  # noqa: N802 - Twisted's name
-        """Do nothing: it was we who said no more."""
+        """Do nothing: this end closed its side."""
 
     def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Read no more from one who does not read our answers."""
+        """Stop reading from a client that does not read our answers."""
         self._reader_full = True
         self._set_reading()
 
     def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Read again."""
+        """Resume reading."""
         self._reader_full = False
         self._set_reading()
 
@@ -132,7 +132,7 @@ class RequestConnection(Protocol):
         """Do nothing: the connection is lost."""
 
     def drop(self) -> None:
-        """End the connection now."""
+        """Abort the connection."""
         self._closing = True
         self.transport.abortConnection()
 
@@ -168,11 +168,11 @@ class RequestConnection(Protocol):
             self._ask(request)
 
     def _wait_for_more(self) -> None:
-        """A first line that stays unfinished is a thesis client's; a later one is nothing."""
+        """An incomplete first line belongs to a thesis client; a later one is ignored."""
         if not self._buffer:
             return
         if not self._unfinished.running:
-            # From its first byte on: one byte now and then gains no time.
+            # Counted from its first byte: sending byte by byte gains no time.
             self._unfinished.touch()
         if not self._answered:
             self._silence = self._desk.clock.callLater(SILENCE_S, self._on_silence)
@@ -181,7 +181,7 @@ class RequestConnection(Protocol):
         self._silence = None
         line, self._buffer, self._searched = bytes(self._buffer), bytearray(), 0
         try:
-            # A whole request whose line feed was forgotten says what it wants.
+            # A complete request without its line feed is still a request.
             request = parse(line)
         except MalformedRequest:
             self._speech = Speech.THESIS
@@ -223,7 +223,7 @@ class RequestConnection(Protocol):
         self.transport.write(self._desk.encode(answer, self.host))
 
     def _close(self) -> None:
-        """Let the answer through, hear nothing more, and end it soon."""
+        """Send the answer, read nothing more, and close soon."""
         self._closing = True
         self._buffer.clear()
         self._searched = 0

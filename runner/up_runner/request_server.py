@@ -1,4 +1,4 @@
-"""The request port: who may come, and how many."""
+"""The request port: permitted clients, and their limits."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ Ask = Callable[[Request], Deferred[Answer]]
 
 
 class RequestServer(Factory):
-    """Accepts askers within limits and hands their requests to `ask`.
+    """Accepts clients within limits and passes their requests to `ask`.
 
-    A public peer is turned away unless `accept_public`. `counts` tells what was refused and why.
+    Rejects a public peer unless `accept_public`. `counts` has the rejections by reason.
     """
 
     noisy = False
@@ -57,7 +57,7 @@ class RequestServer(Factory):
         return len(self._connections)
 
     def buildProtocol(self, addr: Any) -> RequestConnection | None:  # noqa: N802
-        """Return a connection for a peer, None to turn it away."""
+        """Return a connection for a peer, or None to reject it."""
         host = plain(addr.host)
         if not self._accept_public and not is_private(host):
             self._turn_away(
@@ -78,7 +78,7 @@ class RequestServer(Factory):
         return connection
 
     def ask(self, connection: RequestConnection, request: Request) -> Deferred[Answer]:
-        """Let a request be answered."""
+        """Start answering a request."""
         self._limited.log(
             self.log.info,
             "{host} asks: {action} {aircraft}",
@@ -90,11 +90,11 @@ class RequestServer(Factory):
         return self._ask(request)
 
     def encode(self, answer: Answer, host: str) -> bytes:
-        """Return the line for the asker at `host`."""
+        """Return the line for the client at `host`."""
         return self._encode(answer, host)
 
     def on_gone(self, connection: RequestConnection) -> None:
-        """Forget a connection."""
+        """Remove a connection."""
         if connection in self._connections:
             self._connections.discard(connection)
             source = neighbourhood(connection.host)
@@ -109,7 +109,7 @@ class RequestServer(Factory):
         self._limited.stop()
 
     def _make_room(self) -> bool:
-        """Drop the connection that was silent longest; those that wait for an answer stay."""
+        """Drop the connection with the longest silence, except those that wait for an answer."""
         silent = [each for each in self._connections if not each.busy]
         if not silent:
             return False

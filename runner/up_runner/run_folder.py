@@ -1,4 +1,4 @@
-"""The folder that belongs to one runner at a time: its pid file, its sockets, its records."""
+"""The folder of one runner at a time: its PID file, its sockets, its records."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from up.system.pid_file import PidFile, PidFileHeld
 
 PID_FILE = ".runner.pid"
-"""Begins with a dot, as no name of an instance does."""
+"""Begins with a dot, unlike the names of instances."""
 # sun_path holds 108 bytes with the closing zero; the longest path is <folder>/<32>/notify.
 LONGEST = 107 - len("/notify") - 33
 
@@ -20,7 +20,7 @@ class RunFolderError(Exception):
 
 
 def default_run_folder(environ: Mapping[str, str], uid: int) -> Path:
-    """Return where sockets and state go when the configuration does not say."""
+    """Return the default folder of sockets and state."""
     # systemd may name several, separated by colons.
     runtime = environ.get("RUNTIME_DIRECTORY", "").split(":")[0]
     if runtime:
@@ -31,17 +31,17 @@ def default_run_folder(environ: Mapping[str, str], uid: int) -> Path:
 
 
 class RunFolder:
-    """A private folder held by a pid file until `release` or the end of the process."""
+    """A private folder held by a PID file until `release` or the end of the process."""
 
     def __init__(self, path: Path) -> None:
         self.path = Path(path).absolute()
         self._pid_file = PidFile(self.path / PID_FILE)
 
     def take(self) -> None:
-        """Make the folder, check that it is ours alone and lock it.
+        """Create the folder, check that it is private and lock it.
 
-        Raises RunFolderError when its path is too long for a socket, when it belongs to somebody
-        else or is open to others, or when another runner holds it.
+        Raises RunFolderError when its path is too long for a socket, when it belongs to another
+        user or is open to others, or when another runner holds it.
         """
         if len(os.fsencode(self.path)) > LONGEST:
             raise RunFolderError(
@@ -74,7 +74,7 @@ class RunFolder:
         )
 
     def release(self) -> None:
-        """Give the folder to the next runner."""
+        """Release the folder for the next runner."""
         self._pid_file.release()
 
     def _check_owner(self) -> None:

@@ -1,4 +1,4 @@
-"""The runner as a service: it listens, keeps the instances and tells its own supervisor."""
+"""The runner as a service: listens, manages the instances and reports to its supervisor."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class CannotStart(Exception):  # noqa: N818 - the text is the message
 
 
 class Runner:
-    """Everything that one runner is made of, wired."""
+    """All parts of one runner, connected."""
 
     def __init__(
         self,
@@ -128,7 +128,7 @@ class Runner:
             places.base,
             places.profiles,
             config.settable,
-            # Aboard, the phone knows its Raspberry Pi's ports by heart.
+            # In the aircraft, the phone expects the default ports of its Raspberry Pi.
             config.dynamic_ports if black_box else {},
             config.learned_files,
             self._proxy_settings(),
@@ -149,7 +149,7 @@ class Runner:
         )
 
     def _proxy_settings(self) -> Mapping[str, Mapping[str, Any]]:
-        """Return what makes an instance use the proxy that the answers name."""
+        """Return the settings with which an instance uses the proxy named in the answers."""
         proxy = self._config.proxy
         server = {"url": proxy.host, "port": proxy.airborne_port}
         return {"mission_control.yml": {"remote_server": server}} if proxy.host else {}
@@ -215,9 +215,9 @@ class Runner:
 
 
 def policy_of(config: RunnerConfig) -> Policy:
-    """Return what a configuration asks of every instance.
+    """Return the requirements of a configuration for every instance.
 
-    Only a black box stops with its phone or is given up: the others may be flying.
+    Only a black box stops with its phone or after failures: the others may be in flight.
     """
     black_box = config.mode == "black box"
     restarts = config.restarts
@@ -235,6 +235,6 @@ def policy_of(config: RunnerConfig) -> Policy:
             restarts.period_s,
         ),
         always_restart=not black_box,
-        # Without this one no phone can reach it.
+        # Without this port no phone can reach it.
         needed_ports=("general",) if black_box else (),
     )

@@ -1,4 +1,4 @@
-"""Keeps small what instances leave on the disk."""
+"""Maintains the logs and files of the instances."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LOOK_S = 0.5
 
 
 class Upkeep:
-    """Rotates the logs of those `in_use` and removes the oldest of the others beyond `kept`."""
+    """Rotates the logs of instances `in_use` and removes the oldest of the others beyond `kept`."""
 
     def __init__(self, host: Host, kept: int, in_use: Callable[[], Collection[str]]) -> None:
         self._host = host
@@ -27,17 +27,17 @@ class Upkeep:
         self._log = Logger(namespace="runner")
 
     def start(self) -> None:
-        """Look at the logs from now on."""
+        """Start maintaining the logs."""
         self._timer = self._host.reactor.callLater(LOOK_S, self._look)
 
     def stop(self) -> None:
-        """Look no more."""
+        """Stop."""
         timer, self._timer = self._timer, None
         if timer is not None and timer.active():
             timer.cancel()
 
     def prune(self) -> None:
-        """Remove what is left of the oldest ended instances."""
+        """Remove the files of the oldest ended instances."""
         self._host.on_disk(self._prune).addErrback(self._on_error)
 
     def _prune(self) -> None:
@@ -47,7 +47,7 @@ class Upkeep:
     def _look(self) -> None:
         self._timer = self._host.reactor.callLater(LOOK_S, self._look)
         names = self._in_use()
-        # A disk that takes longer than the period gets no heap of threads.
+        # At most one thread at a time, even if the disk takes longer than the period.
         if names and not self._busy:
             self._busy = True
             looking = self._host.in_thread(self._rotate, names)
