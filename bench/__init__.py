@@ -1,1 +1,1 @@
-"""How fast the project is, each figure beside a peer's in the same run; `python -m bench`."""
+"""Performance of the project, each figure beside a peer's in the same run; `python -m bench`."""

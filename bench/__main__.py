@@ -1,4 +1,4 @@
-"""Measures everything, or what is named, and prints one table: ``python -m bench [NAME ...]``."""
+"""Measures all or the named subjects and prints one table: ``python -m bench [NAME ...]``."""
 
 import argparse
 import sys
@@ -28,7 +28,7 @@ FAILED = "failed"
 
 
 def measure(names: Iterable[str], quick: bool, say: Callable[[str], object]) -> list[Row]:
-    """Return the rows of the subjects with these names; one that fails is a row, too."""
+    """Return the rows of the subjects with these names; a failed one is a row, too."""
     rows: list[Row] = []
     for name in names:
         say(f"{name}: {SUBJECTS[name]} ...")

@@ -29,7 +29,7 @@ Errors = tuple[float, float]
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the worst of all flights; raises LeftOutError without what flies them."""
+    """Yield the worst of all flights; raises LeftOutError without the simulator."""
     flights, minutes = (2, 1) if quick else (FLIGHTS, MINUTES)
     try:
         with Workers(MOST_PROCESSES) as workers:
@@ -46,13 +46,13 @@ def rows(quick: bool = False) -> Iterable[Row]:
 
 
 def worst(errors: Iterable[Errors]) -> Errors:
-    """Return the greatest of each axis."""
+    """Return the maximum of each axis."""
     roll_deg, pitch_deg = zip(*errors, strict=True)
     return max(roll_deg), max(pitch_deg)
 
 
 class StarvedClock:
-    """The clock of a process that is held up every few seconds, or never."""
+    """The clock of a process that is suspended every few seconds, or never."""
 
     def __init__(self, seed: int, is_starved: bool) -> None:
         self._chance = random.Random(f"starved {seed}")
@@ -64,7 +64,7 @@ class StarvedClock:
         return self._now_s
 
     def tick(self) -> None:
-        """Pass the time until the process runs again."""
+        """Advance the time until the process runs again."""
         self._now_s += TICK_S
         if self._now_s >= self._next_s:
             self._now_s += self._chance.uniform(*STARVED_S)
@@ -86,7 +86,7 @@ class ComparingLine:
         return waiting
 
     def write(self, data: bytes) -> None:
-        """Take what the board sends."""
+        """Receive the board's data."""
         if any(each.type == "O" for each in self._tap.feed(data, 0.0)):
             told, true = self._tap.orientation, self._flight.state
             assert told is not None
@@ -101,8 +101,8 @@ def fly(
 ) -> list[Errors]:
     """Return the worst errors of roll and pitch, deg, in each minute of a flight of ``make run``.
 
-    Wind, bias, drift and vibration are drawn by the seed. A crash is an infinite error and ends
-    the flight. Raises ``BoardUnavailableError``, ``FlightUnavailableError``, ``PreparationError``.
+    The seed determines wind, bias, drift and vibration. A crash is an infinite error and ends the
+    flight. Raises ``BoardUnavailableError``, ``FlightUnavailableError``, ``PreparationError``.
     """
     chance = random.Random(f"attitude {seed}")
     airframe = load_airframe("glider")
@@ -132,7 +132,7 @@ def fly(
 
 
 def main() -> None:
-    """Fly what is asked for and print the worst errors, also those of each minute."""
+    """Fly the requested flights and print the worst errors, also those of each minute."""
     parser = argparse.ArgumentParser(prog="python -m bench.attitude", description=__doc__)
     parser.add_argument("--flights", type=int, default=FLIGHTS)
     parser.add_argument("--minutes", type=int, default=MINUTES)

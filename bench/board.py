@@ -1,4 +1,4 @@
-"""The Arduino's end of a pseudo terminal: frames in at an exact rate, what comes back is timed."""
+"""The Arduino's end of a pseudo terminal: sends frames at an exact rate and times the answers."""
 
 import gc
 import os
@@ -16,10 +16,10 @@ ANSWER_S = 1.0
 GENERATOR_PRIORITY = 40
 STICKS = struct.pack(">6HB", 1500, 1500, 1300, 1500, 2000, 2000, 0x3F)
 SERVOS = struct.pack(">4H", 1500, 1500, 1300, 1500)
-# Version 1, mode OUTPUT, switch high, flags: AUTO, receiver, IMU, Raspberry Pi heard.
+# Version 1, mode OUTPUT, switch high, flags: AUTO, receiver, IMU, Raspberry Pi connected.
 STATUS = struct.pack(">BcBBBBHHHHHHH", 1, b"u", 2, 0x8E, 0, 1, 2000, 0, 0, 0, 1, 0, 0)
 STREAMS = (("x", STATUS, 0.2), ("i", STICKS, 0.02), ("r", SERVOS, 0.02))
-# Where the sequence of the orientation stands in a frame: in our Output, in the floor's echo.
+# Position of the orientation's sequence in a frame: in our Output, in the floor's echo.
 _NUMBER_AT = {ord("u"): 10, ord("O"): 2}
 
 
@@ -47,7 +47,7 @@ def terminal() -> Iterator[tuple[int, str]]:
 
 
 class Board:
-    """Writes what an Arduino sends at a rate, and finds the Outputs in what comes back."""
+    """Writes an Arduino's frames at a rate, and finds the Outputs in the answers."""
 
     def __init__(self, descriptor: int) -> None:
         self._descriptor = descriptor
@@ -63,7 +63,7 @@ class Board:
             return self._measure(rate_hz, seconds)
 
     def greet(self, deadline_s: float) -> None:
-        """Play the board, slowly, until somebody answers orientation; raises RuntimeError."""
+        """Play the board, slowly, until a program answers orientation; raises RuntimeError."""
         end_s = time.monotonic() + deadline_s
         while time.monotonic() < end_s:
             if self._measure(50, 0.2, wait_s=0.1).lost == 0:
@@ -71,7 +71,7 @@ class Board:
         raise RuntimeError("nobody answers on the serial line")
 
     def _measure(self, rate_hz: float, seconds: float, wait_s: float = ANSWER_S) -> Latency:
-        # Everything is built before and taken apart after: between lie clock, read and write.
+        # Frames are built before and parsed after: in between are only clock, read and write.
         bursts = self._bursts(rate_hz, int(rate_hz * seconds))
         sent_ns = [0] * len(bursts)
         heard: list[tuple[int, bytes]] = []
@@ -83,7 +83,7 @@ class Board:
                 self._hear(left_ns / 1e9, heard)
             due_ns += step_ns
             sent_ns[index] = clock()
-            with suppress(BlockingIOError):  # nobody reads: it will count as lost
+            with suppress(BlockingIOError):  # no reader: it counts as lost
                 os.write(self._descriptor, burst)
         last_ns = clock() + int(wait_s * 1e9)
         while (left_ns := last_ns - clock()) > 0:
@@ -105,7 +105,7 @@ class Board:
     def _trips_us(
         self, begins_ns: dict[int, int], heard: list[tuple[int, bytes]]
     ) -> Iterator[float]:
-        """Yield how long each answer took; what is left of ``begins_ns`` had none."""
+        """Yield the duration of each answer; what remains in ``begins_ns`` had none."""
         for at_ns, data in heard:
             *pieces, self._tail = (self._tail + data).split(b"\0")
             for piece in pieces:
@@ -118,7 +118,7 @@ class Board:
                     yield (at_ns - began_ns) / 1000
 
     def _bursts(self, rate_hz: float, count: int) -> list[bytes]:
-        """Return what is written in each step: orientation always, the rest where it is due."""
+        """Return the bytes to write in each step: orientation always, the rest when it is due."""
         bursts = []
         due = {"x": 0.0, "i": 0.0, "r": 0.0}
         for index in range(count):
@@ -143,7 +143,7 @@ class Board:
 
 @contextmanager
 def _first_in_line() -> Iterator[None]:
-    """Let nothing but the machine come between the clock and this process, where permitted."""
+    """Run with real-time priority, if permitted, and without garbage collection."""
     before = os.sched_getscheduler(0), os.sched_getparam(0)
     with suppress(PermissionError):
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(GENERATOR_PRIORITY))

@@ -31,10 +31,10 @@ class BenchCommand(BaseCommand):
 
 
 class Subscriber:
-    """Does nothing with what it hears, by a method, as modules do."""
+    """Ignores its Commands, in a method, as modules have them."""
 
     def on_command(self, command: BenchCommand) -> None:
-        """Hear a Command."""
+        """Receive a Command."""
 
 
 def ours(count: int) -> Work:
@@ -48,7 +48,7 @@ def ours(count: int) -> Work:
 
 
 def dict_of_lists(count: int) -> Work:
-    """Return the least that a bus can be: nothing isolated, nothing known of who sent."""
+    """Return the simplest possible bus: no isolation, no origin."""
     handlers = {BenchCommand.NAME: [Subscriber().on_command for _ in range(count)]}
     command = BenchCommand(1)
 
@@ -60,7 +60,7 @@ def dict_of_lists(count: int) -> Work:
 
 
 def pluggy(count: int) -> Work | None:
-    """Return a call of a pluggy hook; None: not installed."""
+    """Return a call of a pluggy hook; None if pluggy is not installed."""
     try:
         library = import_module("pluggy")
     except ImportError:
@@ -72,12 +72,12 @@ def pluggy(count: int) -> Work | None:
     class Specification:
         @spec
         def on_command(self, command: BenchCommand) -> None:
-            """Hear a Command."""
+            """Receive a Command."""
 
     class Plugin:
         @implementation
         def on_command(self, command: BenchCommand) -> None:
-            """Hear a Command."""
+            """Receive a Command."""
 
     manager = library.PluginManager("bench")
     manager.add_hookspecs(Specification)
@@ -88,7 +88,7 @@ def pluggy(count: int) -> Work | None:
 
 
 def blinker(count: int) -> Work | None:
-    """Return a send of a blinker signal; None: not installed."""
+    """Return a send of a blinker signal; None if blinker is not installed."""
     try:
         library = import_module("blinker")
     except ImportError:

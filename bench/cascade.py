@@ -1,4 +1,4 @@
-"""What the control loop computes for one orientation frame, beside one bare simple-pid."""
+"""The computation of the control loop for one orientation frame, beside one bare simple-pid."""
 
 from collections.abc import Iterable
 

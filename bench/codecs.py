@@ -1,7 +1,7 @@
-"""How fast the codecs are, beside peers that are measured in the same run.
+"""The speed of the codecs, beside peers that are measured in the same run.
 
-All figures are CPU time of this process for one frame, in rounds in which ours and the peers take
-turns. The garbage collector is off, as in the daemon.
+All figures are CPU time of this process for one frame, in alternating rounds of ours and the peers.
+The garbage collector is off, as in the daemon.
 """
 
 import gc
@@ -24,7 +24,7 @@ TABLE_TARGET = 1.5
 PYMAVLINK_TARGET = 7.0
 ORIENTATION_TARGET, SINGLE_TARGET = 6.0, 1.0
 
-# What an Arduino sends in each period: outputs, inputs, orientation.
+# The frames of an Arduino in each period: outputs, inputs, orientation.
 SIZES = {ord("r"): 8, ord("i"): 13, ord("O"): 26}
 
 Work = Callable[[], int]
@@ -47,7 +47,7 @@ def cpu_us(*works: Work, rounds: int = ROUNDS) -> list[list[float]]:
 
 
 def serial_payloads() -> list[tuple[int, bytes]]:
-    """Return what is on a serial line in flight."""
+    """Return the bytes of a serial line in flight."""
     draws = random.Random(1)
     payloads: list[tuple[int, bytes]] = []
     for number in range(FRAMES // 3):
@@ -60,7 +60,7 @@ def serial_payloads() -> list[tuple[int, bytes]]:
 
 
 def cut(data: bytes, size: int) -> list[bytes]:
-    """Return `data` in the pieces that reads hand over."""
+    """Return `data` in pieces as reads return them."""
     return [data[start : start + size] for start in range(0, len(data), size)]
 
 
@@ -105,7 +105,7 @@ def table_work(payloads: list[tuple[int, bytes]]) -> Work:
 
 
 def pymavlink_work() -> Work | None:
-    """Return the parsing of MAVLink 2 ATTITUDE (28 bytes) by pymavlink; None: not installed."""
+    """Return the parsing of MAVLink 2 ATTITUDE (28 bytes) by pymavlink; None if not installed."""
     try:
         common = import_module("pymavlink.dialects.v20.common")
     except ImportError:
@@ -151,7 +151,7 @@ def orientation_work(pieces: list[bytes]) -> Work:
 
 
 def prototype_work(pieces: list[bytes]) -> Work:
-    """Return the prototype's way: cut each frame off the front of the buffer, nothing checked."""
+    """Return the prototype's method: cut each frame off the front of the buffer, no checks."""
 
     def work() -> int:
         buffer = b""

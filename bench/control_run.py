@@ -12,7 +12,7 @@ from up.system.garbage import QuietCollector
 
 
 class DefaultCollector(QuietCollector):
-    """Leaves everything to Python: nothing is frozen, the automatic collector stays on."""
+    """Uses Python's defaults: nothing is frozen, the automatic collector stays on."""
 
     def start(self) -> None:
         """Do nothing."""

@@ -1,4 +1,4 @@
-"""Raspilot as a user runs it, ``python main.py --config DIR``, in a configuration of its own."""
+"""Raspilot as a user runs it, ``python main.py --config DIR``, with its own configuration."""
 
 import json
 import socket
@@ -19,7 +19,7 @@ CONTROL = Path(__file__).with_name("control_run.py")
 
 @dataclass(frozen=True, slots=True)
 class Ports:
-    """Ports that nobody had a moment ago."""
+    """Ports that were free a moment ago."""
 
     general: int
     orientation: int
@@ -28,7 +28,7 @@ class Ports:
 
 @dataclass(frozen=True, slots=True)
 class Daemon:
-    """A running daemon: its pid, its ports, where it logs and where it records its flights."""
+    """A running daemon: its pid, its ports, its log and its folder of flights."""
 
     pid: int
     ports: Ports
@@ -37,7 +37,7 @@ class Daemon:
 
 
 def free_ports() -> Ports:
-    """Return three ports that are free at this moment, for TCP."""
+    """Return three TCP ports that are currently free."""
     with ExitStack() as stack:
         probes = [stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in range(3)]
         return Ports(*(int(probe.getsockname()[1]) for probe in probes))
@@ -51,7 +51,7 @@ def write_config(
     priority: int = 0,
     is_recorded: bool = True,
 ) -> None:
-    """Write a configuration: the Raspberry Pi flies, everything else as it is shipped."""
+    """Write a configuration: the Raspberry Pi flies, everything else as shipped."""
     recorder = {"enabled": is_recorded, "folder": str(folder / FLIGHTS)}
     files = {
         "config.yml": f"flight controller: raspberry\nrealtime priority: {priority}\n",
@@ -59,7 +59,7 @@ def write_config(
         "discovery.yml": f"port: {ports.discovery}\n",
         "arduino.yml": f"port: {serial!r}\n",
         "black_box.yml": json.dumps(recorder),
-        # Other people's load must not turn this into a measurement of Panic Mode.
+        # Other programs' load must not turn this into a measurement of Panic Mode.
         "load_guard.yml": "panic threshold: 100.0\ncalm down threshold: 99.0\n",
     }
     if proxy_port:

@@ -25,13 +25,13 @@ CHUNK_US = 5_000.0
 OUTPUT_MATCH_US = 30_000.0
 RAM_START = 0x100
 BYTES_A_SECOND = 11_520
-"""What the line carries each way at 115200 baud, 8N1."""
+"""Bytes per second of the line in each direction at 115200 baud, 8N1."""
 QUEUED_BYTES = 2 * round(BYTES_A_SECOND * CHUNK_US / 1e6)
-"""More than the line takes in a chunk: it never waits for the next Command."""
+"""More than the line takes in a chunk, so that it never waits for the next Command."""
 BUSY = "vmTGc"
-"""The veto that the Raspberry Pi repeats, and every question."""
+"""The veto that the Raspberry Pi repeats, and every request."""
 FULL = "c"
-"""The question with the most bytes from the board; an answer waits for room for the longest."""
+"""The request with the longest answer; an answer waits for room for the longest."""
 SECOND_US = 1_000_000.0
 BURST_US, LULL_US = 800_000.0, 2_300_000.0
 """The board reports the lateness of the last whole second for a second."""
@@ -54,8 +54,8 @@ class Following:
 class Flight:
     """The firmware in the rig with a receiver, a moving IMU and, with ``mix``, a full line.
 
-    ``mix`` holds the types of the Commands that are sent, drawn at random, without a pause while
-    the firmware streams; every input then moves in each frame, all pulses starting together.
+    ``mix`` holds the types of the Commands, drawn at random and sent without a pause while the
+    firmware streams; every input then moves in each frame, all pulses starting together.
     """
 
     def __init__(self, elf: Path, *, mix: str = "", aux1_us: float, seed: int = 1) -> None:
@@ -91,7 +91,7 @@ class Flight:
         self.late_us = self.bytes_to_board = self.bytes_from_board = 0
 
     def send(self, letter: str) -> None:
-        """Send one Command, with a payload that the firmware carries out where it may."""
+        """Send one Command, with a payload that the firmware executes if possible."""
         payload = bytes(COMMAND_SIZES[letter])
         if letter == "u":
             newest = self.tap.orientation.sequence if self.tap.orientation else 0
@@ -126,7 +126,7 @@ class Flight:
     def latest_us(self, mix: str, bursts: int = 1) -> int:
         """Return the greatest lateness of the loop in bursts of Commands that fill the line.
 
-        A line full of questions leaves no room for the status: it is read after each burst.
+        A line full of requests leaves no room for the status: it is read after each burst.
         """
         self.late_us = self.period_us = 0
         for _ in range(bursts):
@@ -139,7 +139,7 @@ class Flight:
         return self.late_us
 
     def following(self, channel: str) -> Following:
-        """Match each servo pulse of a channel with the receiver's pulse that it carries."""
+        """Match each servo pulse of a channel with the receiver's pulse that it follows."""
         pulses = [
             (pulse.rise_cycle, pulse.width_cycles) for pulse in self.rig.servo.pulses(channel)
         ]
@@ -182,7 +182,7 @@ def rows(quick: bool = False) -> Iterable[Row]:
 
 
 def mixes() -> list[str]:
-    """Return each Command alone and among many vetoes, the questions, what controls, and all."""
+    """Return each Command alone and among many vetoes, the requests, those for control, and all."""
     among = ["vvvv" + letter for letter in COMMAND_SIZES]
     return [*COMMAND_SIZES, *among, BUSY, "uSvM", "".join(COMMAND_SIZES)]
 

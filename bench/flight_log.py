@@ -1,7 +1,7 @@
 """The flight log's writer and reader beside the official ``mcap`` package, in turns.
 
 The log is that of a flight: 300 messages a second, attitude and receiver fastest, telemetry ten
-times a second. CPU time of this process, in rounds in which both take turns.
+times a second. CPU time of this process, in alternating rounds.
 """
 
 import gc
@@ -38,7 +38,7 @@ TOPICS: dict[str, tuple[int, bytes]] = {
     "arduino.status": (20, json.dumps({f"field{n}": n for n in range(13)}).encode()),
     "up.location.update": (100, json.dumps({"latitude": 50.0, "longitude": 14.0}).encode()),
 }
-"""Every how many ticks of 10 ms, and what."""
+"""Period in ticks of 10 ms, and message."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +98,7 @@ def write_theirs(official: Any, path: Path, minutes: float) -> tuple[int, float]
 
 
 def read_theirs(reader: Any, path: Path) -> int:
-    """Read every message by the official package, checksum and all."""
+    """Read every message by the official package, with its checksum."""
     with path.open("rb") as file:
         records = reader.StreamReader(file, validate_crcs=True).records
         return sum(hasattr(record, "channel_id") for record in records)
@@ -112,7 +112,7 @@ def series_theirs(reader: Any, path: Path) -> int:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield what a message costs to write, and how fast a log is read."""
+    """Yield the time to write a message, and the speed of reading a log."""
     minutes = QUICK_MINUTES if quick else MINUTES
     try:
         official, stream, reader = map(
@@ -145,7 +145,7 @@ def rows(quick: bool = False) -> Iterable[Row]:
 
 
 def _put_all(minutes: float, put: Put) -> tuple[int, float]:
-    """Write a flight by batches, so that making the messages is not counted."""
+    """Write a flight in batches, so that creating the messages is not counted."""
     count, spent_s = 0, 0.0
     batch: list[tuple[int, int, bytes]] = []
     for each in messages(minutes):

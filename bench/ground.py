@@ -1,4 +1,4 @@
-"""Stands where the proxy stands: takes the daemon's link and counts the telemetry that comes."""
+"""Replaces the proxy: accepts the daemon's link and counts the telemetry."""
 
 import socket
 import threading
@@ -9,7 +9,7 @@ WELCOME = b"UP1 ok aircraft=default seat=air token=0123456789abcdef0123456789abc
 
 
 class Ground:
-    """Listens on a free port, says hello, reads lines in a thread of its own."""
+    """Listens on a free port, answers the hello, reads lines in its own thread."""
 
     def __init__(self) -> None:
         self.frames = 0
@@ -20,7 +20,7 @@ class Ground:
         self._thread = threading.Thread(target=self._serve, daemon=True)
 
     def __enter__(self) -> "Ground":
-        """Begin to listen."""
+        """Start listening."""
         self._thread.start()
         return self
 
@@ -33,8 +33,8 @@ class Ground:
         """Close everything."""
         for each in (self._listener, self._peer):
             if each is not None:
-                with suppress(OSError):  # the other side may have been faster
-                    each.shutdown(socket.SHUT_RDWR)  # wakes the thread that waits in it
+                with suppress(OSError):  # the other side may have closed first
+                    each.shutdown(socket.SHUT_RDWR)  # wakes the thread that waits on it
                 each.close()
         self._thread.join(5.0)
 

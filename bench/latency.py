@@ -2,7 +2,7 @@
 
 Peers, measured in turns, a few seconds each: a C program that echoes the same bytes (the floor of
 the machine), the same daemon with Python's own garbage collector (the control run), and the daemon
-at nice 0 beside programs that take every core.
+at nice 0 beside programs that occupy every core.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def in_turns(boards: list[Board], seconds: float, rounds: int) -> list[list[Late
     found: list[list[Latency]] = [[] for _ in boards]
     for _ in range(rounds):
         for figures, board in zip(found, boards, strict=True):
-            # A board that was silent in the others' turns is a lost one.
+            # A board that was silent during the others' turns counts as lost.
             board.greet(GREET_S)
             figures.append(board.measure(RATE_HZ, seconds))
     return found
@@ -89,7 +89,7 @@ def tail_rows(seconds: float, rounds: int) -> Iterable[Row]:
 
 
 def floor_rows(ours: list[Latency], floors: list[Latency]) -> Iterable[Row]:
-    """Yield the middle and the tail beside the floor."""
+    """Yield the median and the tail beside the floor."""
     for name, limit in (("p50", P50_TARGET), ("p99", P99_TARGET)):
         figures, theirs = ([getattr(run, f"{name}_us") for run in runs] for runs in (ours, floors))
         peer = "C floor (epoll echo)"
@@ -99,7 +99,7 @@ def floor_rows(ours: list[Latency], floors: list[Latency]) -> Iterable[Row]:
 
 
 def hogs_row(seconds: float, rounds: int) -> Row:
-    """Return the tail under real-time priority beside that at nice 0, with every core taken."""
+    """Return the tail under real-time priority beside that at nice 0, with every core occupied."""
     what = f"{WHAT}, {HOGS} CPU hogs, SCHED_FIFO {PRIORITY}, p99"
     if not may_be_realtime():
         return Row(what, left_out="real-time priority is not permitted here")
@@ -113,7 +113,7 @@ def hogs_row(seconds: float, rounds: int) -> Row:
 
 
 def may_be_realtime() -> bool:
-    """Return whether this user may take SCHED_FIFO."""
+    """Return whether this user may use SCHED_FIFO."""
     before = os.sched_getscheduler(0), os.sched_getparam(0)
     try:
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))

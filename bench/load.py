@@ -50,7 +50,7 @@ class Flown:
 
 @contextmanager
 def flight(is_recorded: bool = True) -> Iterator[Flown]:
-    """Yield a daemon that flies when it is measured."""
+    """Yield a daemon that flies during the measurement."""
     with (
         Ground() as ground,
         terminal() as (board_end, port),
@@ -68,7 +68,7 @@ def recorded_bytes(folder: Path) -> int:
 
 
 def flight_row(seconds: float, rounds: int) -> Row:
-    """Return the share in flight, recorded as it is shipped."""
+    """Return the share in flight, recorded as shipped."""
     with flight() as flown:
         shares = [flown.cpu_percent(seconds) for _ in range(rounds)]
     what = f"CPU at {RATE_HZ} Hz RX + {RATE_HZ} Hz orientation + {flown.frames_hz:.0f} Hz telemetry"

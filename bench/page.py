@@ -1,7 +1,8 @@
 """The ground station's page: from Raspilot's telemetry to the pixel, in a headless Chromium.
 
-`make run`'s own processes fly the virtual aircraft. When a frame was sent is what the flight's log
-says, when it was on the screen is the page's own clock at the animation frame after the change.
+`make run`'s own processes fly the virtual aircraft. The flight's log gives the time at which a
+frame was sent, the page's own clock the time on the screen, at the animation frame after the
+change.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ LINK = "delay=100"
 
 @dataclass(frozen=True, slots=True)
 class Paints:
-    """What a page showed of one flight; times are milliseconds, sorted.
+    """The measurements of a page during one flight; times are milliseconds, sorted.
 
     ``to_pixel``: from the sending of a frame; ``attitude``: from the measurement of the attitude
     in it; ``in_page``: from its arrival in the browser.
@@ -49,7 +50,7 @@ class Paints:
 
 
 def set_up() -> None:
-    """Prepare what the browser needs; raises LeftOutError with a sentence."""
+    """Prepare the browser's requirements; raises LeftOutError with a sentence."""
     for program, package in NEEDED.items():
         if shutil.which(program) is None:
             raise LeftOutError(f"{program} is not installed (Debian package {package})")
@@ -60,7 +61,7 @@ def set_up() -> None:
 
 
 def measure(seconds: float, *options: str) -> Paints:
-    """Fly with a page that looks on; raises RuntimeError."""
+    """Fly while a page shows the flight; raises RuntimeError."""
     with tempfile.TemporaryDirectory(prefix="upb-") as folder:
         command: list[str | Path] = [
             "node",
@@ -84,7 +85,7 @@ def measure(seconds: float, *options: str) -> Paints:
 
 
 def sent_frames(flights: Path) -> dict[int, tuple[float, float]]:
-    """Return by beacon when a frame was sent, and how old the attitude in it was then (both ms)."""
+    """Return by beacon when a frame was sent, and the age of its attitude then (both ms)."""
     log = FlightLog.read(sorted(flights.glob("*.mcap")))
     found = {}
     for message in log.messages("up.telemetry.update"):
@@ -120,7 +121,7 @@ def _row(what: str, times_ms: list[float], target_ms: float) -> Row:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield how late the screen is, near and over a link of 100 ms, and how smooth it is."""
+    """Yield the delay of the screen, locally and over a link of 100 ms, and its smoothness."""
     set_up()
     seconds = QUICK_SECONDS if quick else SECONDS
     near = measure(seconds)

@@ -15,7 +15,7 @@ DEADLINE_S = 60.0
 
 
 def environment() -> dict[str, str]:
-    """Return a user's environment: nothing that changes how Python starts or what Up runs."""
+    """Return a user's environment, without settings that change how Python starts or Up runs."""
     return {
         name: text for name, text in os.environ.items() if not name.startswith(("PYTHON", "UP_"))
     }
@@ -47,7 +47,7 @@ def running(
 
 @contextmanager
 def hogs(count: int) -> Iterator[None]:
-    """Let this many programs spin at nice 0."""
+    """Run this many busy loops at nice 0."""
     spinning = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(count)]
     try:
         yield
@@ -79,8 +79,8 @@ def tree(pid: int) -> list[int]:
 def cpu_s(pid: int) -> float:
     """Return the CPU time of a process, all its threads, user and system, in seconds.
 
-    From schedstat in nanoseconds: /proc/<pid>/stat counts ticks of 10 ms, too coarse for a
-    program that sleeps nearly always.
+    From schedstat in nanoseconds: /proc/<pid>/stat counts ticks of 10 ms, too coarse for a program
+    that sleeps nearly always.
     """
     total_ns = 0
     for task in Path(f"/proc/{pid}/task").iterdir():

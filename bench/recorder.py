@@ -1,4 +1,4 @@
-"""What recording the flight costs: CPU, latency of control, bytes; with and without, in turns."""
+"""The cost of recording the flight: CPU, latency of control, bytes; with and without, in turns."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CPU_TARGET, MB_TARGET = Limit(1.2), Limit(100.0)
 
 
 def load_rows(seconds: float, rounds: int) -> Iterable[Row]:
-    """Yield the share of a core in flight, and what is written in an hour."""
+    """Yield the share of a core in flight, and the bytes written in an hour."""
     shares: list[list[float]] = [[], []]
     written = []
     with load.flight() as recorded, load.flight(is_recorded=False) as other:
@@ -28,7 +28,7 @@ def load_rows(seconds: float, rounds: int) -> Iterable[Row]:
 
 
 def latency_rows(seconds: float, rounds: int) -> Iterable[Row]:
-    """Yield the middle and the tail of sensor to actuator at 1 kHz."""
+    """Yield the median and the tail of sensor to actuator at 1 kHz."""
     with latency.daemon_board() as recorded, latency.daemon_board(is_recorded=False) as other:
         runs = latency.in_turns([recorded, other], seconds, rounds)
     for name in ("p50", "p99", "p999"):

@@ -1,7 +1,7 @@
 """The proxy beside HAProxy and socat: added round trip, CPU, memory.
 
-Relay and load generator are processes of their own, on a core each where there are two; every
-figure is from one run on one machine.
+Relay and load generator are separate processes, on a core each if there are two; every figure is
+from one run on one machine.
 """
 
 import json
@@ -41,7 +41,7 @@ LISTENS = r"(airborne|ground) side listens on port (\d+)\n"
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """Round trips in microseconds, CPU of the relay in microseconds a round trip."""
+    """Round trips in microseconds, CPU of the relay in microseconds per round trip."""
 
     p50_us: float
     p99_us: float
@@ -100,13 +100,13 @@ def our_proxy(folder: Path) -> Iterator[tuple[subprocess.Popen[str], int, int]]:
 
 
 def free_port() -> int:
-    """Return a port that is free at this moment."""
+    """Return a port that is currently free."""
     with socket.create_server(("127.0.0.1", 0)) as probe:
         return int(probe.getsockname()[1])
 
 
 def wait_for_port(port: int) -> None:
-    """Return when somebody listens."""
+    """Return when a program listens."""
     deadline_s = time.monotonic() + DEADLINE_S
     while time.monotonic() < deadline_s:
         if f":{port:04X} " in "".join(
@@ -189,7 +189,7 @@ def socat_command(folder: Path, port: int, echo: int) -> tuple[str, ...]:
 
 
 def measure_peer(name: str, seconds: float) -> Figures | None:
-    """Measure HAProxy or socat; None when it is not installed."""
+    """Measure HAProxy or socat; None if it is not installed."""
     if shutil.which(name) is None:
         return None
     command = haproxy_command if name == "haproxy" else socat_command
@@ -225,7 +225,7 @@ def relay_rows(rounds: int = ROUNDS, seconds: float = SECONDS) -> Iterable[Row]:
 
 
 def added_us(runs: list[Figures], direct: list[Figures], share: str) -> list[float]:
-    """Return by how much a relay lengthens the round trip, in each round; none if it never ran."""
+    """Return how much a relay lengthens the round trip, in each round; empty if it never ran."""
     key = f"{share}_us"
     return [
         getattr(one, key) - getattr(floor, key) for one, floor in zip(runs, direct, strict=False)
@@ -242,7 +242,7 @@ def dial(port: int, hello: str) -> socket.socket:
 
 
 def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
-    """Yield what many pairs cost: memory of an idle one, a core's share with their heartbeats."""
+    """Yield the cost of many pairs: memory of an idle one, a core's share with their heartbeats."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     allowed = (hard - 200) // 2 if hard != resource.RLIM_INFINITY else pairs
     pairs = min(pairs, allowed)
@@ -279,7 +279,7 @@ def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
 
 
 def beat(peers: list[socket.socket]) -> None:
-    """Send every peer's heartbeat, and read what came."""
+    """Send every peer's heartbeat, and read the received data."""
     for peer in peers:
         peer.send(b"\n")
     for peer in peers:
@@ -288,7 +288,7 @@ def beat(peers: list[socket.socket]) -> None:
 
 
 def stalled_row(seconds: float = 2.0) -> Row:
-    """Return by how much a ground that does not read makes the proxy grow."""
+    """Return how much a ground that does not read makes the proxy grow."""
     with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
         aircraft = dial(air, "UP1 aircraft=stall\n")
         stalled = dial(ground, "UP1 aircraft=stall seat=command\n")

@@ -1,4 +1,4 @@
-"""Load for the relay benchmark, a process of its own: pairs that send a line and echo it back.
+"""Load for the relay benchmark, a separate process: pairs that send a line and echo it back.
 
 Reads one JSON object from stdin: {"mode": "proxy" | "forward" | "direct", "send": port,
 "echo": port, "pairs": n, "rate_hz": r, "seconds": s, "size": bytes}; prints one JSON object with
@@ -18,7 +18,7 @@ WARM_UP_S = 1.0
 
 
 def dial(port: int, hello: str = "") -> socket.socket:
-    """Connect to a local port, say hello when there is one, wait for the answer."""
+    """Connect to a local port; send a hello, if there is one, and wait for the answer."""
     peer = socket.create_connection(("127.0.0.1", port))
     peer.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     if hello:
@@ -53,7 +53,7 @@ def pairs(job: dict[str, Any]) -> list[tuple[socket.socket, socket.socket]]:
 
 
 def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]) -> list[int]:
-    """Send at the asked rate, evenly spread over the pairs; return round trips in ns."""
+    """Send at the requested rate, evenly spread over the pairs; return round trips in ns."""
     poll = select.epoll()
     echoes = {echo.fileno(): echo for _, echo in ends}
     senders = {send.fileno(): send for send, _ in ends}
@@ -61,7 +61,7 @@ def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
         each.setblocking(False)
         poll.register(each.fileno(), select.EPOLLIN)
     time.sleep(0.2)
-    for send, _ in ends:  # what the proxy said of seats
+    for send, _ in ends:  # the proxy's lines about seats
         while True:
             try:
                 send.recv(65536)
@@ -104,7 +104,7 @@ def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
 
 
 def main() -> None:
-    """Do the job that stdin describes."""
+    """Do the job given on stdin."""
     job = json.loads(sys.stdin.readline())
     if "cpu" in job:
         os.sched_setaffinity(0, {job["cpu"]})

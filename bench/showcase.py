@@ -1,4 +1,4 @@
-"""`make run`'s processes: how much of a core each takes while the virtual aircraft flies."""
+"""`make run`'s processes: the share of a core of each while the virtual aircraft flies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How much faster than the clock the virtual aircraft flies, on one core."""
+"""The speed of the virtual aircraft relative to real time, on one core."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def _fly(world: World, duration_s: float) -> None:
 
 
 def _factor(run: Callable[[], None], simulated_s: float) -> float:
-    """Return simulated time by processor time: what else runs here does not count."""
+    """Return simulated time by processor time: other programs do not count."""
     start_s = time.process_time()
     run()
     return simulated_s / (time.process_time() - start_s)

@@ -1,6 +1,6 @@
 """From the command line to bound ports, and the memory of an idle daemon.
 
-The peer is importing Twisted's reactor and nothing else, in the same run, in turns.
+The peer only imports Twisted's reactor, in the same run, in turns.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ ROUNDS, QUICK_ROUNDS = 12, 3
 LOOK_EVERY_S = 0.0005
 LIMIT_S = 60.0
 SETTLE_S = 5.0
-# What a program holds that has the reactor and nothing else.
+# The memory of a program that only imports the reactor.
 HOLD = f"{IMPORT}, time; time.sleep(600)"
 
 
 def wait_for_ports(ports: Ports, limit_s: float = LIMIT_S) -> None:
-    """Return when both TCP ports take connections; raises RuntimeError after the limit."""
+    """Return when both TCP ports accept connections; raises RuntimeError after the limit."""
     end_s = time.monotonic() + limit_s
     for port in (ports.general, ports.orientation):
         while not _is_open(port):
@@ -64,7 +64,7 @@ def import_s() -> float:
 def start_row(rounds: int) -> Row:
     """Return start to ports beside the import, in alternating rounds."""
     starts, imports = [], []
-    start_s()  # the first one writes what Python compiles
+    start_s()  # the first one writes Python's bytecode
     for _ in range(rounds):
         imports.append(1000 * import_s())
         starts.append(1000 * start_s())
@@ -73,7 +73,7 @@ def start_row(rounds: int) -> Row:
 
 
 def memory_row(settle_s: float) -> Row:
-    """Return the resident memory of an idle daemon beside a Python that holds the reactor."""
+    """Return the resident memory of an idle daemon beside a Python with the reactor."""
     with daemon() as idle, running((sys.executable, "-c", HOLD)) as holding:
         wait_for_ports(idle.ports)
         time.sleep(settle_s)

@@ -10,15 +10,15 @@ NOT_INSTALLED = "not installed"
 
 
 class LeftOutError(Exception):
-    """This machine lacks what a measurement needs; the message says what."""
+    """This machine lacks a requirement of the measurement; the message names it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
     """One figure; all texts are ready to print.
 
-    ``met`` is None without a target and where it cannot be judged. ``left_out``: why there is no
-    figure, of ours or of the peer.
+    ``met`` is None without a target and if it cannot be judged. ``left_out``: the reason for a
+    missing figure, of ours or of the peer.
     """
 
     what: str
@@ -51,11 +51,11 @@ def compared(
     limit: Limit | None = None,
     missing: str = NOT_INSTALLED,
 ) -> Row:
-    """Return the row of figures that ours and a peer's had in the same rounds, in turns.
+    """Return the row of our figures and a peer's from the same alternating rounds.
 
-    The ratio is the median of the rounds' ratios. ``limit`` is a limit of the ratio: at most, or
-    at least that many times better; without a peer it is one of the figure. Without figures of
-    the peer, ``missing`` gives the reason.
+    The ratio is the median of the rounds' ratios. ``limit`` limits the ratio: at most, or at least
+    that many times better; without a peer it limits the figure. Without figures of the peer,
+    ``missing`` gives the reason.
     """
     is_gain = limit is not None and limit.is_least
     suffix = f" {unit}".rstrip() if not peer else "x better" if is_gain else "x"

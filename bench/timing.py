@@ -47,9 +47,9 @@ class Spread:
 
 
 def rounds_ns(works: Sequence[Work], rounds: int, calls: int) -> list[list[float]]:
-    """Return the CPU nanoseconds of one call of each work in each of several rounds in turns.
+    """Return the CPU nanoseconds of one call of each work in each of several alternating rounds.
 
-    The collector is off, as in the daemon; what the empty loop takes is subtracted.
+    The collector is off, as in the daemon; the time of the empty loop is subtracted.
     """
     found: list[list[float]] = [[] for _ in works]
     was_on = gc.isenabled()
@@ -67,7 +67,7 @@ def rounds_ns(works: Sequence[Work], rounds: int, calls: int) -> list[list[float
 
 
 _CALL_NS = 20.0
-"""About what calling an empty function takes: it belongs to the work, the loop does not."""
+"""About the time to call an empty function: it belongs to the work, the loop does not."""
 
 
 def _nothing() -> None:
@@ -82,7 +82,7 @@ def _loop_ns(work: Work, calls: int) -> float:
 
 
 def percentile(ordered: Sequence[float], share: float) -> float:
-    """Return the value below which ``share`` (0 to 1) of the ordered values lie; NaN of none."""
+    """Return the value below which ``share`` (0 to 1) of the ordered values lie; NaN if empty."""
     if not ordered:
         return math.nan
     return ordered[min(len(ordered) - 1, int(len(ordered) * share))]
