@@ -88,7 +88,7 @@ def _cells(row: Row) -> tuple[str, ...]:
 
 
 def format_table(rows: Iterable[Row], is_markdown: bool = False) -> str:
-    """Return the rows as aligned columns under their headings, then what was left out."""
+    """Return the rows as aligned columns under their headings, then the missing figures."""
     rows = list(rows)
     lines = [HEADINGS, *(_cells(row) for row in rows if row.ours)]
     widths = [max(len(line[column]) for line in lines) for column in range(len(HEADINGS))]

@@ -43,7 +43,7 @@ def needs(module: type[_M]) -> _M:
 
 
 def wants(module: type[_M]) -> _M | None:
-    """Declare a module that this one uses if it is loaded; otherwise the reference is None."""
+    """Declare a module that this one uses if it is loaded; otherwise it gets None."""
     return cast("_M | None", Need(cast(Any, module), optional=True))
 
 

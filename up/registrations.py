@@ -10,7 +10,7 @@ Undo = Callable[[], object]
 
 
 class Registrations:
-    """Notes what is registered while a module is initialized and started.
+    """Notes registrations while a module is initialized and started.
 
     Every registering method of the system calls ``note_undo`` with the undo function. An
     asynchronous start keeps its module: the current registrations are a context variable, which

@@ -48,7 +48,7 @@ class Aircraft:
         return self.air_seat.holder(now_s) is not None
 
     def is_deserted(self, now_s: float) -> bool:
-        """Return whether there is no connection and no seat kept for a token."""
+        """Return whether it has neither a connection nor a seat kept for a token."""
         return (
             self.air_seat.occupant is None
             and not self.grounds

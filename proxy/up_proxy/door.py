@@ -92,7 +92,7 @@ class Door:
             self._take(peer, plain(address[0]))
 
     def fail(self, reason: str) -> None:
-        """Pause: one failure is no reason to close the listening socket."""
+        """Pause: one failure must not close the listening socket."""
         self._rest()
 
     def end(self) -> None:

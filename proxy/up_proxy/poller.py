@@ -1,4 +1,4 @@
-"""Waits for many sockets at once, inside Twisted's reactor.
+"""Waits for many sockets, inside Twisted's reactor.
 
 The reactor has one descriptor, our own epoll: a relayed line then costs no reactor bookkeeping, and
 an idle connection no entry in the reactor.

@@ -1,4 +1,4 @@
-"""runner.yml: what the runner spawns, for whom and within which limits."""
+"""runner.yml: the instances that the runner starts, its clients and its limits."""
 
 from __future__ import annotations
 

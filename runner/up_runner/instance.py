@@ -71,7 +71,7 @@ class Instance:
 
     @property
     def pid(self) -> int | None:
-        """Return the process number, None while there is no process."""
+        """Return the process number, None without a process."""
         return None if self._child is None else self._child.pid
 
     def start(self) -> Deferred[str | None]:

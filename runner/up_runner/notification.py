@@ -16,7 +16,7 @@ _MAX_STATUS = 200
 class Notification:
     """One datagram; a missing field is None or False.
 
-    `ports` are TCP or UDP ports by purpose, `phone` says whether the phone is connected.
+    `ports` are TCP or UDP ports by purpose, `phone`: the phone is connected.
     """
 
     ready: bool = False

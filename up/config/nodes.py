@@ -51,7 +51,7 @@ Node = ScalarNode | ListNode | MapNode
 
 
 def compose(text: str, report: Report) -> Node | None:
-    """Return the root of the one document; None if there is none or it cannot be parsed.
+    """Return the root of the one document; None if it is absent or cannot be parsed.
 
     Errors are reported as problems; no text makes it raise.
     """

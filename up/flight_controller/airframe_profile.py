@@ -1,4 +1,4 @@
-"""The keys of airframe.yml: what the Arduino shall know about an aeroplane; what is null stays."""
+"""The keys of airframe.yml: the required profile of the Arduino; null values stay unchanged."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ _ENDING_S = 2.0
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """The authority from that moment on; unknown values are None."""
+    """The authority from that moment on; None: unknown."""
 
     time_s: float
     flight_mode: str | None
@@ -76,7 +76,7 @@ class Facts:
 
     @cached_property
     def last_telemetry(self) -> dict[str, Any]:
-        """Return the last logged frame of telemetry; empty if there is none."""
+        """Return the last logged frame of telemetry; empty without one."""
         times_s = self.log.times(TELEMETRY)
         if not times_s:
             return {}
@@ -86,7 +86,7 @@ class Facts:
         return newest
 
     def first_telemetry(self, since_s: float) -> dict[str, Any]:
-        """Return the first frame of telemetry from a time on; empty if there is none."""
+        """Return the first frame of telemetry from a time on; empty without one."""
         for message in self.log.messages(TELEMETRY, since_s=since_s):
             return message.data
         return {}

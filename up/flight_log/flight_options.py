@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 PLACE = "flights_place"
-"""What whoever makes ``up log`` leaves among the parsed values for the verbs of others: a
-``Place``, which knows the application's black_box.yml."""
+"""The parsed value in which ``up log`` stores a ``Place`` for the verbs of others; it knows the
+application's black_box.yml."""
 
 Place = Callable[[argparse.Namespace], Path]
 """Returns the folder that the parsed options select."""

@@ -25,7 +25,7 @@ class FlightNotFoundError(FlightLogError):
 
 @dataclass(frozen=True, slots=True)
 class Flight:
-    """The files of one flight, in order; ``number`` is None for a file with another name."""
+    """The files of one flight, in order; ``number``: None for a file with another name."""
 
     paths: tuple[Path, ...]
     number: int | None

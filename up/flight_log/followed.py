@@ -22,7 +22,7 @@ FRESH_S = {
     "heading": 1.5,
     "battery": 120.0,
 }
-"""The age after which a source is no longer fresh, by reading."""
+"""The maximum age of a fresh source, by reading."""
 _BOARD_PRIORITY = 10
 _LATER_S = 0.05
 """A selection is logged after the message that caused it."""

@@ -12,7 +12,7 @@ _TOO_LARGE = "a number that is too large"
 
 
 def decode(data: bytes) -> dict[str, Any]:
-    """Return the object; ValueError says what the text is instead.
+    """Return the object; ValueError names the fault of the text.
 
     Refuses NaN and infinity (also numbers too large for a float), nesting deeper than 32 and text
     with lone surrogates: every result can be written as JSON again.

@@ -55,7 +55,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class FlightSummary:
-    """The summary of a flight; values that the log does not contain are None or empty.
+    """The summary of a flight; values missing in the log: None or empty.
 
     Altitudes are above sea level. ``gaps_s`` is the longest silence of each source that sent data.
     ``vetoes`` lists every arming veto of the flight. ``warnings`` and ``errors`` count lines of the

@@ -105,7 +105,7 @@ class TextObserver:
                     stream.write(text.encode("ascii", "backslashreplace").decode())
                 stream.flush()
             except (OSError, ValueError):
-                # The stream is full, broken or closed: there is no other place to report it.
+                # The stream is full, broken or closed: the error cannot be reported.
                 return
 
 

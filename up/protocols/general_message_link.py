@@ -29,7 +29,7 @@ class GeneralMessageLink(Interface):
 
     @property
     def peer(self) -> str:
-        """Host and port of the peer as text; empty while there is none."""
+        """Host and port of the peer as text; empty without a peer."""
 
     @property
     def heard_s(self) -> float:

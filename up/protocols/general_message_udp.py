@@ -61,7 +61,7 @@ class GeneralMessageDatagrams(DatagramProtocol):
 
     @property
     def peer(self) -> str:
-        """Host and port of the peer; empty while there is none."""
+        """Host and port of the peer; empty without one."""
         return "" if self._address is None else f"{self._address[0]}:{self._address[1]}"
 
     @property

@@ -30,7 +30,7 @@ def _parsed(host: str) -> IPv4Address | IPv6Address:
 def is_private(host: str) -> bool:
     """Return whether a literal address is loopback, private, link local, ULA or carrier-grade NAT.
 
-    A wildcard such as 0.0.0.0 is not private (Python's `ipaddress` says it is): it stands for every
+    A wildcard such as 0.0.0.0 is not private (unlike in Python's `ipaddress`): it stands for every
     address. An IPv4 address inside IPv6 is judged as IPv4; a scope (`%eth0`) is ignored. Raises
     ValueError when `host` is not a literal address.
     """

@@ -31,7 +31,7 @@ class ForcedEnd:
         self._asked.put(status)
 
     def call_off(self) -> None:
-        """Cancel: the process is no longer ended."""
+        """Cancel the end of the process."""
         self._called_off.set()
 
     def _run(self) -> None:

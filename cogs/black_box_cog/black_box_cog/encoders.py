@@ -87,7 +87,7 @@ def _by_template(names: Sequence[str], keys: Sequence[str]) -> Encode:
 
 
 def _template(heads: Sequence[str], types: Sequence[type]) -> str:
-    """Return the template for values of these types; empty if there is none."""
+    """Return the template for values of these types; empty without one."""
     if not all(each in _PLACES for each in types):
         return ""
     places = (head + _PLACES[each] for head, each in zip(heads, types, strict=True))

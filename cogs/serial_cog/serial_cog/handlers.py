@@ -53,7 +53,7 @@ class HandlerTable:
     def remove(self, type_: FrameType, handler: FrameHandler | None = None) -> bool:
         """Remove one handler of a type, or all; return whether the type has no handlers left.
 
-        Raises KeyError if there is none to remove.
+        Raises KeyError for an unknown handler.
         """
         number = type_byte(type_)
         before = self.by_type[number]

@@ -27,7 +27,7 @@ def draw_overview(
     stage: Stage,
     track: TrackView | None,
 ) -> None:
-    """Draw what is available of both; a missing one leaves its place empty."""
+    """Draw both; a missing one leaves its place empty."""
     sheet.text(0.62, 0.12, title, size=14, weight="bold")
     sheet.text(0.62, 0.38, subtitle, size=9, color=sheet.theme.muted)
     below_in = sheet.height - HEAD_IN

@@ -158,7 +158,7 @@ def _silences(log: FlightLog) -> dict[str, Series]:
 
 
 def first_link(log: FlightLog, topic: str) -> str:
-    """Return the link of a topic's first message; empty if there is none."""
+    """Return the link of a topic's first message; empty without one."""
     return next((link_and_role(data.get(KEY))[0] for _, data in _told(log, topic)), "")
 
 

@@ -115,7 +115,7 @@ class SerialProvider(BaseStartedModule):
             self._renew_decoder()
 
     def remove_handler(self, type_: FrameType, handler: FrameHandler | None = None) -> None:
-        """Remove one handler of a type, or all of them; raises KeyError if there is none."""
+        """Remove one handler of a type, or all of them; raises KeyError for an unknown one."""
         if self._table.remove(type_, handler) and self._line is not None:
             self._renew_decoder()
 
