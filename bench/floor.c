@@ -41,7 +41,7 @@ int main(int argc, char **argv)
     struct epoll_event wanted = {.events = EPOLLIN}, happened;
     if (poll < 0 || epoll_ctl(poll, EPOLL_CTL_ADD, port, &wanted) != 0)
         return fail("epoll");
-    if (write(port, "", 1) != 1) /* the zero with which an end opens the line */
+    if (write(port, "", 1) != 1) /* the zero that opens the line */
         return fail("write");
     char bytes[4096];
     while (epoll_wait(poll, &happened, 1, -1) >= 0) {
