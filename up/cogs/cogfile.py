@@ -27,7 +27,7 @@ _URL = re.compile(r"(git\+)?(https|ssh|file)://[^\s@#]*(@[^\s@#/]+/[^\s@#]*)?", 
 
 @dataclass(frozen=True, slots=True)
 class CogSpec:
-    """The source of a cog."""
+    """Where a cog comes from."""
 
     path: str = key("", "Folder with the cog's setup.py, from the Cogfile.", max_length=1000)
     pypi: str = key("", "Name of the distribution on the package index.", max_length=200)

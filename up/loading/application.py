@@ -15,7 +15,7 @@ UP_FILE = "UpFile"
 
 @dataclass(frozen=True, slots=True)
 class UpFileConfig:
-    """Marks the folder of an Up application."""
+    """Marks the folder of an application on Up."""
 
     package: str = key("", "The Python package that this folder is; empty: the folder's name.")
     config: str = key("config", "Where the configuration lies, from this folder.")

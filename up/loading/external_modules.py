@@ -14,7 +14,7 @@ EXTERNAL_MODULES_FILE = "external_modules.yml"
 
 @dataclass(frozen=True, slots=True)
 class ModuleEntry:
-    """One class of a cog: its name and the module to import it from."""
+    """One class of a cog: its name and the module that it is imported from."""
 
     class_name: str = key("", "Name of the class.", max_length=200)
     prefix: str = key("", "Module that the class is imported from.", max_length=300)
@@ -34,7 +34,7 @@ class ModuleEntry:
 
 @dataclass(frozen=True, slots=True)
 class CogEntry:
-    """The entries of one cog."""
+    """What one cog brings."""
 
     modules: tuple[ModuleEntry, ...] = items(ModuleEntry, "Classes that are loaded.")
     source: Literal["cogfile", "manual"] = key("manual", "Who registered the cog.")
