@@ -19,8 +19,7 @@ class BaseStartedModule(BaseModule):
 
     REQUIRED: ClassVar[bool] = False
     DATA_SOURCE: ClassVar[bool] = False
-    """Whether this module can deliver readings; the program does not run without any such module.
-    """
+    """Whether this module can deliver readings; the program needs at least one that can."""
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         self._started = False

@@ -143,7 +143,7 @@ class TelemetryController(BaseStartedModule):
             if content is None or isinstance(content, Mapping):
                 return content
             raise TypeError(f"telemetry_content is {type(content).__name__}, no map")
-        except (Exception, SystemExit):  # noqa: BLE001 - a fault costs one module's part of the frame
+        except (Exception, SystemExit):  # noqa: BLE001 - a fault costs one module's part only
             self.faults += 1
             if self._said.first(module.path):
                 self.logger.failure("the telemetry of {name} failed", name=module.class_name)

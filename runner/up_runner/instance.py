@@ -267,7 +267,7 @@ class Instance:
             self.stop(f"its phone was gone for {self._policy.exit_delay_s:g} s")
 
     def _on_stopping(self) -> None:
-        """Give a process that announced its end the time for it."""
+        """Limit the time of a process that announced its end."""
         self._said_stopping = True
         if self.state is State.RUNNING and self._timer is None and self._child is not None:
             self._rest()

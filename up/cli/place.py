@@ -1,4 +1,4 @@
-"""Which application a verb works on."""
+"""Finds the application of a verb."""
 
 from __future__ import annotations
 

@@ -20,5 +20,5 @@ class AltitudeCommand(BaseCommand):
     mode: str = value("actual", choices=("actual", "required"))
 
     def roles(self) -> frozenset[Role]:
-        """A sensor measures; an operator asks, which is refused (``UNSUPPORTED``)."""
+        """Sensors send measurements; an operator's request is refused (``UNSUPPORTED``)."""
         return frozenset({Role.OPERATOR if self.mode == "required" else Role.SENSOR})

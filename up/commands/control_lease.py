@@ -1,4 +1,4 @@
-"""Who controls the servos: one publisher of set-points and Outputs at a time."""
+"""Control of the servos: one publisher of set-points and Outputs at a time."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ class PIDTuningsCommand(BaseCommand):
         gain_set_from_data(self.pids)
 
     def roles(self) -> frozenset[Role]:
-        """Looking is for observers, setting for pilots."""
+        """Observers may read the gains, pilots may set them."""
         return frozenset({Role.OBSERVER if self.request else Role.PILOT})
 
     @property

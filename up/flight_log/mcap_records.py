@@ -15,7 +15,7 @@ class MalformedRecordError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """Who wrote the file."""
+    """The program that wrote the file."""
 
     profile: str
     library: str

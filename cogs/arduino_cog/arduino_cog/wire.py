@@ -79,7 +79,7 @@ _REASONS = {
 
 
 def reason_text(code: int) -> str:
-    """Return a reason of `!` in words."""
+    """Return the text of a reason of `!`."""
     return _REASONS.get(code) or f"reason {code}"  # type: ignore[call-overload]
 
 

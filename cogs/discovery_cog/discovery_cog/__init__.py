@@ -1,1 +1,1 @@
-"""Lets the airborne phone find the Raspberry Pi (thesis 3.3.3)."""
+"""Discovery of the Raspberry Pi by the airborne phone (thesis 3.3.3)."""

@@ -38,8 +38,8 @@ class ArduinoProfile(BaseModule):
     determines the meaning of "in flight". It is sent only on the ground and only where it differs,
     with increasing delays between attempts. Until the board has it, arming is vetoed under the
     file's name. Its limits of FBW are published for a flight controller on the Raspberry Pi. An
-    airframe.yml without values changes and vetoes nothing, and an old firmware (thesis framing) has no
-    profile.
+    airframe.yml without values changes and vetoes nothing, and an old firmware (thesis framing) has
+    no profile.
     """
 
     MODES = WITH_ARDUINO
