@@ -36,8 +36,8 @@ class _FairPort(Port):
 def listen_udp(reactor: Any, number: int, protocol: Any, address: str = "") -> Any:
     """Listen on a UDP port and return it; raises CannotListenError.
 
-    Twisted's own ``listenUDP`` leaves the socket of a refused bind to the garbage collector. A
-    reactor that cannot adopt sockets, such as a simulated one, uses ``listenUDP``.
+    Twisted's own ``listenUDP`` leaves the socket of a refused bind to the garbage collector. For
+    a reactor that cannot adopt sockets, such as a simulated one, ``listenUDP`` is used.
     """
     if not hasattr(reactor, "adoptDatagramPort"):
         return reactor.listenUDP(number, protocol, interface=address)
