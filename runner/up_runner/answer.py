@@ -15,8 +15,8 @@ NOT_RUNNING = "Raspilot not running"
 class Answer:
     """The state of one instance at the moment of the answer.
 
-    `spawned` is true only if this request started the running process. `pid` and `ports` are None
-    without a process; `error` is one sentence or None.
+    `spawned` is true only if this request started the running process. `pid`, `ports`: None without
+    a process; `error`: one sentence or None.
     """
 
     instance: str | None

@@ -75,7 +75,7 @@ class Instance:
         return None if self._child is None else self._child.pid
 
     def start(self) -> Deferred[str | None]:
-        """Start; the result is None once it runs with its ports bound, or the failure."""
+        """Start; fires with None once it runs with its ports bound, or with the failure."""
         outcome = self.outcome()
         self._begin()
         return outcome
@@ -106,7 +106,7 @@ class Instance:
         return waiting
 
     def when_ended(self) -> Deferred[None]:
-        """Wait until it has ended permanently; the result is None."""
+        """Fire when it has ended permanently."""
         ended: Deferred[None] = Deferred()
         self._mourners.append(ended)
         return ended

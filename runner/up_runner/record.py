@@ -19,8 +19,8 @@ _VERSION = 1
 class Record:
     """An instance's state, as its runner last saw it.
 
-    `identity` is None between two processes, while a restart is pending. `keep`: it must be
-    restarted when it is gone; `ready`: its ports were bound. `phone` is None until the instance has
+    `identity`: None between two processes, while a restart is pending. `keep`: it must be
+    restarted when it is gone; `ready`: its ports were bound. `phone`: None until the instance has
     reported whether its phone is connected.
     """
 
