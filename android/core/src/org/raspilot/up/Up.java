@@ -22,7 +22,7 @@ public final class Up {
     private final CommandReceiver receiver;
     private final ProvidersController providers;
 
-    /** Makes an Up on a loop; the listener is told of handlers that fail. */
+    /** Creates an Up on a loop; exceptions from handlers are reported to the listener. */
     public Up(Loop loop, HandlerFaultListener faults) {
         this(loop, new ProvidersController(loop), faults);
     }

@@ -50,7 +50,7 @@ public final class OwnApplicationTest {
         }
     }
 
-    /** A handler: what is to be done. */
+    /** A handler: the action of a Command. */
     static final class ReleaseHandler extends BaseCommandHandler {
         long roomFor = 5;
 
@@ -175,7 +175,7 @@ public final class OwnApplicationTest {
         }
     }
 
-    /** A sensor that measures when it is told to. */
+    /** A sensor that measures on request. */
     private static final class LightSensor implements SensorSource<Double> {
         private SensorListener<Double> listener;
 

@@ -37,10 +37,10 @@ public final class Airborne {
     private boolean isRunning;
 
     /**
-     * Takes its surroundings; nothing begins before {@link #start}.
+     * Stores its dependencies; nothing starts before {@link #start}.
      *
-     * @param random seeded by whoever makes it: waits vary by it, and the identity by which
-     *     the Raspberry Pi tells this phone from another
+     * @param random a seeded source: it varies the retry waits and makes the identity by which the
+     *     Raspberry Pi distinguishes this phone from others
      */
     public Airborne(Loop loop, AirborneSettings settings, Sensors sensors, Speaker speaker,
             AirborneListener listener, Random random) {
@@ -106,7 +106,7 @@ public final class Airborne {
                         handlers.telemetry(), answers));
     }
 
-    /** Takes another mounting at once. */
+    /** Replaces the mounting immediately. */
     public void setMounting(Mounting mounting) {
         basics.setMounting(mounting);
     }
@@ -145,7 +145,9 @@ public final class Airborne {
         return basics.altitude().zeroHere();
     }
 
-    /** Tries at once instead of after the wait, as when the phone's network came back. */
+    /**
+     * Retries immediately instead of after the wait, for example when the phone's network is back.
+     */
     public void networkChanged() {
         if (isRunning) {
             link.reconnectNow();

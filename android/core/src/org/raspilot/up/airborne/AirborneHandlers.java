@@ -19,7 +19,7 @@ final class AirborneHandlers {
     private final Answers answers;
     private long telemetry;
 
-    /** Takes the answers to what was sent with an id. */
+    /** Handles the answers to messages sent with an id. */
     interface Answers {
         /** Takes that it was carried out. */
         void onAck(String id);

@@ -27,15 +27,15 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     private String told = "";
     private boolean wasLost;
 
-    /** Is told what happens on the link for Commands. */
+    /** Receives the events of the link for Commands. */
     interface Owner {
-        /** Tells that it is there. */
+        /** Called when the link is open. */
         void onOpened(Place place);
 
         /** Gives a line that came. */
         void onLine(byte[] line, int length);
 
-        /** Tells that it is gone, and why. */
+        /** Called when the link is lost, with the reason. */
         void onClosed(String reason);
 
         /** Tells why it is not there, once until that changes. */
@@ -79,7 +79,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         socket.stop();
     }
 
-    /** Tries at once instead of after the wait. */
+    /** Retries immediately instead of after the wait. */
     void reconnectNow() {
         socket.reconnectNow();
         if (orientation != null) {

@@ -159,7 +159,7 @@ public final class AirborneSettings {
         return isWanted ? orientation : OrientationTransport.OFF;
     }
 
-    /** Collects settings; what is not set keeps its default. */
+    /** Builds settings; a value that is not set keeps its default. */
     public static final class Builder {
         private AirborneMode mode = AirborneMode.FLIGHT_CONTROLLER;
         private String host = "";

@@ -20,9 +20,9 @@ public final class CommandCatalogue {
     }
 
     /**
-     * Reads the text of a catalogue: the object {@code {"type": "catalogue", "commands": [...]}}.
+     * Parses a catalogue: the object {@code {"type": "catalogue", "commands": [...]}}.
      *
-     * @throws MalformedException when it is none
+     * @throws MalformedException when the text is not a catalogue
      */
     public static CommandCatalogue read(String json) throws MalformedException {
         CommandCatalogue catalogue = new CommandCatalogue();

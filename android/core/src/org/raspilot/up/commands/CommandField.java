@@ -84,17 +84,19 @@ public final class CommandField {
         return nullable;
     }
 
-    /** Says whether it may not be left out. */
+    /** Returns whether the field is required. */
     public boolean isRequired() {
         return required;
     }
 
-    /** Returns what is allowed, in words: "a number between 0 and 5 s". */
+    /** Returns the allowed values in words: "a number between 0 and 5 s". */
     public String text() {
         return text;
     }
 
-    /** Returns what is wrong with a JSON value, a sentence that names the field, or null. */
+    /**
+     * Returns the error of a JSON value as a sentence that names the field, or null if it is valid.
+     */
     public String validate(Object value) {
         if (value == null && nullable) {
             return null;
@@ -104,8 +106,8 @@ public final class CommandField {
     }
 
     /**
-     * Returns the value that a person typed, as a JSON value; {@code null} is null where that is
-     * allowed and the field is no text.
+     * Converts typed text to a JSON value; {@code null} gives null if the field allows null and is
+     * not a text field.
      *
      * @throws InvalidCommandException with one sentence that names the field
      */

@@ -79,7 +79,7 @@ public final class CommandReceiver {
         });
     }
 
-    /** Counts a line that is no General Message; refuses it when its id could be read. */
+    /** Counts a line that is not a General Message; rejects it if its id is readable. */
     public void receiveMalformed(MalformedException malformed, AnswerSink answers) {
         refuse(malformed.id(), answers, NackCode.MALFORMED, malformed.reason());
     }

@@ -36,7 +36,7 @@ public final class CommandRegistry {
     }
 
     /**
-     * Says which reader makes the Commands of a name, and which older names mean the same.
+     * Registers the reader of a Command name, and older names as aliases.
      *
      * @throws IllegalArgumentException when a name is taken
      */

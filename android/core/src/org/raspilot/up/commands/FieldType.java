@@ -22,7 +22,7 @@ public enum FieldType {
         return name().toLowerCase(Locale.ROOT);
     }
 
-    /** Returns the type of a word, or null when it is none. */
+    /** Returns the type with that name, or null if unknown. */
     public static FieldType ofWord(String word) {
         for (FieldType type : values()) {
             if (type.word().equals(word)) {

@@ -28,7 +28,7 @@ public final class LocationCommand extends BaseCommand {
     private final Double bearingDeg;
 
     /**
-     * Makes the Command; what is null is left out.
+     * Creates the Command; null values are left out.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

@@ -26,7 +26,7 @@ public final class PanicCommand extends BaseCommand {
     private final Double utilizationPercent;
 
     /**
-     * Makes the Command; what is null is left out.
+     * Creates the Command; null values are left out.
      *
      * @throws InvalidCommandException when a value is out of its range
      */
@@ -48,7 +48,7 @@ public final class PanicCommand extends BaseCommand {
         utilizationPercent = fields.optionalNumber("utilization", 0, 100);
     }
 
-    /** Says whether Panic Mode holds. */
+    /** Returns whether Panic Mode is active. */
     public boolean panic() {
         return panic;
     }

@@ -51,7 +51,7 @@ public final class PidTuningsCommand extends BaseCommand {
         gains = isRequest ? null : GainSet.ofData(new LinkedHashMap<String, Object>(pids));
     }
 
-    /** Says whether it asks for the gains. */
+    /** Returns whether it only requests the gains. */
     public boolean isRequest() {
         return isRequest;
     }

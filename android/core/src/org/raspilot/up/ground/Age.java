@@ -39,7 +39,7 @@ public final class Age {
         this.onBoardMs = onBoardMs;
     }
 
-    /** Returns the age of what was never heard: all is stale. */
+    /** Returns the age for telemetry that never arrived: everything is stale. */
     static Age unknown() {
         return new Age(false, true, 0, 0, Collections.<String, Double>emptyMap());
     }
@@ -54,7 +54,7 @@ public final class Age {
         return new Age(true, false, receivedMs, Math.max(0, wayMs), copy);
     }
 
-    /** Returns the same age of a frame that was so long on its way. */
+    /** Returns this age with another transit time of the frame. */
     Age ofWay(long anotherMs) {
         return new Age(isKnown, isLinkLost, receivedMs, Math.max(0, anotherMs), onBoardMs);
     }
@@ -64,7 +64,7 @@ public final class Age {
         return new Age(isKnown, true, receivedMs, wayMs, onBoardMs);
     }
 
-    /** Says whether the link that brought the frame is gone. */
+    /** Returns whether the link that delivered the frame is gone. */
     public boolean isLinkLost() {
         return isLinkLost;
     }
@@ -93,18 +93,18 @@ public final class Age {
         return frame + Math.round(Math.max(0.0, there));
     }
 
-    /** Says whether nothing of the frame can be trusted to be of now. */
+    /** Returns whether the frame is too old for any of its values to be current. */
     public boolean isSilent(long nowMs) {
         final Long frame = frameMs(nowMs);
         return isLinkLost || frame == null || frame > SILENT_MS;
     }
 
-    /** Says whether frames come, but so late that they are as good as silence. */
+    /** Returns whether frames arrive, but so late that they count as silence. */
     public boolean isLate(long nowMs) {
         return isKnown && !isLinkLost && wayMs > SILENT_MS && nowMs - receivedMs <= SILENT_MS;
     }
 
-    /** Says whether a reading is too old to be flown by; one without an age is as its frame. */
+    /** Returns whether a reading is too old to fly by; a reading without an age has its frame's. */
     public boolean isStale(String reading, long nowMs) {
         if (isSilent(nowMs)) {
             return true;

@@ -3,17 +3,17 @@ package org.raspilot.up.ground;
 import java.util.Locale;
 import java.util.Map;
 
-/** What became of a Command. Immutable; each Command that is sent has exactly one. */
+/** The outcome of a Command. Immutable; each sent Command has exactly one. */
 public final class Answer {
-    /** What became of it. */
+    /** The kind of outcome. */
     public enum Outcome {
         /** The aircraft carried it out. */
         ACK,
         /** The aircraft refused it. */
         NACK,
-        /** It was sent and no answer came: nobody knows whether it was carried out. */
+        /** Sent and not answered in time: it may or may not have been executed. */
         TIMEOUT,
-        /** It was sent and the link was lost before an answer: nobody knows either. */
+        /** Sent, and the link was lost before an answer: it may or may not have been executed. */
         LOST,
         /** It was not sent. */
         REFUSED
@@ -41,12 +41,12 @@ public final class Answer {
         return new Answer(Outcome.REFUSED, name, code, reason, null, null);
     }
 
-    /** Returns what became of it. */
+    /** Returns the kind of outcome. */
     public Outcome outcome() {
         return outcome;
     }
 
-    /** Says whether the aircraft carried it out. */
+    /** Returns whether the aircraft executed it. */
     public boolean isAck() {
         return outcome == Outcome.ACK;
     }
@@ -74,7 +74,7 @@ public final class Answer {
         return roundTripMs;
     }
 
-    /** Returns what was asked for besides the ack (gains, profile), unmodifiable, or null. */
+    /** Returns the requested data (gains, profile), unmodifiable, or null. */
     public Map<String, Object> data() {
         return data;
     }

@@ -83,13 +83,16 @@ final class CommandDesk {
         return null;
     }
 
-    /** Returns who has the seat; one that was left is not ours, whatever is still to be said. */
+    /**
+     * Returns who has the seat; a seat that was left is not ours, even before the proxy confirms
+     * it.
+     */
     SeatStanding standing() {
         final LinkFacts facts = link.facts();
         return SeatStanding.of(facts, settings.isDirect());
     }
 
-    /** Nobody commands what they do not see: the screen may hang, or what it shows be late. */
+    /** A pilot must see the aircraft's state to command: the screen may hang or show late data. */
     private Answer beaconFault(BaseCommand command, Long shown) {
         if (shown == null) {
             if (beacons.areNoneSent() && !command.name().equals(ArmCommand.NAME)

@@ -5,7 +5,7 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
 
-/** What a Command does and what became of it, in the words of an event. */
+/** The description of a Command and of its outcome in an event. */
 final class CommandWords {
     private static final int SHOWN_CHANGES = 4;
     private static final Map<String, String> WORDS = new HashMap<String, String>();
@@ -47,7 +47,7 @@ final class CommandWords {
         return text.toString();
     }
 
-    /** Returns what became of a Command that was sent. */
+    /** Returns the outcome of a sent Command. */
     static String outcome(String words, Answer answer) {
         switch (answer.outcome()) {
             case ACK:

@@ -6,6 +6,6 @@ public enum EventLevel {
     INFO,
     /** To be looked at. */
     WARNING,
-    /** To be acted on at once. */
+    /** Requires immediate action. */
     ALARM
 }

@@ -11,9 +11,12 @@ import org.raspilot.up.commands.InvalidCommandException;
 import org.raspilot.up.commands.PidTuningsCommand;
 import org.raspilot.up.loop.Loop;
 
-/** Asks for the gains, knows what flies now, sets them whole and undoes it. Only on the loop. */
+/**
+ * Requests the gains, tracks the active set, replaces it as a whole and undoes changes. Only on the
+ * loop.
+ */
 public final class GainsDesk {
-    /** So many sets are remembered, and so many can be undone. */
+    /** Maximum number of sets that are kept and can be undone. */
     public static final int KEPT = 50;
     /** What the aircraft tells of its gains. */
     static final String VALUES = "arduino.pids.values";
@@ -91,7 +94,7 @@ public final class GainsDesk {
         return version;
     }
 
-    /** Returns the gains of now. */
+    /** Returns the current gains. */
     public Snapshot snapshot() {
         if (snapshot == null || snapshot.version() != version) {
             snapshot = new Snapshot(version, flying, toldMs, undoable.peekLast(),
@@ -140,9 +143,9 @@ public final class GainsDesk {
     }
 
     /**
-     * Returns the gains that a Command sets; null: it sets none.
+     * Returns the gains that a Command sets, or null if it sets none.
      *
-     * @throws InvalidCommandException with one sentence when they are no whole set
+     * @throws InvalidCommandException with one sentence when the set is incomplete
      */
     static GainSet gainsOf(BaseCommand command) {
         final Object pids = command.data().get("pids");
@@ -157,7 +160,10 @@ public final class GainsDesk {
         return GainSet.ofData(data);
     }
 
-    /** Takes what the aircraft says that flies; false: it is no set of gains. */
+    /**
+     * Takes the active gains that the aircraft reports; returns false if the value is not a set of
+     * gains.
+     */
     boolean told(Map<String, Object> values) {
         try {
             flying = GainSet.ofData(values);
@@ -169,7 +175,7 @@ public final class GainsDesk {
         return true;
     }
 
-    /** Hears that the aircraft may fly others: the link is another one. */
+    /** Called when the link is another one: the aircraft may use other gains. */
     void want() {
         isDue = true;
     }
@@ -180,7 +186,8 @@ public final class GainsDesk {
             ask(new AnswerListener() {
                 @Override
                 public void onAnswer(Answer answer) {
-                    // Asked by itself: once. What came is told; the pilot can ask again.
+                    // Automatic requests are sent once. The result is reported; the pilot can
+                    // request again.
                 }
             });
         }
@@ -221,7 +228,7 @@ public final class GainsDesk {
                 undoable.remove();
             }
         }
-        // After a timeout nobody knows which gains fly, until the aircraft has told.
+        // After a timeout the active gains are unknown until the aircraft reports them.
         isDue |= answer.outcome() != Answer.Outcome.NACK;
         version++;
     }

@@ -66,7 +66,7 @@ public final class GainsForm {
         for (GainKey key : GainKey.ALL) {
             final Double value = key.of(set);
             if (value == null) {
-                // A set without navigation leaves that as it is.
+                // A set without navigation leaves the navigation gains unchanged.
                 if (!key.isRudder() && key.isIn(set)) {
                     return "the set is not whole: " + key.words() + " is missing";
                 }
@@ -78,7 +78,7 @@ public final class GainsForm {
         return null;
     }
 
-    /** Returns the gain that a person has typed, with a point or a comma; null: it is none. */
+    /** Parses a typed gain, with a point or a comma; null if it is not a gain. */
     public static Double number(String typed) {
         final String trimmed = typed.trim();
         if (!NUMBER.matcher(trimmed).matches()) {

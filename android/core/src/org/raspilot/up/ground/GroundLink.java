@@ -22,9 +22,11 @@ import org.raspilot.up.wire.Seat;
  * <p>Source: docs/protocols.md 9.
  */
 final class GroundLink implements UpSocketListener {
-    /** A hello that is not answered for so long, ms, is given up. */
+    /** Timeout of the hello, ms. */
     static final long HELLO_TIMEOUT_MS = 5000;
-    /** A proxy says by then, ms, who commands; an aircraft's own listener never does. */
+    /**
+     * By this time, ms, a proxy has reported who commands; an aircraft's own listener never does.
+     */
     static final long HOLDER_TOLD_MS = 1000;
 
     private static final int CONNECT_TIMEOUT_MS = 5000;
@@ -99,12 +101,12 @@ final class GroundLink implements UpSocketListener {
         socket.reconnectNow();
     }
 
-    /** Sends a line; false: there is no link, or too much waits. */
+    /** Sends a line; returns false without a link, or when too much data waits. */
     boolean send(byte[] line) {
         return isOpen() && socket.send(line);
     }
 
-    /** Hears that the period of telemetry may change. */
+    /** Called when the period of telemetry may change. */
     void expectAnotherPeriod() {
         quiet.expectAnotherPeriod();
     }
@@ -115,7 +117,7 @@ final class GroundLink implements UpSocketListener {
         }
         claim.want(Seat.COMMAND);
         if (!isOpen()) {
-            // Nobody can be asked now; the next hello asks for it.
+            // Without a link the seat cannot be requested; the next hello requests it.
             return false;
         }
         final boolean isUntold = facts.seat != Seat.COMMAND && !facts.isHolderKnown

@@ -1,6 +1,6 @@
 package org.raspilot.up.ground;
 
-/** Hears what a {@link GroundSide} knows anew. Called on the loop; all values are immutable. */
+/** Receives the changes of a {@link GroundSide}. Called on the loop; all values are immutable. */
 public interface GroundListener {
     /**
      * Takes the newest frame. Called for each that comes, and once more for the same frame when
@@ -11,6 +11,6 @@ public interface GroundListener {
     /** Takes the status: when something of it has changed, and each second for its figures. */
     void onStatus(GroundStatus status);
 
-    /** Hears that track, events, alarms or gains have changed: their versions say which. */
+    /** Called when track, events, alarms or gains have changed; compare their versions. */
     void onChanged();
 }

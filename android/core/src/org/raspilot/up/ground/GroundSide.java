@@ -17,7 +17,7 @@ import org.raspilot.up.wire.GeneralMessage;
  * 4.5.2, docs/protocols.md 4, 6 and 9.
  */
 public final class GroundSide implements TelemetrySource {
-    /** So often, ms, what time alone changes is looked at. */
+    /** Period of the checks for changes due to time alone, ms. */
     private static final long TICK_MS = 250;
 
     private final Loop loop;
@@ -92,12 +92,12 @@ public final class GroundSide implements TelemetrySource {
         }
     }
 
-    /** Tries at once, as when the phone's network came back. */
+    /** Retries immediately, for example when the phone's network is back. */
     public void reconnectNow() {
         link.reconnectNow();
     }
 
-    /** Returns the status of now. */
+    /** Returns the current status. */
     public GroundStatus status() {
         final long nowMs = loop.nowMs();
         final Telemetry newest = stream.newest();
@@ -131,7 +131,7 @@ public final class GroundSide implements TelemetrySource {
         return events;
     }
 
-    /** Returns what is wrong. */
+    /** Returns the active alarms. */
     public Alarms alarms() {
         return alarms;
     }
@@ -141,7 +141,9 @@ public final class GroundSide implements TelemetrySource {
         return gains;
     }
 
-    /** Hears that the screen has drawn the frame with that beacon; null: one without. */
+    /**
+     * Called when the screen has drawn the frame with that beacon; null for a frame without one.
+     */
     public void seen(Long beacon) {
         beacons.seen(beacon);
     }
@@ -152,10 +154,10 @@ public final class GroundSide implements TelemetrySource {
     }
 
     /**
-     * Sends a Command once, never again by itself, or refuses it with a sentence.
+     * Sends a Command once, without automatic repetition, or refuses it with a sentence.
      *
-     * @param shownBeacon the beacon of the frame that the screen shows; null: none is shown
-     * @param answered hears what became of it, once
+     * @param shownBeacon the beacon of the frame that the screen shows, or null
+     * @param answered receives the outcome, once
      */
     public void send(BaseCommand command, Long shownBeacon, AnswerListener answered) {
         final GainSet set;
@@ -173,7 +175,10 @@ public final class GroundSide implements TelemetrySource {
         tellChanged();
     }
 
-    /** Asks for the seat; a free one is given at once. False: nobody can be asked now. */
+    /**
+     * Requests the seat; a free one is granted immediately. Returns false if there is no link to
+     * request it on.
+     */
     public boolean requestSeat() {
         return link.requestSeat();
     }
@@ -244,7 +249,7 @@ public final class GroundSide implements TelemetrySource {
         });
     }
 
-    /** Judges the moment and tells what came of it. */
+    /** Updates the alarms and events and reports the changes. */
     private void look(boolean isStatusDue) {
         judge.onMoment(stream.newest(), status(), loop.nowMs());
         if (isStatusDue) {

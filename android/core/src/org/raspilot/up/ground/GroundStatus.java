@@ -65,7 +65,7 @@ public final class GroundStatus {
         return link;
     }
 
-    /** Says whether messages can go now. */
+    /** Returns whether messages can be sent. */
     public boolean isOpen() {
         return link == LinkState.OPEN;
     }
@@ -85,12 +85,12 @@ public final class GroundStatus {
         return rejection;
     }
 
-    /** Says whether the link goes straight to an aircraft: there are no seats then. */
+    /** Returns whether the link goes directly to an aircraft, without seats. */
     public boolean isDirect() {
         return isDirect;
     }
 
-    /** Returns COMMAND or LISTEN; null: nobody told. */
+    /** Returns COMMAND or LISTEN, or null if unknown. */
     public Seat seat() {
         return seat;
     }
@@ -100,7 +100,7 @@ public final class GroundStatus {
         return standing;
     }
 
-    /** Returns the number of the ground that commands; null: nobody, or not known. */
+    /** Returns the number of the ground that commands, or null if none or unknown. */
     public Integer holder() {
         return holder;
     }
@@ -110,7 +110,7 @@ public final class GroundStatus {
         return askedBy;
     }
 
-    /** Says whether the proxy has the aircraft; null: nobody told. */
+    /** Returns whether the aircraft is connected to the proxy, or null if unknown. */
     public Boolean isAircraftOnline() {
         return isAircraftOnline;
     }
@@ -125,17 +125,17 @@ public final class GroundStatus {
         return failures;
     }
 
-    /** Returns how many frames come a second; null: too few, or none any more. */
+    /** Returns the frames per second, or null if too few arrive. */
     public Double rateHz() {
         return rateHz;
     }
 
-    /** Says whether nothing that is shown can be trusted to be of now. */
+    /** Returns whether no displayed value can be trusted to be current. */
     public boolean isSilent() {
         return isSilent;
     }
 
-    /** Says whether telemetry comes, but as late as if there were none. */
+    /** Returns whether telemetry arrives, but so late that it counts as silence. */
     public boolean isLate() {
         return isLate;
     }
@@ -145,7 +145,7 @@ public final class GroundStatus {
         return role;
     }
 
-    /** Says whether gains may be set in flight; null: not known. */
+    /** Returns whether gains may be set in flight, or null if unknown. */
     public Boolean tuneInFlight() {
         return tuneInFlight;
     }
@@ -155,7 +155,7 @@ public final class GroundStatus {
         return home;
     }
 
-    /** Returns what was counted. */
+    /** Returns the counters. */
     public GroundCounters counters() {
         return counters;
     }
@@ -174,7 +174,7 @@ public final class GroundStatus {
         }
     }
 
-    /** Returns who commands for a pilot, without a full stop. */
+    /** Returns who commands, for a pilot, without a full stop. */
     public String seatSentence() {
         switch (standing) {
             case OURS:

@@ -13,7 +13,7 @@ final class Judge {
         this.alarms = alarms;
     }
 
-    /** Begins anew with another start of the link. */
+    /** Resets the state at another start of the link. */
     void forget() {
         settled = new Settled();
         alarms.clear();

@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 import java.util.Arrays;
 
-/** Says whether nothing was known of the place for a while: no line leads over that. */
+/** Detects gaps in the known positions; the track has no line across a gap. */
 final class PlaceGaps {
     /** Nothing known for longer, ms, is a silence, unless places come more seldom than that. */
     private static final long GAP_MS = 900;

@@ -13,10 +13,10 @@ final class QuietWatch {
 
     /** Whose connection it is. */
     interface Owner {
-        /** Returns whether the aircraft is there; null: nobody told. */
+        /** Returns whether the aircraft is connected, or null if unknown. */
         Boolean isAircraftOnline();
 
-        /** Hears that nothing came for so long, ms. */
+        /** Called when nothing was received for that time, ms. */
         void onQuiet(long forMs);
     }
 
@@ -39,17 +39,17 @@ final class QuietWatch {
         }
     }
 
-    /** Hears that a line came. */
+    /** Called when a line arrives. */
     void heard() {
         heardMs = loop.nowMs();
     }
 
-    /** Hears that the line that came was a message. */
+    /** Called when the received line is a message. */
     void heardMessage() {
         limit.heard(heardMs);
     }
 
-    /** Hears that the period of telemetry may change. */
+    /** Called when the period of telemetry may change. */
     void expectAnotherPeriod() {
         limit.forget();
     }

@@ -23,7 +23,7 @@ final class SeatClaim {
         this.facts = facts;
     }
 
-    /** Begins anew with the seat of the settings and the token that is kept. */
+    /** Resets to the seat of the settings and the stored token. */
     void begin() {
         wanted = settings.seat();
         token = null;

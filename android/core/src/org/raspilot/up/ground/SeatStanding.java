@@ -4,15 +4,15 @@ import org.raspilot.up.wire.Seat;
 
 /** How it stands with the seat that commands. */
 public enum SeatStanding {
-    /** There is no link. */
+    /** No link. */
     UNKNOWN,
     /** This ground commands; always so on a direct link, which knows no seats. */
     OURS,
-    /** Nobody commands; a proxy may keep the seat three seconds for who had it. */
+    /** The seat is free; a proxy may reserve it for its last owner for three seconds. */
     FREE,
     /** Another ground commands. */
     HELD,
-    /** This ground listens and has not heard yet who commands. */
+    /** This ground listens and does not know yet who commands. */
     LATER;
 
     /** Returns how it stands; a direct link knows no seats, so all may be sent there. */

@@ -3,7 +3,7 @@ package org.raspilot.up.ground;
 import java.util.ArrayDeque;
 import java.util.Iterator;
 
-/** The beacons that telemetry brought: whether the pilot has seen what flies now. */
+/** The beacons of received telemetry: whether the pilot has seen the current state. */
 final class SeenBeacons {
     /** A beacon that the aircraft sent longer ago, ms, is stale (docs/protocols.md 4)... */
     private static final long FRESH_MS = 2000;
@@ -44,7 +44,7 @@ final class SeenBeacons {
         }
     }
 
-    /** Forgets all: what comes over another connection has to be seen anew. */
+    /** Clears all beacons: frames of another connection must be seen again. */
     void onLost() {
         heard.clear();
         seen = null;
@@ -52,7 +52,9 @@ final class SeenBeacons {
         hasBeacons = false;
     }
 
-    /** Hears that the screen has drawn the frame with that beacon; an older one changes nothing. */
+    /**
+     * Called when the screen has drawn the frame with that beacon; an older beacon has no effect.
+     */
     void seen(Long beacon) {
         final Heard found = find(beacon);
         if (found != null && (seen == null || found.sentMs >= seen.sentMs)) {
@@ -65,12 +67,12 @@ final class SeenBeacons {
         return seen == null ? null : Long.valueOf(seen.beacon);
     }
 
-    /** Says whether telemetry comes, and has no beacons, as the thesis's. */
+    /** Returns whether telemetry arrives without beacons, as the thesis's does. */
     boolean areNoneSent() {
         return hasFrames && !hasBeacons;
     }
 
-    /** Says whether the aircraft would take that beacon as fresh. */
+    /** Returns whether the aircraft would accept that beacon as fresh. */
     boolean isFresh(Long beacon, long nowMs) {
         final Heard found = find(beacon);
         return found != null && nowMs - found.sentMs <= limitMs;

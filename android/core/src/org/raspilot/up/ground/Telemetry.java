@@ -16,7 +16,7 @@ import org.raspilot.up.wire.SafeText;
 public final class Telemetry {
     /** The Command that brings it. */
     public static final String NAME = "up.telemetry.update";
-    /** What is known before the first frame came: nothing, and all of it stale. */
+    /** The state before the first frame: empty, and everything stale. */
     public static final Telemetry NOTHING = new Telemetry(
             Collections.<String, Object>emptyMap(), null, 0, Age.unknown());
 
@@ -101,7 +101,7 @@ public final class Telemetry {
         return age.readingMs(reading, nowMs);
     }
 
-    /** Says whether nothing on the screen can be trusted to be of now. */
+    /** Returns whether no displayed value can be trusted to be current. */
     public boolean isSilent(long nowMs) {
         return age.isSilent(nowMs);
     }
@@ -114,7 +114,7 @@ public final class Telemetry {
         return age.isStale(readingOf(path), nowMs) ? Freshness.STALE : Freshness.LIVE;
     }
 
-    /** Returns which reading's age the value at a path has; its frame's where there is none. */
+    /** Returns which reading's age applies to the value at a path; its frame's if it has none. */
     public static String readingOf(String path) {
         final int dot = path.indexOf('.');
         final String first = dot < 0 ? path : path.substring(0, dot);
@@ -156,7 +156,7 @@ public final class Telemetry {
         return found instanceof String ? SafeText.of((String) found, limit) : null;
     }
 
-    /** Returns the texts of a list, safe to show, at most 32; null: there is no list. */
+    /** Returns the texts of a list, safe to display, at most 32, or null if there is no list. */
     public List<String> texts(String path) {
         final List<Object> found = list(path);
         if (found == null) {
@@ -171,14 +171,14 @@ public final class Telemetry {
         return Collections.unmodifiableList(texts);
     }
 
-    /** Returns the list at a path as it came, unmodifiable; null: there is none. */
+    /** Returns the list at a path as received, unmodifiable, or null if there is none. */
     @SuppressWarnings("unchecked")
     public List<Object> list(String path) {
         final Object found = at(path);
         return found instanceof List ? (List<Object>) found : null;
     }
 
-    /** Returns the object at a path as it came, unmodifiable; null: there is none. */
+    /** Returns the object at a path as received, unmodifiable, or null if there is none. */
     @SuppressWarnings("unchecked")
     public Map<String, Object> object(String path) {
         final Object found = at(path);

@@ -22,7 +22,7 @@ public final class TelemetryRow {
         return value;
     }
 
-    /** Returns the unit, empty where there is none or none is known. */
+    /** Returns the unit, empty if there is none or it is unknown. */
     public String unit() {
         return unit;
     }

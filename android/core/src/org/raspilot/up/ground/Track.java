@@ -10,7 +10,7 @@ import java.util.List;
  * loop.
  */
 public final class Track {
-    /** So many points at most. */
+    /** Maximum number of points. */
     public static final int MOST_POINTS = 4000;
     /** Points are not nearer to each other, m. */
     public static final double NEAREST_M = 2;
@@ -42,7 +42,10 @@ public final class Track {
             return origin;
         }
 
-        /** Says whether the origin is the aircraft's home; else it is the first place heard. */
+        /**
+         * Returns whether the origin is the aircraft's home; otherwise it is the first known
+         * position.
+         */
         public boolean isOriginHome() {
             return isOriginHome;
         }
@@ -95,7 +98,7 @@ public final class Track {
         return version;
     }
 
-    /** Returns the track of now. */
+    /** Returns the current track. */
     public Snapshot snapshot() {
         if (snapshot.version() != version) {
             final Home origin = home == null ? firstPlace : home;
@@ -119,7 +122,7 @@ public final class Track {
         version++;
     }
 
-    /** Takes the place of a frame, where it has one that is one; time only goes on. */
+    /** Takes the position of a frame, if it has a valid one; time only increases. */
     void take(Telemetry telemetry, Home known, long nowMs) {
         if (known != null && known != home) {
             home = known;
@@ -152,7 +155,7 @@ public final class Track {
         }
     }
 
-    /** Leaves out every second point; what was told of it, the next one tells. */
+    /** Drops every second point; the information of a dropped point moves to the next one. */
     private void thin() {
         final List<Spot> kept = new ArrayList<Spot>();
         boolean hasGap = false;

@@ -2,7 +2,9 @@ package org.raspilot.up.loop;
 
 import java.util.concurrent.atomic.AtomicLong;
 
-/** Runs calls so that what one throws is told and counted, and harms no other. */
+/**
+ * Runs calls so that an exception in one is reported and counted, and does not affect the others.
+ */
 final class Guard {
     private final FaultListener listener;
     private final AtomicLong faults = new AtomicLong();

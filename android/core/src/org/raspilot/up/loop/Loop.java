@@ -1,9 +1,10 @@
 package org.raspilot.up.loop;
 
 /**
- * The one thread on which all of the core's state lives: what runs there needs no lock.
+ * The one thread that owns all of the core's state: code on it needs no lock.
  *
- * <p>A call that throws is told to the loop's {@link FaultListener}, counted, and harms no other.
+ * <p>An exception in a call is reported to the loop's {@link FaultListener} and counted, and does
+ * not affect other calls.
  */
 public interface Loop {
     /** Returns monotonic milliseconds from an arbitrary beginning; may be asked on any thread. */

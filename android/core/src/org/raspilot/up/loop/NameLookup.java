@@ -13,10 +13,10 @@ import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
 /**
- * Looks names up on threads of its own, so that a slow name server holds nothing but its asker.
+ * Resolves names on its own threads, so that a slow name server delays only its caller.
  *
- * <p>Whoever asks for a name that is being looked up waits for the same answer. IPv4
- * addresses need no thread. Threads that have nothing to do end after 5 s.
+ * <p>Concurrent requests for the same name share one lookup. IPv4 addresses need no thread. Idle
+ * threads end after 5 s.
  */
 final class NameLookup {
     private static final int MOST_THREADS = 4;
@@ -151,7 +151,7 @@ final class NameLookup {
         /** Takes at least one address. */
         void onAddresses(InetAddress[] addresses);
 
-        /** Hears why there is none. */
+        /** Called when the lookup fails, with the reason. */
         void onUnknown(String reason);
     }
 

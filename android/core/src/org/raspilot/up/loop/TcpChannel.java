@@ -11,8 +11,8 @@ import java.nio.channels.SocketChannel;
 /** One TCP connection of a {@link SelectorLoop}: looks up, connects, reads, writes. */
 final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
     /**
-     * Small, so that a link that stalls holds little that is old by the time it goes on. Linux
-     * doubles it and counts its own overhead against it.
+     * Small, so that a stalled link holds little old data when it recovers. Linux doubles it and
+     * counts its own overhead against it.
      */
     static final int SEND_BUFFER_BYTES = 8192;
     private static final int LAST_READS = 8;
@@ -161,7 +161,8 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
             final Socket socket = channel.socket();
             // Some systems do not know the local address yet: it may be null.
             if (socket.getRemoteSocketAddress().equals(socket.getLocalSocketAddress())) {
-                // On loopback a port that nobody listens on may by chance be met by itself.
+                // On loopback a connection to a port without a listener may by chance connect to
+                // itself.
                 connectNext("no connection to " + peer + ": nobody listens");
                 return;
             }

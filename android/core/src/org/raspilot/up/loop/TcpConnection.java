@@ -9,6 +9,9 @@ public interface TcpConnection {
      */
     int write(byte[] bytes, int offset, int length);
 
-    /** Ends the connection at once; the listener is not called any more. Twice without effect. */
+    /**
+     * Closes the connection immediately; the listener is not called afterwards. Later calls have no
+     * effect.
+     */
     void close();
 }

@@ -21,8 +21,9 @@ final class TimerQueue {
     }
 
     /**
-     * Removes and returns the first timer that is due at {@code now} and was added before
-     * {@code mark}; null: none. So a timer that adds another of no delay starves nobody.
+     * Removes and returns the first timer that is due at {@code now} and was added before {@code
+     * mark}, or null if there is none. Thus a timer that adds another without delay cannot starve
+     * others.
      */
     Timer take(long now, long mark) {
         final Timer first = timers.peek();
@@ -61,7 +62,7 @@ final class TimerQueue {
             return time;
         }
 
-        /** Returns what is called then. */
+        /** Returns the timer's callback. */
         Runnable call() {
             return call;
         }

@@ -6,7 +6,7 @@ public interface FindListener {
     void onFound(Place place);
 
     /**
-     * Hears that it cannot be found now.
+     * Called when the search fails.
      *
      * @param reason a sentence without a full stop
      */

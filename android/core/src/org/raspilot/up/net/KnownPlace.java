@@ -42,7 +42,7 @@ public final class KnownPlace implements PlaceFinder {
         });
     }
 
-    /** Returns a finder that asks nobody: it finds what is remembered, or says that nothing is. */
+    /** Returns a finder without network traffic: it finds the stored place, or fails. */
     public PlaceFinder follower() {
         return new PlaceFinder() {
             @Override

@@ -37,12 +37,12 @@ final class LinkWatch {
         stall.stop();
     }
 
-    /** Hears that bytes came. */
+    /** Called when bytes arrive. */
     void heard() {
         silence.touch();
     }
 
-    /** Hears that something was given to the connection: how much it took, what still waits. */
+    /** Called after a write: how much the connection accepted, and how much still waits. */
     void wrote(long bytes, boolean isWaiting) {
         if (bytes > 0) {
             beat.touch();

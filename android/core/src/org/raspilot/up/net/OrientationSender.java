@@ -7,8 +7,8 @@ import org.raspilot.up.loop.UdpListener;
 import org.raspilot.up.loop.UdpPort;
 
 /**
- * Sends orientation frames (protocols 3) over TCP or UDP; a frame that waits is replaced by the
- * next. It goes where the General Message link was found, at once when that changes. Only on the
+ * Sends orientation frames (protocols 3) over TCP or UDP; a waiting frame is replaced by the next.
+ * Its destination is the place of the General Message link and follows it immediately. Only on the
  * loop.
  */
 public final class OrientationSender {
@@ -69,7 +69,7 @@ public final class OrientationSender {
         }
     }
 
-    /** Tries to connect at once instead of after the wait; on UDP opens the socket anew. */
+    /** Connects immediately instead of after the wait; on UDP reopens the socket. */
     public void reconnectNow() {
         if (!isStarted) {
             return;
@@ -83,8 +83,8 @@ public final class OrientationSender {
     }
 
     /**
-     * Makes a connection that stands anew at once, as after a gap in the network in which it may
-     * have died unnoticed; without one, as {@link #reconnectNow}.
+     * Reconnects an open connection immediately, as after a gap in the network in which it may have
+     * died unnoticed; without one, like {@link #reconnectNow}.
      */
     public void replaceConnection(String reason) {
         if (isStarted && socket != null && socket.isConnected()) {
@@ -197,7 +197,7 @@ public final class OrientationSender {
         }
     }
 
-    /** Nobody answers on this link. */
+    /** This link has no answers. */
     private static final class Deaf implements UdpListener {
         @Override
         public void onDatagram(byte[] bytes, int length, String host, int port) {

@@ -2,7 +2,7 @@ package org.raspilot.up.net;
 
 import org.raspilot.up.loop.Cancellable;
 
-/** Finds out where a peer listens; asked anew before every attempt to connect. Only on the loop. */
+/** Finds the address of a peer; called before every attempt to connect. Only on the loop. */
 public interface PlaceFinder {
     /**
      * Begins to look. The listener hears once, perhaps before this call returned, unless the search

@@ -28,10 +28,10 @@ public final class RunnerAnswer {
     }
 
     /**
-     * Reads an answer's line.
+     * Parses a line of an answer.
      *
      * @param host the runner's host, where the instance listens
-     * @throws RefusedException with a sentence when nothing runs or the line is no answer
+     * @throws RefusedException with a sentence when no instance runs or the line is not an answer
      */
     static RunnerAnswer read(String line, String host) throws RefusedException {
         final Object value;
@@ -71,7 +71,7 @@ public final class RunnerAnswer {
         return message;
     }
 
-    /** Returns what is wrong although an instance runs; null: nothing. */
+    /** Returns a warning about the running instance, or null. */
     public String error() {
         return error;
     }
@@ -106,7 +106,7 @@ public final class RunnerAnswer {
         return value instanceof Map ? (Map<?, ?>) value : null;
     }
 
-    /** Returns a text, harmless for the screen; null: there is none. */
+    /** Returns a text, safe to display, or null if there is none. */
     private static String text(Map<?, ?> from, String key) {
         final Object value = from.get(key);
         if (!(value instanceof String) || ((String) value).isEmpty()) {
@@ -115,7 +115,7 @@ public final class RunnerAnswer {
         return SafeText.of((String) value, LONGEST_WORDS);
     }
 
-    /** Returns 1 to 65535; 0: there is none. */
+    /** Returns 1 to 65535; 0: absent. */
     private static int port(Map<?, ?> from, String key) {
         final Object value = from.get(key);
         if (!(value instanceof Long)) {

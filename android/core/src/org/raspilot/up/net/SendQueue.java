@@ -8,8 +8,8 @@ import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.wire.LineSplitter;
 
 /**
- * What waits until the system takes it: first the rest of what was begun, then what goes in order,
- * then the newest of each key.
+ * Data that waits until the system accepts it: first the rest of a partial write, then ordered
+ * messages, then the newest message of each key.
  */
 final class SendQueue {
     private static final int MOST_BYTES = UpSocketSettings.LONGEST_QUEUE_BYTES;
@@ -31,7 +31,7 @@ final class SendQueue {
         this.isRaw = isRaw;
     }
 
-    /** Lets a copy wait in order; false: there is no room, or it is too long. */
+    /** Queues a copy in order; returns false when the queue is full or the message is too long. */
     boolean add(byte[] given) {
         final byte[] bytes = whole(given);
         if (!isSendable(bytes) || orderedBytes + bytes.length > MOST_BYTES) {
@@ -51,7 +51,7 @@ final class SendQueue {
             return false;
         }
         newestBytes = grownBytes;
-        // An older one's place in the row stays, so that no key waits for ever.
+        // The older message's position is kept, so that no key starves.
         newest.put(key, bytes);
         if (older != null) {
             replaced++;
@@ -60,7 +60,8 @@ final class SendQueue {
     }
 
     /**
-     * Writes what the connection takes now. What was not begun stays replaceable by a newer one.
+     * Writes what the connection accepts now. Messages that were not started stay replaceable by
+     * newer ones.
      */
     void flush(TcpConnection connection) {
         if (begun != null && !writeRest(connection)) {

@@ -52,7 +52,7 @@ public final class UpSocketSettings {
                 stallLimitMs, firstRetryMs, lastRetryMs);
     }
 
-    /** Returns these with the end of a connection on which no byte came for so long; 0: never. */
+    /** Returns these settings with a timeout of connections without received bytes; 0: none. */
     public UpSocketSettings withSilenceLimitMs(int limitMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, limitMs, stallLimitMs,
                 firstRetryMs, lastRetryMs);
@@ -90,7 +90,7 @@ public final class UpSocketSettings {
         return silenceLimitMs;
     }
 
-    /** Returns how long the peer may take nothing of what waits; 0: for ever. */
+    /** Returns how long the peer may accept none of the waiting data; 0: no limit. */
     public int stallLimitMs() {
         return stallLimitMs;
     }

@@ -8,7 +8,7 @@ package org.raspilot.up.providers;
  * one turn; it is all told as yaw, and roll is 0.
  */
 public final class Attitude {
-    /** Below this cosine of the pitch roll and yaw cannot be told apart. */
+    /** Below this cosine of the pitch, roll and yaw cannot be distinguished. */
     private static final double GIMBAL_LOCK = 1e-7;
 
     private final double rollDeg;

@@ -2,7 +2,7 @@ package org.raspilot.up.providers;
 
 /** How often a provider sends, and how long its readings are worth sending; times in ms. */
 public final class Cadence {
-    /** A reading that is older than so many periods is not sent any more. */
+    /** A reading older than this number of periods is not sent. */
     private static final int WORTH_PERIODS = 2;
 
     /** How much of a period a message may leave sooner or later than it is due. */
@@ -35,11 +35,11 @@ public final class Cadence {
     }
 
     /**
-     * Returns the cadence of what holds until it changes, as a battery's level: sent when it
-     * changes and again and again, for the sensor speaks of changes only.
+     * Returns the cadence of a value that holds until it changes, such as a battery's level: sent
+     * on each change and repeated, because the sensor reports only changes.
      *
      * @param leastMs the shortest time between two messages
-     * @param repeatMs after so long the same is sent again
+     * @param repeatMs the period of repetition
      * @param silenceLimitMs how long the first reading may take before the sensor counts as silent
      */
     public static Cadence level(double leastMs, long repeatMs, long silenceLimitMs) {

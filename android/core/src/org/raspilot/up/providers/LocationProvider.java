@@ -3,7 +3,7 @@ package org.raspilot.up.providers;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.LocationCommand;
 
-/** Sends where the device is, as GPS says it: {@code up.location.update}. */
+/** Sends the GPS position of the device: {@code up.location.update}. */
 public final class LocationProvider extends SensorProvider<Fix> {
     /** The name under which it is registered. */
     public static final String NAME = "location";

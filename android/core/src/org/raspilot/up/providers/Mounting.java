@@ -20,7 +20,7 @@ public final class Mounting {
 
     private final Quaternion bodyToDevice;
 
-    /** Takes any rotation; raises IllegalArgumentException for a quaternion that is none. */
+    /** Takes any rotation; throws IllegalArgumentException for an invalid quaternion. */
     public Mounting(Quaternion bodyToDevice) {
         this.bodyToDevice = bodyToDevice.unit();
     }
@@ -100,7 +100,7 @@ public final class Mounting {
     /**
      * Returns the mounting of {@link #toText}.
      *
-     * @throws IllegalArgumentException with a sentence when the text is none
+     * @throws IllegalArgumentException with a sentence when the text is not a mounting
      */
     public static Mounting fromText(String text) {
         String[] parts = text.trim().split("\\s+");

@@ -16,9 +16,9 @@ public final class Panic {
     private final List<Listener> listeners = new ArrayList<Listener>();
     private long delayMs;
 
-    /** Is told when it begins, changes or ends. */
+    /** Called when it starts, changes or ends. */
     public interface Listener {
-        /** Tells that {@link Panic#delayMs} is another one now. */
+        /** Called when {@link Panic#delayMs} has changed. */
         void onPanic(Panic panic);
     }
 

@@ -4,7 +4,7 @@ package org.raspilot.up.providers;
 public final class Pressure {
     private final double hPa;
 
-    /** Keeps the value as it is; {@link AltitudeProvider} judges it. */
+    /** Stores the value unchanged; {@link AltitudeProvider} validates it. */
     public Pressure(double hPa) {
         this.hPa = hPa;
     }

@@ -6,7 +6,7 @@ public enum ProviderState {
     ABSENT,
     /** It was not started, or it was stopped. */
     STOPPED,
-    /** It has no reading yet, or there is no link to send it on. */
+    /** No reading yet, or no link to send it on. */
     WAITING,
     /** Its readings leave. */
     SENDING,

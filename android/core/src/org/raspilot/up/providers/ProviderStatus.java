@@ -61,7 +61,7 @@ public final class ProviderStatus {
         return lastText;
     }
 
-    /** Returns what is wrong in one sentence; empty: nothing. */
+    /** Returns the problem in one sentence; empty if there is none. */
     public String problem() {
         return problem;
     }

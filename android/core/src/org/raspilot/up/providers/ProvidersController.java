@@ -39,10 +39,10 @@ public final class ProvidersController {
     }
 
     /**
-     * Registers a provider; while the others run it is started at once.
+     * Registers a provider; if the others run, it is started immediately.
      *
      * @throws IllegalArgumentException when one of that name is registered
-     * @throws IllegalStateException when this very one was registered before
+     * @throws IllegalStateException when this provider was registered before
      */
     public void register(UpProvider provider) {
         if (providers.containsKey(provider.name())) {
@@ -88,7 +88,7 @@ public final class ProvidersController {
         }
     }
 
-    /** Starts one anew, as after a permission was given; returns whether there is one running. */
+    /** Restarts one, as after a permission was granted; returns whether it is running. */
     public boolean restart(String name) {
         UpProvider provider = providers.get(name);
         if (provider == null || outlet == null) {
@@ -99,7 +99,7 @@ public final class ProvidersController {
         return true;
     }
 
-    /** Takes that a new link is there: each provider sends at once what is known and fresh. */
+    /** Notes a new link: each provider immediately sends its known and fresh values. */
     public void linkOpened() {
         for (UpProvider provider : all()) {
             provider.linkOpened();

@@ -1,6 +1,6 @@
 package org.raspilot.up.providers;
 
-/** Is told on the loop what is missing or wrong of a provider. */
+/** Receives the problems of providers, on the loop. */
 public interface ProvidersListener {
     /**
      * Tells a problem of a provider in a sentence, once until it changes; of one whose sensor is

@@ -24,9 +24,9 @@ public final class Rotation {
     /**
      * Returns the rotation of the values of an Android rotation vector event.
      *
-     * @param values x, y, z (each axis times the sine of half the angle) and, where there is a
-     *     fourth, w; older systems leave it out
-     * @throws IllegalArgumentException when they are no rotation
+     * @param values x, y, z (each axis times the sine of half the angle) and, optionally, w; older
+     *     systems leave it out
+     * @throws IllegalArgumentException when they are not a rotation
      */
     public static Rotation ofVector(float[] values, long timeMs) {
         double x = values[0];

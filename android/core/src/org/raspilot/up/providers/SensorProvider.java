@@ -89,7 +89,7 @@ public abstract class SensorProvider<R> extends UpProvider {
         try {
             command = read(reading);
         } catch (RuntimeException fault) {
-            // A reading that is no good must not end the sensor's own thread or the others.
+            // An invalid reading must not end the sensor's own thread or affect the others.
             refuse("its reading cannot be used: " + sentence(fault));
             return;
         }

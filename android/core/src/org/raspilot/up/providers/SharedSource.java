@@ -26,7 +26,7 @@ public final class SharedSource<R> {
         this.source = source;
     }
 
-    /** Returns a source of the same readings, with a subscription of its own. */
+    /** Returns a source of the same readings, with its own subscription. */
     public SensorSource<R> branch() {
         return new Branch();
     }

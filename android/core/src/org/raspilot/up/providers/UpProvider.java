@@ -3,10 +3,10 @@ package org.raspilot.up.providers;
 import org.raspilot.up.loop.Loop;
 
 /**
- * Reads a sensor, makes of its readings what the Raspberry Pi wants, and sends it (thesis 3.5.2).
+ * Reads a sensor, converts its readings for the Raspberry Pi, and sends them (thesis 3.5.2).
  *
- * <p>A provider of one sensor and one Command is best a {@link SensorProvider}. What a hook throws
- * is told as the provider's problem and harms no other provider. Only on the loop.
+ * <p>For a provider of one sensor and one Command extend {@link SensorProvider}. An exception of a
+ * hook is reported as the provider's problem and does not affect other providers. Only on the loop.
  */
 public abstract class UpProvider {
     private final String name;
@@ -89,7 +89,7 @@ public abstract class UpProvider {
         look();
     }
 
-    /** Begins to read the sensor and to send; one that is absent is told by its name. */
+    /** Starts to read the sensor and to send; an absent sensor is reported by its name. */
     final void start(Outlet to) {
         if (isStarted) {
             return;

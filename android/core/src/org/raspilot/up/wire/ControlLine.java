@@ -2,7 +2,7 @@ package org.raspilot.up.wire;
 
 /**
  * A line between proxy and ground that is not relayed: who commands, and whether the aircraft is
- * there.
+ * connected.
  *
  * <p>Source: docs/protocols.md 9.
  */
@@ -21,7 +21,7 @@ public final class ControlLine {
         SEAT_COMMAND,
         /** Proxy to ground: you listen now. */
         SEAT_LISTEN,
-        /** Proxy to all: ground {@link #number} commands; null: nobody. */
+        /** Proxy to all: ground {@link #number} commands; null: none. */
         SEAT_HOLDER,
         /** Proxy to all: the airborne side came. */
         AIRCRAFT_ONLINE,
@@ -40,7 +40,7 @@ public final class ControlLine {
     }
 
     /**
-     * Makes a line that needs neither a number nor a token; SEAT_HOLDER: nobody commands.
+     * Creates a line that needs neither a number nor a token; for SEAT_HOLDER: none commands.
      *
      * @throws IllegalArgumentException for a kind that needs one
      */
@@ -91,7 +91,7 @@ public final class ControlLine {
         return token;
     }
 
-    /** Says whether a line begins as those that are never relayed do: it is no General Message. */
+    /** Returns whether a line starts as those that are never relayed: not a General Message. */
     public static boolean isControlLine(byte[] line, int length) {
         return length >= 4 && line[0] == 'U' && line[1] == 'P' && line[2] == '1' && line[3] == ' ';
     }

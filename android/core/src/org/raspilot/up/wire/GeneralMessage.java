@@ -67,10 +67,10 @@ public final class GeneralMessage {
     }
 
     /**
-     * Reads one line, with or without its line end.
+     * Parses one line, with or without its line end.
      *
-     * @throws MalformedException when it is no General Message; a beacon beyond 64 bits makes it
-     *     none here
+     * @throws MalformedException when it is not a General Message; a beacon beyond 64 bits is
+     *     malformed here
      */
     public static GeneralMessage read(byte[] line, int length) throws MalformedException {
         if (length > LineSplitter.LONGEST_LINE) {

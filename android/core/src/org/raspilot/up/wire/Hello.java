@@ -72,7 +72,7 @@ public final class Hello {
         return token;
     }
 
-    /** Says whether a text can be the name of an aircraft, for a proxy and for a runner. */
+    /** Returns whether a text is a valid name of an aircraft, for a proxy and for a runner. */
     public static boolean isAircraftName(String text) {
         return text != null && NAME.matcher(text).matches();
     }
@@ -83,10 +83,10 @@ public final class Hello {
     }
 
     /**
-     * Reads the hello of an aircraft ({@code isGround} false) or of a ground, its line end may be
-     * absent; a ground that names no seat asks to command, unknown words are ignored.
+     * Parses the hello of an aircraft ({@code isGround} false) or of a ground, with or without its
+     * line end; a ground that names no seat requests to command, unknown words are ignored.
      *
-     * @throws MalformedException when it is none
+     * @throws MalformedException when it is not a hello
      */
     public static Hello read(byte[] line, int length, boolean isGround) throws MalformedException {
         if (length > LONGEST_LINE) {

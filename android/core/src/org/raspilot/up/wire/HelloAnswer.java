@@ -26,7 +26,7 @@ public final class HelloAnswer {
         this.reason = reason;
     }
 
-    /** Makes the answer that takes somebody in. */
+    /** Creates the answer that accepts a peer. */
     public static HelloAnswer accepted(String aircraft, Seat seat, String token) {
         return new HelloAnswer(aircraft, seat, token, null, null);
     }
@@ -67,8 +67,8 @@ public final class HelloAnswer {
     }
 
     /**
-     * Returns what a line without line end answers; null: it is no answer to a hello. Unknown
-     * words are ignored.
+     * Parses a line without line end; null if it is not an answer to a hello. Unknown words are
+     * ignored.
      */
     public static HelloAnswer read(byte[] line, int length) {
         String text = Utf8.printableAscii(line, length);

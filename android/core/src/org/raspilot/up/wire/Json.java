@@ -30,8 +30,8 @@ public final class Json {
     /**
      * Returns a value as ASCII text with the separators {@code ", "} and {@code ": "}.
      *
-     * @throws IllegalArgumentException for NaN, infinity, a lone surrogate, what JSON cannot hold
-     *     and what is nested deeper than 32, naming its place
+     * @throws IllegalArgumentException, naming the place, for NaN, infinity, a lone surrogate,
+     *     other values that JSON lacks, and nesting deeper than 32
      */
     public static String write(Object value) {
         return new JsonWriter().write(value);
@@ -51,7 +51,7 @@ public final class Json {
         return -1;
     }
 
-    /** Says whether it is one half of a character; Android 4.1 has no Character.isSurrogate. */
+    /** Returns whether it is a surrogate; Android 4.1 has no Character.isSurrogate. */
     static boolean isSurrogate(char c) {
         return c >= Character.MIN_SURROGATE && c <= Character.MAX_SURROGATE;
     }

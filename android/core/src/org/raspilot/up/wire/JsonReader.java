@@ -96,7 +96,7 @@ final class JsonReader {
         }
         leave();
         if (isIdRepeated) {
-            // There is no telling which one was meant.
+            // It is ambiguous which one was meant.
             fields.remove("id");
         }
         return fields;

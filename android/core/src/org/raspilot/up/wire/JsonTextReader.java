@@ -1,6 +1,6 @@
 package org.raspilot.up.wire;
 
-/** Reads one text of a JSON text: what stands between two double quotes. */
+/** Reads one string of a JSON text: the characters between two double quotes. */
 final class JsonTextReader {
     private static final String ESCAPED = "\"\\/bfnrt";
     private static final String MEANT = "\"\\/\b\f\n\r\t";
@@ -51,7 +51,7 @@ final class JsonTextReader {
         return at;
     }
 
-    /** Says whether a surrogate was escaped; unescaped ones are no UTF-8. */
+    /** Returns whether a surrogate was escaped; unescaped ones are invalid UTF-8. */
     boolean hasSurrogateEscape() {
         return hasSurrogateEscape;
     }

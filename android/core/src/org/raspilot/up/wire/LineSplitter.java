@@ -5,10 +5,10 @@ import java.util.Arrays;
 import java.util.List;
 
 /**
- * Cuts a stream of bytes into lines at LF and takes a CR before it away.
+ * Splits a stream of bytes into lines at LF and removes a CR before it.
  *
- * <p>A line that is too long is dropped up to its LF and counted; what is held never grows beyond
- * the bound. Empty lines are heartbeats and are left out. Source: docs/protocols.md 4.
+ * <p>A line that is too long is dropped up to its LF and counted; the buffer never exceeds the
+ * bound. Empty lines are heartbeats and are left out. Source: docs/protocols.md 4.
  */
 public final class LineSplitter {
     /** Bytes of a General Message line with its LF. */

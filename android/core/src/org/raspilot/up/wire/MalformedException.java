@@ -1,7 +1,7 @@
 package org.raspilot.up.wire;
 
 /**
- * Bytes that are no message; the text is one short clause that says why.
+ * Bytes that are not a valid message; the text is one short clause with the reason.
  *
  * <p>Source: docs/protocols.md 4 (the code {@code malformed}).
  */
@@ -21,7 +21,7 @@ public final class MalformedException extends Exception {
         this.id = id;
     }
 
-    /** Returns why it is no message. */
+    /** Returns why it is not a message. */
     public String reason() {
         return getMessage();
     }

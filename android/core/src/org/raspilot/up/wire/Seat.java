@@ -20,7 +20,7 @@ public enum Seat {
         return word;
     }
 
-    /** Returns the seat of a word, or null when it is none. */
+    /** Returns the seat with that name, or null if unknown. */
     public static Seat ofWord(String word) {
         for (Seat seat : values()) {
             if (seat.word.equals(word)) {

@@ -12,7 +12,7 @@ final class Utf8 {
     private Utf8() {
     }
 
-    /** Returns the text of the first {@code length} bytes; raises for what is no UTF-8. */
+    /** Returns the text of the first {@code length} bytes; throws for invalid UTF-8. */
     static String decode(byte[] bytes, int length) throws MalformedException {
         try {
             return UTF_8.newDecoder()

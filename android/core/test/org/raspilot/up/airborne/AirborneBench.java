@@ -136,7 +136,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
         return count;
     }
 
-    /** Lets every sensor speak each periodMs for so many ms. */
+    /** Makes every sensor deliver a reading each periodMs for that many ms. */
     void fly(long periodMs, long forMs) {
         for (long passed = 0; passed < forMs; passed += periodMs) {
             loop.advance(periodMs);

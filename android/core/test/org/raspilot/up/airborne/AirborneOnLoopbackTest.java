@@ -108,7 +108,7 @@ public final class AirborneOnLoopbackTest {
             }
         });
         while (fresh.readLine() != null) {
-            // Until the end of what had left before the stop.
+            // Until everything sent before the stop has arrived.
         }
         again.close();
         frames.close();

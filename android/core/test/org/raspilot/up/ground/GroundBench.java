@@ -94,7 +94,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return frames.get(frames.size() - 1);
     }
 
-    /** Frames come each 100 ms for so long; the last one comes now. */
+    /** Frames arrive each 100 ms for that time; the last one arrives now. */
     long fly(long firstBeacon, int count) {
         for (int each = 0; each < count; each++) {
             loop.advance(100);
@@ -136,7 +136,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return found;
     }
 
-    /** The aircraft refuses the question for its gains that the ground asks by itself. */
+    /** The aircraft refuses the ground's automatic request for its gains. */
     void skipGains() {
         for (GeneralMessage each : sent()) {
             if (each.name().equals("arduino.pids.tunings")) {

@@ -30,7 +30,7 @@ class Heard implements TcpListener {
         told.add(reason);
     }
 
-    /** Returns whether something was told that begins so. */
+    /** Returns whether an event with that prefix was recorded. */
     Callable<Boolean> has(final String beginning) {
         return new Callable<Boolean>() {
             @Override
@@ -45,7 +45,7 @@ class Heard implements TcpListener {
         };
     }
 
-    /** Returns whether so many bytes came. */
+    /** Returns whether that many bytes arrived. */
     Callable<Boolean> hasBytes(final int count) {
         return new Callable<Boolean>() {
             @Override

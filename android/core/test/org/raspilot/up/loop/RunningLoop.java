@@ -78,7 +78,7 @@ public final class RunningLoop extends ExternalResource {
         wait(latch, "never came: " + what);
     }
 
-    /** The device sleeps for so long: its clock goes on, nothing else. */
+    /** The device sleeps for that time: only its clock advances. */
     public void sleep(long forMs) {
         sleptNs.addAndGet(TimeUnit.MILLISECONDS.toNanos(forMs));
     }

@@ -44,7 +44,7 @@ public final class TestSource<R> implements SensorSource<R> {
         listener = null;
     }
 
-    /** Gives a reading to whoever reads. */
+    /** Delivers a reading to the subscriber. */
     public void give(R reading) {
         if (listener != null) {
             listener.onReading(reading);
