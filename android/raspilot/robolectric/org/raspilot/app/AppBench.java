@@ -38,7 +38,7 @@ public abstract class AppBench {
         return ((TextView) find(id)).getText().toString();
     }
 
-    /** Turns or resizes the window: the system makes it anew. */
+    /** Turns or resizes the window: the system recreates it. */
     final void become(String qualifiers) {
         RuntimeEnvironment.setQualifiers(qualifiers);
         handset.window.recreate();

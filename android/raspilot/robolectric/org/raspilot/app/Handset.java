@@ -50,7 +50,7 @@ final class Handset {
     ActivityController<MainActivity> window;
 
     Handset() {
-        // The system connects nobody to a service that does not run; the shadow would.
+        // The system connects no client to a service that does not run; the shadow would.
         shadow.declareComponentUnbindable(upName);
     }
 
@@ -134,7 +134,7 @@ final class Handset {
         Wait.pass(0);
     }
 
-    /** Connects who waits for the service, and whoever binds later. */
+    /** Connects the clients that wait for the service, and later ones. */
     private void bindUp(IBinder binder) {
         unbindable().remove(upName);
         shadow.setComponentNameAndServiceForBindServiceForIntent(
@@ -207,7 +207,7 @@ final class Handset {
         SensorEvent event = ShadowSensorManager.createSensorEvent(values.length, type);
         System.arraycopy(values, 0, event.values, 0, values.length);
         event.timestamp = SystemClock.elapsedRealtime() * 1000000L;
-        // The shadow's own way tells it to those who listen to other sensors, too.
+        // The shadow's own method would also notify listeners of other sensors.
         Sensor sensor = sensors().getSensorList(type).get(0);
         for (SensorEventListener each : sensors().getListeners()) {
             if (sensors().hasListener(each, sensor)) {

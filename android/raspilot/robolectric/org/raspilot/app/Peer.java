@@ -33,11 +33,11 @@ class Peer implements Closeable {
         return server.getLocalPort();
     }
 
-    /** Hears a line that is no heartbeat; on a thread of the peer's. */
+    /** Called with a line that is not a heartbeat; on a thread of the peer's. */
     void onLine(String line) throws IOException {
     }
 
-    /** Returns all lines heard so far that are no heartbeats. */
+    /** Returns all lines received so far except heartbeats. */
     final synchronized List<String> heard() {
         return new ArrayList<String>(heard);
     }
@@ -46,7 +46,7 @@ class Peer implements Closeable {
         return connection != null;
     }
 
-    /** Sends a line; without effect where nobody is connected. */
+    /** Sends a line; no effect without a connection. */
     final void say(String line) {
         Socket now;
         synchronized (this) {

@@ -69,7 +69,7 @@ public final class TouchTest extends AppBench {
     }
 
     private void hold() {
-        // As a screen draws: a press is void when the screen hangs meanwhile.
+        // Draws as a screen does: a press is void when the screen hangs during it.
         for (int frame = 0; frame < 100; frame++) {
             Wait.pass(16);
         }

@@ -13,9 +13,9 @@ final class Wait {
     private Wait() {
     }
 
-    /** What is waited for. */
+    /** The awaited condition. */
     interface Condition {
-        /** Says whether it is there. */
+        /** Returns whether it is true. */
         boolean holds() throws Exception;
     }
 

@@ -85,7 +85,7 @@ final class AirborneLink {
         }
     }
 
-    /** Says whether the service runs. */
+    /** Returns whether the service runs. */
     boolean isRunning() {
         return airside != null;
     }

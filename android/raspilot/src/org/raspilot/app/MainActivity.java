@@ -66,7 +66,8 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
 
     private void makeTabs() {
         ActionBar bar = getActionBar();
-        // On a phone the tabs say where one is; a title would take a tenth of the screen besides.
+        // On a phone the tabs show the current screen; a title would take another tenth of the
+        // height.
         bar.setDisplayShowHomeEnabled(false);
         bar.setDisplayShowTitleEnabled(isTwoPanes);
         if (!isTwoPanes) {

@@ -11,7 +11,7 @@ import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.airborne.OrientationTransport;
 
-/** The upper part of the airborne screen: the link, start and stop, what is configured. */
+/** The upper part of the airborne screen: the link, start and stop, the configuration. */
 final class RunPanel {
     private final Context context;
     private final TextView panic;
@@ -32,7 +32,7 @@ final class RunPanel {
         onOff.setOnClickListener(pressed);
     }
 
-    /** Shows what is configured. */
+    /** Shows the configuration. */
     void showSettings(AirborneSettings settings) {
         mode.setText(settings.mode() == AirborneMode.BLACK_BOX
                 ? R.string.mode_name_black_box : R.string.mode_name_flight_controller);
@@ -40,7 +40,7 @@ final class RunPanel {
         orientation.setText(orientation(settings));
     }
 
-    /** Shows that what is configured cannot be used, and why. */
+    /** Shows that the configuration is invalid, and why. */
     void showFault(String sentence) {
         mode.setText(sentence);
         where.setText("");

@@ -62,12 +62,12 @@ enum Screen {
         this.part = part;
     }
 
-    /** Says whether a window with or without room for two panes has a tab for this. */
+    /** Returns whether a window with or without room for two panes has a tab for this. */
     boolean hasTab(boolean isTwoPanes) {
         return this != COMMANDS || !isTwoPanes;
     }
 
-    /** Says whether a part is to be seen while this is chosen. */
+    /** Returns whether a part is visible while this is chosen. */
     boolean shows(Part other, boolean isTwoPanes) {
         boolean isBeside = isTwoPanes && this == GROUND && other == Part.COMMANDS;
         return other == part || isBeside;

@@ -3,7 +3,7 @@ package org.raspilot.app;
 import java.util.regex.Pattern;
 import org.raspilot.up.providers.AltitudeProvider;
 
-/** What a setting must be, and the sentence that says so. */
+/** The rule for a setting, and the sentence that states it. */
 enum SettingRule {
     /** A host's name or address. */
     HOST(R.string.rule_host) {
@@ -66,10 +66,10 @@ enum SettingRule {
         this.sentence = sentence;
     }
 
-    /** Says whether a value, without spaces around it, is one. */
+    /** Returns whether a value, trimmed, is valid. */
     abstract boolean holds(String value);
 
-    /** Returns the resource of the sentence that says what it must be. */
+    /** Returns the resource of the sentence that states the rule. */
     int sentence() {
         return sentence;
     }

@@ -16,7 +16,7 @@ import org.raspilot.up.android.SpawnService;
 final class SpawnDesk {
     /** Hears when a request begins and ends. */
     interface Watcher {
-        /** Hears that {@link SpawnDesk#isAsking} has changed. */
+        /** Called when {@link SpawnDesk#isAsking} has changed. */
         void onSpawning();
     }
 
@@ -35,12 +35,12 @@ final class SpawnDesk {
         });
     }
 
-    /** Says whether an answer is awaited. */
+    /** Returns whether a request waits for its answer. */
     boolean isAsking() {
         return isAsking;
     }
 
-    /** Names who watches; null: nobody. */
+    /** Sets the watcher, or null. */
     void watch(Watcher now) {
         watcher = now;
     }
@@ -86,7 +86,8 @@ final class SpawnDesk {
         try {
             BaseUpService.start(application, RaspilotUpService.class);
         } catch (IllegalStateException refusal) {
-            // The user went elsewhere meanwhile, and this system lets nobody start from there.
+            // The user has left the application, and this system does not start services from the
+            // background.
             application.note(application.getString(R.string.start_refused));
         }
     }

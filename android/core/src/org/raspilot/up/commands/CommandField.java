@@ -79,7 +79,7 @@ public final class CommandField {
         return maxLength;
     }
 
-    /** Says whether null is allowed. */
+    /** Returns whether null is allowed. */
     public boolean isNullable() {
         return nullable;
     }

@@ -48,7 +48,7 @@ public final class CommandRegistry {
         readers.put(name, reader);
     }
 
-    /** Says whether a name or alias is known. */
+    /** Returns whether a name or alias is known. */
     public boolean knows(String name) {
         return primaryNames.containsKey(name);
     }

@@ -134,7 +134,7 @@ public final class GeneralMessage {
         return new GeneralMessage((String) name, (Map<String, Object>) data, id, (Long) beacon);
     }
 
-    /** Says whether a text has 1 to {@code longest} characters. */
+    /** Returns whether a text has 1 to {@code longest} characters. */
     static boolean hasLength(String text, int longest) {
         int length = text.codePointCount(0, text.length());
         return length >= 1 && length <= longest;

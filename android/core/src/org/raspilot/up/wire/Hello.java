@@ -77,7 +77,7 @@ public final class Hello {
         return text != null && NAME.matcher(text).matches();
     }
 
-    /** Says whether a text has the form of a resume token. */
+    /** Returns whether a text has the form of a resume token. */
     public static boolean isToken(String text) {
         return text != null && TOKEN.matcher(text).matches();
     }

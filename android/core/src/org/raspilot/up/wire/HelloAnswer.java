@@ -36,7 +36,7 @@ public final class HelloAnswer {
         return new HelloAnswer(null, null, null, code, reason);
     }
 
-    /** Says whether the hello was accepted. */
+    /** Returns whether the hello was accepted. */
     public boolean isAccepted() {
         return code == null;
     }

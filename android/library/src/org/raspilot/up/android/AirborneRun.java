@@ -27,7 +27,7 @@ final class AirborneRun {
         /** Registers handlers and providers; on the loop, before anything begins. */
         void onUp(Up up);
 
-        /** Takes the status of now. */
+        /** Takes the current status. */
         void onStatus(AirborneStatus status);
 
         /** Takes a line of the log. */
@@ -110,7 +110,7 @@ final class AirborneRun {
         network.begin();
     }
 
-    /** Lets the application set up what is its own; what fails there keeps nothing else down. */
+    /** Runs the application's own setup; a failure there does not stop the rest. */
     private void setUp() {
         try {
             host.onUp(airborne.up());
@@ -120,7 +120,7 @@ final class AirborneRun {
         }
     }
 
-    /** Ends everything; nothing is told any more. */
+    /** Ends everything; nothing is reported afterwards. */
     void end() {
         isEnded = true;
         Up.setInstance(null);
@@ -141,7 +141,7 @@ final class AirborneRun {
         locks.release();
     }
 
-    /** Reads the location anew, as after a permission was given or taken. */
+    /** Restarts the location, as after a permission was granted or revoked. */
     void restart(final String provider) {
         loop.post(new Runnable() {
             @Override
@@ -219,7 +219,7 @@ final class AirborneRun {
         tellStatus(status);
     }
 
-    /** Says whether another way is open now. */
+    /** Returns whether the network path has changed. */
     private boolean lookAtWay(AirborneStatus status) {
         return way.look(loop.nowMs(), status.isConnected() ? status.place().host() : null);
     }

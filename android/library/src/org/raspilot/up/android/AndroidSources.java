@@ -25,11 +25,11 @@ public final class AndroidSources implements Sensors {
     private final SensorSource<BatteryLevel> battery;
 
     /**
-     * Looks which sensors there are.
+     * Finds the available sensors.
      *
      * @param context of the application or of anything in it
      * @param looper whose thread the system calls on
-     * @param fixes hears of each fix besides its provider
+     * @param fixes receives each fix in addition to its provider
      */
     public AndroidSources(Context context, Looper looper, final Loop loop, SourceTexts texts,
             ProblemListener problems, FixListener fixes) {

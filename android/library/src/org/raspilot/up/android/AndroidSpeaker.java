@@ -9,7 +9,7 @@ import java.util.HashMap;
 import java.util.List;
 import org.raspilot.up.airborne.Speaker;
 
-/** Says texts by the phone's own text to speech; what comes before it is ready waits for it. */
+/** Speaks texts by the phone's own text to speech; texts wait until it is ready. */
 final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
     private static final int MOST_WAITING = 5;
 

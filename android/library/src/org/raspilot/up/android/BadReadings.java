@@ -6,13 +6,13 @@ final class BadReadings {
     private final String refusal;
     private boolean isTold;
 
-    /** Takes what is told, without the sensor's name. */
+    /** Takes the receiver of the problems, which do not name the sensor. */
     BadReadings(ProblemListener problems, String refusal) {
         this.problems = problems;
         this.refusal = refusal;
     }
 
-    /** Takes what was wrong with a reading, which is dropped; on any thread. */
+    /** Takes the problem of a reading that is dropped; on any thread. */
     void add(String sensor, RuntimeException fault) {
         synchronized (this) {
             if (isTold) {

@@ -12,8 +12,8 @@ import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.Track;
 
 /**
- * The newest of all that the ground side knows, and the watchers on the main thread. Taken from
- * the loop; a watcher that is slower than the aircraft is told of the newest only.
+ * The newest state of the ground side, and the watchers on the main thread. Taken from the loop; a
+ * watcher that is slower than the aircraft receives only the newest state.
  */
 final class GroundView implements Runnable {
     private final Handler main = new Handler(Looper.getMainLooper());

@@ -10,9 +10,9 @@ public enum Lack {
     LOCATION_OFF,
     /** There is nothing by which the phone knows how it lies. */
     ROTATION,
-    /** There is no gyroscope. */
+    /** No gyroscope. */
     GYROSCOPE,
-    /** There is no barometer. */
+    /** No barometer. */
     BAROMETER,
     /** The system does not tell the battery's level. */
     BATTERY,

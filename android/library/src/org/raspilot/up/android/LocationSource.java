@@ -15,13 +15,14 @@ import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
 /**
- * Where the phone is, by its GPS alone: what the network knows may stand where an access point once
- * was, and would be home. Permission and hardware are looked at anew at each question: both change.
+ * The position of the phone by GPS alone: the network's position may be that of a moved access
+ * point, and would become home. Permission and hardware are checked at each call, because both
+ * change.
  */
 final class LocationSource implements SensorSource<Fix>, LocationListener {
     private static final String GPS = LocationManager.GPS_PROVIDER;
 
-    /** Near enough for what is told besides, such as where north is. */
+    /** Precise enough for other uses, such as the magnetic declination. */
     private static final String ROUGH = LocationManager.NETWORK_PROVIDER;
 
     private final Context context;
@@ -128,7 +129,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         return manager != null && manager.getAllProviders().contains(provider);
     }
 
-    /** Tells besides where the phone was last by the network, perhaps long ago. */
+    /** Also reports the phone's last network position, possibly very old. */
     private void tellRough() {
         try {
             Location known = has(ROUGH) ? manager.getLastKnownLocation(ROUGH) : null;

@@ -25,7 +25,7 @@ public final class RotationFeed {
         }, texts, problems);
     }
 
-    /** Says whether this phone knows how it lies. */
+    /** Returns whether this phone has an orientation source. */
     public boolean isPresent() {
         return source.isPresent();
     }
@@ -35,7 +35,7 @@ public final class RotationFeed {
         return source.name();
     }
 
-    /** Begins to tell it; where it is not known nothing is told. */
+    /** Starts to report it; without a source nothing is reported. */
     public void begin(long periodMs, SensorListener<Rotation> listener) {
         if (source.isPresent()) {
             source.subscribe(periodMs, listener);

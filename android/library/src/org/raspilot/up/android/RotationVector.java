@@ -16,7 +16,9 @@ final class RotationVector {
     private RotationVector() {
     }
 
-    /** Returns the rotation of an event's values in a version of Android; null: they are none. */
+    /**
+     * Returns the rotation of an event's values in a version of Android; null if they are invalid.
+     */
     static Rotation read(float[] values, long timeMs, int version) {
         if (values.length < AXES) {
             return null;

@@ -11,7 +11,7 @@ import org.raspilot.up.android.api23.SensorRates;
 
 /** The phone's built-in sensors: finds them and listens to them, at 200 Hz at most. */
 final class SensorDesk {
-    /** Android 12 wants a permission of its own for shorter periods. */
+    /** Android 12 requires a separate permission for shorter periods. */
     static final int LEAST_PERIOD_US = 5000;
 
     private static final int LONGEST_PERIOD_US = 10000000;

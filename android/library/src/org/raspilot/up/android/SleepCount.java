@@ -1,6 +1,6 @@
 package org.raspilot.up.android;
 
-/** Counts for how long the phone has slept, by two clocks of which one stands still meanwhile. */
+/** Measures how long the phone has slept, by two clocks of which one stops during sleep. */
 final class SleepCount {
     private long mostMs;
 

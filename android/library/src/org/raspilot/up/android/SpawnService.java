@@ -11,9 +11,9 @@ import java.io.IOException;
 import org.raspilot.up.loop.SelectorLoop;
 
 /**
- * Asks a runner for an instance and ends (thesis 3.5.1, "Intent Service"): one request after the
- * other on a thread of its own. Where an instance runs, the messenger hears it, and the
- * application starts its {@link BaseUpService}, which connects where the runner says.
+ * Requests an instance from a runner and ends (thesis 3.5.1, "Intent Service"): requests run one
+ * after the other on its own thread. When an instance runs, the messenger receives the result, and
+ * the application starts its {@link BaseUpService}, which connects to the address from the runner.
  */
 public final class SpawnService extends IntentService {
     private static final String TAG = "Up";

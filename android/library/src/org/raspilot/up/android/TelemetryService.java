@@ -23,8 +23,8 @@ import org.raspilot.up.ground.TelemetrySource;
 import org.raspilot.up.ground.Track;
 
 /**
- * Receives telemetry and sends Commands for as long as somebody looks (thesis 4.5.2): a bound
- * service. An application extends it and names its subclass in its manifest.
+ * Receives telemetry and sends Commands while a client is bound (thesis 4.5.2): a bound service. An
+ * application extends it and names its subclass in its manifest.
  */
 public abstract class TelemetryService extends Service {
     private final GroundView view = new GroundView();
@@ -33,7 +33,8 @@ public abstract class TelemetryService extends Service {
     private String fault = "";
 
     /**
-     * Returns the settings of now; asked when the service begins and at {@link Ground#reload}.
+     * Returns the current settings; called at the start of the service and at {@link
+     * Ground#reload}.
      *
      * @throws IllegalArgumentException with a sentence for the user: there is no link then
      */
@@ -97,7 +98,7 @@ public abstract class TelemetryService extends Service {
 
     /** What a screen reaches of the service that it is bound to. On the main thread. */
     public final class Ground extends Binder {
-        /** Adds a watcher: it is told of what comes from now on. */
+        /** Adds a watcher, which receives all further changes. */
         public void add(GroundWatcher watcher) {
             view.add(watcher);
         }
@@ -107,12 +108,12 @@ public abstract class TelemetryService extends Service {
             view.remove(watcher);
         }
 
-        /** Returns what is wrong with the settings, in a sentence; empty: nothing. */
+        /** Returns the error of the settings as a sentence; empty if they are valid. */
         public String fault() {
             return fault;
         }
 
-        /** Ends the link and begins anew with the settings of now. */
+        /** Closes the link and restarts it with the current settings. */
         public void reload() {
             end();
             view.forget();
@@ -144,7 +145,7 @@ public abstract class TelemetryService extends Service {
             return view.events();
         }
 
-        /** Returns what is wrong with the flight; null: nothing is known yet. */
+        /** Returns the active alarms, or null if nothing is known yet. */
         public Alarms.Snapshot alarms() {
             return view.alarms();
         }
@@ -206,7 +207,7 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Hears that the user keeps the seat that another ground asked for. */
+        /** Called when the user keeps the seat that another ground requested. */
         public void dismissSeatAsk() {
             post(new GroundRun.Call() {
                 @Override

@@ -3,16 +3,16 @@ package org.raspilot.up.android;
 import java.util.regex.Pattern;
 
 /**
- * Decides when the process's sockets are bound to a Wi-Fi. A system prefers its mobile network to
- * a Wi-Fi without internet, on which an aeroplane's own access point would never be reached; but
- * a socket that is bound to a Wi-Fi no longer reaches what is tethered by USB.
+ * Decides when the process's sockets are bound to a Wi-Fi. A system prefers its mobile network to a
+ * Wi-Fi without internet, and then never reaches an aeroplane's own access point; but a socket
+ * bound to a Wi-Fi cannot reach a device tethered by USB.
  *
- * <p>So they are bound only while the other end lies in that Wi-Fi's own network. Where it is not
- * known yet (Discovery, a name), the way changes each {@link #TURN_MS} until there is a link,
- * beginning with the unbound one. All on one thread.
+ * <p>So they are bound only while the peer lies in that Wi-Fi's own network. Where the peer's
+ * address is unknown (Discovery, a name), the path alternates each {@link #TURN_MS} until there is
+ * a link, starting unbound. All on one thread.
  */
 final class WifiWay {
-    /** So long one way is tried, ms: enough to ask by Discovery and to connect. */
+    /** Duration of one attempt by one path, ms: enough for Discovery and connecting. */
     static final long TURN_MS = 5000;
 
     private static final Pattern NUMBERS =
@@ -51,16 +51,16 @@ final class WifiWay {
         fixed = address(host);
     }
 
-    /** Hears that a network came, went, or has other addresses. */
+    /** Called when a network appeared, disappeared, or changed its addresses. */
     void networksChanged() {
         isChanged = true;
     }
 
     /**
-     * Looks at the link, a few times a second.
+     * Checks the link, a few times a second.
      *
-     * @param place where the link goes; null: there is none
-     * @return whether another way is open now, so that an attempt is due at once
+     * @param place the peer of the link; null if unknown
+     * @return whether the path has changed, so that a new attempt is due immediately
      */
     boolean look(long nowMs, String place) {
         if (!isWanted) {

@@ -28,7 +28,7 @@ final class ChoicePage implements Page {
     private final TextView now;
     private final List<Button> buttons = new ArrayList<Button>();
 
-    /** Says whether a form is of that kind. */
+    /** Returns whether a form is of that kind. */
     static boolean fits(CommandForm form) {
         if (form.fields().size() != 1) {
             return false;

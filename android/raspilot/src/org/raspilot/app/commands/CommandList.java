@@ -57,7 +57,7 @@ final class CommandList extends BaseAdapter {
         notifyDataSetChanged();
     }
 
-    /** Looks at what is offered now; a list that stays as it is is left alone under a finger. */
+    /** Updates the list of offered Commands; an unchanged list stays as it was under a finger. */
     void refresh() {
         BitSet now = new BitSet();
         for (int place = 0; place < lines.size(); place++) {

@@ -42,7 +42,7 @@ final class CommandsScreen
     private TelemetryService.Ground ground;
     private Page page;
 
-    /** Finds all views and opens what was open; {@code fault}: why there is no catalogue. */
+    /** Finds all views and restores the open page; {@code fault}: why there is no catalogue. */
     CommandsScreen(Activity activity, View root, CommandsMemory memory, List<CommandForm> forms,
             String fault) {
         this.activity = activity;
@@ -226,7 +226,7 @@ final class CommandsScreen
         }
     }
 
-    /** Says whether there is a service to send by; where there is none, the history says so. */
+    /** Returns whether there is a service to send with; if not, the history reports it. */
     private boolean isThere(String words) {
         if (ground == null) {
             memory.unsent(words, activity.getString(R.string.commands_no_service));

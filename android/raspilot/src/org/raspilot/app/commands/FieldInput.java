@@ -25,9 +25,9 @@ abstract class FieldInput {
     private static final int LONGEST = 4096;
     private static final String DIGITS = "0123456789.,-";
 
-    /** Hears that something was typed or chosen. */
+    /** Called when text was typed or a choice made. */
     interface ChangeListener {
-        /** Looks at the text anew. */
+        /** Validates the text again. */
         void onChange();
     }
 
@@ -47,7 +47,7 @@ abstract class FieldInput {
     /** Returns the view. */
     abstract View view();
 
-    /** Returns what is written or chosen; empty: nothing. */
+    /** Returns the typed or chosen value; empty if there is none. */
     abstract String text();
 
     /** Writes or chooses; what cannot be chosen chooses nothing. */

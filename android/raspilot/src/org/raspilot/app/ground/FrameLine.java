@@ -26,7 +26,7 @@ public final class FrameLine implements FrameText.DrawnListener {
         view.setDrawnListener(this);
     }
 
-    /** Lets go of the view: nothing is seen any more. */
+    /** Releases the view: no frame is visible afterwards. */
     public void close() {
         view.setDrawnListener(null);
         shownBeacon = null;
@@ -37,7 +37,7 @@ public final class FrameLine implements FrameText.DrawnListener {
         return shownBeacon;
     }
 
-    /** Forgets what was seen: another link, another aircraft. */
+    /** Resets the seen frames: another link, another aircraft. */
     public void forget() {
         shownBeacon = null;
     }

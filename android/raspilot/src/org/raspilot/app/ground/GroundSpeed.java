@@ -21,11 +21,11 @@ final class GroundSpeed {
     private int count;
 
     /**
-     * Takes a place; the same fix is told in many frames and counts once.
+     * Takes a position; a fix repeated in many frames counts once.
      *
      * @param latitudeDeg -90 to 90 degrees
      * @param longitudeDeg -180 to 180 degrees
-     * @param measuredMs when it was measured, by one monotonic clock
+     * @param measuredMs time of measurement, by one monotonic clock
      */
     void take(double latitudeDeg, double longitudeDeg, long measuredMs) {
         if (count > 0) {

@@ -97,7 +97,7 @@ final class InstrumentPanel {
         instrument.setFreshness(freshness, ageText(picture, path));
     }
 
-    /** Returns how old what stands at a path is: the reading's age, else its frame's. */
+    /** Returns the age of the value at a path: the reading's age, otherwise its frame's. */
     static String ageText(Picture picture, String path) {
         Telemetry telemetry = picture.telemetry;
         Long ageMs = telemetry.readingAgeMs(Telemetry.readingOf(path), picture.nowMs);

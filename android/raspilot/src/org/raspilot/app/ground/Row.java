@@ -14,7 +14,7 @@ import org.raspilot.up.ground.Freshness;
 
 /** A line with a word and a value that looks old when it is old. */
 final class Row {
-    /** How a value looks while it is of now. */
+    /** The colour of a current value. */
     enum Look {
         /** As any other. */
         PLAIN,
@@ -52,7 +52,7 @@ final class Row {
         return row;
     }
 
-    /** Says what the value is. */
+    /** Sets the value. */
     void label(String text) {
         Texts.show(label, text);
     }

@@ -10,7 +10,7 @@ import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.SeatStanding;
 
-/** Who commands and how the link is, with the button that asks for the seat or leaves it. */
+/** Who commands and the state of the link, with the button that requests or leaves the seat. */
 public final class SeatPanel implements View.OnClickListener {
     private final TextView link;
     private final TextView seat;

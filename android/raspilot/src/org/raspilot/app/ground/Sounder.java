@@ -53,7 +53,7 @@ final class Sounder {
         }
     }
 
-    /** Stops what sounds and gives back what was taken. */
+    /** Stops the sound and releases its resources. */
     void release() {
         if (tones != null) {
             hush();

@@ -100,7 +100,7 @@ final class StatePanel {
         boolean isFree = all != null && all.isEmpty();
         String text = all == null ? "" : isFree ? words.getString(R.string.state_none)
                 : joined(all);
-        // In the air a veto is no warning: it tells what would have to be so to arm once more.
+        // In the air a veto is not a warning: it only states what blocks arming again.
         boolean isWarning = !isFree && !Boolean.TRUE.equals(isArmed);
         show(vetoes, picture, "vetoes", all == null ? null : text,
                 isWarning ? Row.Look.WARNING : Row.Look.PLAIN);

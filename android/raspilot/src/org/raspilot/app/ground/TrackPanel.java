@@ -59,7 +59,7 @@ final class TrackPanel implements View.OnClickListener {
         if (!hasTrack) {
             freshness = Freshness.NONE;
         } else if (!isThere) {
-            // Where it flew stays known when nobody tells any more where it is.
+            // The flown track stays known when positions stop.
             freshness = Freshness.STALE;
         }
         String age = InstrumentPanel.ageText(picture, "location.latitude");

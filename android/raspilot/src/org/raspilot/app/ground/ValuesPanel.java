@@ -18,7 +18,7 @@ import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.TelemetryRow;
 import org.raspilot.up.ground.TelemetryText;
 
-/** Every value of the newest frame, those of modules that nobody here knows too. */
+/** Every value of the newest frame, including those of unknown modules. */
 final class ValuesPanel extends BaseAdapter implements TextWatcher {
     private final View element;
     private final EditText filter;

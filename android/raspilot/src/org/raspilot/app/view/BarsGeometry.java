@@ -19,7 +19,7 @@ public final class BarsGeometry {
         return Math.max(-MOST, Math.min(MOST, (float) (pulseUs - MIDDLE_US) / HALF_US));
     }
 
-    /** Says whether a pulse lies outside of the scale of 1000 to 2000 us. */
+    /** Returns whether a pulse lies outside the scale of 1000 to 2000 us. */
     public static boolean isBeyond(double pulseUs) {
         return Math.abs(pulseUs - MIDDLE_US) > HALF_US;
     }

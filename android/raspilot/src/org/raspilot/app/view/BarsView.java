@@ -31,7 +31,7 @@ public final class BarsView extends Instrument {
     }
 
     /**
-     * Says what the bars are of.
+     * Sets the labels of the bars.
      *
      * @param text above them
      * @param channels how many there are, 1 to 6: ailerons, elevator, throttle, rudder, aux 1 and 2

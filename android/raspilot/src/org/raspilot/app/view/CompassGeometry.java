@@ -27,10 +27,10 @@ public final class CompassGeometry {
     }
 
     /**
-     * Returns what stands at a mark of the scale.
+     * Returns the label of a mark of the scale.
      *
      * @param directionDeg a multiple of 15; any turn
-     * @return N, NE and so on each 45 degrees, tens of degrees each other 30, else empty
+     * @return N, NE and so on each 45 degrees, tens of degrees each other 30, otherwise empty
      */
     public static String label(int directionDeg) {
         int whole = ((directionDeg % 360) + 360) % 360;

@@ -12,7 +12,7 @@ import android.widget.TextView;
  * hidden or hangs draws nothing, and so sees nothing.
  */
 public final class FrameText extends TextView {
-    /** Hears that a frame was drawn; main thread, while drawing: it must not change views. */
+    /** Called when a frame was drawn; main thread, while drawing: it must not change views. */
     public interface DrawnListener {
         /** Takes the beacon of the frame that was drawn. */
         void onDrawn(Long beacon);
@@ -26,7 +26,7 @@ public final class FrameText extends TextView {
         super(context, attributes);
     }
 
-    /** Tells from now on this one only; null: nobody. */
+    /** Sets the only listener; null: none. */
     public void setDrawnListener(DrawnListener newListener) {
         listener = newListener;
     }
@@ -34,8 +34,8 @@ public final class FrameText extends TextView {
     /**
      * Takes a frame.
      *
-     * @param text what is shown
-     * @param beacon of the frame that the text tells; null: it tells none
+     * @param text to show
+     * @param beacon of the frame that the text shows, or null if it shows none
      */
     public void setFrame(CharSequence text, Long beacon) {
         if (!text.toString().contentEquals(getText())) {

@@ -42,7 +42,7 @@ public final class HeldPress {
         }
     }
 
-    /** Ends a press: what had not lasted long enough has done nothing. */
+    /** Ends a press; one that was too short has no effect. */
     public void release() {
         state = State.IDLE;
     }

@@ -8,7 +8,7 @@ package org.raspilot.app.view;
  * allocated after construction.
  */
 public final class HorizonGeometry {
-    /** Pitch of each rung of the ladder, degrees; the horizon itself is no rung. */
+    /** Pitch of each rung of the ladder, degrees; the horizon itself is not a rung. */
     private static final float[] RUNGS_DEG = rungs();
     private static final float[] ROLL_MARKS_DEG = {
         -60, -45, -30, -20, -10, 10, 20, 30, 45, 60
@@ -82,12 +82,12 @@ public final class HorizonGeometry {
         return RUNGS_DEG[rung] % 5 == 0 ? radius * 0.18f : radius * 0.09f;
     }
 
-    /** Says whether a rung carries its number. */
+    /** Returns whether a rung has a number. */
     public boolean isLabelled(int rung) {
         return RUNGS_DEG[rung] % 10 == 0;
     }
 
-    /** Says whether a rung is drawn now: near the middle, within the roll scale. */
+    /** Returns whether a rung is drawn now: near the middle, within the roll scale. */
     public boolean isRungVisible(int rung) {
         return Math.abs(rungY(rung) + ballShift()) < radius * 0.86f;
     }

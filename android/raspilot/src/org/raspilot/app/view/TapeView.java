@@ -143,7 +143,7 @@ public final class TapeView extends Instrument {
         return sp(11) * 1.5f;
     }
 
-    /** Makes the labels anew when the tape has moved by a whole mark. */
+    /** Rebuilds the labels when the tape has moved by a whole mark. */
     private void label() {
         geometry.show(value);
         if (geometry.firstMark() == labelledFrom) {

@@ -1,10 +1,11 @@
 package org.raspilot.app.view;
 
 /**
- * How metres north and east of home become pixels of a picture with north up.
+ * Converts metres north and east of home to pixels of a picture with north up.
  *
- * <p>While nobody has moved it by hand it shows everything: home, the track and the aircraft. Not a
- * map: a plane around home, which is right to a metre in a field and to a percent in 100 km.
+ * <p>Until the user moves it, it shows everything: home, the track and the aircraft. It uses a
+ * plane around home instead of a map projection; the error is a metre in a field and a percent in
+ * 100 km.
  */
 public final class TrackGeometry {
     private static final double LEAST_PIXELS_PER_M = 1e-4;
@@ -26,12 +27,19 @@ public final class TrackGeometry {
         height = Math.max(1, newHeight);
     }
 
-    /** Says whether the picture chooses its own part of the world. */
+    /** Returns whether the picture chooses its section automatically. */
     public boolean isAutomatic() {
         return isAutomatic;
     }
 
-    /** Leaves the choice to the picture again. */
+    /**
+     * Shows all of a rectangle, unless the user has moved the picture.
+     *
+     * @param southM of home, as metres north: the minimum
+     * @param mostNorthM metres north of home: the maximum
+     * @param westM metres east of home: the minimum
+     * @param mostEastM metres east of home: the maximum
+     */
     public void follow() {
         isAutomatic = true;
     }
@@ -115,12 +123,12 @@ public final class TrackGeometry {
         return (float) (height / 2 - (placeNorthM - northM) * pixelsPerM);
     }
 
-    /** Returns metres east of home at so many pixels from the left. */
+    /** Returns metres east of home for a distance in pixels from the left. */
     public double eastAt(float x) {
         return eastM + (x - width / 2) / pixelsPerM;
     }
 
-    /** Returns metres north of home at so many pixels from above. */
+    /** Returns metres north of home for a distance in pixels from the top. */
     public double northAt(float y) {
         return northM - (y - height / 2) / pixelsPerM;
     }

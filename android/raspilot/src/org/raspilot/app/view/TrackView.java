@@ -13,10 +13,10 @@ import android.view.ScaleGestureDetector;
 import org.raspilot.app.R;
 
 /**
- * Where the aircraft flew, without a map: north up, home in the middle of a metric grid.
+ * The track of the aircraft without a map: north up, home in the middle of a metric grid.
  *
- * <p>It shows everything until somebody drags or pinches; a double tap or {@link #follow()} brings
- * that back. Metres are north and east of the origin: home, or the first place that was heard.
+ * <p>It shows everything until the user drags or pinches; a double tap or {@link #follow()}
+ * restores that. Metres are north and east of the origin: home, or the first known position.
  */
 public final class TrackView extends Instrument {
     private static final float GRID_DP = 56;
@@ -97,7 +97,7 @@ public final class TrackView extends Instrument {
         refit();
     }
 
-    /** Says whether the picture was moved by hand. */
+    /** Returns whether the user has moved the picture. */
     public boolean isMoved() {
         return !geometry.isAutomatic();
     }

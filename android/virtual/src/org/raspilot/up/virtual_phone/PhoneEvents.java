@@ -11,7 +11,7 @@ import org.raspilot.up.net.Place;
 final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
     private final Words words;
 
-    /** Says it by {@code words}. */
+    /** Prints events through {@code words}. */
     PhoneEvents(Words words) {
         this.words = words;
     }

@@ -41,7 +41,7 @@ final class PhoneOptions {
 
     /** How the airborne side is to be. */
     final AirborneSettings settings;
-    /** Of what is drawn at random. */
+    /** The seed of random numbers. */
     final long seed;
     /** Whether time and network are the simulator's. */
     final boolean isStepped;

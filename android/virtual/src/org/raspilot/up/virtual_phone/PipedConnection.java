@@ -32,8 +32,8 @@ final class PipedConnection implements TcpConnection {
     /**
      * Returns the event of that kind.
      *
-     * @param detail what stands third in its line
-     * @throws OptionException when there is no such kind (a sentence)
+     * @param detail the third element of its line
+     * @throws OptionException for an unknown kind (a sentence)
      */
     static Event event(String kind, final Object detail) throws OptionException {
         if ("connected".equals(kind)) {

@@ -58,9 +58,9 @@ final class PipedNetwork implements Network {
     }
 
     /**
-     * Lets every event happen on the loop, each guarded by itself.
+     * Posts every event to the loop, each as its own guarded call.
      *
-     * @throws OptionException when one is not understood (a sentence); those before it happen
+     * @throws OptionException when one is invalid (a sentence); those before it are run
      */
     void deliver(Loop loop, List<?> events) throws OptionException {
         for (Object each : events) {
@@ -97,7 +97,7 @@ final class PipedNetwork implements Network {
             @Override
             public void run() {
                 PipedConnection connection = connections.get(id);
-                // What was closed meanwhile hears nothing any more.
+                // Connections closed before the event are not called.
                 if (connection != null) {
                     event.happen(connection);
                 }

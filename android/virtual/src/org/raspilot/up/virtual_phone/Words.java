@@ -16,16 +16,16 @@ final class Words {
     private final boolean isPrompt;
 
     /**
-     * Says everything to {@code out}, which nobody else writes to.
+     * Prints everything to {@code out}, which has no other writer.
      *
-     * @param isPrompt whether each line is to be heard at once
+     * @param isPrompt whether each line is flushed immediately
      */
     Words(OutputStream out, boolean isPrompt) {
         this.out = new BufferedOutputStream(out, 16384);
         this.isPrompt = isPrompt;
     }
 
-    /** Returns what is said of an exception that nobody expected. */
+    /** Returns the text for an unexpected exception. */
     static String faultText(Throwable fault) {
         StackTraceElement[] trace = fault.getStackTrace();
         return "a fault: " + fault + (trace.length > 0 ? " at " + trace[0] : "");
@@ -45,7 +45,7 @@ final class Words {
         return fields;
     }
 
-    /** Says it; who listens may hear of it only after {@link #flush}. */
+    /** Prints it; the reader may receive it only after {@link #flush}. */
     synchronized void say(Map<String, Object> fields) {
         try {
             out.write(Json.write(fields).getBytes(ASCII));
@@ -54,7 +54,7 @@ final class Words {
                 out.flush();
             }
         } catch (IOException error) {
-            // Nobody listens any more: standard input ends, and so does the program.
+            // The reader is gone: standard input ends, and so does the program.
             return;
         }
     }

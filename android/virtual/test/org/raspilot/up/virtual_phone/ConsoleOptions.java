@@ -30,7 +30,7 @@ final class ConsoleOptions {
             + "The lines are described in GroundConsole.java.\n"
             + "Exit status: 0 when its input has ended, 2 for wrong options.\n";
 
-    /** Whom to talk to; null with {@link #wantsHelp}. */
+    /** The peer; null with {@link #wantsHelp}. */
     final GroundSettings settings;
     /** What to print of telemetry. */
     final List<String> values;

@@ -16,7 +16,7 @@ final class ConsoleTelemetry extends BaseTelemetryHandler<Map<String, Object>> {
     private final Loop loop;
     private final Words words;
 
-    /** Takes what is wanted, as paths. */
+    /** Takes the wanted values, as paths. */
     ConsoleTelemetry(GroundSide ground, List<String> paths, Loop loop, Words words) {
         super(ground);
         this.ground = ground;

@@ -14,12 +14,12 @@ public final class Asking {
         activity.requestPermissions(permissions, request);
     }
 
-    /** Says whether the user refused once, so that a reason is due before the next question. */
+    /** Returns whether the user refused before, so that a reason must precede the next request. */
     public static boolean isReasonDue(Activity activity, String permission) {
         return activity.shouldShowRequestPermissionRationale(permission);
     }
 
-    /** Says whether the system spares this application when it saves battery. */
+    /** Returns whether the system exempts this application from battery optimizations. */
     public static boolean isSpared(Context context) {
         PowerManager power = (PowerManager) context.getSystemService(Context.POWER_SERVICE);
         return power == null || power.isIgnoringBatteryOptimizations(context.getPackageName());

@@ -86,7 +86,7 @@ public final class NetworkCalls {
             }
             return false;
         } catch (UnknownHostException none) {
-            // Numbers that are no address lie in no network.
+            // A text that is not a numeric address lies in no network.
             return false;
         }
     }

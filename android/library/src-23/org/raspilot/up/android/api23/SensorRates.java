@@ -10,7 +10,7 @@ public final class SensorRates {
     private SensorRates() {
     }
 
-    /** Begins to listen; each reading is handed over at once. Returns whether the system agreed. */
+    /** Starts to listen, without batching; returns whether the system accepted. */
     public static boolean listen(SensorManager sensors, SensorEventListener listener,
             Sensor sensor, int periodUs, Handler handler) {
         return sensors.registerListener(listener, sensor, periodUs, 0, handler);
