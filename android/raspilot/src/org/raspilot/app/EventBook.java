@@ -71,7 +71,7 @@ public final class EventBook {
         return Collections.unmodifiableList(new ArrayList<Entry>(entries));
     }
 
-    /** Returns the newest line, or null if there is none. */
+    /** Returns the newest line, or null if absent. */
     public Entry newest() {
         return entries.isEmpty() ? null : entries.get(entries.size() - 1);
     }

@@ -84,7 +84,7 @@ final class CommandDesk {
     }
 
     /**
-     * Returns who has the seat; a seat that was left is not ours, even before the proxy confirms
+     * Returns the state of the seat; a seat that was left is not ours, even before the proxy confirms
      * it.
      */
     SeatStanding standing() {

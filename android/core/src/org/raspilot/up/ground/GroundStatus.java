@@ -95,7 +95,7 @@ public final class GroundStatus {
         return seat;
     }
 
-    /** Returns who has the seat. */
+    /** Returns the state of the seat. */
     public SeatStanding standing() {
         return standing;
     }
@@ -174,7 +174,7 @@ public final class GroundStatus {
         }
     }
 
-    /** Returns who commands, for a pilot, without a full stop. */
+    /** Describes for a pilot who commands, without a full stop. */
     public String seatSentence() {
         switch (standing) {
             case OURS:

@@ -156,7 +156,7 @@ public final class Telemetry {
         return found instanceof String ? SafeText.of((String) found, limit) : null;
     }
 
-    /** Returns the texts of a list, safe to display, at most 32, or null if there is no list. */
+    /** Returns the texts of a list, safe to display, at most 32, or null if absent. */
     public List<String> texts(String path) {
         final List<Object> found = list(path);
         if (found == null) {
@@ -171,14 +171,14 @@ public final class Telemetry {
         return Collections.unmodifiableList(texts);
     }
 
-    /** Returns the list at a path as received, unmodifiable, or null if there is none. */
+    /** Returns the list at a path as received, unmodifiable, or null if absent. */
     @SuppressWarnings("unchecked")
     public List<Object> list(String path) {
         final Object found = at(path);
         return found instanceof List ? (List<Object>) found : null;
     }
 
-    /** Returns the object at a path as received, unmodifiable, or null if there is none. */
+    /** Returns the object at a path as received, unmodifiable, or null if absent. */
     @SuppressWarnings("unchecked")
     public Map<String, Object> object(String path) {
         final Object found = at(path);

@@ -22,7 +22,7 @@ public final class TelemetryRow {
         return value;
     }
 
-    /** Returns the unit, empty if there is none or it is unknown. */
+    /** Returns the unit, empty if absent or unknown. */
     public String unit() {
         return unit;
     }

@@ -6,7 +6,7 @@ package org.raspilot.up.ground;
  * token costs only three seconds of waiting.
  */
 public interface TokenStore {
-    /** Returns the token under that key, or null if there is none. */
+    /** Returns the token under that key, or null if absent. */
     String load(String key);
 
     /** Keeps a token. */

@@ -106,7 +106,7 @@ public final class RunnerAnswer {
         return value instanceof Map ? (Map<?, ?>) value : null;
     }
 
-    /** Returns a text, safe to display, or null if there is none. */
+    /** Returns a text, safe to display, or null if absent. */
     private static String text(Map<?, ?> from, String key) {
         final Object value = from.get(key);
         if (!(value instanceof String) || ((String) value).isEmpty()) {

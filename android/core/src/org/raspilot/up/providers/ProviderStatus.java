@@ -61,7 +61,7 @@ public final class ProviderStatus {
         return lastText;
     }
 
-    /** Returns the problem in one sentence; empty if there is none. */
+    /** Returns the problem in one sentence, or an empty text. */
     public String problem() {
         return problem;
     }

@@ -43,7 +43,7 @@ final class CommandWords {
         return all.toString();
     }
 
-    /** Returns an objection as a sentence; empty if there is none. */
+    /** Returns an objection as a sentence, or an empty text. */
     static String objection(Resources words, Objection objection, Picture picture) {
         switch (objection) {
             case NONE:
@@ -72,7 +72,7 @@ final class CommandWords {
         }
     }
 
-    /** Returns the current notes for the form of a Command; empty if there are none. */
+    /** Returns the current notes for the form of a Command, or an empty text. */
     static String now(Resources words, String name, Picture picture) {
         if (name.equals("up.flight_mode.set")) {
             return words.getString(R.string.commands_now, mode(words, picture));

@@ -47,7 +47,7 @@ abstract class FieldInput {
     /** Returns the view. */
     abstract View view();
 
-    /** Returns the typed or chosen value; empty if there is none. */
+    /** Returns the typed or chosen value, or an empty text. */
     abstract String text();
 
     /** Writes or chooses; what cannot be chosen chooses nothing. */

@@ -159,7 +159,7 @@ final class GainsEditor {
         }
     }
 
-    /** Returns a gain with at most six significant digits; empty if there is none. */
+    /** Returns a gain with at most six significant digits, or an empty text. */
     static String text(Double gain) {
         if (gain == null) {
             return "";
