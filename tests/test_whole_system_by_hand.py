@@ -103,7 +103,7 @@ def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, proce
 
 
 def test_provisional_black_box_and_back(tmp_path, processes):
-    """Without an Arduino the daemon says so after 5 s, and comes back when it answers."""
+    """Without an Arduino the daemon reports it after 5 s, and recovers when it answers."""
     board = tmp_path / "board"
     (tmp_path / "arduino.yml").write_text(f"port: {board}\n")
     (tmp_path / "android.yml").write_text("general port: 0\norientation port: 0\n")

@@ -62,7 +62,7 @@ class Log:
 
 
 class Flight:
-    """A run whose daemon was killed in the air; what was true a moment before."""
+    """A run whose daemon was killed in the air; the state a moment before."""
 
     def __init__(self, folder):
         self.showcase = showcase = Showcase(folder).ready()

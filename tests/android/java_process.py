@@ -1,4 +1,4 @@
-"""A program of the phone's jars on a JVM of its own: JSON lines to it and from it."""
+"""A program of the phone's jars on its own JVM: JSON lines to it and from it."""
 
 import json
 import os
@@ -51,7 +51,7 @@ class JavaProcess:
         ]  # fmt: skip
 
     def until(self, condition, what):
-        """Wait for a condition and return its value; a program that died is told at once."""
+        """Wait for a condition and return its value; a dead program is reported immediately."""
 
         def is_so():
             assert self.process.poll() is None, self.complaints

@@ -35,7 +35,7 @@ def sensors(number):
 
 
 def number_of(values):
-    """Return the number of an attitude (roll to yaw rate); fails when it is none of ours."""
+    """Return the number of an attitude (roll to yaw rate); fails for a foreign attitude."""
     number = round(values[5] / YAW_RATE_STEP)
     wanted = attitude(number)
     off = [abs((got - want + 180) % 360 - 180) for got, want in zip(values, wanted, strict=True)]

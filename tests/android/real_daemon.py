@@ -39,7 +39,7 @@ class RealDaemon(Daemon):
 
     @property
     def listener_port(self):
-        """Return the port of its own listener for grounds."""
+        """Return the port of its listener for grounds."""
         return int(re.findall(r"ground listens on port (\d+)", self.said())[-1])
 
     @property
@@ -58,5 +58,5 @@ class RealDaemon(Daemon):
         return [each for log in self.logs() for each in log.messages.get(topic, [])]
 
     def logs(self):
-        """Return what was recorded, flight by flight."""
+        """Return the recorded messages, flight by flight."""
         return [Log(path) for path in sorted(Path(self.flights).glob("*.mcap"))]

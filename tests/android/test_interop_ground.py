@@ -87,7 +87,7 @@ def test_arming_without_a_beacon_is_refused_at_both_ends(system):
         to_mute = ("--proxy", f"127.0.0.1:{system.proxy.ground_port}", "--aircraft", "mute")
         with ConsoleProgram(*to_mute) as console:
             console.until(lambda: console.status.get("standing") == "OURS", "the seat")
-            # It lives, and says nothing: the proxy misses who is silent for 3 s.
+            # It runs but sends nothing: the proxy drops a peer that is silent for 3 s.
             console.until(lambda: mute.say("\n") and console.status["online"], "the aircraft")
             refused = console.ask("up.arm")
             assert (refused["outcome"], refused["code"]) == ("REFUSED", "no_beacon")
@@ -245,7 +245,7 @@ def test_gains_over_a_link_of_300_ms(system, console):
 
 
 def test_the_seat_comes_back_by_its_token_after_a_cut(system, console):
-    """A listener waits for the seat; whoever was cut off has it back before the proxy frees it."""
+    """A listener waits for the seat; the disconnected owner gets it back before it is released."""
     console.say(seat="release")
     console.until(lambda: console.status["standing"] != "OURS", "that it is left")
     with (

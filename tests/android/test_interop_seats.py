@@ -36,7 +36,7 @@ def no_look_up():
 
 
 class PythonGround:
-    """The link of the Python ground station, and what came over it."""
+    """The link of the Python ground station, and its received messages."""
 
     def __init__(self, folder, port):
         settings = Settings("127.0.0.1", port, AIRCRAFT, Seat.LISTEN)

@@ -73,7 +73,7 @@ def read_summaries(folder: Path) -> dict[str, dict[str, Any]]:
 
 
 def main() -> int:
-    """Write the page's tables anew; return the exit status."""
+    """Write the page's tables again; return the exit status."""
     try:
         summaries = read_summaries(Path(sys.argv[1] if sys.argv[1:] else "run/flights"))
     except ValueError as error:

@@ -113,7 +113,7 @@ def raspberry():
 
 
 def ask(stream, number, pictures):
-    """Send the page's Command and return what became of it."""
+    """Send the page's Command and return its outcome."""
     data = {"name": "plane.camera.release", "data": {"pictures": pictures}, "id": str(number)}
     stream.write(json.dumps(data) + "\n")
     stream.flush()

@@ -1,4 +1,4 @@
-"""How old is what is known."""
+"""The age of known values."""
 
 import pytest
 from hypothesis import given, settings

@@ -112,7 +112,7 @@ class Bench:
             peer.read()
 
     def settle(self):
-        """Let what was sent on the loopback arrive and have its effects."""
+        """Wait until the data sent on the loopback has arrived and had its effects."""
         for _ in range(5):
             self.pump()
 

@@ -160,7 +160,7 @@ def test_pulses_stay_within_their_limits(rig):
 
 
 class TestNothingIsSent:
-    """Without what control stands on there is no Output: the board flies by itself."""
+    """Without the inputs of control there is no Output: the board flies alone."""
 
     def test_before_the_board_lets_it(self, tmp_path):
         rig = Rig(tmp_path)
@@ -271,7 +271,7 @@ class TestThePast:
 
 
 class TestModes:
-    """What is offered, shown and asked for."""
+    """Offered, shown and requested modes."""
 
     def test_offered_by_what_is_valid(self, tmp_path):
         rig = Rig(tmp_path)

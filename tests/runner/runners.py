@@ -1,4 +1,4 @@
-"""A real runner in a process of its own, and ways to talk to it and to what it started."""
+"""A real runner in its own process, and ways to talk to it and to its instances."""
 
 import contextlib
 import json
@@ -84,7 +84,7 @@ class Talk:
 
 
 class RunnerProcess:
-    """`up-runner` with a configuration of its own; everything it started ends with `clean`."""
+    """`up-runner` with its own configuration; everything it started ends with `clean`."""
 
     def __init__(self, folder, **config):
         self.folder = folder
@@ -120,7 +120,7 @@ class RunnerProcess:
         return gate
 
     def launch(self, *options, under_systemd=True):
-        """Start the program and return at once."""
+        """Start the program and return immediately."""
         self.write("runner.yml", self.settings)
         environ = {
             name: value
@@ -172,7 +172,7 @@ class RunnerProcess:
         return talk
 
     def ask(self, **request):
-        """Ask on a connection of its own."""
+        """Send a request on its own connection."""
         talk = Talk(self.port)
         try:
             answer = talk.ask(request)
@@ -202,7 +202,7 @@ class RunnerProcess:
         return self._finish()
 
     def wait(self):
-        """Wait for the end of a runner that ends by itself; return the exit status."""
+        """Wait until a runner exits; return the exit status."""
         return self._finish()
 
     def _finish(self):

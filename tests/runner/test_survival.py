@@ -103,7 +103,7 @@ def test_a_lost_or_broken_record_orphans_nobody(runners, damage):
     record = runner.run_folder / "glider-1" / "state.json"
     record.unlink() if damage is None else record.write_text(damage)
     runner.start()
-    # Nothing tells whether it is ready: it is killed when it does not say so again.
+    # It never reports ready: it is killed when its watchdog messages stop.
     wait_until(lambda: not is_alive(first["pid"]), "the process without a record ended")
     wait_until(lambda: runner.status()["error"] is None, "it is forgotten")
     second = runner.spawn()

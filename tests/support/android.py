@@ -35,8 +35,8 @@ class AndroidBuildLateError(AndroidBuildError):
 def make(*arguments, folder=ANDROID, env=None, is_built=False, limit_s=LONGEST_S):
     """Run make in ``folder`` and return what it printed. Raises ``AndroidBuildError``.
 
-    One process at a time builds in the project's own folder; what ``is_built`` only runs there, and
-    nobody waits for it.
+    One process at a time builds in the project's own folder; a target that ``is_built`` only runs
+    there, without the lock.
     """
     need_tool("make")
     BUILD.mkdir(exist_ok=True)

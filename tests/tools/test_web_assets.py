@@ -106,7 +106,7 @@ class Checkout:
         (self.registry / name).write_text(json.dumps(told))
 
     def run(self, **environ):
-        """Return what was said on both streams; it always succeeds."""
+        """Return the output of both streams; it always succeeds."""
         kept = {key: value for key, value in os.environ.items() if not key.startswith("npm_")}
         own = {"HOME": str(self.home), "npm_config_registry": self.url, "no_proxy": "127.0.0.1"}
         done = subprocess.run(

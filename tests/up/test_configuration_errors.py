@@ -1,4 +1,4 @@
-"""A program that cannot run as it is configured says everything at once."""
+"""A program with an invalid configuration reports all errors together."""
 
 import subprocess
 import sys

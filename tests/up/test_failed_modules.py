@@ -1,4 +1,4 @@
-"""A module that failed is no part of the system any more, in whichever phase it failed."""
+"""A failed module is removed from the system, in whichever phase it failed."""
 
 import pytest
 from twisted.internet.defer import CancelledError, Deferred

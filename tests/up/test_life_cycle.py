@@ -182,14 +182,14 @@ def test_what_needs_a_failed_module_is_not_started_however_far(tmp_path):
 
 
 class Hanging(Noted):
-    """Never says that it started."""
+    """Never reports that it started."""
 
     def _execute_start(self):
         return Deferred()
 
 
 class Stubborn(Noted):
-    """Goes on whatever it is told."""
+    """Ignores every request to stop."""
 
     async def _execute_start(self):
         while True:

@@ -1,4 +1,4 @@
-"""The whole program in real processes: what fails, hangs and is told to end."""
+"""The whole program in real processes: failures, hangs and requests to stop."""
 
 import os
 import queue

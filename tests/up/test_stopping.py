@@ -1,4 +1,4 @@
-"""What was opened is closed: after failed starts, and in time whatever hangs."""
+"""Opened resources are closed: after failed starts, and in time even if something hangs."""
 
 import threading
 

@@ -25,7 +25,7 @@ def place(latitude, id=None):
 
 
 async def phone_at(flight, host, port="general"):
-    """Connect from a loopback address of its own, which stands for another machine."""
+    """Connect from another loopback address, which stands for another machine."""
     factory = Factory.forProtocol(Peer)
     endpoint = TCP4ClientEndpoint(
         reactor, "127.0.0.1", flight.up.ports[port], bindAddress=(host, 0)

@@ -60,7 +60,7 @@ class TestedDisk(Disk):
 
 
 class HalfFullDisk(TestedDisk):
-    """A disk on which so many bytes have room, to the byte."""
+    """A disk with room for that many bytes, to the byte."""
 
     room = None
 
@@ -124,7 +124,7 @@ class Flight:
         self.wall_s += seconds
 
     def say(self, number, origin=BOARD):
-        """Publish one Command that can be told from others by its roll."""
+        """Publish one Command that is distinguishable from others by its roll."""
         self.intake.observe(OrientationCommand(float(number), 0.0, 0.0), origin)
 
     def fly(self, seconds, rate_hz=10, first=0, origin=BOARD):
@@ -162,7 +162,7 @@ def messages(path):
                     data = json.loads(record.data)
                     found.append((topics[record.channel_id], record.log_time, data))
         except (EndOfFile, struct.error):
-            # That is how it says that a record is cut off.
+            # This is its message for a record that is cut off.
             pass
     return found
 

@@ -1,4 +1,4 @@
-"""Raspilot as a user runs it, with a phone that speaks: stopped, killed, two at once."""
+"""Raspilot as a user runs it, with a phone that sends: stopped, killed, two instances."""
 
 import json
 import os
@@ -111,7 +111,7 @@ def test_stopped_it_leaves_a_whole_file(aircraft, tmp_path):
     assert log.series("android.battery", "level")[1] == [number / 10 for number in range(1, 52)]
     assert {"config/config.yml", "config/android.yml"} <= set(log.attachments)
     assert log.metadata["flight"]["mode"] == "black box"
-    # Nobody is on the ground: the recorder asked for telemetry.
+    # Without a ground: the recorder requested telemetry.
     assert log.topics["up.telemetry.update"] > 0
     assert "stopping: SIGTERM" in lines_in(log.paths[0])
 

@@ -57,7 +57,7 @@ class GroundStation:
 
 
 async def watch(ages, seconds):
-    """Look at what comes for some time."""
+    """Watch the received data for some time."""
     end_s = reactor.seconds() + seconds
     while reactor.seconds() < end_s:
         ages.look()
@@ -80,7 +80,7 @@ def test_after_a_blackout_fresh_data_come_and_no_stale_frame(tmp_path):
                 ages = Ages(a.up, ground)
                 await until(ages.look)
                 blackhole(inside)
-                # The ground loses its link too; it comes back by itself, as the aircraft does.
+                # The ground loses its link too; it reconnects automatically, as the aircraft does.
                 await sleep(BLACKOUT_S)
                 assert not a.provider.connected
                 light(inside)
@@ -112,7 +112,7 @@ def test_a_gap_of_one_second_is_ridden_through(tmp_path):
                 light(inside)
                 await until(ages.look, 10)
                 await watch(ages, 1.0)
-                # TCP delivers in order what was sent before it noticed the gap, however old.
+                # TCP delivers in order the data sent before it noticed the gap, however old.
                 assert ages.worst_s < 3.0
                 await ground.close()
 

@@ -89,7 +89,7 @@ def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_the_seat(tmp_pa
             assert again.lines[0] == b"UP1 ok aircraft=glider seat=command token=" + token
             again.say(b"UP1 seat release\n", period(300, "r"))
             assert (await again.answer("r"))["name"] == "up.ack"
-            # A half-open holder is displaced by its own token at once.
+            # A half-open holder is displaced by its own token immediately.
             (third,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
             await again.closed
             third.say(period(330, "s"))
@@ -302,7 +302,7 @@ def test_nothing_reaches_a_station_before_the_answer_to_its_hello():
         assert all_.send(b"word\n")
         assert station.received.startswith(b"UP1 ok ") and b"too early" not in station.received
         assert silent.received == b""
-        # Who has said nothing for a second says no hello.
+        # A peer that has sent nothing for a second sends no hello.
         clock.advance(1.0)
         assert all_.send(b"for all\n")
         assert silent.received == b"for all\n"

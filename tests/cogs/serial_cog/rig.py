@@ -18,7 +18,7 @@ STEP_S = 0.02
 
 
 class VirtualReactor(Clock):
-    """A clock that also knows descriptors; ``turn`` does what is there to do, without waiting."""
+    """A clock that also knows descriptors; ``turn`` handles everything ready, without waiting."""
 
     def __init__(self):
         super().__init__()

@@ -23,7 +23,7 @@ def test_a_page_sees_the_aircraft(aircraft, server):
         assert status["link"]["state"] == "connected"
         assert status["link"]["aircraft_online"] is True
         assert abs(status["home"]["latitude"] - 50.0757) < 0.001
-        # The first track may be one of before the first frame: a page that comes now has points.
+        # The first track may precede the first frame: a page that connects now has points.
         page.say("watch", aircraft="default")
         track = await page.next("track", lambda each: each["points"])
         assert track["points"][-1][:2] == [50.0755, 14.4378]

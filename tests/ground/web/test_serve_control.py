@@ -1,4 +1,4 @@
-"""Who has control, by a real server: pages, other grounds, the seat of a real proxy."""
+"""Control of the aircraft on a real server: pages, other grounds, the seat of a real proxy."""
 
 from tests.ground.aircraft import Ground, ground
 from tests.ground.web.page import FBW, MODE, Page, with_pages

@@ -17,7 +17,7 @@ POLICY = (
 @pytest.fixture(scope="module")
 def server(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
-    # Nobody listens on port 1: the page is there nevertheless.
+    # Port 1 has no listener: the page is served nevertheless.
     with Serve(folder, 1) as server:
         yield server
 

@@ -15,7 +15,7 @@ TEXT, LONG = 0x1, 126
 
 
 class SlowPage:
-    """A WebSocket that reads when it is told to."""
+    """A WebSocket that reads on request."""
 
     def __init__(self, port):
         self.socket = socket.socket()

@@ -186,7 +186,7 @@ def test_a_disk_that_stands_still_holds_nothing_else_up(source):
         for number, request in enumerate(requests):
             request.path, request.setETag = b"/tiles/3/4/%d" % number, lambda tag: None
             assert tiles.render(request) is NOT_DONE_YET
-        # This thread goes on while two of the cache's wait.
+        # This thread continues while two of the cache's wait.
         await soon(lambda: len(cache.calls) == 2, what="the cache's calls")
         assert source.asked == []
         cache.go_on.set()

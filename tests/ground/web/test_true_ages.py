@@ -1,4 +1,4 @@
-"""What is told of ages, and the truth, behind links that hold everything up; on real sockets.
+"""Reported and true ages behind links that delay everything; on real sockets.
 
 Aircraft, proxy, server and page are programs on one machine, so that they have one clock.
 """
@@ -85,7 +85,7 @@ def test_a_frame_that_is_held_up_before_the_proxy_is_as_old_as_it_is(proxy, tmp_
         told_s = each["age_ms"] / 1000
         least_s, oldest_s = min(least_s, true_s), max(oldest_s, true_s)
         assert told_s <= true_s + max(trips_ms) / 2000 + ROUNDING_S
-        # What the quickest frame took is all that nobody can know.
+        # The transit time of the fastest frame is all that cannot be known.
         assert told_s >= true_s - least_s - ROUNDING_S
     assert oldest_s > 1.3
 

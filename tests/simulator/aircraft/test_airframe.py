@@ -1,4 +1,4 @@
-"""Airframe files: what ships, what a user may bring, what is said of mistakes."""
+"""Airframe files: the shipped ones, those of users, and the messages for mistakes."""
 
 import re
 import shutil
@@ -196,7 +196,7 @@ def test_a_mistake_in_the_file_is_one_sentence(tmp_path, change, sentence):
         (lambda text: text.replace('"KG*M2"', '"STONES"'), 'Supplied unit: "STONES"'),
         (lambda text: text.replace('"LIFT"', '"UP"'), "An unknown axis type, UP"),
         (lambda text: text.replace("     -170", "  xx -170", 1), "Illegal character"),
-        # JSBSim goes on without this, and ends the process at that.
+        # JSBSim continues without this, and ends the process at that.
         (lambda text: text.replace("sin>", "sinus>"), "Bad operation <sinus>"),
         (lambda text: text.replace("p-aero-rad_sec", "p-air"), "velocities/p-air does not exist"),
         (

@@ -82,7 +82,7 @@ class Pair:
             self.each("run_ms", BOOT_MS)
 
     def each(self, name, *arguments, **options):
-        """Do the same with both and return what came of it."""
+        """Do the same with both and return the result."""
         return [getattr(each, name)(*arguments, **options) for each in (self.host, self.chip)]
 
     def board(self, name, *arguments):

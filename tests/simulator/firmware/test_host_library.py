@@ -1,4 +1,4 @@
-"""The host build by itself: every flight repeats, every board is its own, and what is missing."""
+"""The host build alone: every flight repeats, boards are independent, and what is missing."""
 
 import _ctypes
 import random

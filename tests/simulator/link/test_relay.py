@@ -84,7 +84,7 @@ def test_bytes_are_as_old_as_the_link_makes_them():
             assert bench.targets == []
             await bench.pass_s(0.001)
             [target] = bench.targets
-            # The target may speak at once; its answer and the opening's come together.
+            # The target may send immediately; its answer and the opening's come together.
             target.send(b"hello")
             await bench.pass_s(0.039)
             assert not client.data

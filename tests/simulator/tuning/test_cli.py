@@ -1,4 +1,4 @@
-"""``up-sim tune`` as it is typed: what it says, writes and refuses."""
+"""``up-sim tune`` as users type it: its output, its files and its errors."""
 
 import subprocess
 import sys

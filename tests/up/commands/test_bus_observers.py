@@ -1,4 +1,4 @@
-"""An observer of the bus sees every Command and is no handler of any."""
+"""An observer of the bus sees every Command without being a handler."""
 
 import pytest
 from twisted.internet.defer import Deferred

@@ -1,4 +1,4 @@
-"""What the ground asked for and did not get, as the flight's log tells it."""
+"""Requests of the ground without success, as the flight's log shows them."""
 
 from tests.up.flight_log.flights import FlightMaker
 from up.commands.answer_commands import CommandAnsweredCommand

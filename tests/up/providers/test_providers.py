@@ -1,4 +1,4 @@
-"""What providers know, from whom, how old, and what telemetry shows of it."""
+"""Values of providers, their sources and ages, and their form in telemetry."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""Whoever holds the reactor is named, on a real reactor."""
+"""Calls that block the reactor are named, on a real reactor."""
 
 import signal
 import sys
@@ -38,7 +38,7 @@ class HoldingHandler(BaseCommandHandler):
 
 
 class HoldingModule(BaseModule):
-    """Holds wherever it is asked to."""
+    """Blocks wherever it is called."""
 
     def on_number(self, command):
         hold()
@@ -48,7 +48,7 @@ class HoldingModule(BaseModule):
 
 
 class HoldingProtocol(Protocol):
-    """A connection that belongs to a module, or to nobody."""
+    """A connection that belongs to a module, or to none."""
 
     module = None
 

@@ -1,4 +1,4 @@
-"""A track as GPX and KML: whatever the flight was, other programs read what was meant."""
+"""A track as GPX and KML: other programs read every flight as it was."""
 
 import math
 from datetime import UTC, datetime, timedelta
