@@ -65,22 +65,22 @@ public final class Up {
         return loop;
     }
 
-    /** Returns where an application registers its own Commands. */
+    /** Returns the registry for an application's own Commands. */
     public CommandRegistry commandRegistry() {
         return registry;
     }
 
-    /** Returns where an application registers its handlers. */
+    /** Returns the registry for an application's handlers. */
     public CommandExecutor commandExecutor() {
         return executor;
     }
 
-    /** Returns where links bring in what they receive. */
+    /** Returns the receiver for the links' messages. */
     public CommandReceiver commandReceiver() {
         return receiver;
     }
 
-    /** Returns where an application registers its providers. */
+    /** Returns the registry for an application's providers. */
     public ProvidersController providersController() {
         return providers;
     }

@@ -62,7 +62,7 @@ public final class Airborne {
         });
     }
 
-    /** Begins to read, to connect and to send. */
+    /** Starts to read, to connect and to send. */
     public void start() {
         if (!isRunning) {
             isRunning = true;
@@ -72,7 +72,7 @@ public final class Airborne {
         }
     }
 
-    /** Ends everything; it may be started again. */
+    /** Stops everything; it may be started again. */
     public void stop() {
         if (isRunning) {
             isRunning = false;
@@ -92,7 +92,7 @@ public final class Airborne {
         return up.providersController();
     }
 
-    /** Returns where else to send: newest wins, nothing is kept without a link. */
+    /** Returns the sink for other messages: newest wins, nothing is kept without a link. */
     public Outlet outlet() {
         return link;
     }
@@ -137,7 +137,7 @@ public final class Airborne {
     }
 
     /**
-     * Lets the altitude be zero where the phone is now; returns the reference pressure, hPa.
+     * Sets the altitude at the phone's position to zero; returns the reference pressure, hPa.
      *
      * @throws IllegalStateException without a reading of the barometer (a sentence)
      */

@@ -21,10 +21,10 @@ final class AirborneHandlers {
 
     /** Handles the answers to messages sent with an id. */
     interface Answers {
-        /** Takes that it was carried out. */
+        /** Takes an ack. */
         void onAck(String id);
 
-        /** Takes that it was not, and why. */
+        /** Takes a nack with its reason. */
         void onNack(String id, String reason);
     }
 

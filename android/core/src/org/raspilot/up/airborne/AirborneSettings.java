@@ -6,10 +6,11 @@ import java.util.List;
 import org.raspilot.up.providers.Mounting;
 
 /**
- * How the airborne side works; made by its {@link Builder}, whose {@code build()} judges it.
+ * Settings of the airborne side; created by its {@link Builder}, whose {@code build()} validates
+ * them.
  *
- * <p>Ports and addresses are by default those of the Raspberry Pi's {@code android.yml},
- * {@code discovery.yml} and {@code runner.yml}.
+ * <p>Ports and addresses are by default those of the Raspberry Pi's {@code android.yml}, {@code
+ * discovery.yml} and {@code runner.yml}.
  */
 public final class AirborneSettings {
     private final AirborneMode mode;
@@ -80,7 +81,10 @@ public final class AirborneSettings {
         return discoveryPort;
     }
 
-    /** Returns where Discovery asks; empty: 255.255.255.255 and every interface's own. */
+    /**
+     * Returns the addresses of Discovery requests; empty: 255.255.255.255 and every interface's
+     * own.
+     */
     public List<String> discoveryHosts() {
         return discoveryHosts;
     }
@@ -145,14 +149,17 @@ public final class AirborneSettings {
         return mounting;
     }
 
-    /** Returns whether a runner is asked for a server: in Black Box Mode, when one is named. */
+    /**
+     * Returns whether a server is requested from a runner: in Black Box Mode with a configured
+     * runner.
+     */
     public boolean isByRunner() {
         return mode == AirborneMode.BLACK_BOX && !runnerHost.isEmpty();
     }
 
     /**
-     * Returns how orientation leaves in this mode: in Flight Controller Mode the Arduino's is flown
-     * by, and the phone's is off unless redundancy is wanted (thesis 4.2.3).
+     * Returns the transport of orientation in this mode. In Flight Controller Mode the Arduino's
+     * orientation is used, and the phone's is off unless redundancy is wanted (thesis 4.2.3).
      */
     public OrientationTransport orientationTransport() {
         boolean isWanted = mode == AirborneMode.BLACK_BOX || redundantOrientation;
@@ -211,7 +218,10 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets where Discovery asks; empty: 255.255.255.255 and every interface's own. */
+        /**
+         * Sets the addresses of Discovery requests; empty: 255.255.255.255 and every interface's
+         * own.
+         */
         public Builder discoveryHosts(List<String> value) {
             discoveryHosts = new ArrayList<String>(value);
             return this;

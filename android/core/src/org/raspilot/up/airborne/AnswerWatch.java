@@ -28,9 +28,10 @@ final class AnswerWatch {
     private boolean isAnswering;
 
     /**
-     * Makes a watch.
+     * Creates a watch.
      *
-     * @param prefix begins the ids, up to 8 hexadecimal digits and a dot: it identifies the phone (protocols 4)
+     * @param prefix of the ids, up to 8 hexadecimal digits and a dot: it identifies the phone
+     *     (protocols 4)
      */
     AnswerWatch(Loop loop, String prefix, Runnable onDead) {
         this.loop = loop;
@@ -38,7 +39,7 @@ final class AnswerWatch {
         this.onDead = onDead;
     }
 
-    /** Takes that a connection is there. */
+    /** Notes that a connection is open. */
     void opened() {
         closed();
         isOpen = true;
@@ -47,19 +48,19 @@ final class AnswerWatch {
         heardMs = loop.nowMs();
     }
 
-    /** Takes that it is gone. */
+    /** Notes that it is closed. */
     void closed() {
         isOpen = false;
         settle();
     }
 
-    /** Takes that a line came. */
+    /** Notes a received line. */
     void heard() {
         heardMs = loop.nowMs();
         settle();
     }
 
-    /** Takes that an answer came. */
+    /** Notes a received answer. */
     void answered(String id) {
         isAnswering |= isOpen && id.startsWith(prefix);
     }

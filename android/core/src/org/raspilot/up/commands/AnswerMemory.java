@@ -36,7 +36,7 @@ final class AnswerMemory {
         return null;
     }
 
-    /** Keeps the answer to an id for those who ask again. */
+    /** Stores the answer to an id for repetitions. */
     void keep(String id, GeneralMessage answer) {
         Entry entry = entries.get(id);
         if (entry != null) {

@@ -8,9 +8,9 @@ import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
 
 /**
- * Every Command that some ground may send, with its form: what {@code commands.json} says.
+ * Every Command that a ground may send, with its form: the content of {@code commands.json}.
  *
- * <p>The text is what the ground station's page gets: generated from the Commands themselves.
+ * <p>The text is the same as for the ground station's page, generated from the Commands.
  */
 public final class CommandCatalogue {
     private final List<CommandForm> forms = new ArrayList<CommandForm>();

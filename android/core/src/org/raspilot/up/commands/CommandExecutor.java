@@ -37,7 +37,7 @@ public final class CommandExecutor {
     }
 
     /**
-     * Subscribes a handler to a Command by its name or alias and returns the handle that ends it;
+     * Subscribes a handler to a Command by its name or alias and returns the handle to remove it;
      * one handler may be registered several times.
      */
     public UUID registerCommand(String name, BaseCommandHandler handler) {

@@ -49,7 +49,7 @@ public final class CommandField {
         return name;
     }
 
-    /** Returns what kind of value it holds. */
+    /** Returns the type of its value. */
     public FieldType type() {
         return type;
     }

@@ -43,7 +43,7 @@ public final class CommandForm {
         return name;
     }
 
-    /** Returns older names of the same thing; unmodifiable. */
+    /** Returns older names of the Command; unmodifiable. */
     public List<String> aliases() {
         return aliases;
     }

@@ -85,15 +85,15 @@ public final class CommandReceiver {
     }
 
     /**
-     * Returns how many messages came to an end: {@code received}, {@code repeated} or the word
-     * of a {@link NackCode}.
+     * Returns the number of messages with an outcome: {@code received}, {@code repeated} or the
+     * word of a {@link NackCode}.
      */
     public long count(String what) {
         Long count = counts.get(what);
         return count == null ? 0 : count;
     }
 
-    /** Throws it where the loop tells its listener of it. */
+    /** Throw it where the loop reports it to its listener. */
     private void tellLoop(final RuntimeException fault) {
         loop.post(new Runnable() {
             @Override

@@ -2,7 +2,7 @@ package org.raspilot.up.commands;
 
 import java.util.Locale;
 
-/** What kind of value a field of a Command holds, as the catalogue calls it. */
+/** The type of a Command's field, as in the catalogue. */
 public enum FieldType {
     /** True or false. */
     BOOLEAN,
@@ -17,7 +17,7 @@ public enum FieldType {
     /** A list; its contents are not described. */
     LIST;
 
-    /** Returns the word of the catalogue. */
+    /** Returns the name in the catalogue. */
     public String word() {
         return name().toLowerCase(Locale.ROOT);
     }

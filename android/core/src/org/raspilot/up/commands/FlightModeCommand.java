@@ -14,7 +14,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class FlightModeCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "up.flight_mode.set";
-    /** What may be asked for. */
+    /** The modes that may be requested. */
     public static final List<String> MODES =
             Collections.unmodifiableList(Arrays.asList("RATE", "FBW", "AUTO"));
     /** Reads the Command from a message. */

@@ -4,13 +4,11 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
-/**
- * Where the aircraft is: a position from a satellite receiver, WGS 84. Source: docs/protocols.md 5.
- */
+/** The aircraft's position from a satellite receiver, WGS 84. Source: docs/protocols.md 5. */
 public final class LocationCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "up.location.update";
-    /** An older name of the same thing. */
+    /** An older name of this Command. */
     public static final String ALIAS = "up.location.change";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {

@@ -33,7 +33,7 @@ public enum NackCode {
     /** Not implemented by any component; the reason names what is missing. */
     NOT_SUPPORTED;
 
-    /** Returns the word that stands on the wire. */
+    /** Returns the word on the wire. */
     public String word() {
         return name().toLowerCase(Locale.ROOT);
     }

@@ -11,7 +11,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class PanicCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "up.panic";
-    /** An older name of the same thing. */
+    /** An older name of this Command. */
     public static final String ALIAS = "load_guard.panic";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {
@@ -43,7 +43,8 @@ public final class PanicCommand extends BaseCommand {
         super(NAME, message);
         CommandFields fields = new CommandFields(message.data());
         panic = fields.flag("panic");
-        // An older Raspberry Pi says 0, and fractions; a period is never quicker than asked.
+        // An older Raspberry Pi sends 0 and fractions; round up, so that no period is shorter than
+        // wanted.
         delayMs = (long) Math.ceil(fields.number("delay_ms", 0, 10000));
         utilizationPercent = fields.optionalNumber("utilization", 0, 100);
     }

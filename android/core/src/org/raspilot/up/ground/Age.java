@@ -6,18 +6,18 @@ import java.util.Locale;
 import java.util.Map;
 
 /**
- * How old a frame of telemetry and each of its readings is: on the aircraft, on the way, and since
- * the frame came. Immutable; ask it with {@code nowMs} of the loop that received the frame, on any
+ * The age of a frame of telemetry and of each of its readings: on the aircraft, in transit, and
+ * since reception. Immutable; pass {@code nowMs} of the loop that received the frame, on any
  * thread.
  */
 public final class Age {
-    /** A frame that is older, ms, looks old on the screen before the second is over. */
+    /** A frame older than this, ms, is shown as stale, before a whole second has passed. */
     public static final long SILENT_MS = 900;
 
     private static final Map<String, Long> STALE_MS = new HashMap<String, Long>();
 
     static {
-        // Sources that come once a second or more seldom are stale later than SILENT_MS.
+        // Sources with a period of a second or longer become stale later than SILENT_MS.
         STALE_MS.put("location", 1900L);
         STALE_MS.put("altitude", 1900L);
         STALE_MS.put("heading", 1900L);
@@ -45,9 +45,9 @@ public final class Age {
     }
 
     /**
-     * Returns the age of a frame that came at {@code receivedMs} after {@code wayMs}.
+     * Returns the age of a frame received at {@code receivedMs} after {@code wayMs} in transit.
      *
-     * @param onBoardMs the age of each reading when the frame was made, where it is known
+     * @param onBoardMs the known ages of readings when the frame was made
      */
     static Age ofFrame(long receivedMs, long wayMs, Map<String, Double> onBoardMs) {
         final Map<String, Double> copy = new HashMap<String, Double>(onBoardMs);
@@ -69,18 +69,18 @@ public final class Age {
         return isLinkLost;
     }
 
-    /** Returns how long the frame was on its way, ms, as far as that is known. */
+    /** Returns the frame's transit time, ms, as far as it is known. */
     public long wayMs() {
         return wayMs;
     }
 
-    /** Returns the age of the frame with its way, ms; null: there was none. */
+    /** Returns the age of the frame including transit, ms; null without a frame. */
     public Long frameMs(long nowMs) {
         return isKnown ? Long.valueOf(Math.max(0, nowMs - receivedMs) + wayMs) : null;
     }
 
     /**
-     * Returns the age of a reading, ms: on the aircraft, on the way and since; null: not known.
+     * Returns the age of a reading, ms: on the aircraft, in transit and since; null: unknown.
      *
      * @param reading {@code orientation rx servo flight location altitude heading battery}
      */

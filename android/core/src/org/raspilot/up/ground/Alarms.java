@@ -20,7 +20,7 @@ public final class Alarms {
 
     private static final double BATTERY_BACK = 3;
 
-    /** The alarms of a moment. Immutable. */
+    /** A snapshot of the alarms. Immutable. */
     public static final class Snapshot {
         private final long version;
         private final List<Alarm> active;
@@ -146,7 +146,7 @@ public final class Alarms {
         return found;
     }
 
-    /** The same words as long as the same is wrong: an alarm must not blink with each attempt. */
+    /** The text is constant while the cause lasts: an alarm must not blink with each attempt. */
     private static String silence(GroundStatus status) {
         if (!status.isOpen()) {
             return "no link";

@@ -57,14 +57,14 @@ public final class Answer {
     }
 
     /**
-     * Returns the aircraft's code of a NACK (docs/protocols.md 4), of a REFUSED one of
-     * {@code no_link no_aircraft no_seat no_beacon stale forbidden invalid busy}, else empty.
+     * Returns the aircraft's code of a NACK (docs/protocols.md 4), for REFUSED one of {@code
+     * no_link no_aircraft no_seat no_beacon stale forbidden invalid busy}, otherwise an empty text.
      */
     public String code() {
         return code;
     }
 
-    /** Returns why, safe to show; empty where there is nothing to say. */
+    /** Returns the reason, safe to display, or an empty text. */
     public String reason() {
         return reason;
     }

@@ -15,7 +15,7 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.SafeText;
 
-/** Commands that were sent: each ends once, whatever comes twice, late or for another one. */
+/** Sent Commands: each ends once, regardless of duplicate, late or foreign answers. */
 final class Answers {
     /** Timeout of an answer, ms; a later answer is ignored. */
     static final long LIMIT_MS = 3000;
@@ -78,7 +78,7 @@ final class Answers {
 
     /** Returns the id to send a Command with; the listener receives its outcome. */
     String expect(BaseCommand command, AnswerListener listener) {
-        // Grounds share the aircraft's link: the number alone would be another one's, too.
+        // Grounds share the aircraft's link, so a plain number would not be unique.
         final String id = String.format(Locale.ROOT, "%016x-%d", random.nextLong(), ++number);
         final boolean asks = isRequest(command);
         final String awaited = asks ? CONTENT_OF.get(command.name()) : null;
@@ -93,7 +93,7 @@ final class Answers {
                 || Boolean.TRUE.equals(command.data().get("request")));
     }
 
-    /** Forgets a Command that could not be sent after all; its listener hears nothing. */
+    /** Discards a Command that could not be sent after all; its listener is not called. */
     void withdraw(String id) {
         final Sent gone = sent.remove(id);
         if (gone != null) {
@@ -101,7 +101,7 @@ final class Answers {
         }
     }
 
-    /** Takes what the aircraft says, where it answers something. */
+    /** Takes a Command of the aircraft, if it is an answer. */
     void take(GeneralMessage message) {
         final boolean isAck = message.name().equals(AckCommand.NAME);
         if (isAck || message.name().equals(NackCommand.NAME)) {

@@ -16,7 +16,7 @@ final class Bulletin {
         this.listener = listener;
     }
 
-    /** Tells a status. */
+    /** Reports a status. */
     void tell(GroundStatus status, long nowMs) {
         toldMs = nowMs;
         wasSilent = status.isSilent();

@@ -6,10 +6,7 @@ import org.raspilot.up.commands.DisarmCommand;
 import org.raspilot.up.commands.TelemetryFrequencyCommand;
 import org.raspilot.up.loop.Loop;
 
-/**
- * Sends what may be sent now or says why it is not: nothing waits for a better moment, nothing is
- * sent twice.
- */
+/** Sends what may be sent now or returns why not: nothing is queued, nothing is sent twice. */
 final class CommandDesk {
     private final Loop loop;
     private final GroundSettings settings;

@@ -26,7 +26,7 @@ final class CommandWords {
     private CommandWords() {
     }
 
-    /** Returns a Command in words; one that is not known here by its name. */
+    /** Returns a Command in words; an unknown one by its name. */
     static String of(BaseCommand command) {
         final String words = WORDS.get(command.name());
         if (words == null) {
@@ -35,7 +35,7 @@ final class CommandWords {
         return words.replace("%s", String.valueOf(command.data().get(FIELDS.get(command.name()))));
     }
 
-    /** Returns a set of gains in words: what it changes. */
+    /** Returns in words what a set of gains changes. */
     static String ofGains(List<GainChange> changes) {
         final StringBuilder text = new StringBuilder("gains");
         for (int place = 0; place < Math.min(SHOWN_CHANGES, changes.size()); place++) {

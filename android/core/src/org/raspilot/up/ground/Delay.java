@@ -10,7 +10,7 @@ package org.raspilot.up.ground;
  * step, is another clock: the estimate is reset.
  */
 public final class Delay {
-    /** Two clocks run apart by no more than this: 0.1 ms in a second. */
+    /** The maximum drift between two clocks: 0.1 ms in a second. */
     public static final double DRIFT = 1e-4;
     /** No message is held up by so much more than the one before: links are given up sooner. */
     public static final double NEW_CLOCK_MS = 30000;

@@ -4,7 +4,7 @@ package org.raspilot.up.ground;
 public enum EventLevel {
     /** Good to know. */
     INFO,
-    /** To be looked at. */
+    /** Needs attention. */
     WARNING,
     /** Requires immediate action. */
     ALARM

@@ -13,7 +13,7 @@ public final class EventLog {
 
     private static final int LONGEST_TEXT = 400;
 
-    /** The events of a moment. Immutable. */
+    /** A snapshot of the events. Immutable. */
     public static final class Snapshot {
         private final long version;
         private final List<Event> events;

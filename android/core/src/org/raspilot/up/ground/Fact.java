@@ -1,6 +1,6 @@
 package org.raspilot.up.ground;
 
-/** A value of telemetry that is worth an event when it changes, and the words for it. */
+/** A value of telemetry whose changes are events, and their texts. */
 abstract class Fact {
     /** Not connected and without a reading so far, which is not a loss. */
     static final String NOT_YET = "not yet";
@@ -16,7 +16,7 @@ abstract class Fact {
     /** Returns the value, or null if unknown, which is not a change. */
     abstract Object read(Telemetry telemetry);
 
-    /** Returns the words of a change, null where it needs none; {@code before} null: the first. */
+    /** Returns the text of a change, null if it needs none; {@code before} null: the first. */
     abstract String words(Object before, Object now);
 
     /** Returns how much the change matters. */

@@ -5,7 +5,7 @@ import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
 
-/** What of a frame is worth an event when it changes. */
+/** The values of a frame whose changes are events. */
 final class Facts {
     /** All of them. */
     static final List<Fact> ALL = Collections.unmodifiableList(Arrays.asList(

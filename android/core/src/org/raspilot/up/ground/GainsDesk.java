@@ -18,14 +18,14 @@ import org.raspilot.up.loop.Loop;
 public final class GainsDesk {
     /** Maximum number of sets that are kept and can be undone. */
     public static final int KEPT = 50;
-    /** What the aircraft tells of its gains. */
+    /** Receives the gains that the aircraft reports. */
     static final String VALUES = "arduino.pids.values";
 
     /** The board holds gains in single precision. */
     private static final double SINGLE = 1e-6;
     private static final double NEAR_ZERO = 1e-9;
 
-    /** The gains of a moment. Immutable. */
+    /** A snapshot of the gains. Immutable. */
     public static final class Snapshot {
         private final long version;
         private final GainSet flying;
@@ -47,12 +47,12 @@ public final class GainsDesk {
             return version;
         }
 
-        /** Returns what the aircraft said last that flies; null: it has not said yet. */
+        /** Returns the last gains that the aircraft reported; null: none so far. */
         public GainSet flying() {
             return flying;
         }
 
-        /** Returns when it said so, by the loop's clock, ms; null: never. */
+        /** Returns the time of that report, by the loop's clock, ms; null: none. */
         public Long toldMs() {
             return toldMs;
         }
@@ -103,7 +103,7 @@ public final class GainsDesk {
         return snapshot;
     }
 
-    /** Asks the aircraft which gains fly; the answer's data are they. */
+    /** Requests the active gains from the aircraft; they are the answer's data. */
     public void ask(AnswerListener listener) {
         isDue = false;
         sender.send(PidTuningsCommand.request(), null, listener);
@@ -118,7 +118,7 @@ public final class GainsDesk {
         transmit(gains, shownBeacon, listener, false);
     }
 
-    /** Sets what flew before the newest set that was carried out and not yet undone. */
+    /** Restores the gains from before the newest set that was executed and not yet undone. */
     public void undo(Long shownBeacon, AnswerListener listener) {
         final GainSet before = undoable.peekLast();
         if (before == null) {
@@ -180,7 +180,7 @@ public final class GainsDesk {
         isDue = true;
     }
 
-    /** Asks for the gains where they are due; called while Commands can be sent. */
+    /** Requests the gains when due; called while Commands can be sent. */
     void onMoment() {
         if (isDue) {
             ask(new AnswerListener() {

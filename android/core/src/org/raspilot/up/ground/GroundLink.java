@@ -17,7 +17,7 @@ import org.raspilot.up.wire.SafeText;
 import org.raspilot.up.wire.Seat;
 
 /**
- * The link to the aircraft: says hello, keeps the seat and its token, comes back after each loss.
+ * The link to the aircraft: sends the hello, keeps the seat and its token, reconnects after losses.
  *
  * <p>Source: docs/protocols.md 9.
  */

@@ -3,8 +3,8 @@ package org.raspilot.up.ground;
 /** Receives the changes of a {@link GroundSide}. Called on the loop; all values are immutable. */
 public interface GroundListener {
     /**
-     * Takes the newest frame. Called for each that comes, and once more for the same frame when
-     * its link was lost ({@link Age#isLinkLost}), because everything in it is stale then.
+     * Takes the newest frame. Called for each received frame, and again for the same frame when its
+     * link was lost ({@link Age#isLinkLost}), because everything in it is stale then.
      */
     void onTelemetry(Telemetry telemetry);
 

@@ -79,7 +79,7 @@ public final class GroundSettings {
         return aircraft;
     }
 
-    /** Returns the seat that is asked for at first, COMMAND or LISTEN. */
+    /** Returns the seat that is requested first, COMMAND or LISTEN. */
     public Seat seat() {
         return seat;
     }

@@ -40,10 +40,10 @@ public final class GroundSide implements TelemetrySource {
     private Cancellable tick;
 
     /**
-     * Makes a ground that is not started.
+     * Creates a ground that is not started.
      *
-     * @param tokens keeps the resume token
-     * @param executor runs the handlers of what the aircraft says, telemetry's too
+     * @param tokens stores the resume token
+     * @param executor runs the handlers of the aircraft's Commands, telemetry included
      * @param random makes ids and varies the waits
      */
     public GroundSide(Loop loop, GroundSettings settings, TokenStore tokens,
@@ -70,7 +70,7 @@ public final class GroundSide implements TelemetrySource {
         });
     }
 
-    /** Begins to connect, and connects again after each loss; started already, without effect. */
+    /** Starts to connect, and reconnects after each loss; no effect when started already. */
     public void start() {
         if (tick == null) {
             judge.forget();
@@ -80,7 +80,7 @@ public final class GroundSide implements TelemetrySource {
         }
     }
 
-    /** Gives the link up; Commands that wait for their answer hear that it is lost. */
+    /** Closes the link; waiting Commands end with a lost link. */
     public void stop() {
         if (tick != null) {
             tick.cancel();
@@ -121,7 +121,7 @@ public final class GroundSide implements TelemetrySource {
         return stream.newest();
     }
 
-    /** Returns the way that the aircraft has come. */
+    /** Returns the track of the aircraft. */
     public Track track() {
         return track;
     }
@@ -193,7 +193,7 @@ public final class GroundSide implements TelemetrySource {
         return link.releaseSeat();
     }
 
-    /** Forgets who asked for the seat: the pilot keeps it. */
+    /** Discards the request for the seat: the pilot keeps it. */
     public void dismissSeatAsk() {
         link.dismissAsk();
     }

@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Seat;
 
-/** How it stands with link, seat and aircraft at a moment. Immutable. */
+/** A snapshot of link, seat and aircraft. Immutable. */
 public final class GroundStatus {
     /** What a {@link GroundSide} fills in before it makes a status of it. */
     static final class Draft {
@@ -105,7 +105,7 @@ public final class GroundStatus {
         return holder;
     }
 
-    /** Returns the listener that asks for the seat that is held here; null: none. */
+    /** Returns the listener that requests the seat held here; null: none. */
     public Integer askedBy() {
         return askedBy;
     }
@@ -140,7 +140,7 @@ public final class GroundStatus {
         return isLate;
     }
 
-    /** Returns what a ground may do at this aircraft, as its telemetry says; null: not known. */
+    /** Returns the role of grounds at this aircraft, as its telemetry reports; null: unknown. */
     public String role() {
         return role;
     }

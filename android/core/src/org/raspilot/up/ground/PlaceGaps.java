@@ -4,7 +4,7 @@ import java.util.Arrays;
 
 /** Detects gaps in the known positions; the track has no line across a gap. */
 final class PlaceGaps {
-    /** Nothing known for longer, ms, is a silence, unless places come more seldom than that. */
+    /** A longer time without a position, ms, is a gap, unless positions have a longer period. */
     private static final long GAP_MS = 900;
     private static final double PERIODS = 2.5;
     private static final int INTERVALS = 5;
@@ -13,7 +13,7 @@ final class PlaceGaps {
     private int intervals;
     private Long knownMs;
 
-    /** Takes that the place is known now; returns whether a silence ends by that. */
+    /** Takes a known position; returns whether it ends a gap. */
     boolean take(long nowMs) {
         final Long beforeMs = knownMs;
         knownMs = nowMs;

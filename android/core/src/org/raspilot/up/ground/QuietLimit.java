@@ -7,11 +7,11 @@ package org.raspilot.up.ground;
  * When a phone leaves its network, the system may not report it for minutes.
  */
 final class QuietLimit {
-    /** Never less, ms: the proxy tells within 3 s that an aircraft went silent. */
+    /** The minimum, ms: the proxy reports a silent aircraft within 3 s. */
     static final long SHORTEST_MS = 4000;
     /** Longer than telemetry's longest period (10 s). */
     static final long UNKNOWN_MS = 12000;
-    /** Where the aircraft is not there nothing has to come; hellos are cheap. */
+    /** Without the aircraft no traffic is expected; hellos are cheap. */
     static final long OFFLINE_MS = 30000;
 
     private static final int GAPS = 8;

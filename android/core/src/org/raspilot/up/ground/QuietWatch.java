@@ -11,7 +11,7 @@ final class QuietWatch {
     private long heardMs;
     private Cancellable timer;
 
-    /** Whose connection it is. */
+    /** The owner of the connection. */
     interface Owner {
         /** Returns whether the aircraft is connected, or null if unknown. */
         Boolean isAircraftOnline();
@@ -25,14 +25,14 @@ final class QuietWatch {
         this.owner = owner;
     }
 
-    /** Begins with a connection that has just been made. */
+    /** Starts with a new connection. */
     void start() {
         heardMs = loop.nowMs();
         limit.forget();
         look();
     }
 
-    /** Ends. */
+    /** Stops. */
     void stop() {
         if (timer != null) {
             timer.cancel();

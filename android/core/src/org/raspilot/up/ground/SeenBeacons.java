@@ -7,7 +7,7 @@ import java.util.Iterator;
 final class SeenBeacons {
     /** A beacon that the aircraft sent longer ago, ms, is stale (docs/protocols.md 4)... */
     private static final long FRESH_MS = 2000;
-    /** ...unless the period of telemetry, and this for the way, are longer. */
+    /** ...unless the period of telemetry plus this transit time is longer. */
     private static final long WAY_MS = 1000;
     /** More frames than this while a beacon is fresh come from no aircraft. */
     private static final int KEPT = 512;
@@ -87,7 +87,7 @@ final class SeenBeacons {
         if (beacon == null) {
             return null;
         }
-        // The newest first: a hostile aircraft may tell one beacon twice.
+        // The newest first: a hostile aircraft may repeat a beacon.
         final Iterator<Heard> each = heard.descendingIterator();
         while (each.hasNext()) {
             final Heard found = each.next();

@@ -15,7 +15,7 @@ final class Settled {
     private static final long LONGEST_HOLD_MS = 30000;
     private static final long QUIET_MS = 60000;
 
-    /** Tells a change. */
+    /** Reports a change. */
     interface Teller {
         /** Called with the last reported value, null for the first, and the current one. */
         void tell(Object before, Object now);

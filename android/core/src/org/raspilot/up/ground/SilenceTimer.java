@@ -14,7 +14,7 @@ final class SilenceTimer {
         this.onSilent = onSilent;
     }
 
-    /** Waits for the end of this frame's life instead of the one's before. */
+    /** Waits until this frame expires, instead of the previous one. */
     void watch(Telemetry frame, long nowMs) {
         cancel();
         final Long ageMs = frame.ageMs(nowMs);

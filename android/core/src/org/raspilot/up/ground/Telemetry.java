@@ -8,10 +8,10 @@ import java.util.Map;
 import org.raspilot.up.wire.SafeText;
 
 /**
- * One frame of telemetry, read with suspicion: a field of a wrong type is a field not known.
+ * One frame of telemetry, read defensively: a field of a wrong type counts as unknown.
  *
- * <p>Immutable, so that any thread may ask it. Paths are keys joined by dots, as
- * {@code orientation.roll}; units are those of docs/protocols.md 6. Source: thesis 4.1.5.
+ * <p>Immutable and thread-safe. Paths are keys joined by dots, as {@code orientation.roll}; units
+ * are those of docs/protocols.md 6. Source: thesis 4.1.5.
  */
 public final class Telemetry {
     /** The Command that brings it. */
@@ -38,12 +38,12 @@ public final class Telemetry {
     }
 
     /**
-     * Makes a frame.
+     * Creates a frame.
      *
      * @param data the Command's fields as JSON values; copied
      * @param beacon the aircraft's number of the frame, or null
-     * @param receivedMs the loop's clock when it came
-     * @param wayMs how long it was on its way, as far as that is known
+     * @param receivedMs the loop's time of reception
+     * @param wayMs the transit time, as far as it is known
      */
     public static Telemetry of(Map<String, ?> data, Long beacon, long receivedMs, long wayMs) {
         final Map<String, Object> tree = frozen(data);
@@ -61,7 +61,7 @@ public final class Telemetry {
         return new Telemetry(tree, beacon, receivedMs, Age.ofFrame(receivedMs, wayMs, ages));
     }
 
-    /** Returns the same frame with another way. */
+    /** Returns the same frame with another transit time. */
     Telemetry ofWay(long wayMs) {
         return new Telemetry(tree, beacon, receivedMs, age.ofWay(wayMs));
     }
@@ -91,7 +91,7 @@ public final class Telemetry {
         return age;
     }
 
-    /** Returns the age of the frame with its way, ms; null: there was none. */
+    /** Returns the age of the frame including transit, ms; null without a frame. */
     public Long ageMs(long nowMs) {
         return age.frameMs(nowMs);
     }
@@ -134,7 +134,7 @@ public final class Telemetry {
         return first;
     }
 
-    /** Returns the finite number at a path; null: absent, null or something else. */
+    /** Returns the finite number at a path; null if absent, null or of another type. */
     public Double number(String path) {
         return number(at(path));
     }

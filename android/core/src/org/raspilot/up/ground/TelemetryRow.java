@@ -17,7 +17,7 @@ public final class TelemetryRow {
         return path;
     }
 
-    /** Returns the value as text, safe to show; {@code --} where it is not known. */
+    /** Returns the value as text, safe to display; {@code --} if unknown. */
     public String value() {
         return value;
     }

@@ -96,7 +96,7 @@ final class TelemetryStream {
         if (heldMs == null) {
             return roundTripMs / 2;
         }
-        // What queues on the way to the proxy is held time: the least is the way itself.
+        // Queueing on the way to the proxy is delay: the minimum is the transit time itself.
         return (leastTripMs == null ? roundTripMs : leastTripMs) / 2 + heldMs;
     }
 }

@@ -5,9 +5,8 @@ import java.util.Collections;
 import java.util.List;
 
 /**
- * The way that the aircraft has come, in metres from its home: points at least
- * {@link #NEAREST_M} apart; when there are too many, every second one is left out. Only on the
- * loop.
+ * The track of the aircraft, in metres from its home: points at least {@link #NEAREST_M} apart;
+ * when there are too many, every second one is dropped. Only on the loop.
  */
 public final class Track {
     /** Maximum number of points. */
@@ -15,7 +14,7 @@ public final class Track {
     /** Points are not nearer to each other, m. */
     public static final double NEAREST_M = 2;
 
-    /** The track of a moment. Immutable. */
+    /** A snapshot of the track. Immutable. */
     public static final class Snapshot {
         private final long version;
         private final Home origin;
@@ -37,7 +36,7 @@ public final class Track {
             return version;
         }
 
-        /** Returns where north 0, east 0 lies; null before the first place. */
+        /** Returns the position of north 0, east 0; null before the first position. */
         public Home origin() {
             return origin;
         }
@@ -58,7 +57,9 @@ public final class Track {
             return points;
         }
 
-        /** Returns where it is, which may be no point of the way yet; null: not known. */
+        /**
+         * Returns the aircraft's position, possibly not a point of the track yet; null: unknown.
+         */
         public TrackPoint newest() {
             return newest;
         }
@@ -112,7 +113,7 @@ public final class Track {
         return snapshot;
     }
 
-    /** Forgets the way that was come. */
+    /** Clears the track. */
     public void clear() {
         spots.clear();
         pointsOrigin = null;
@@ -177,7 +178,7 @@ public final class Track {
         return spots.isEmpty() ? null : spots.get(spots.size() - 1);
     }
 
-    /** Returns the points of all spots; each is made once as long as the origin stays. */
+    /** Returns the points of all spots; each is created once while the origin stays. */
     private List<TrackPoint> way(Home origin) {
         if (pointsOrigin != origin) {
             pointsOrigin = origin;

@@ -5,6 +5,6 @@ package org.raspilot.up.loop;
  * before the sleep is that much older afterwards.
  */
 public interface Clock {
-    /** Returns the time in ns from some moment on, never less than before; on any thread. */
+    /** Returns the time in ns from an arbitrary origin, never decreasing; on any thread. */
     long nowNs();
 }

@@ -25,7 +25,7 @@ final class Guard {
         }
     }
 
-    /** Counts and tells a fault; an exception of the listener itself is a fault that is counted. */
+    /** Counts and reports a fault; an exception of the listener itself is counted too. */
     void tell(Throwable fault) {
         faults.incrementAndGet();
         try {
@@ -35,7 +35,7 @@ final class Guard {
         }
     }
 
-    /** Returns how many there were; may be asked on any thread. */
+    /** Returns the number of faults; may be called on any thread. */
     long faults() {
         return faults.get();
     }

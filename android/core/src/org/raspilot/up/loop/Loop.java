@@ -7,7 +7,7 @@ package org.raspilot.up.loop;
  * not affect other calls.
  */
 public interface Loop {
-    /** Returns monotonic milliseconds from an arbitrary beginning; may be asked on any thread. */
+    /** Returns monotonic milliseconds from an arbitrary origin; may be called on any thread. */
     long nowMs();
 
     /** Runs {@code call} soon on the loop, calls in their order; may be called on any thread. */

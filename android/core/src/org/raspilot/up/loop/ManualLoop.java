@@ -19,10 +19,10 @@ public final class ManualLoop implements Loop {
     private volatile Thread thread = Thread.currentThread();
 
     /**
-     * Makes a loop at 0 ms.
+     * Creates a loop at 0 ms.
      *
-     * @param network what {@link #network} returns; null where none is needed
-     * @param faults hears of exceptions of what runs on the loop
+     * @param network the result of {@link #network}, or null
+     * @param faults receives exceptions of calls on the loop
      */
     public ManualLoop(Network network, FaultListener faults) {
         this.network = network;

@@ -36,10 +36,10 @@ public final class SelectorLoop implements Loop, Network {
     private final AtomicLong rounds = new AtomicLong();
 
     /**
-     * Makes a loop that is not started yet.
+     * Creates a loop that is not started yet.
      *
-     * @param name what its thread is called
-     * @param faults hears of exceptions of what runs on the loop
+     * @param name of its thread
+     * @param faults receives exceptions of calls on the loop
      */
     public SelectorLoop(String name, FaultListener faults) {
         this(name, faults, new Clock() {
@@ -51,11 +51,11 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     /**
-     * Makes a loop that is not started yet.
+     * Creates a loop that is not started yet.
      *
-     * @param name what its thread is called
-     * @param faults hears of exceptions of what runs on the loop
-     * @param clock by which it lives; on a device that sleeps System.nanoTime() stands still
+     * @param name of its thread
+     * @param faults receives exceptions of calls on the loop
+     * @param clock of the loop; on a sleeping device System.nanoTime() stops
      */
     public SelectorLoop(String name, FaultListener faults, Clock clock) {
         this(name, faults, clock, new SocketSelector(), new SystemResolver());
@@ -116,12 +116,12 @@ public final class SelectorLoop implements Loop, Network {
         }
     }
 
-    /** Returns how many calls threw; may be asked on any thread. */
+    /** Returns the number of calls that threw; may be called on any thread. */
     public long faults() {
         return guard.faults();
     }
 
-    /** Returns how often the loop woke; may be asked on any thread. */
+    /** Returns the number of wake-ups; may be called on any thread. */
     public long rounds() {
         return rounds.get();
     }
@@ -182,7 +182,7 @@ public final class SelectorLoop implements Loop, Network {
         return sockets.register(channel, operations, ready);
     }
 
-    /** Counts and tells a fault that belongs to no call. */
+    /** Counts and reports a fault that belongs to no call. */
     void tell(Throwable fault) {
         guard.tell(fault);
     }
@@ -253,7 +253,7 @@ public final class SelectorLoop implements Loop, Network {
         run(new Runnable() {
             @Override
             public void run() {
-                // An earlier one's call may have closed it.
+                // A previous call may have closed it.
                 if (key.isValid()) {
                     ((Ready) key.attachment()).onReady(key);
                 }

@@ -41,7 +41,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         endMs = loop.nowMs() + timeoutMs;
     }
 
-    /** Begins. */
+    /** Starts. */
     void open(NameLookup names, String host) {
         if (port < 1 || port > 65535) {
             onUnknown("no port: " + port);
@@ -144,7 +144,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
             connectNext(refused(error));
             return;
         } catch (RuntimeException error) {
-            // Android throws SecurityException where the app may not use the network.
+            // Android throws SecurityException without the permission to use the network.
             connectNext(refused(error));
             return;
         }
@@ -198,7 +198,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         return length > 0;
     }
 
-    /** What the peer said before it hung up was received before the write failed: hand it on. */
+    /** Data that the peer sent before it hung up arrived before the write failed: deliver it. */
     private void readTheRest(String reason) {
         int reads = 0;
         while (state == State.BROKEN && reads < LAST_READS && read()) {

@@ -12,8 +12,8 @@ public interface TcpListener {
     void onWritable();
 
     /**
-     * Hears, once, that the connection ended or could not be made; not told after the own
-     * {@link TcpConnection#close}.
+     * Called once when the connection ended or failed to open; not after the own {@link
+     * TcpConnection#close}.
      *
      * @param reason a sentence without a full stop
      */

@@ -3,7 +3,7 @@ package org.raspilot.up.loop;
 import java.util.Comparator;
 import java.util.PriorityQueue;
 
-/** Timers in the order in which they fall due; those of equal time in the order of asking. */
+/** Timers in the order of their due times; those of equal time in the order of scheduling. */
 final class TimerQueue {
     private final PriorityQueue<Timer> timers = new PriorityQueue<Timer>(16, new Sooner());
     private long asked;

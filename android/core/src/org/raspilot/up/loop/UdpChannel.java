@@ -58,7 +58,7 @@ final class UdpChannel implements UdpPort, Ready {
                 open();
             }
             final ByteBuffer buffer = ByteBuffer.wrap(datagram);
-            // 0: the system has no room now. The next datagram is newer anyhow.
+            // 0: the system has no room now. The next datagram will be newer.
             return channel.send(buffer, new InetSocketAddress(address, port)) > 0
                     || datagram.length == 0;
         } catch (IOException error) {
@@ -107,7 +107,7 @@ final class UdpChannel implements UdpPort, Ready {
         return true;
     }
 
-    /** Returns a host's address; null: not known yet, or not known to anybody. */
+    /** Returns a host's address, or null if unknown so far. */
     private InetAddress address(final String host) {
         Name name = known.get(host);
         if (name == null) {

@@ -1,6 +1,6 @@
 package org.raspilot.up.net;
 
-/** Hears where a peer listens. Called on the loop, one of the two, once. */
+/** Receives the result of a search for a peer. Called on the loop, one of the two, once. */
 public interface FindListener {
     /** Takes the place. */
     void onFound(Place place);

@@ -38,7 +38,7 @@ final class IdleTimer {
         }
     }
 
-    /** Ends; it may be started again. */
+    /** Stops; it may be started again. */
     void stop() {
         if (timer != null) {
             timer.cancel();

@@ -25,7 +25,7 @@ final class LineDelivery {
         this.receiver = receiver;
     }
 
-    /** Begins a connection: half a line of the one before is forgotten. */
+    /** Starts a connection: a partial line of the previous one is discarded. */
     void begin(Object begun) {
         connection = begun;
         splitter.reset();

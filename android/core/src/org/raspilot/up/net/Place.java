@@ -1,6 +1,6 @@
 package org.raspilot.up.net;
 
-/** Where a peer listens: a host, its General Message port and its orientation port. */
+/** The address of a peer: a host, its General Message port and its orientation port. */
 public final class Place {
     private final String host;
     private final int generalPort;

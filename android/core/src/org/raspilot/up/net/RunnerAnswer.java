@@ -5,7 +5,7 @@ import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
 import org.raspilot.up.wire.SafeText;
 
-/** A runner's answer that says where an instance runs (protocols 8). */
+/** A runner's answer with the address of an instance (protocols 8). */
 public final class RunnerAnswer {
     private static final int LONGEST_WORDS = 200;
 
@@ -66,7 +66,7 @@ public final class RunnerAnswer {
                 object(answer, "proxy"));
     }
 
-    /** Returns the runner's words; null: none. */
+    /** Returns the runner's message; null: none. */
     public String message() {
         return message;
     }
@@ -81,22 +81,22 @@ public final class RunnerAnswer {
         return isSpawned;
     }
 
-    /** Returns the instance's name; null: not told. */
+    /** Returns the instance's name; null: absent. */
     public String instance() {
         return instance;
     }
 
-    /** Returns where the instance listens. */
+    /** Returns the address of the instance. */
     public Place place() {
         return place;
     }
 
-    /** Returns the proxy's host for grounds of this aircraft; null: not told. */
+    /** Returns the proxy's host for grounds of this aircraft; null: absent. */
     public String proxyHost() {
         return proxyHost;
     }
 
-    /** Returns the proxy's port for grounds; 0: not told. */
+    /** Returns the proxy's port for grounds; 0: absent. */
     public int proxyGroundPort() {
         return proxyGroundPort;
     }

@@ -6,7 +6,7 @@ import java.util.Map;
 import org.raspilot.up.wire.Hello;
 import org.raspilot.up.wire.Json;
 
-/** What a runner is asked for (protocols 8): an aircraft, by a profile, with a configuration. */
+/** A request to a runner (protocols 8): an aircraft, a profile, a configuration. */
 public final class RunnerRequest {
     /** Bytes of the longest request with its LF. */
     public static final int LONGEST_LINE = 65536;

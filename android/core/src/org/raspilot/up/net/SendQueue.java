@@ -42,7 +42,7 @@ final class SendQueue {
         return true;
     }
 
-    /** Lets a copy wait in place of what has the same key; false: as for {@link #add}. */
+    /** Queues a copy, replacing the one with the same key; returns false as {@link #add} does. */
     boolean replace(Object key, byte[] given) {
         final byte[] bytes = whole(given);
         final byte[] older = newest.get(key);
@@ -126,7 +126,7 @@ final class SendQueue {
         return bytesOut;
     }
 
-    /** Counts bytes that went past the queue. */
+    /** Counts bytes that bypassed the queue. */
     void wrote(int bytes) {
         bytesOut += bytes;
     }
@@ -158,7 +158,7 @@ final class SendQueue {
         return taken;
     }
 
-    /** Counts bytes that are gone, or keeps the rest to be finished before all others. */
+    /** Counts sent bytes, or keeps the rest to be finished before all others. */
     private boolean isWhole(byte[] bytes, int gone) {
         if (gone == bytes.length) {
             sent++;

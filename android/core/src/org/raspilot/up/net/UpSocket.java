@@ -67,7 +67,7 @@ public final class UpSocket {
         });
     }
 
-    /** Begins to connect; started already, without effect. */
+    /** Starts to connect; no effect when started already. */
     public void start() {
         if (status.state() == UpSocketStatus.State.STOPPED) {
             backOff.reset();
@@ -102,7 +102,7 @@ public final class UpSocket {
         }
     }
 
-    /** Ends this connection, or attempt, for {@code reason} and tries again after the wait. */
+    /** Ends this connection, or attempt, for {@code reason} and retries after the wait. */
     public void drop(String reason) {
         if (current == null) {
             return;
@@ -163,7 +163,7 @@ public final class UpSocket {
         return queue.waitingBytes();
     }
 
-    /** Returns where the socket stands. */
+    /** Returns the socket's state. */
     public UpSocketStatus status() {
         return status;
     }
@@ -184,13 +184,13 @@ public final class UpSocket {
             isBegun = true;
         } finally {
             if (!isBegun && current == attempt) {
-                // Even a finder that throws is asked again.
+                // A finder that throws is called again too.
                 drop("the search failed");
             }
         }
     }
 
-    /** Ends whatever is under way; returns whether it was a connection. */
+    /** Ends the current attempt or connection; returns whether it was a connection. */
     private boolean end() {
         final boolean wasConnected = isConnected();
         if (retry != null) {

@@ -19,6 +19,6 @@ public interface UpSocketListener {
      */
     void onLost(UpSocket socket, String reason);
 
-    /** Hears, a little later, that {@link UpSocket#status} changed: for a screen. */
+    /** Called shortly after {@link UpSocket#status} has changed: for a screen. */
     void onStatus(UpSocket socket);
 }

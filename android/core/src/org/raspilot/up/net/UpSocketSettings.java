@@ -35,12 +35,12 @@ public final class UpSocketSettings {
         return new UpSocketSettings(false, 2000, 0, 0, 3000, 500, 2000);
     }
 
-    /** Returns raw frames to the orientation port; else as {@link #lines}. */
+    /** Returns raw frames to the orientation port; otherwise as {@link #lines}. */
     public static UpSocketSettings raw() {
         return new UpSocketSettings(true, 2000, 0, 0, 3000, 500, 2000);
     }
 
-    /** Returns these with a time-out of each attempt, including the name's look-up. */
+    /** Returns these settings with a timeout of each attempt, including name lookup. */
     public UpSocketSettings withConnectTimeoutMs(int timeoutMs) {
         return new UpSocketSettings(isRaw, timeoutMs, heartbeatMs, silenceLimitMs, stallLimitMs,
                 firstRetryMs, lastRetryMs);

@@ -1,6 +1,6 @@
 package org.raspilot.up.providers;
 
-/** How often a provider sends, and how long its readings are worth sending; times in ms. */
+/** How often a provider sends, and the maximum age of its readings; times in ms. */
 public final class Cadence {
     /** A reading older than this number of periods is not sent. */
     private static final int WORTH_PERIODS = 2;
@@ -24,10 +24,10 @@ public final class Cadence {
     }
 
     /**
-     * Returns the cadence of what changes all the time: each reading is sent once, while it is
-     * fresh, at most one in a period.
+     * Returns the cadence of a value that changes continuously: each reading is sent once, while it
+     * is fresh, at most one in a period.
      *
-     * @param silenceLimitMs how long the sensor may say nothing before it counts as silent
+     * @param silenceLimitMs time without a reading after which the sensor counts as silent
      */
     public static Cadence stream(double periodMs, long silenceLimitMs) {
         return new Cadence(
@@ -71,7 +71,7 @@ public final class Cadence {
         return worthMs;
     }
 
-    /** Returns how long the sensor may say nothing. */
+    /** Returns the time without a reading after which the sensor counts as silent. */
     long silenceLimitMs() {
         return silenceLimitMs;
     }

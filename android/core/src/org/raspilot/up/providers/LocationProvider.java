@@ -9,7 +9,7 @@ public final class LocationProvider extends SensorProvider<Fix> {
     public static final String NAME = "location";
 
     private static final long SILENCE_MS = 10000;
-    /** A fix of the mobile network, or a blurred one: home and the way back would be elsewhere. */
+    /** A fix of the mobile network, or an approximate one: home and the way back would be wrong. */
     private static final double WORST_ACCURACY_M = 50;
 
     /** Takes the GPS, and how often a fix leaves at most, ms. */
@@ -32,7 +32,7 @@ public final class LocationProvider extends SensorProvider<Fix> {
                 isKnown(fix.bearingDeg()) ? Rounded.direction(fix.bearingDeg()) : null);
     }
 
-    /** What GPS does not know must not keep the place from being told. */
+    /** A value unknown to GPS must not prevent sending the position. */
     private static Double rounded(int decimals, Double value) {
         return isKnown(value) ? Rounded.to(decimals, value) : null;
     }

@@ -41,8 +41,8 @@ public final class Mounting {
     }
 
     /**
-     * Returns the mounting for which this rotation is level: roll and pitch are zero, and the nose
-     * is where the named side of the device points.
+     * Returns the mounting for which this rotation is level: roll and pitch are zero, and the named
+     * side of the device points to the nose.
      *
      * @throws IllegalArgumentException when that side points up or down (a sentence)
      */

@@ -3,7 +3,7 @@ package org.raspilot.up.providers;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.wire.OrientationFrame;
 
-/** Where a provider's data goes: the links to the Raspberry Pi. */
+/** The destination of a provider's data: the links to the Raspberry Pi. */
 public interface Outlet {
     /**
      * Sends a Command; it replaces one under the same key that still waits for a slow link.

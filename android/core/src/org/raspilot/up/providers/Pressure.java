@@ -1,6 +1,6 @@
 package org.raspilot.up.providers;
 
-/** The air's pressure where the device is, by its barometer. */
+/** The air pressure at the device, by its barometer. */
 public final class Pressure {
     private final double hPa;
 

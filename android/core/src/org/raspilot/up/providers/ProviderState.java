@@ -10,6 +10,6 @@ public enum ProviderState {
     WAITING,
     /** Its readings leave. */
     SENDING,
-    /** The sensor is there and has said nothing for longer than it may. */
+    /** The sensor is present and has been silent for longer than allowed. */
     SILENT
 }

@@ -51,7 +51,7 @@ public final class ProviderStatus {
         return rateHz;
     }
 
-    /** Returns how old its newest reading is, ms; -1: none came yet. */
+    /** Returns the age of its newest reading, ms; -1: none so far. */
     public long ageMs() {
         return ageMs;
     }

@@ -33,7 +33,7 @@ public final class ProvidersController {
         return panic;
     }
 
-    /** Tells this one of the providers' problems. */
+    /** Sets the listener of the providers' problems. */
     public void addListener(ProvidersListener listener) {
         listeners.add(listener);
     }
@@ -106,7 +106,7 @@ public final class ProvidersController {
         }
     }
 
-    /** Takes that the link is gone: what it asked for is forgotten. */
+    /** Notes that the link is lost: its requests are discarded. */
     public void linkClosed() {
         panic.forget();
     }

@@ -29,7 +29,8 @@ public final class Quaternion {
     /**
      * Returns the rotation that turns the three axes into these.
      *
-     * @param a where the first axis goes, of length one; b and c are square to it and each other
+     * @param a the image of the first axis, of length one; b and c are orthogonal to it and each
+     *     other
      */
     static Quaternion ofAxes(double[] a, double[] b, double[] c) {
         // The greatest of the four is at least one: the rest is taken from it (Shepperd, 1978).
@@ -64,7 +65,7 @@ public final class Quaternion {
                 w * that.z + x * that.y - y * that.x + z * that.w);
     }
 
-    /** Returns the way back: for a rotation its inverse. */
+    /** Returns the conjugate: for a rotation its inverse. */
     public Quaternion conjugate() {
         return new Quaternion(w, -x, -y, -z);
     }

@@ -23,7 +23,7 @@ public abstract class SensorProvider<R> extends UpProvider {
     }
 
     /**
-     * Returns the Command of a reading, or null when there is nothing to tell.
+     * Returns the Command of a reading, or null to send none.
      *
      * @throws IllegalArgumentException when the reading cannot be used (a sentence for the user)
      */

@@ -48,7 +48,7 @@ final class Stream implements Panic.Listener {
         this.sender = sender;
     }
 
-    /** Begins without a reading. */
+    /** Starts without a reading. */
     void begin() {
         isRunning = true;
         isFirst = true;
@@ -64,7 +64,7 @@ final class Stream implements Panic.Listener {
         panic.removeListener(this);
     }
 
-    /** Takes that a reading came just now; it leaves if it is news. */
+    /** Takes a new reading; it is sent if it is news. */
     void offer(boolean isNews) {
         newestMs = loop.nowMs();
         isUnsent |= isNews;
@@ -133,7 +133,7 @@ final class Stream implements Panic.Listener {
                 : wantedMs;
     }
 
-    /** Returns before when Panic lets nothing leave. */
+    /** Returns the earliest time that Panic permits. */
     private double calmMs() {
         return panic.isOn() ? lastMs + panic.delayMs() : 0;
     }

@@ -7,11 +7,11 @@ package org.raspilot.up.wire;
  * <p>Source: docs/protocols.md 9.
  */
 public final class ControlLine {
-    /** What a control line says. */
+    /** The kinds of control lines. */
     public enum Kind {
-        /** Ground to proxy: asks for the seat that commands. */
+        /** Ground to proxy: requests the seat that commands. */
         SEAT_REQUEST,
-        /** Proxy to holder: listener {@link #number} asks for the seat. */
+        /** Proxy to holder: listener {@link #number} requests the seat. */
         SEAT_ASKED,
         /** Holder to proxy: hands the seat to listener {@link #number}. */
         SEAT_GIVE,
@@ -76,7 +76,7 @@ public final class ControlLine {
         return new ControlLine(Kind.SEAT_COMMAND, null, token);
     }
 
-    /** Returns what it says. */
+    /** Returns its kind. */
     public Kind kind() {
         return kind;
     }
@@ -86,7 +86,7 @@ public final class ControlLine {
         return number;
     }
 
-    /** Returns the token of SEAT_COMMAND, else null. */
+    /** Returns the token of SEAT_COMMAND, otherwise null. */
     public String token() {
         return token;
     }
@@ -96,10 +96,7 @@ public final class ControlLine {
         return length >= 4 && line[0] == 'U' && line[1] == 'P' && line[2] == '1' && line[3] == ' ';
     }
 
-    /**
-     * Returns what a line without line end says; null: nothing that is known. Unknown words are
-     * ignored.
-     */
+    /** Parses a line without line end; null if unknown. Unknown words are ignored. */
     public static ControlLine read(byte[] line, int length) {
         String text = Utf8.printableAscii(line, length);
         if (text == null) {

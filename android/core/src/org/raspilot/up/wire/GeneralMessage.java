@@ -5,7 +5,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 
 /**
- * One General Message: which Command, its fields, and what asks for an answer or tells freshness.
+ * One General Message: its Command, its fields, and optionally an id for an answer and a beacon.
  *
  * <p>Source: docs/protocols.md 4, thesis 3.1.4.
  */
@@ -20,13 +20,13 @@ public final class GeneralMessage {
     private final String id;
     private final Long beacon;
 
-    /** Makes a message that wants no answer and carries no beacon. */
+    /** Creates a message without an id or a beacon. */
     public GeneralMessage(String name, Map<String, ?> data) {
         this(name, data, null, null);
     }
 
     /**
-     * Makes a message; {@code data} null is an empty object, {@code id} null wants no answer,
+     * Creates a message; {@code data} null is an empty object, {@code id} null requests no answer,
      * {@code beacon} null is left out.
      */
     public GeneralMessage(String name, Map<String, ?> data, String id, Long beacon) {
@@ -56,7 +56,7 @@ public final class GeneralMessage {
         return data;
     }
 
-    /** Returns the id under which an answer is asked for, or null. */
+    /** Returns the id for the requested answer, or null. */
     public String id() {
         return id;
     }

@@ -37,18 +37,18 @@ public final class Hello {
     }
 
     /**
-     * Makes an aircraft's hello; {@code token} null: none yet.
+     * Creates an aircraft's hello; {@code token} null: none yet.
      *
-     * @throws IllegalArgumentException when the name or the token has not the form of one
+     * @throws IllegalArgumentException when the name or the token is malformed
      */
     public static Hello ofAircraft(String aircraft, String token) {
         return new Hello(aircraft, null, token);
     }
 
     /**
-     * Makes a ground's hello; {@code seat} is COMMAND or LISTEN, {@code token} null: none yet.
+     * Creates a ground's hello; {@code seat} is COMMAND or LISTEN, {@code token} null: none yet.
      *
-     * @throws IllegalArgumentException when one of them has not the form of one
+     * @throws IllegalArgumentException when one of them is malformed
      */
     public static Hello ofGround(String aircraft, Seat seat, String token) {
         if (seat != Seat.COMMAND && seat != Seat.LISTEN) {
@@ -62,7 +62,7 @@ public final class Hello {
         return aircraft;
     }
 
-    /** Returns the seat that a ground asks for; null: an aircraft's hello. */
+    /** Returns the seat that a ground requests; null: an aircraft's hello. */
     public Seat seat() {
         return seat;
     }

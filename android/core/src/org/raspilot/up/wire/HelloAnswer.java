@@ -41,7 +41,7 @@ public final class HelloAnswer {
         return code == null;
     }
 
-    /** Returns the aircraft's name, or null when refused or not said. */
+    /** Returns the aircraft's name, or null when refused or absent. */
     public String aircraft() {
         return aircraft;
     }

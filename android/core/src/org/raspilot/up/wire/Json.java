@@ -8,7 +8,7 @@ package org.raspilot.up.wire;
  * other number a Double, and further Boolean and null. Source: docs/protocols.md 4.
  */
 public final class Json {
-    /** How deep objects and lists may be nested; the outermost counts as one. */
+    /** Maximum nesting of objects and lists; the outermost counts as one. */
     public static final int DEEPEST_NESTING = 32;
     /** Keys of one object; it bounds the work per message. */
     public static final int MAX_KEYS = 512;

@@ -9,7 +9,7 @@ final class JsonTextReader {
     private int at;
     private boolean hasSurrogateEscape;
 
-    /** Begins behind the opening quote. */
+    /** Starts after the opening quote. */
     JsonTextReader(String source, int start) {
         this.source = source;
         at = start;
@@ -46,7 +46,7 @@ final class JsonTextReader {
         }
     }
 
-    /** Returns where the text ended: behind its closing quote. */
+    /** Returns the end of the text, after its closing quote. */
     int end() {
         return at;
     }

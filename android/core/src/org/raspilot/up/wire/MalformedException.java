@@ -10,12 +10,12 @@ public final class MalformedException extends Exception {
 
     private final String id;
 
-    /** Says why, where no id could be read. */
+    /** Creates it with the reason, without an id. */
     public MalformedException(String reason) {
         this(reason, null);
     }
 
-    /** Says why, and the id under which it can be refused; null where none could be read. */
+    /** Creates it with the reason and the id to refuse it under; null if the id is unreadable. */
     public MalformedException(String reason, String id) {
         super(reason);
         this.id = id;
@@ -26,7 +26,7 @@ public final class MalformedException extends Exception {
         return getMessage();
     }
 
-    /** Returns the id that the message had where it could still be read, else null. */
+    /** Returns the id of the message if it was readable, otherwise null. */
     public String id() {
         return id;
     }

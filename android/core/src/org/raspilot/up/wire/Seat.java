@@ -6,7 +6,7 @@ public enum Seat {
     COMMAND("command"),
     /** A ground that only listens. */
     LISTEN("listen"),
-    /** The aircraft itself; said by the proxy alone, never asked for. */
+    /** The aircraft itself; sent only by the proxy, never requested. */
     AIR("air");
 
     private final String word;
@@ -15,7 +15,7 @@ public enum Seat {
         this.word = word;
     }
 
-    /** Returns the word that stands on the wire. */
+    /** Returns the word on the wire. */
     public String word() {
         return word;
     }

@@ -47,7 +47,7 @@ final class ShortestNumber {
         return best.stripTrailingZeros();
     }
 
-    /** Returns how many digits Double.toString takes: a good place to begin the search. */
+    /** Returns the number of digits of Double.toString: a good start for the search. */
     private static int digitsOf(double number) {
         int digits = 0;
         String text = Double.toString(number);

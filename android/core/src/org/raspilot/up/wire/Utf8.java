@@ -25,7 +25,7 @@ final class Utf8 {
         }
     }
 
-    /** Returns printable ASCII, or null when a byte is something else. */
+    /** Returns printable ASCII, or null if there are other bytes. */
     static String printableAscii(byte[] bytes, int length) {
         StringBuilder text = new StringBuilder(length);
         for (int i = 0; i < length; i++) {
