@@ -125,7 +125,7 @@ final class AppSettings {
         return preferences.getBoolean(context.getString(R.string.key_keep_screen), false);
     }
 
-    /** Keeps whether the screen stays on. */
+    /** Stores whether the screen stays on. */
     void setScreenKept(boolean isKept) {
         preferences.edit().putBoolean(context.getString(R.string.key_keep_screen), isKept)
                 .apply();

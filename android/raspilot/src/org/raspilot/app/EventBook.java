@@ -4,12 +4,12 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 
-/** What happened since the application began, the newest last, bounded. On the main thread. */
+/** The events since the application started, the newest last, bounded. On the main thread. */
 public final class EventBook {
     /** Maximum number of lines. */
     public static final int KEPT = 500;
 
-    /** Hears of new lines. */
+    /** Receives new lines. */
     public interface Watcher {
         /** Called when the book has changed. */
         void onEvents();

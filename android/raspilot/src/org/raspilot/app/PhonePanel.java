@@ -15,7 +15,9 @@ import java.util.List;
 import org.raspilot.up.android.Permissions;
 import org.raspilot.up.android.api23.Asking;
 
-/** What the phone's own settings must permit, with the way there, and whether the screen stays. */
+/**
+ * The phone's settings that the app needs, with a link to them, and whether the screen stays on.
+ */
 final class PhonePanel {
     private static final int REQUEST = 1;
     /** Android 6; the API 16 stubs do not know it. */

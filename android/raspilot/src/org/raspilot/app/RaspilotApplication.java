@@ -5,7 +5,7 @@ import android.content.Context;
 import android.content.pm.ApplicationInfo;
 import android.os.StrictMode;
 
-/** What lives as long as the process: the log and the spawn requests. */
+/** The state of the process: the log and the spawn requests. */
 public final class RaspilotApplication extends Application {
     private final EventBook events = new EventBook();
     private SpawnDesk spawning;

@@ -47,7 +47,7 @@ final class RunPanel {
         orientation.setText("");
     }
 
-    /** Shows that nothing runs, and the newest line of the log, which may say why. */
+    /** Shows that nothing runs, and the newest line of the log, possibly with the reason. */
     void showStopped(boolean isSpawning, String newest) {
         panic.setVisibility(View.GONE);
         String state = context.getString(isSpawning ? R.string.link_spawning : R.string.link_off);
@@ -57,7 +57,7 @@ final class RunPanel {
                 isSpawning ? R.attr.upOnAlarm : R.attr.upOnAccent);
     }
 
-    /** Shows what runs; null: nothing is known of it yet. */
+    /** Shows the running state; null: nothing is known of it yet. */
     void showRunning(AirborneStatus status) {
         boolean isPanic = status != null && status.panicDelayMs() > 0;
         panic.setVisibility(isPanic ? View.VISIBLE : View.GONE);
@@ -107,7 +107,7 @@ final class RunPanel {
         }
     }
 
-    /** Sets a text only when it is another one: what reads aloud would say it again. */
+    /** Sets a text only if it changed: a screen reader would repeat it. */
     private static void setText(TextView view, String text) {
         if (!text.contentEquals(view.getText())) {
             view.setText(text);

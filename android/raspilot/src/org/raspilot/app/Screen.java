@@ -12,7 +12,7 @@ enum Screen {
     SETTINGS(R.string.screen_settings, Part.SETTINGS),
     LOG(R.string.screen_log, Part.LOG);
 
-    /** A fragment and the pane that it lives in for as long as it lives. */
+    /** A fragment and the pane that contains it during its whole life. */
     enum Part {
         AIRBORNE(R.id.pane_first) {
             @Override
@@ -78,7 +78,7 @@ enum Screen {
         return hasTab(isTwoPanes) ? this : GROUND;
     }
 
-    /** Returns the screen of a name, or the airborne one where no screen is called so. */
+    /** Returns the screen of that name, or the airborne one if unknown. */
     static Screen named(String name) {
         for (Screen screen : values()) {
             if (screen.name().equals(name)) {

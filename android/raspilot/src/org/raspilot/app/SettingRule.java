@@ -74,7 +74,7 @@ enum SettingRule {
         return sentence;
     }
 
-    /** Returns the number that a value says; some phones' keyboards have a comma only. */
+    /** Parses the number of a value; some phones' keyboards have only a comma. */
     static double number(String value) {
         return Double.parseDouble(value.replace(',', '.'));
     }

@@ -14,7 +14,7 @@ import org.raspilot.up.android.SpawnService;
  * the log, whichever screen is seen then. Lives with the process, on the main thread.
  */
 final class SpawnDesk {
-    /** Hears when a request begins and ends. */
+    /** Called when a request starts and ends. */
     interface Watcher {
         /** Called when {@link SpawnDesk#isAsking} has changed. */
         void onSpawning();
@@ -45,7 +45,7 @@ final class SpawnDesk {
         watcher = now;
     }
 
-    /** Asks; while an answer is awaited without effect. */
+    /** Sends a request; no effect while one waits for its answer. */
     void ask(AirborneSettings settings) {
         if (isAsking) {
             return;

@@ -62,7 +62,7 @@ public final class TelemetryLink extends Fragment {
     private boolean isSeen;
     private boolean isWanted;
 
-    /** Makes the link of a window that is being created, before its other fragments look. */
+    /** Creates the link of a new window, before its other fragments need it. */
     static void prepare(Activity activity) {
         of(activity);
         activity.getFragmentManager().executePendingTransactions();

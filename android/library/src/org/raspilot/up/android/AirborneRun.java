@@ -19,12 +19,12 @@ import org.raspilot.up.providers.Mounting;
 
 /**
  * One run of the airborne side, from start to stop: its loop, the sensors' thread, the locks that
- * keep the phone awake. Made, begun and ended on the main thread; an ended one is not begun again.
+ * keep the phone awake. Created, started and ended on the main thread; it is not restarted.
  */
 final class AirborneRun {
-    /** Hears of a run until its end; on the main thread, but {@link #onUp}. */
+    /** Receives the events of a run until its end; on the main thread, except {@link #onUp}. */
     interface Host {
-        /** Registers handlers and providers; on the loop, before anything begins. */
+        /** Registers handlers and providers; on the loop, before the start. */
         void onUp(Up up);
 
         /** Takes the current status. */
@@ -52,7 +52,7 @@ final class AirborneRun {
     private boolean isEnded;
 
     /**
-     * Looks which sensors there are and begins to read and to connect.
+     * Finds the available sensors and starts to read and to connect.
      *
      * @throws IllegalStateException when this process has another Up: nothing runs then
      */
@@ -161,7 +161,7 @@ final class AirborneRun {
         });
     }
 
-    /** Lets the altitude be zero where the phone is. */
+    /** Sets the altitude at the phone's position to zero. */
     void zeroAltitudeHere() {
         loop.post(new Runnable() {
             @Override
@@ -267,7 +267,7 @@ final class AirborneRun {
         });
     }
 
-    /** Hears of the airborne side on the loop. */
+    /** Receives the events of the airborne side on the loop. */
     private final class Listener implements AirborneListener {
         @Override
         public void onConnected(Place place) {

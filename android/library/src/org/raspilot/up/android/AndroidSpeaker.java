@@ -21,7 +21,7 @@ final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
     private boolean isReady;
     private boolean isEnded;
 
-    /** Begins to look for something that speaks; on the main thread. */
+    /** Starts to initialize text to speech; on the main thread. */
     AndroidSpeaker(Context context, SourceTexts texts, ProblemListener problems) {
         this.problems = problems;
         absence = texts.of(Lack.SPEECH);

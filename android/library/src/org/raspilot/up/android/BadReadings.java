@@ -1,6 +1,6 @@
 package org.raspilot.up.android;
 
-/** Tells of a sensor's readings that cannot be read: of the first one, since many may follow. */
+/** Reports the unreadable readings of a sensor: only the first one, since many may follow. */
 final class BadReadings {
     private final ProblemListener problems;
     private final String refusal;

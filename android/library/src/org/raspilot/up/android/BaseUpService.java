@@ -45,7 +45,7 @@ public abstract class BaseUpService extends Service {
         }
     }
 
-    /** Stops it; without effect where it does not run. */
+    /** Stops it; no effect while it does not run. */
     public static void stop(Context context, Class<? extends BaseUpService> service) {
         context.stopService(new Intent(context, service));
     }
@@ -59,15 +59,15 @@ public abstract class BaseUpService extends Service {
     protected abstract AirborneSettings readSettings();
 
     /**
-     * Returns whether sockets stay on a Wi-Fi in whose network the other end lies, from Android 6
-     * on; it is searched for there, too.
+     * Returns whether sockets stay on a Wi-Fi whose network contains the peer, from Android 6 on;
+     * the search for the peer uses it too.
      */
     protected abstract boolean isOnWifi();
 
-    /** Returns the words for what the phone lacks. */
+    /** Returns the texts for missing parts of the phone. */
     protected abstract SourceTexts sourceTexts();
 
-    /** Returns the words and pictures of the notification. */
+    /** Returns the texts and icons of the notification. */
     protected abstract NoticeTexts noticeTexts();
 
     /** Returns the notification's line for a status; null: nothing is known yet. */

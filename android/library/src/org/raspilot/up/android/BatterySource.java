@@ -73,7 +73,7 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
         return new IntentFilter(Intent.ACTION_BATTERY_CHANGED);
     }
 
-    /** Returns the level of the system's message, or null where it tells none. */
+    /** Returns the level of the system's message, or null if absent. */
     static BatteryLevel level(Intent intent) {
         if (intent == null) {
             return null;

@@ -73,7 +73,7 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
         try {
             take(event);
         } catch (RuntimeException wrong) {
-            // Whatever a sensor says: thrown on the system's thread it would end the flight.
+            // Catches every exception: on the system's thread it would end the flight.
             bad.add(event.sensor.getName(), wrong);
         }
     }

@@ -29,7 +29,7 @@ import org.raspilot.up.loop.SelectorLoop;
 final class GroundRun implements GroundListener, HandlerFaultListener {
     /** Registers an application's own handlers. */
     interface Setup {
-        /** Takes what handlers are registered in; on the loop, before anything begins. */
+        /** Takes the registry for handlers; on the loop, before the start. */
         void onUp(Up up, TelemetrySource telemetry);
     }
 
@@ -89,7 +89,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         }
     }
 
-    /** Ends everything; answers that are still due say that the link is lost. */
+    /** Ends everything; outstanding answers report a lost link. */
     void end() {
         isEnded = true;
         network.end();

@@ -70,7 +70,7 @@ final class GroundView implements Runnable {
         }
     }
 
-    /** Forgets everything, as before another link; the watchers hear that nothing is known. */
+    /** Clears everything, as before another link; the watchers are notified. */
     void forget() {
         synchronized (lock) {
             telemetry = Telemetry.NOTHING;

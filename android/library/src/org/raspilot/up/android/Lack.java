@@ -14,7 +14,7 @@ public enum Lack {
     GYROSCOPE,
     /** No barometer. */
     BAROMETER,
-    /** The system does not tell the battery's level. */
+    /** The system does not report the battery's level. */
     BATTERY,
     /** The system refused to read a sensor that is there. */
     REFUSED,

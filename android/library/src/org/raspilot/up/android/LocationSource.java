@@ -83,7 +83,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
             }
             besides.onFix(fix);
         } catch (RuntimeException wrong) {
-            // Whatever a receiver says: thrown on the system's thread it would end the flight.
+            // Catches every exception: on the system's thread it would end the flight.
             bad.add(GPS, wrong);
         }
     }
@@ -120,7 +120,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         if (!has(GPS)) {
             return Lack.LOCATION;
         }
-        // The approximate location alone is blurred by kilometres: none to fly by.
+        // The approximate location alone is blurred by kilometres: not usable in flight.
         boolean isPermitted = Permissions.has(context, Manifest.permission.ACCESS_FINE_LOCATION);
         return isPermitted ? null : Lack.LOCATION_PERMISSION;
     }
@@ -137,7 +137,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
                 besides.onFix(fix(known));
             }
         } catch (RuntimeException refusal) {
-            // Not permitted, or no fix at all: the GPS will tell it.
+            // Not permitted, or no fix at all: the GPS will report it.
             bad.add(ROUGH, refusal);
         }
     }

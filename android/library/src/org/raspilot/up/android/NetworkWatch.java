@@ -21,7 +21,7 @@ final class NetworkWatch extends BroadcastReceiver {
         this.came = came;
     }
 
-    /** Begins to watch; on the main thread. */
+    /** Starts to watch; on the main thread. */
     void begin() {
         if (Build.VERSION.SDK_INT >= 23) {
             end = NetworkCalls.begin(context, came);
@@ -32,7 +32,7 @@ final class NetworkWatch extends BroadcastReceiver {
         }
     }
 
-    /** Ends it; on the main thread, twice without effect. */
+    /** Stops it; on the main thread, later calls have no effect. */
     void end() {
         if (end != null) {
             end.run();

@@ -12,7 +12,7 @@ import org.raspilot.up.providers.SensorSource;
 public final class RotationFeed {
     private final SensorSource<Rotation> source;
 
-    /** Looks what there is to know it by. */
+    /** Finds the available source of orientation. */
     public RotationFeed(Context context, SourceTexts texts, ProblemListener problems) {
         final Handler main = new Handler(Looper.getMainLooper());
         SensorDesk desk = new SensorDesk(context.getApplicationContext(),
@@ -42,7 +42,7 @@ public final class RotationFeed {
         }
     }
 
-    /** Ends it. */
+    /** Stops it. */
     public void end() {
         source.unsubscribe();
     }

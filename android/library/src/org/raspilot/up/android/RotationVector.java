@@ -3,7 +3,7 @@ package org.raspilot.up.android;
 import java.util.Arrays;
 import org.raspilot.up.providers.Rotation;
 
-/** The values of the system's rotation vector, with which some phones begin by four zeros. */
+/** The values of the system's rotation vector; on some phones the first event has four zeros. */
 final class RotationVector {
     private static final int AXES = 3;
 

@@ -31,7 +31,7 @@ final class SensorDesk {
         return sensors == null ? null : sensors.getDefaultSensor(type);
     }
 
-    /** Begins to listen; returns whether the system agreed. */
+    /** Starts to listen; returns whether the system accepted. */
     boolean listen(SensorEventListener listener, Sensor sensor, long periodMs) {
         int periodUs = periodUs(periodMs);
         if (Build.VERSION.SDK_INT >= 23) {
@@ -40,7 +40,7 @@ final class SensorDesk {
         return sensors.registerListener(listener, sensor, periodUs, handler);
     }
 
-    /** Ends listening, to all sensors. */
+    /** Stops listening, to all sensors. */
     void forget(SensorEventListener listener) {
         if (sensors != null) {
             sensors.unregisterListener(listener);

@@ -62,17 +62,17 @@ public final class SpawnResult {
         return values.getString(SENTENCE);
     }
 
-    /** Returns where the instance listens, {@code host:general:orientation}; null: nowhere. */
+    /** Returns the address of the instance, {@code host:general:orientation}, or null. */
     public String place() {
         return values.getString(PLACE);
     }
 
-    /** Returns the proxy's host for the ground; null: not told. */
+    /** Returns the proxy's host for the ground; null: absent. */
     public String proxyHost() {
         return values.getString(PROXY_HOST);
     }
 
-    /** Returns the proxy's port for the ground; 0: not told. */
+    /** Returns the proxy's port for the ground; 0: absent. */
     public int proxyPort() {
         return values.getInt(PROXY_PORT);
     }

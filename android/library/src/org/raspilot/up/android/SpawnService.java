@@ -31,11 +31,11 @@ public final class SpawnService extends IntentService {
     }
 
     /**
-     * Asks.
+     * Sends a request.
      *
      * @param aircraft the aircraft's name
      * @param profile a ready-made configuration of the runner; empty: none
-     * @param answer hears one message with {@link #result}
+     * @param answer receives one message with {@link #result}
      */
     public static void ask(Context context, String host, int port, String aircraft,
             String profile, Messenger answer) {
@@ -47,7 +47,7 @@ public final class SpawnService extends IntentService {
                 .putExtra(ANSWER, answer));
     }
 
-    /** Returns what a message to the messenger says. */
+    /** Returns the result in a message to the messenger. */
     public static SpawnResult result(Message message) {
         return SpawnResult.of(message.getData());
     }

@@ -41,8 +41,8 @@ public abstract class TelemetryService extends Service {
     protected abstract GroundSettings readSettings();
 
     /**
-     * Returns whether sockets stay on a Wi-Fi in whose network the other end lies, from Android 6
-     * on, as for an aircraft's own access point without internet.
+     * Returns whether sockets stay on a Wi-Fi whose network contains the peer, from Android 6 on,
+     * as for an aircraft's own access point without internet.
      */
     protected boolean isOnWifi() {
         return false;
@@ -120,27 +120,27 @@ public abstract class TelemetryService extends Service {
             begin();
         }
 
-        /** Returns the clock by which ages are asked, ms. */
+        /** Returns the time to compute ages with, ms. */
         public long nowMs() {
             return run == null ? SystemClock.elapsedRealtime() : run.nowMs();
         }
 
-        /** Returns the newest frame; {@link Telemetry#NOTHING}: none yet. */
+        /** Returns the newest frame; {@link Telemetry#NOTHING} before the first. */
         public Telemetry telemetry() {
             return view.telemetry();
         }
 
-        /** Returns the newest status; null: none yet. */
+        /** Returns the newest status; null before the first. */
         public GroundStatus status() {
             return view.status();
         }
 
-        /** Returns the newest track; null: none yet. */
+        /** Returns the newest track; null before the first. */
         public Track.Snapshot track() {
             return view.track();
         }
 
-        /** Returns what happened; null: nothing is known yet. */
+        /** Returns the events; null: nothing is known yet. */
         public EventLog.Snapshot events() {
             return view.events();
         }
@@ -166,7 +166,7 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Asks which gains fly. */
+        /** Requests the active gains. */
         public void askGains(AnswerListener listener) {
             ask(PidTuningsCommand.NAME, listener, new Asking() {
                 @Override
@@ -197,7 +197,7 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Asks for the seat that commands. */
+        /** Requests the seat that commands. */
         public void requestSeat() {
             post(new GroundRun.Call() {
                 @Override
@@ -258,9 +258,9 @@ public abstract class TelemetryService extends Service {
         }
     }
 
-    /** Something that is asked of the aircraft, on the loop. */
+    /** A request to the aircraft, on the loop. */
     private interface Asking {
-        /** Asks it. */
+        /** Sends it. */
         void ask(GroundSide side, AnswerListener answers);
     }
 }

@@ -21,8 +21,8 @@ final class WifiWay {
     /** The system's part. */
     interface Wifi {
         /**
-         * Binds the sockets that are made from now on to the Wi-Fi in whose network an address
-         * lies; null: to any. Returns whether there is one.
+         * Binds future sockets to the Wi-Fi whose network contains an address; null: to any.
+         * Returns whether there is one.
          */
         boolean bind(String address);
 
@@ -40,10 +40,10 @@ final class WifiWay {
     private long turnMs;
 
     /**
-     * Begins unbound.
+     * Starts unbound.
      *
      * @param isWanted false: it is never bound
-     * @param host the other end as the settings name it; empty: found by Discovery
+     * @param host the peer in the settings; empty: found by Discovery
      */
     WifiWay(Wifi wifi, boolean isWanted, String host) {
         this.wifi = wifi;
@@ -97,7 +97,7 @@ final class WifiWay {
         release();
     }
 
-    /** Binds where that is possible; returns whether it is another way than before. */
+    /** Binds if possible; returns whether the path has changed. */
     private boolean keepTo(String address) {
         if (!wifi.bind(address)) {
             return release();
@@ -116,7 +116,7 @@ final class WifiWay {
         return wasBound;
     }
 
-    /** Returns an address in numbers; null for a name, which lies nowhere before it is asked. */
+    /** Returns a numeric address; null for a name, which is in no network before its look-up. */
     private static String address(String host) {
         return NUMBERS.matcher(host).matches() ? host : null;
     }

@@ -17,7 +17,7 @@ import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.CommandForm;
 
-/** A Command whose one field is a choice among few: a button for each, asked about once more. */
+/** A Command whose one field is a choice of few values: a button for each, with a confirmation. */
 final class ChoicePage implements Page {
     private static final int MOST = 6;
 

@@ -4,7 +4,7 @@ import java.util.Locale;
 
 /** What belongs together in the list of Commands. */
 enum CommandGroup {
-    /** How and where it flies. */
+    /** Flight and navigation. */
     FLIGHT,
     /** The flight controller's board. */
     BOARD,

@@ -34,7 +34,7 @@ final class CommandHistory {
         final long atMs;
         /** The outcome. */
         final Outcome outcome;
-        /** Why, without a full stop; empty where there is nothing to say. */
+        /** The reason, without a full stop, or an empty text. */
         final String reason;
         /** Time until the answer, ms; null if there was none or it is unknown. */
         final Long roundTripMs;

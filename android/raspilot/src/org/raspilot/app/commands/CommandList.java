@@ -15,7 +15,7 @@ import org.raspilot.app.view.Inks;
 import org.raspilot.app.view.Texts;
 import org.raspilot.up.commands.CommandForm;
 
-/** Every Command of the catalogue in groups; those that the searched words name. */
+/** Every Command of the catalogue in groups, filtered by the searched words. */
 final class CommandList extends BaseAdapter {
     private static final int HEADING = 0;
     private static final int COMMAND = 1;
@@ -39,7 +39,7 @@ final class CommandList extends BaseAdapter {
         search("");
     }
 
-    /** Shows the Commands in whose title, name or text each of the words stands. */
+    /** Shows the Commands whose title, name or text contains each of the words. */
     void search(String wanted) {
         lines.clear();
         for (CommandGroup group : CommandGroup.values()) {
@@ -124,7 +124,7 @@ final class CommandList extends BaseAdapter {
         TextView title = (TextView) row.findViewById(R.id.command_title);
         title.setText(CommandWords.title(words, form.name()));
         ((TextView) row.findViewById(R.id.command_name)).setText(form.name());
-        // It opens all the same: its page says why it is not offered.
+        // It opens nevertheless: its page states why it is not offered.
         Texts.colour(title, isOffered(form) ? inks.ink : inks.dim);
         return row;
     }

@@ -6,7 +6,7 @@ import org.raspilot.app.R;
 import org.raspilot.app.ground.Picture;
 import org.raspilot.up.ground.Freshness;
 
-/** The English of the Commands: titles, groups, objections, and what they ask for. */
+/** The English texts of the Commands: titles, groups, objections, and requests. */
 final class CommandWords {
     private CommandWords() {
     }

@@ -94,17 +94,17 @@ public final class CommandsMemory extends Fragment {
         return gains;
     }
 
-    /** Returns the name of the Command whose form is open; empty: none is. */
+    /** Returns the name of the Command whose form is open, or an empty text. */
     String open() {
         return open;
     }
 
-    /** Says whose form is open; empty: none is. */
+    /** Sets the Command whose form is open; empty: none. */
     void setOpen(String name) {
         open = name;
     }
 
-    /** Returns the words that are looked for. */
+    /** Returns the words of the search. */
     String search() {
         return search;
     }
@@ -114,7 +114,7 @@ public final class CommandsMemory extends Fragment {
         search = words;
     }
 
-    /** Tells this screen of answers from now on; null: none. */
+    /** Sets the screen that is notified of answers; null: none. */
     void setListener(Listener newListener) {
         listener = newListener;
     }

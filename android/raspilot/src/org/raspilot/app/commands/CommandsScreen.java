@@ -49,7 +49,7 @@ final class CommandsScreen
         this.memory = memory;
         this.forms = forms;
         frame = new FrameLine((FrameText) root.findViewById(R.id.ground_frame));
-        // Where the ground screen stands beside this one, the seat is there.
+        // If the ground screen is visible beside this one, the seat is there.
         seat = root.findViewById(R.id.seat_line) == null ? null : new SeatPanel(root);
         history = new HistoryPanel(root, memory.history());
         confirmation = new Confirmation(activity);
@@ -72,7 +72,9 @@ final class CommandsScreen
         open(memory.open());
     }
 
-    /** Asks this ground from now on; null: none. What another one's screen showed is not seen. */
+    /**
+     * Sets the ground; null: none. Frames that another ground's screen showed do not count as seen.
+     */
     void setGround(TelemetryService.Ground newGround) {
         ground = newGround;
         frame.forget();
@@ -86,7 +88,7 @@ final class CommandsScreen
         frame.update(picture());
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     void show() {
         showFrame();
         if (seat != null) {
@@ -101,12 +103,12 @@ final class CommandsScreen
         history.update();
     }
 
-    /** Takes a question back that is asked. */
+    /** Closes an open confirmation. */
     void dismiss() {
         confirmation.dismiss();
     }
 
-    /** Lets go of the views. */
+    /** Releases the views. */
     void close() {
         dismiss();
         setGround(null);

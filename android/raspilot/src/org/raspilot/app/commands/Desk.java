@@ -8,9 +8,9 @@ import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.ground.GainsDesk;
 
-/** What the page of a Command asks of the screen that it is on. Main thread only. */
+/** The services that a Command's page needs from its screen. Main thread only. */
 interface Desk {
-    /** Returns where views and words come from. */
+    /** Returns the source of views and texts. */
     Context context();
 
     /** Returns the current state. */
@@ -31,7 +31,7 @@ interface Desk {
     /** Sends a Command immediately, with the beacon of the frame that was drawn last. */
     void send(BaseCommand command, String words);
 
-    /** Asks the aircraft which gains fly. */
+    /** Requests the active gains from the aircraft. */
     void askGains();
 
     /** Sends a set of gains. */

@@ -42,7 +42,7 @@ final class FieldView implements FieldInput.ChangeListener {
             input.setText(kept);
         }
         if (!input.text().isEmpty()) {
-            // A switch says something from the beginning.
+            // A switch has a value from the start.
             draft.put(field.name(), input.text());
         }
         isReady = true;

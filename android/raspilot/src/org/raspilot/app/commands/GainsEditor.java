@@ -149,7 +149,7 @@ final class GainsEditor {
         return axes[0] == null ? null : new LoopGains(axes[0], axes[1], axes[2]);
     }
 
-    /** Returns what sending would change; empty while a cell holds no gain. */
+    /** Returns what sending would change; empty while a cell has no valid gain. */
     List<GainChange> changes() {
         try {
             return GainsDesk.difference(flying, wanted());

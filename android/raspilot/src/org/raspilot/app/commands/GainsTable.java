@@ -58,7 +58,7 @@ final class GainsTable {
         refill();
     }
 
-    /** Writes what the editor holds into every cell. */
+    /** Copies the editor's texts into every cell. */
     void refill() {
         isFilling = true;
         try {

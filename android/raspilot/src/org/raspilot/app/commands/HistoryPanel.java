@@ -43,7 +43,7 @@ final class HistoryPanel implements View.OnClickListener {
         setOpen(!isOpen());
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     void update() {
         Resources words = newest.getResources();
         CommandHistory.Entry entry = history.newest();

@@ -34,9 +34,9 @@ final class Permission {
     }
 
     /**
-     * Returns the least role that a Command needs.
+     * Returns the minimum role that a Command needs.
      *
-     * @param told what the catalogue says; {@code depends}: a field decides
+     * @param told by the catalogue; {@code depends}: a field decides
      */
     static String neededRole(String name, String told, Map<String, ?> data) {
         if (ROLES.contains(told)) {

@@ -32,7 +32,7 @@ final class AlarmPanel implements View.OnClickListener {
         silence.setOnClickListener(this);
     }
 
-    /** Shows the moment, and sounds what has to be heard. */
+    /** Shows the current state, and sounds the due alarms. */
     void update(Picture picture) {
         List<Alarm> active = picture.alarms == null
                 ? java.util.Collections.<Alarm>emptyList() : picture.alarms.active();

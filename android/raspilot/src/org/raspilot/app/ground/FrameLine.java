@@ -47,7 +47,7 @@ public final class FrameLine implements FrameText.DrawnListener {
         shownBeacon = beacon;
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     public void update(Picture picture) {
         Telemetry telemetry = picture.telemetry;
         Resources words = view.getResources();

@@ -3,7 +3,7 @@ package org.raspilot.app.ground;
 import org.raspilot.up.ground.Earth;
 
 /**
- * Ground speed worked out from the places that telemetry tells: it carries none itself.
+ * Ground speed computed from telemetry's positions: telemetry has no ground speed.
  *
  * <p>Main thread only.
  */

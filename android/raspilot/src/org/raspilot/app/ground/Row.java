@@ -12,7 +12,7 @@ import org.raspilot.app.view.Instrument;
 import org.raspilot.app.view.Texts;
 import org.raspilot.up.ground.Freshness;
 
-/** A line with a word and a value that looks old when it is old. */
+/** A label and a value that is greyed out when stale. */
 final class Row {
     /** The colour of a current value. */
     enum Look {
@@ -20,7 +20,7 @@ final class Row {
         PLAIN,
         /** As it should be. */
         GOOD,
-        /** It needs a look. */
+        /** It needs attention. */
         WARNING,
         /** It needs a hand now. */
         ALARM
@@ -60,9 +60,9 @@ final class Row {
     /**
      * Shows a value.
      *
-     * @param text what it is; ignored where it is not known
+     * @param text of the value; ignored if it is unknown
      * @param freshness LIVE, STALE (grey, hatched, with its age) or NONE
-     * @param age how old, in words
+     * @param age in words
      */
     void show(String text, Freshness freshness, String age, Look look) {
         boolean isStale = freshness == Freshness.STALE;

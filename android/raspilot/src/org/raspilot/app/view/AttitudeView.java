@@ -20,7 +20,7 @@ public final class AttitudeView extends Instrument {
     private float rollDeg;
     private float pitchDeg;
 
-    /** Makes the view as a layout asks for it. */
+    /** Creates the view from a layout. */
     public AttitudeView(Context context, AttributeSet attributes) {
         super(context, attributes);
         labels = new String[geometry.rungCount()];

@@ -22,7 +22,7 @@ public final class BarsView extends Instrument {
     private int shown = CHANNELS;
     private String title = "";
 
-    /** Makes the view as a layout asks for it; its content description is the title. */
+    /** Creates the view from a layout; its content description is the title. */
     public BarsView(Context context, AttributeSet attributes) {
         super(context, attributes);
         names = getResources().getStringArray(R.array.view_channels);

@@ -14,7 +14,7 @@ public final class CompassGeometry {
         return positive >= 360 ? 0 : positive;
     }
 
-    /** Returns how far it is from one direction to another the short way, -180 to 180. */
+    /** Returns the shorter turn from one direction to another, -180 to 180. */
     public static float turn(float fromDeg, float toDeg) {
         float turn = wrapped(toDeg - fromDeg);
         return turn > 180 ? turn - 360 : turn;

@@ -31,7 +31,7 @@ public final class HoldButton extends Button {
         /** Takes a click without a press: to be confirmed before anything is done. */
         void onClickedOnly(View button);
 
-        /** Takes a press that ended too early, to say that it must be held. */
+        /** Called when a press ended too early, to show that it must be held. */
         void onTooShort(View button);
     }
 
@@ -52,7 +52,7 @@ public final class HoldButton extends Button {
     private float downX;
     private float downY;
 
-    /** Makes the view as a layout asks for it. */
+    /** Creates the view from a layout. */
     public HoldButton(Context context, AttributeSet attributes) {
         super(context, attributes);
         density = getResources().getDisplayMetrics().density;
@@ -229,7 +229,7 @@ public final class HoldButton extends Button {
         }
     }
 
-    /** Makes a press under way count no more; a key that the focus left is never let go here. */
+    /** Makes a press in progress void; after a focus change a key's release never arrives here. */
     private void cancel() {
         // Button's constructor calls setEnabled() and the like before the fields are there.
         if (press == null) {

@@ -1,7 +1,7 @@
 package org.raspilot.app.view;
 
 /**
- * Where everything of an artificial horizon is drawn, in pixels around the middle of the picture.
+ * Positions of the parts of an artificial horizon, in pixels around the middle of the picture.
  *
  * <p>Right wing down turns the ball to the left, nose up moves it down (thesis 4.5.3; angles as in
  * docs/protocols.md: degrees, roll positive right wing down, pitch positive nose up). Nothing is
@@ -37,7 +37,7 @@ public final class HorizonGeometry {
      * Takes an attitude.
      *
      * @param roll degrees, right wing down positive
-     * @param pitch degrees, nose up positive; beyond the zenith and nadir it stays there
+     * @param pitch degrees, nose up positive; limited to zenith and nadir
      */
     public void turn(float roll, float pitch) {
         rollDeg = roll;
@@ -69,7 +69,7 @@ public final class HorizonGeometry {
         return RUNGS_DEG[rung];
     }
 
-    /** Returns where a rung is on the ball, pixels below the horizon. */
+    /** Returns the position of a rung on the ball, pixels below the horizon. */
     public float rungY(int rung) {
         return -RUNGS_DEG[rung] * unitsPerDeg;
     }

@@ -73,7 +73,7 @@ public final class Inks {
         }
     }
 
-    /** Returns the colours in which the same thing is drawn when it is old: greys. */
+    /** Returns the colours of stale values: greys. */
     public Inks stale() {
         return new Inks(this);
     }

@@ -36,7 +36,7 @@ public abstract class Instrument extends View {
     private String age = "";
     private float[] hatching = new float[0];
 
-    /** Makes the view as a layout asks for it. */
+    /** Creates the view from a layout. */
     protected Instrument(Context context, AttributeSet attributes) {
         super(context, attributes);
         density = getResources().getDisplayMetrics().density;
@@ -50,10 +50,10 @@ public abstract class Instrument extends View {
     }
 
     /**
-     * Takes how old the readings are.
+     * Takes the age of the readings.
      *
      * @param now LIVE, STALE or NONE
-     * @param ageText how old, in words; said where the reading is stale
+     * @param ageText in words; shown if the reading is stale
      */
     public final void setFreshness(Freshness now, String ageText) {
         String shown = now == Freshness.STALE ? ageText : "";
@@ -77,7 +77,7 @@ public abstract class Instrument extends View {
         centred(canvas, UNKNOWN, getWidth() / 2f, getHeight() / 2f, 24, inks().dim);
     }
 
-    /** Returns the readings in words for who cannot see them, without their age. */
+    /** Returns the readings in words for screen readers, without their age. */
     protected abstract String describe();
 
     /** Returns the current colours: greys where the reading is stale. */
@@ -152,7 +152,7 @@ public abstract class Instrument extends View {
         event.getText().add(getContentDescription());
     }
 
-    /** Returns where the age stands, as a share of the width, where readings leave room. */
+    /** Returns the position of the age, as a share of the width, clear of the readings. */
     protected float ageAcross() {
         return 0.5f;
     }
@@ -169,7 +169,7 @@ public abstract class Instrument extends View {
         written(canvas, text, x, y, sizeSp, colour);
     }
 
-    /** Draws letters that begin at a point, their middle at its height; the size in sp. */
+    /** Draws text that starts at a point, vertically centred on it; the size in sp. */
     protected final void after(Canvas canvas, String text, float x, float y, float sizeSp,
             int colour) {
         letters.setTextAlign(Paint.Align.LEFT);

@@ -60,7 +60,7 @@ public final class TapeGeometry {
         return (firstMark() + place) * step;
     }
 
-    /** Returns how far marks are moved from where they stand for a whole step. */
+    /** Returns the offset of the marks from their positions at a whole step. */
     public float shift() {
         return shift;
     }

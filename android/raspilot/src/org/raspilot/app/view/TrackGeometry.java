@@ -10,7 +10,7 @@ package org.raspilot.app.view;
 public final class TrackGeometry {
     private static final double LEAST_PIXELS_PER_M = 1e-4;
     private static final double MOST_PIXELS_PER_M = 40;
-    /** Nothing nearer than this is worth filling the picture with. */
+    /** The minimum span of the picture, m. */
     private static final double LEAST_SPAN_M = 40;
     private static final double MARGIN = 0.12;
 
@@ -45,12 +45,12 @@ public final class TrackGeometry {
     }
 
     /**
-     * Shows all of a rectangle, unless somebody has moved the picture by hand.
+     * Shows all of a rectangle, unless the user has moved the picture.
      *
-     * @param southM of home, as metres north: the least
-     * @param mostNorthM metres north of home: the greatest
-     * @param westM metres east of home: the least
-     * @param mostEastM metres east of home: the greatest
+     * @param southM of home, as metres north: the minimum
+     * @param mostNorthM metres north of home: the maximum
+     * @param westM metres east of home: the minimum
+     * @param mostEastM metres east of home: the maximum
      */
     public void fit(double southM, double mostNorthM, double westM, double mostEastM) {
         if (!isAutomatic) {
@@ -64,7 +64,7 @@ public final class TrackGeometry {
         scaleTo(Math.min(height * room / spanNorthM, width * room / spanEastM));
     }
 
-    /** Moves the picture by a finger's way, pixels. */
+    /** Moves the picture by a finger's movement, pixels. */
     public void drag(float rightPx, float downPx) {
         isAutomatic = false;
         eastM -= rightPx / pixelsPerM;
@@ -72,9 +72,9 @@ public final class TrackGeometry {
     }
 
     /**
-     * Makes the picture larger around a point that stays where it is.
+     * Enlarges the picture around a fixed point.
      *
-     * @param factor above 1 enlarges; not above 0 or no number: nothing happens
+     * @param factor above 1 enlarges; no effect if not above 0 or not a number
      * @param x of the point, pixels
      * @param y of the point, pixels
      */
@@ -90,7 +90,7 @@ public final class TrackGeometry {
         northM = atNorthM + (y - height / 2) / pixelsPerM;
     }
 
-    /** Puts the picture where it was kept: see the getters. */
+    /** Restores a stored section: see the getters. */
     public void restore(double middleNorthM, double middleEastM, double scalePixelsPerM) {
         isAutomatic = false;
         northM = middleNorthM;
@@ -113,12 +113,12 @@ public final class TrackGeometry {
         return pixelsPerM;
     }
 
-    /** Returns where a place is drawn, pixels from the left. */
+    /** Returns the horizontal position of a place, pixels from the left. */
     public float x(double placeEastM) {
         return (float) (width / 2 + (placeEastM - eastM) * pixelsPerM);
     }
 
-    /** Returns where a place is drawn, pixels from above. */
+    /** Returns the vertical position of a place, pixels from the top. */
     public float y(double placeNorthM) {
         return (float) (height / 2 - (placeNorthM - northM) * pixelsPerM);
     }
@@ -151,7 +151,7 @@ public final class TrackGeometry {
         return Math.ceil(leastM / stepM) * stepM;
     }
 
-    /** Returns a distance in words: {@code 250 m}, {@code 2.5 km}. */
+    /** Formats a distance: {@code 250 m}, {@code 2.5 km}. */
     public static String distanceText(double metres) {
         double away = Math.abs(metres);
         if (away < 999.5) {

@@ -36,7 +36,7 @@ final class InputLine {
         return (Long) value;
     }
 
-    /** Returns what the network brought; null: nothing. Raises OptionException. */
+    /** Returns the events of the network, or null. Throws OptionException. */
     List<?> network() throws OptionException {
         Object value = fields.get("net");
         if (value != null && !(value instanceof List)) {

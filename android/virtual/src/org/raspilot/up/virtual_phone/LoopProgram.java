@@ -21,7 +21,7 @@ final class LoopProgram implements FaultListener {
 
     /** What it consists of; all calls come on the loop. */
     interface Part {
-        /** Begins on this loop. */
+        /** Starts on this loop. */
         void start(Loop loop);
 
         /**
@@ -31,7 +31,7 @@ final class LoopProgram implements FaultListener {
          */
         void take(Map<?, ?> line) throws OptionException;
 
-        /** Ends. */
+        /** Stops. */
         void stop();
     }
 

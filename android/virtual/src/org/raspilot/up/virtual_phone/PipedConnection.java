@@ -16,9 +16,9 @@ final class PipedConnection implements TcpConnection {
     private boolean isClosed;
     private boolean isFull;
 
-    /** One thing that happens to a connection. */
+    /** One event of a connection. */
     interface Event {
-        /** Lets it happen. */
+        /** Runs it. */
         void happen(PipedConnection connection);
     }
 

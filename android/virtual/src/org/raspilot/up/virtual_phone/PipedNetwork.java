@@ -39,7 +39,7 @@ final class PipedNetwork implements Network {
         return port;
     }
 
-    /** Asks the simulator for something. */
+    /** Sends a request to the simulator. */
     void ask(Object... words) {
         toDo.add(Arrays.asList(words));
     }

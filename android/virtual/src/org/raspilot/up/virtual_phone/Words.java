@@ -8,7 +8,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.wire.Json;
 
-/** What a program says: JSON objects, one a line; may be used on any thread. */
+/** The output of a program: JSON objects, one a line; may be used on any thread. */
 final class Words {
     private static final Charset ASCII = Charset.forName("US-ASCII");
 
@@ -31,7 +31,7 @@ final class Words {
         return "a fault: " + fault + (trace.length > 0 ? " at " + trace[0] : "");
     }
 
-    /** Begins an event of that name; more fields may be put into it. */
+    /** Starts an event of that name; more fields may be put into it. */
     static Map<String, Object> event(String name) {
         Map<String, Object> fields = new LinkedHashMap<String, Object>();
         fields.put("event", name);
@@ -59,12 +59,12 @@ final class Words {
         }
     }
 
-    /** Says a sentence. */
+    /** Prints a sentence. */
     void notice(String sentence) {
         say(event("notice", "text", sentence));
     }
 
-    /** Lets everything that was said be heard. */
+    /** Flushes the output. */
     synchronized void flush() {
         try {
             out.flush();

@@ -4,12 +4,12 @@ import android.app.Activity;
 import android.content.Context;
 import android.os.PowerManager;
 
-/** Permissions that are asked for at run time, and the system's battery optimisation (API 23). */
+/** Run-time permissions, and the system's battery optimisation (API 23). */
 public final class Asking {
     private Asking() {
     }
 
-    /** Shows the system's question; the activity's onRequestPermissionsResult hears the answer. */
+    /** Shows the system's dialog; the activity's onRequestPermissionsResult receives the answer. */
     public static void forPermissions(Activity activity, String[] permissions, int request) {
         activity.requestPermissions(permissions, request);
     }

@@ -5,7 +5,7 @@ import android.hardware.SensorEventListener;
 import android.hardware.SensorManager;
 import android.os.Handler;
 
-/** Sensors whose readings are not collected first (API 19, reached from 23 on). */
+/** Sensors whose readings are not batched (API 19, reached from 23 on). */
 public final class SensorRates {
     private SensorRates() {
     }
