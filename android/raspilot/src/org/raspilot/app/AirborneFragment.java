@@ -10,9 +10,7 @@ import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService;
 import org.raspilot.up.android.ProblemListener;
 
-/**
- * The airborne screen: the sent readings, their rates, the destination, and the phone's mounting.
- */
+/** The airborne screen: sent readings, rates, destination, and the phone's mounting. */
 public final class AirborneFragment extends Fragment
         implements AirborneLink.Watcher, EventBook.Watcher, SpawnDesk.Watcher {
     private static final String IS_STARTING = "starting";

@@ -66,8 +66,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
 
     private void makeTabs() {
         ActionBar bar = getActionBar();
-        // On a phone the tabs show the current screen; a title would take another tenth of the
-        // height.
+        // On a phone the tabs name the screen; a title would take another tenth of it.
         bar.setDisplayShowHomeEnabled(false);
         bar.setDisplayShowTitleEnabled(isTwoPanes);
         if (!isTwoPanes) {

@@ -15,9 +15,7 @@ import java.util.List;
 import org.raspilot.up.android.Permissions;
 import org.raspilot.up.android.api23.Asking;
 
-/**
- * The phone's settings that the app needs, with a link to them, and whether the screen stays on.
- */
+/** The phone's settings that the app needs, links to them, and whether the screen stays on. */
 final class PhonePanel {
     private static final int REQUEST = 1;
     /** Android 6; the API 16 stubs do not know it. */

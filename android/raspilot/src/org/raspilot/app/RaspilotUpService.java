@@ -69,9 +69,7 @@ public final class RaspilotUpService extends BaseUpService {
         RaspilotApplication.of(this).note(getString(R.string.altitude_zeroed, hPa));
     }
 
-    /**
-     * Applies the settings that take effect immediately; all others take effect at the next start.
-     */
+    /** Applies the settings that take effect immediately; others do at the next start. */
     private void takeChange(String key) {
         if (getString(R.string.key_mounting).equals(key)) {
             setMounting(new AppSettings(this).mounting());

@@ -86,8 +86,7 @@ final class SpawnDesk {
         try {
             BaseUpService.start(application, RaspilotUpService.class);
         } catch (IllegalStateException refusal) {
-            // The user has left the application, and this system does not start services from the
-            // background.
+            // The user has left the app, and this system starts no service from the background.
             application.note(application.getString(R.string.start_refused));
         }
     }

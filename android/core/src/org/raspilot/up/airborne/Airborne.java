@@ -145,9 +145,7 @@ public final class Airborne {
         return basics.altitude().zeroHere();
     }
 
-    /**
-     * Retries immediately instead of after the wait, for example when the phone's network is back.
-     */
+    /** Retries immediately instead of after the wait, as when the phone's network is back. */
     public void networkChanged() {
         if (isRunning) {
             link.reconnectNow();

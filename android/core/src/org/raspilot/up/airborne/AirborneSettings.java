@@ -6,8 +6,7 @@ import java.util.List;
 import org.raspilot.up.providers.Mounting;
 
 /**
- * Settings of the airborne side; created by its {@link Builder}, whose {@code build()} validates
- * them.
+ * Settings of the airborne side, created by its {@link Builder}, which validates them.
  *
  * <p>Ports and addresses are by default those of the Raspberry Pi's {@code android.yml}, {@code
  * discovery.yml} and {@code runner.yml}.
@@ -81,10 +80,7 @@ public final class AirborneSettings {
         return discoveryPort;
     }
 
-    /**
-     * Returns the addresses of Discovery requests; empty: 255.255.255.255 and every interface's
-     * own.
-     */
+    /** Returns Discovery's targets; empty: 255.255.255.255 and every interface's own. */
     public List<String> discoveryHosts() {
         return discoveryHosts;
     }
@@ -149,10 +145,7 @@ public final class AirborneSettings {
         return mounting;
     }
 
-    /**
-     * Returns whether a server is requested from a runner: in Black Box Mode with a configured
-     * runner.
-     */
+    /** Returns whether a runner starts the server: in Black Box Mode, if one is configured. */
     public boolean isByRunner() {
         return mode == AirborneMode.BLACK_BOX && !runnerHost.isEmpty();
     }
@@ -218,10 +211,7 @@ public final class AirborneSettings {
             return this;
         }
 
-        /**
-         * Sets the addresses of Discovery requests; empty: 255.255.255.255 and every interface's
-         * own.
-         */
+        /** Sets Discovery's targets; empty: 255.255.255.255 and every interface's own. */
         public Builder discoveryHosts(List<String> value) {
             discoveryHosts = new ArrayList<String>(value);
             return this;

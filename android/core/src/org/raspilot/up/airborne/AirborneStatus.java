@@ -63,9 +63,7 @@ public final class AirborneStatus {
         return orientation;
     }
 
-    /**
-     * Returns the destination of orientation, or why it is not sent, in a sentence; or {@code off}.
-     */
+    /** Returns orientation's destination, or why it is not sent (a sentence); {@code off}. */
     public String orientationText() {
         return orientationText;
     }

@@ -30,8 +30,7 @@ final class AnswerWatch {
     /**
      * Creates a watch.
      *
-     * @param prefix of the ids, up to 8 hexadecimal digits and a dot: it identifies the phone
-     *     (protocols 4)
+     * @param prefix of the ids, up to 8 hexadecimal digits and a dot; the phone's (protocols 4)
      */
     AnswerWatch(Loop loop, String prefix, Runnable onDead) {
         this.loop = loop;

@@ -94,9 +94,7 @@ public final class CommandField {
         return text;
     }
 
-    /**
-     * Returns the error of a JSON value as a sentence that names the field, or null if it is valid.
-     */
+    /** Returns the error of a JSON value, a sentence that names the field, or null. */
     public String validate(Object value) {
         if (value == null && nullable) {
             return null;

@@ -73,9 +73,7 @@ public final class CommandForm {
         return fields.get(fieldName);
     }
 
-    /**
-     * Returns the error of JSON data as a sentence that names the field, or null if it is valid.
-     */
+    /** Returns the error of JSON data, a sentence that names the field, or null. */
     public String validate(Map<String, ?> data) {
         for (Map.Entry<String, ?> given : data.entrySet()) {
             CommandField field = fields.get(given.getKey());

@@ -43,8 +43,7 @@ public final class PanicCommand extends BaseCommand {
         super(NAME, message);
         CommandFields fields = new CommandFields(message.data());
         panic = fields.flag("panic");
-        // An older Raspberry Pi sends 0 and fractions; round up, so that no period is shorter than
-        // wanted.
+        // An older Raspberry Pi sends 0 and fractions; rounding up never shortens a period.
         delayMs = (long) Math.ceil(fields.number("delay_ms", 0, 10000));
         utilizationPercent = fields.optionalNumber("utilization", 0, 100);
     }

@@ -19,10 +19,7 @@ public abstract class BaseTelemetryHandler<T> extends BaseCommandHandler {
         this.source = source;
     }
 
-    /**
-     * Returns the wanted value of a frame, or null if absent; {@link #onTelemetry} is not called
-     * then.
-     */
+    /** Returns the wanted value of a frame; null skips {@link #onTelemetry}. */
     protected abstract T read(Telemetry telemetry);
 
     /** Processes the value; {@code age} gives its age, now and later. */

@@ -1,8 +1,6 @@
 package org.raspilot.up.ground;
 
-/**
- * The last state reported to a {@link GroundListener}: changes immediately, figures every second.
- */
+/** The last state sent to a {@link GroundListener}: changes immediately, figures each s. */
 final class Bulletin {
     private static final long STATUS_MS = 1000;
 

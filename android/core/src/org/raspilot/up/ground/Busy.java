@@ -2,9 +2,7 @@ package org.raspilot.up.ground;
 
 import java.util.Locale;
 
-/**
- * States in words that the Raspberry Pi is busy; all instances are equal, which makes it one event.
- */
+/** States in words that the Raspberry Pi is busy; all are equal, so that it is one event. */
 public final class Busy {
     private final String words;
 

@@ -80,10 +80,7 @@ final class CommandDesk {
         return null;
     }
 
-    /**
-     * Returns the state of the seat; a seat that was left is not ours, even before the proxy confirms
-     * it.
-     */
+    /** Returns the state of the seat; a seat we left is not ours, even while unconfirmed. */
     SeatStanding standing() {
         final LinkFacts facts = link.facts();
         return SeatStanding.of(facts, settings.isDirect());

@@ -60,9 +60,7 @@ public final class GainKey {
         return LOOP_WORDS[loop] + " " + AXIS_WORDS[axis] + " " + term().toUpperCase(Locale.ROOT);
     }
 
-    /**
-     * Returns whether a controller uses it; none holds a yaw angle, and none navigates yet.
-     */
+    /** Returns whether a controller uses it; none holds a yaw angle or navigates yet. */
     public boolean isUsed() {
         return loop == 0 || loop == 1 && axis < 2;
     }

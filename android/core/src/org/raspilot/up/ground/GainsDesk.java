@@ -11,10 +11,7 @@ import org.raspilot.up.commands.InvalidCommandException;
 import org.raspilot.up.commands.PidTuningsCommand;
 import org.raspilot.up.loop.Loop;
 
-/**
- * Requests the gains, tracks the active set, replaces it as a whole and undoes changes. Only on the
- * loop.
- */
+/** Requests, tracks, replaces and restores the active gains, as whole sets. On the loop only. */
 public final class GainsDesk {
     /** Maximum number of sets that are kept and can be undone. */
     public static final int KEPT = 50;
@@ -160,10 +157,7 @@ public final class GainsDesk {
         return GainSet.ofData(data);
     }
 
-    /**
-     * Takes the active gains that the aircraft reports; returns false if the value is not a set of
-     * gains.
-     */
+    /** Takes the aircraft's active gains; returns false if the value is not a set. */
     boolean told(Map<String, Object> values) {
         try {
             flying = GainSet.ofData(values);
@@ -186,8 +180,7 @@ public final class GainsDesk {
             ask(new AnswerListener() {
                 @Override
                 public void onAnswer(Answer answer) {
-                    // Automatic requests are sent once. The result is reported; the pilot can
-                    // request again.
+                    // One automatic request. Its result is reported; the pilot can request again.
                 }
             });
         }

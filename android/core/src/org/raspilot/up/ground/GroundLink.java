@@ -24,9 +24,7 @@ import org.raspilot.up.wire.Seat;
 final class GroundLink implements UpSocketListener {
     /** Timeout of the hello, ms. */
     static final long HELLO_TIMEOUT_MS = 5000;
-    /**
-     * By this time, ms, a proxy has reported who commands; an aircraft's own listener never does.
-     */
+    /** By then, ms, a proxy has reported who commands; an aircraft's own listener never does. */
     static final long HOLDER_TOLD_MS = 1000;
 
     private static final int CONNECT_TIMEOUT_MS = 5000;

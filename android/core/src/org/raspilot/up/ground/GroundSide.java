@@ -141,9 +141,7 @@ public final class GroundSide implements TelemetrySource {
         return gains;
     }
 
-    /**
-     * Called when the screen has drawn the frame with that beacon; null for a frame without one.
-     */
+    /** Called when the screen has drawn the frame with that beacon; null: without one. */
     public void seen(Long beacon) {
         beacons.seen(beacon);
     }
@@ -175,10 +173,7 @@ public final class GroundSide implements TelemetrySource {
         tellChanged();
     }
 
-    /**
-     * Requests the seat; a free one is granted immediately. Returns false if there is no link to
-     * request it on.
-     */
+    /** Requests the seat; a free one is granted immediately. Returns false without a link. */
     public boolean requestSeat() {
         return link.requestSeat();
     }

@@ -52,9 +52,7 @@ final class SeenBeacons {
         hasBeacons = false;
     }
 
-    /**
-     * Called when the screen has drawn the frame with that beacon; an older beacon has no effect.
-     */
+    /** Called when the screen has drawn the frame with that beacon; an older one is ignored. */
     void seen(Long beacon) {
         final Heard found = find(beacon);
         if (found != null && (seen == null || found.sentMs >= seen.sentMs)) {

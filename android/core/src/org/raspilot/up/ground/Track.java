@@ -41,10 +41,7 @@ public final class Track {
             return origin;
         }
 
-        /**
-         * Returns whether the origin is the aircraft's home; otherwise it is the first known
-         * position.
-         */
+        /** Returns whether the origin is home; otherwise it is the first known position. */
         public boolean isOriginHome() {
             return isOriginHome;
         }
@@ -57,9 +54,7 @@ public final class Track {
             return points;
         }
 
-        /**
-         * Returns the aircraft's position, possibly not a point of the track yet; null: unknown.
-         */
+        /** Returns the aircraft's position, which may not be on the track yet; null: unknown. */
         public TrackPoint newest() {
             return newest;
         }

@@ -2,9 +2,7 @@ package org.raspilot.up.loop;
 
 import java.util.concurrent.atomic.AtomicLong;
 
-/**
- * Runs calls so that an exception in one is reported and counted, and does not affect the others.
- */
+/** Runs calls so that an exception is reported and counted, and does not affect others. */
 final class Guard {
     private final FaultListener listener;
     private final AtomicLong faults = new AtomicLong();

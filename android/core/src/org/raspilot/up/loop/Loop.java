@@ -3,8 +3,7 @@ package org.raspilot.up.loop;
 /**
  * The one thread that owns all of the core's state: code on it needs no lock.
  *
- * <p>An exception in a call is reported to the loop's {@link FaultListener} and counted, and does
- * not affect other calls.
+ * <p>A call's exception is counted, and reported to the {@link FaultListener} only.
  */
 public interface Loop {
     /** Returns monotonic milliseconds from an arbitrary origin; may be called on any thread. */

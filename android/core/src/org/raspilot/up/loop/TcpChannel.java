@@ -161,8 +161,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
             final Socket socket = channel.socket();
             // Some systems do not know the local address yet: it may be null.
             if (socket.getRemoteSocketAddress().equals(socket.getLocalSocketAddress())) {
-                // On loopback a connection to a port without a listener may by chance connect to
-                // itself.
+                // On loopback a connection to an unused port may by chance connect to itself.
                 connectNext("no connection to " + peer + ": nobody listens");
                 return;
             }

@@ -9,9 +9,6 @@ public interface TcpConnection {
      */
     int write(byte[] bytes, int offset, int length);
 
-    /**
-     * Closes the connection immediately; the listener is not called afterwards. Later calls have no
-     * effect.
-     */
+    /** Closes immediately; the listener is not called afterwards. Idempotent. */
     void close();
 }

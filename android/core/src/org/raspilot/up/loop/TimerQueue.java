@@ -22,8 +22,7 @@ final class TimerQueue {
 
     /**
      * Removes and returns the first timer that is due at {@code now} and was added before {@code
-     * mark}, or null if there is none. Thus a timer that adds another without delay cannot starve
-     * others.
+     * mark}, or null. A timer that adds another without delay cannot starve others.
      */
     Timer take(long now, long mark) {
         final Timer first = timers.peek();

@@ -59,10 +59,7 @@ final class SendQueue {
         return true;
     }
 
-    /**
-     * Writes what the connection accepts now. Messages that were not started stay replaceable by
-     * newer ones.
-     */
+    /** Writes what the connection accepts now. Unstarted messages stay replaceable. */
     void flush(TcpConnection connection) {
         if (begun != null && !writeRest(connection)) {
             return;

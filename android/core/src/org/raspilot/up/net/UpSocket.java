@@ -87,9 +87,8 @@ public final class UpSocket {
     }
 
     /**
-     * Retries immediately instead of after the wait, for example when the phone's network is back;
-     * an attempt that has lasted longer than the shortest wait is restarted. No effect while
-     * connected.
+     * Retries immediately instead of after the wait, as when the phone's network is back; an
+     * attempt older than the shortest wait is restarted. No effect while connected.
      */
     public void reconnectNow() {
         final UpSocketStatus.State state = status.state();
@@ -247,10 +246,7 @@ public final class UpSocket {
         }
     }
 
-    /**
-     * One attempt and, if it succeeds, its connection; ignores events once it is not the current
-     * one.
-     */
+    /** One attempt and, if it succeeds, its connection; ignores events once replaced. */
     private final class Attempt implements FindListener, TcpListener {
         private final long beganMs = loop.nowMs();
         private long connectedMs;

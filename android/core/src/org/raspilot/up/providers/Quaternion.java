@@ -29,8 +29,7 @@ public final class Quaternion {
     /**
      * Returns the rotation that turns the three axes into these.
      *
-     * @param a the image of the first axis, of length one; b and c are orthogonal to it and each
-     *     other
+     * @param a image of the first axis, of length one; b and c are orthogonal to it and each other
      */
     static Quaternion ofAxes(double[] a, double[] b, double[] c) {
         // The greatest of the four is at least one: the rest is taken from it (Shepperd, 1978).

@@ -57,10 +57,7 @@ final class ShortestNumber {
         return digits;
     }
 
-    /**
-     * Returns the nearest decimal with that number of digits that parses back to the number, or
-     * null.
-     */
+    /** Returns the nearest decimal of that many digits that parses back to the number, or null. */
     private static BigDecimal nearest(BigDecimal exact, int digits, double number) {
         BigDecimal half = exact.round(new MathContext(digits, RoundingMode.HALF_EVEN));
         if (readsAs(half, number)) {

@@ -90,10 +90,7 @@ public abstract class BaseUpService extends Service {
         }
     }
 
-    /**
-     * Sets the pressure at altitude zero, hPa, immediately; no effect while the service does not
-     * run.
-     */
+    /** Sets the pressure at altitude zero, hPa, immediately; no effect while not running. */
     protected final void setReferencePressureHPa(double hPa) {
         if (run != null) {
             run.setReferencePressureHPa(hPa);
@@ -207,10 +204,7 @@ public abstract class BaseUpService extends Service {
             }
         }
 
-        /**
-         * Sets the altitude here to zero; {@link BaseUpService#onReferencePressure} receives the
-         * pressure.
-         */
+        /** Sets the altitude here to zero, then calls {@link BaseUpService#onReferencePressure}. */
         public void zeroAltitudeHere() {
             if (run != null) {
                 run.zeroAltitudeHere();

@@ -16,9 +16,7 @@ final class RotationVector {
     private RotationVector() {
     }
 
-    /**
-     * Returns the rotation of an event's values in a version of Android; null if they are invalid.
-     */
+    /** Returns the rotation of an event's values in a version of Android; null: invalid. */
     static Rotation read(float[] values, long timeMs, int version) {
         if (values.length < AXES) {
             return null;

@@ -27,10 +27,7 @@ final class SpawnRequest {
         this.profile = profile;
     }
 
-    /**
-     * Sends the request on the loop and waits for the result; must not run on the loop's own
-     * thread.
-     */
+    /** Sends the request on the loop and waits for the result; not on the loop's thread. */
     SpawnResult run(final Loop loop) {
         final BlockingQueue<SpawnResult> results = new ArrayBlockingQueue<SpawnResult>(1);
         loop.post(new Runnable() {

@@ -33,8 +33,7 @@ public abstract class TelemetryService extends Service {
     private String fault = "";
 
     /**
-     * Returns the current settings; called at the start of the service and at {@link
-     * Ground#reload}.
+     * Returns the current settings; called at the service's start and at {@link Ground#reload}.
      *
      * @throws IllegalArgumentException with a sentence for the user: there is no link then
      */

@@ -72,9 +72,7 @@ final class CommandsScreen
         open(memory.open());
     }
 
-    /**
-     * Sets the ground; null: none. Frames that another ground's screen showed do not count as seen.
-     */
+    /** Sets the ground; null: none. Frames seen of another ground do not count. */
     void setGround(TelemetryService.Ground newGround) {
         ground = newGround;
         frame.forget();

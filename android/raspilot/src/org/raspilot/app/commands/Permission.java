@@ -13,8 +13,7 @@ import org.raspilot.up.ground.Telemetry;
 /**
  * Decides whether a Command may be offered, as far as that is known before it is sent.
  *
- * <p>An unknown condition is not an objection: the aircraft decides in the end (docs/protocols.md
- * 4).
+ * <p>An unknown condition is not an objection: the aircraft decides (docs/protocols.md 4).
  */
 final class Permission {
     private static final String PROFILE = "arduino.profile.request";
@@ -48,9 +47,7 @@ final class Permission {
         return name.equals(PidTuningsCommand.NAME) ? PILOT : OPERATOR;
     }
 
-    /**
-     * Returns whether a role suffices for the required one; an unknown role is not an objection.
-     */
+    /** Returns whether a role includes the required one; an unknown role is no reason to object. */
     static boolean allows(String role, String needed) {
         return !ROLES.contains(role) || ROLES.indexOf(role) >= ROLES.indexOf(needed);
     }

@@ -58,8 +58,7 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
                 return;
             }
         }
-        // Rows with an unchanged position are updated in place: the layout must not move under a
-        // finger.
+        // Unmoved rows are updated in place: nothing moves under a finger.
         for (int child = 0; child < list.getChildCount(); child++) {
             int position = list.getFirstVisiblePosition() + child;
             if (position < rows.size()) {

@@ -32,14 +32,7 @@ public final class TrackGeometry {
         return isAutomatic;
     }
 
-    /**
-     * Shows all of a rectangle, unless the user has moved the picture.
-     *
-     * @param southM of home, as metres north: the minimum
-     * @param mostNorthM metres north of home: the maximum
-     * @param westM metres east of home: the minimum
-     * @param mostEastM metres east of home: the maximum
-     */
+    /** Makes the picture choose its section automatically again. */
     public void follow() {
         isAutomatic = true;
     }
