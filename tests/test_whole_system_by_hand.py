@@ -61,7 +61,7 @@ def short_folder():
 
 
 def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, processes):
-    """Only the phone flies: it asks the runner, Raspilot is spawned, the ground sees it."""
+    """Only the phone flies: it requests a runner, Raspilot is spawned, the ground sees it."""
     config = tmp_path / "config"
     black_box = config / "blackbox"
     black_box.mkdir(parents=True)

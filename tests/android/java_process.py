@@ -14,7 +14,7 @@ from tests.support.java import java_program
 
 
 class JavaProcess:
-    """``events`` are all that it said, each with the moment (monotonic s) at which it came."""
+    """``events`` are all its events, each with the time (monotonic s) at which it arrived."""
 
     def __init__(self, main, *options, prefix=()):
         command = [*prefix, *java_program().command(*map(str, options), main=main)]
@@ -37,7 +37,7 @@ class JavaProcess:
         self.end()
 
     def say(self, **line):
-        """Say a line; one that has ended does not hear it."""
+        """Send a line; no effect after the program has ended."""
         data = json.dumps(line).encode() + b"\n"
         with self._lock, suppress(BrokenPipeError, ValueError):
             self.process.stdin.write(data)

@@ -1,4 +1,4 @@
-"""A motion whose every attitude has a number, by which a receiver knows what it must be."""
+"""A motion whose every attitude has a number, by which a receiver can check it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def attitude(number):
 
 
 def sensors(number):
-    """Return what the sensors of a phone say that lies flat, its top edge ahead."""
+    """Return the sensor readings of a phone that lies flat, its top edge ahead."""
     roll, pitch, yaw, *rates = attitude(number)
     rotation = body_to_world(roll, pitch, yaw).times(SWAP.conjugate())
     return {

@@ -54,7 +54,7 @@ class RealDaemon(Daemon):
         return ("--raspberry", f"{host}:{general}:{orientation}")
 
     def log_of(self, topic):
-        """Return what the flight's log has of a topic, oldest first; it may be written still."""
+        """Return a topic's records in the flight's log, oldest first; it may still be growing."""
         return [each for log in self.logs() for each in log.messages.get(topic, [])]
 
     def logs(self):

@@ -33,7 +33,7 @@ class SlowRelay:
         return self
 
     def __exit__(self, *_):
-        # Closing alone would not wake who waits in accept.
+        # Closing alone would not wake a thread in accept.
         with suppress(OSError):
             self._listener.shutdown(socket.SHUT_RDWR)
         self._listener.close()

@@ -98,7 +98,7 @@ def test_thirty_seconds_of_darkness(system, radio):
     attitude_s = time.monotonic() - light_s
     print(f"blackout: missed by both after {missed_s:.1f} s; back after {telemetry_s:.2f} s"
           f" (telemetry), {phone_s:.2f} s (phone), {attitude_s:.2f} s (attitude)")  # fmt: skip
-    # Who was cut off has the seat again, and what it says is carried out.
+    # The disconnected owner has the seat again, and its Commands are executed.
     far.holds()
     assert far.ask("black_box.mark", text="light again")["outcome"] == "ACK"
     assert far.ask("android.speak", text="good morning")["outcome"] == "ACK"

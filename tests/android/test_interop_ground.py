@@ -139,7 +139,7 @@ def test_gains_with_ack_fly_in_the_firmware_and_an_undo_brings_the_old_back(syst
     answer = console.gains(wanted)
     assert answer["outcome"] == "ACK", answer
     console.until(lambda: console.all("gains")[-1]["flying"] == wanted, "them at the Java ground")
-    # What the firmware holds, read back by another ground.
+    # The firmware's values, read back by another ground.
     ground = system.daemon.ground
     del ground.messages[:]
     assert ground.ask("arduino.pids.tunings", request=True) == ""
@@ -207,7 +207,7 @@ def test_ages_are_honest_behind_a_slow_link(system, console):
 
 
 def compare(near, far, count):
-    """Return the medians of the newest frames' ages, true and as the far ground tells them."""
+    """Return the medians of the newest frames' ages: the true ones and those of the far ground."""
     came_s = {said["beacon"]: at for at, said in list(near.events) if said["event"] == "telemetry"}
     told = [(at, said) for at, said in list(far.events) if said["event"] == "telemetry"][-count:]
     both = [((at - came_s[said["beacon"]]) * 1000, said["age_ms"])

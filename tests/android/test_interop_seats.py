@@ -47,7 +47,7 @@ class PythonGround:
         self.messages.append(message)
 
     def on_link(self):
-        """Hear of it: the status is looked at."""
+        """Receive it: the status is read."""
 
     @property
     def frames(self):

@@ -87,7 +87,7 @@ def echo(tmp_path_factory):
 
 
 def check(echo, line):
-    """Hold what the Up Library makes of a line against what Python makes of it."""
+    """Compare the Up Library's result for a line with Python's."""
     said = echo.ask(line)
     try:
         message = decode(line)
@@ -218,7 +218,7 @@ def commands(draw):
 
 
 def constraints_of(name):
-    """Return what each field of a Command must be, by its name on the wire."""
+    """Return the rule of each field of a Command, by its name on the wire."""
     cls = CATALOGUE.get(name)
     hints = typing.get_type_hints(cls)
     constraints = {field.name: constraint_of(field, hints) for field in dataclasses.fields(cls)}

@@ -106,7 +106,7 @@ class Flight:
         raise AssertionError(f"no {letter} came within 600 ms")
 
     def status(self):
-        """Return the newest status, asked for by a Start Command if need be."""
+        """Return the newest status, requested by a Start Command if necessary."""
         self.send("s")
         return BoardStatus(
             *(

@@ -1,4 +1,4 @@
-"""Arming: what it takes, what it concerns, and what never does it."""
+"""Arming: its conditions, its effects, and what never arms."""
 
 import math
 
@@ -209,7 +209,7 @@ def test_a_broken_profile_holds_off_arming(calm):
     status = flight.status()
     assert status.vetoes & 64
     assert not status.is_armed
-    # It flies all the same, as the profile of the first boot says.
+    # It flies nevertheless, by the profile of the first boot.
     assert flight.servo_us("ailerons") == pytest.approx(1500, abs=1)
 
 

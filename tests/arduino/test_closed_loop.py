@@ -1,4 +1,4 @@
-"""The compiled firmware flies an aircraft: servo pulses in, what an IMU on board would feel out."""
+"""The compiled firmware flies an aircraft: servo pulses in, the readings of an IMU on board out."""
 
 import math
 
@@ -144,5 +144,5 @@ def test_an_imu_lost_in_a_bank_leaves_the_pilot_the_surfaces_and_fbw_levels_when
     flight.rig.imu.plug()
     fly(flight, aircraft, 3.0)
     assert flight.mode() == "f"
-    # What it turned unseen is not known, and only slowly found.
+    # Rotation during the gap is unknown, and only slowly found.
     assert abs(aircraft.roll_deg) < 10

@@ -44,7 +44,7 @@ def is_thesis(flight):
 
 
 def open_door(flight):
-    """Send what an old Raspberry Pi sends when it starts: gains, then panic's end."""
+    """Send the start-up messages of an old Raspberry Pi: gains, then panic's end."""
     flight.rig.serial.write(GAINS + PANIC)
     flight.rig.run_us(60_000)
 

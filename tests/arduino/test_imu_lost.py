@@ -47,7 +47,7 @@ def fbw(shared):
 
 
 def widths(flight, from_cycle):
-    """Return what the ailerons got in pulses that rose after a cycle."""
+    """Return the ailerons' pulses that rose after a cycle."""
     pulses = flight.rig.servo.pulses("ailerons")
     return [each.width_us for each in pulses if each.rise_cycle > from_cycle]
 
@@ -144,7 +144,7 @@ def test_plugged_in_and_failing_at_any_byte_of_its_set_up(fbw, fault):
         imu.mend()
         fbw.run_ms(120)
         assert fbw.status().flags & IMU
-        # It measures what it measured before: no setting was left out.
+        # It measures as before: no setting was left out.
         fbw.tilt(-20 if byte else 30, seconds=0.2)
         at = f"byte {byte} of transfer {transfer}"
         assert fbw.attitude()[0] == pytest.approx(-20 if byte else 30, abs=2), at

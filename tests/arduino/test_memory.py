@@ -1,4 +1,4 @@
-"""What the EEPROM keeps on the compiled firmware, and what a cut of the power leaves of it."""
+"""The EEPROM's content on the compiled firmware, and the effects of power cuts."""
 
 import struct
 

@@ -275,7 +275,7 @@ def test_power_that_fails_after_a_reset_in_flight_does_not_arm(bootloader):
 
 
 def turning(bank_deg, speed_m_s=12.0):
-    """Return what an IMU feels in a level turn without slip."""
+    """Return the readings of an IMU in a level turn without slip."""
     bank = math.radians(bank_deg)
     turn_deg_s = math.degrees(GRAVITY_M_S2 * math.tan(bank) / speed_m_s)
     rates = (0.0, turn_deg_s * math.sin(bank), turn_deg_s * math.cos(bank))

@@ -60,7 +60,7 @@ def _scenario(name: str, scenario: Scenario, summary: dict[str, Any]) -> Iterato
 
 
 def read_summaries(folder: Path) -> dict[str, dict[str, Any]]:
-    """Return what the flights in a folder came to; raises ValueError with a sentence."""
+    """Return the results of the flights in a folder; raises ValueError with a sentence."""
     found = {}
     for name in shipped():
         path = folder / name / SUMMARY

@@ -64,7 +64,7 @@ def test_up_sim_knows_the_verbs_and_options_that_the_page_says(page, capsys):
 
 
 def targets_of(folder):
-    """Return what the Makefile of a folder, and the parts it includes, can make."""
+    """Return the targets of a folder's Makefile and its included parts."""
     paths = [folder / "Makefile", *folder.glob("*/*.mk")]
     text = "\n".join(path.read_text(encoding="utf-8") for path in paths)
     return set(" ".join(re.findall(r"^([a-z][a-z -]*):", text, re.MULTILINE)).split())

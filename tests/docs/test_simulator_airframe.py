@@ -1,4 +1,4 @@
-"""docs/simulator-airframe.md: its aircraft is derived, loaded and flown as the page says."""
+"""docs/simulator-airframe.md: its aircraft is derived, loaded and flown by the page's steps."""
 
 import re
 import sys

@@ -178,7 +178,7 @@ class Ground:
         return status
 
     def expect(self, text):
-        """Wait until it says a text."""
+        """Wait until it prints a text."""
         until(lambda: text in self.said, f"{text!r} in {self.said!r} {self.complained!r}")
 
     def _read(self, pipe, name):

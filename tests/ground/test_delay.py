@@ -1,4 +1,4 @@
-"""A message that was held up on its way is known to be old."""
+"""The age of a message includes its delay in transit."""
 
 import pytest
 from hypothesis import given, settings

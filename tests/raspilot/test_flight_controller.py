@@ -38,7 +38,7 @@ OTHER_GAINS = GainSet(LOOP, LOOP)
 
 
 class Ground(BaseMissionControlProvider):
-    """A ground that keeps what it is sent."""
+    """A ground that records received messages."""
 
     def __init__(self):
         super().__init__()
@@ -439,7 +439,7 @@ class TestGains:
 
 
 def test_a_mode_that_the_board_refuses_is_no_wish(rig):
-    """With the switch elsewhere the board refuses; later at AUTO the Pi still asks for control."""
+    """With the switch elsewhere the board refuses; later at AUTO the Pi still requests control."""
     rig.state(MANUAL)
     rig.bus.execute_command(FlightModeCommand("FBW"), GROUND)
     rig.modes.clear()

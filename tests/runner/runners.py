@@ -67,7 +67,7 @@ class Talk:
         return self.hear()
 
     def order(self, text):
-        """Let the fixture application do something and return what it says."""
+        """Make the fixture application do something and return its answer."""
         self.socket.sendall(text.encode() + b"\n")
         return self.lines.readline().decode().strip()
 
@@ -154,7 +154,7 @@ class RunnerProcess:
         return self
 
     def output(self):
-        """Return all that the program said until now."""
+        """Return the output of the program so far."""
         while select.select([self.process.stderr], [], [], 0)[0]:
             data = self.process.stderr.read()
             if not data:
@@ -163,7 +163,7 @@ class RunnerProcess:
         return self.said
 
     def says(self, text):
-        """Wait until the program said something."""
+        """Wait until the program has printed a text."""
         return wait_until(lambda: text in self.output(), f"the runner says {text!r}")
 
     def talk(self, port=None, source="127.0.0.1"):

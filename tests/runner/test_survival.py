@@ -153,7 +153,7 @@ def test_killed_at_any_moment_of_a_start_it_doubles_nobody(runners):
         runner.start()
         answer = runner.ask(aircraft="glider-1")
         if not answer["running"]:
-            # The runner died before the process could say that it was ready.
+            # The runner died before the process could report ready.
             wait_until(lambda: runner.ask(aircraft="glider-1")["running"], "it runs")
         assert len(runner.instances()) == 1
         runner.terminate()

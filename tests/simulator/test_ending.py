@@ -225,7 +225,7 @@ def test_tuning_takes_its_workers_along(in_a_folder, number):
         # Itself, what watches its semaphores, and two workers.
         wait(lambda: len(ours(in_a_folder)) == 4, "two workers")
         if number == signal.SIGKILL:
-            # Nothing can keep a worker whose parent is killed before it has begun from complaining.
+            # A worker whose parent is killed before it has started cannot be kept from complaining.
             wait(lambda: sum(map(ignores_interrupts, ours(in_a_folder))) == 3, "their handlers")
         process.send_signal(number)
         told = process.communicate(timeout=LIMIT_S)[0].decode()

@@ -42,7 +42,7 @@ def test_a_line_that_was_begun_is_finished_before_the_next(reader):
     process, gate = reader
     said = 0
     while process.dropped < 3:
-        # No divisor of what a pipe holds: the last one gets in by half.
+        # Not a divisor of the pipe's capacity: half of the last one fits.
         process.say({"n": said, "content": "x" * 5000})
         said += 1
     gate.touch()

@@ -1,4 +1,4 @@
-"""``make run`` in a terminal: what it does when its picture dies."""
+"""``make run`` in a terminal: its behaviour when its picture dies."""
 
 import os
 import pty

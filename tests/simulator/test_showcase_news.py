@@ -1,4 +1,4 @@
-"""What `make run` tells of the aircraft, by a clock of the test's own."""
+"""Reports of `make run` about the aircraft, by a clock of the test."""
 
 from twisted.internet.task import Clock
 

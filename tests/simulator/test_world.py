@@ -1,4 +1,4 @@
-"""The compiled firmware flies the glider of JSBSim: what the pilot does, what fails, what holds."""
+"""The compiled firmware flies the glider of JSBSim: the pilot's actions, faults, and limits."""
 
 import pytest
 

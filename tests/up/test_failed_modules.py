@@ -78,7 +78,7 @@ class Broken(BaseStartedModule):
 
 
 class Needing(Controller):
-    """Is skipped, as what it needs did not start."""
+    """Is skipped, because a dependency did not start."""
 
     broken = needs(Broken)
 

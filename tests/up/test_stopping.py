@@ -17,7 +17,7 @@ STEP_S = 0.001
 
 
 class Opening(BaseStartedModule):
-    """Opens a port, then fails as ``fail`` says."""
+    """Opens a port, then fails by the setting ``fail``."""
 
     is_open = False
 

@@ -1,4 +1,4 @@
-"""One phone at a time: who owns the link, and what becomes of the others."""
+"""One phone at a time: the owner of the link, and the fate of the others."""
 
 from android_cog.phone_link import MAX_UNDECIDED, MAX_UNDECIDED_LINE, PhoneLink
 from twisted.internet.endpoints import TCP4ClientEndpoint

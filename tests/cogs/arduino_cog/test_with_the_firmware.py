@@ -17,7 +17,7 @@ from up_rig import CYCLES_PER_US
 from up_rig.imu import motion_at
 
 AIRFRAME = "rudder: {trim_us: 40}\nfly_by_wire: {roll_deg: 33.333}\n"
-# Not what a new board holds.
+# Not the default of a board.
 GAINS = PIDS.template().replace("p: 2.0", "p: 2.25")
 CALM = "panic threshold: 100\n"
 PANIC = "panic threshold: 1\ncalm down threshold: 0\ninterval: 0.1\n"
@@ -33,7 +33,7 @@ def elf():
 
 
 def await_profile(board, ground):
-    """Wait until the board holds what airframe.yml says."""
+    """Wait until the board has the values of airframe.yml."""
     board.wait(lambda: not any("airframe.yml" in veto for veto in ground.at("vetoes")), "profile")
 
 

@@ -183,7 +183,7 @@ def test_outputs_move_the_servos_and_those_of_old_frames_do_not(aircraft, tmp_pa
 
 
 class FlightMode(BaseStartedModule):
-    """Asks for a bank, 50 times a second."""
+    """Requests a bank, 50 times a second."""
 
     ROLL_DEG = 0.0
 

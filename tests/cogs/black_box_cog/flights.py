@@ -1,4 +1,4 @@
-"""A recorder whose clock and disk the test holds, and its flights as the official reader reads."""
+"""A recorder whose clock and disk the test controls, and its flights by the official reader."""
 
 import errno
 import json
@@ -75,7 +75,7 @@ class HalfFullDisk(TestedDisk):
 
 
 class Flight:
-    """A recorder in a folder, its rounds run by the test; it hears the log until it is over."""
+    """A recorder in a folder, its rounds run by the test; it receives the log until it is over."""
 
     listening = set()
 
@@ -111,7 +111,7 @@ class Flight:
 
     @classmethod
     def stop_all(cls):
-        """Hear the log no more."""
+        """Stop receiving the log."""
         while cls.listening:
             cls.listening.pop().stop()
 
@@ -128,7 +128,7 @@ class Flight:
         self.intake.observe(OrientationCommand(float(number), 0.0, 0.0), origin)
 
     def fly(self, seconds, rate_hz=10, first=0, origin=BOARD):
-        """Say numbers at a rate, with the recorder's rounds between; return the next number."""
+        """Log numbers at a rate, with the recorder's rounds between; return the next number."""
         number = first
         for _ in range(round(seconds * rate_hz)):
             self.say(number, origin)

@@ -61,7 +61,7 @@ class Aircraft:
         return until(lambda: re.search(pattern, self.log), f"{pattern} in {self.log}")
 
     def speak(self):
-        """Say a level of the battery that was not said before."""
+        """Send a battery level that was not sent before."""
         self.battery += 1
         data = {"level": self.battery / 10}
         self.phone.sendall(json.dumps({"name": "android.battery", "data": data}).encode() + b"\n")

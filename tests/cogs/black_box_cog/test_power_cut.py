@@ -1,4 +1,4 @@
-"""What a power cut leaves: every byte that was synced, and of the rest any part."""
+"""Files after a power cut: every synced byte, and any part of the rest."""
 
 import pytest
 from black_box_cog.recorder import BUSY_S

@@ -90,7 +90,7 @@ def test_after_a_blackout_fresh_data_come_and_no_stale_frame(tmp_path):
                 await until(ages_after.look, 10)
                 assert reactor.seconds() - back_s <= 3.5
                 await watch(ages_after, 1.0)
-                # A frame is on its way for milliseconds here; a second is a backlog.
+                # A frame is in transit for milliseconds here; a second is a backlog.
                 assert ages_after.worst_s < 1.0
                 assert a.provider.telemetry_content["counters"]["mission_control"]["connects"] == 2
                 for each in (ground, again):
@@ -120,7 +120,7 @@ def test_a_gap_of_one_second_is_ridden_through(tmp_path):
 
 
 def test_after_a_cut_of_one_second_no_late_frame_is_shown(tmp_path, monkeypatch):
-    # As in the programs; frames tell their sender's monotonic time.
+    # As in the programs; frames carry their sender's monotonic time.
     monkeypatch.setattr(reactor, "seconds", time.monotonic)
     with network() as inside, Program(tmp_path / "p", OPEN, prefix=inside) as proxy:
 

@@ -61,7 +61,7 @@ def test_the_first_commands_the_others_listen_and_nobody_steals(tmp_path):
                 await until(lambda each=each: each.named("up.altitude.change"))
             counters = a.up.telemetry_controller.collect()["counters"]["ground"]
             assert counters == {"stations": 2, "not_holder": 1, "too_many": 0, "refused_peers": 0}
-            # The holder leaves; without a token its seat is free for who speaks next.
+            # The holder leaves; without a token its seat goes to the next sender.
             await one.close()
             two.say(period(400, "c"))
             assert (await two.answer("c"))["name"] == "up.ack"
@@ -205,7 +205,7 @@ def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
 
 
 class Station:
-    """A connection without a network: what the aircraft took of it."""
+    """A connection without a network: the data that the aircraft read from it."""
 
     def __init__(self, grounds_, clock, handle=None):
         self.link = grounds_.build()

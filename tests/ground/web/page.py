@@ -49,7 +49,7 @@ class Page:
         return self
 
     async def hello(self, name="test", watch="default", **more):
-        """Open the link, say hello and watch; return the welcome."""
+        """Open the link, send the hello and watch; return the welcome."""
         await self.open()
         self.say("hello", name=name, **more)
         welcome = await self.next("welcome")
@@ -148,7 +148,7 @@ def get(port, path, method="GET", **headers):
 
 
 def with_pages(server, look, *names):
-    """Run `look(*pages)`; the pages have said hello and watch the aircraft."""
+    """Run `look(*pages)`; the pages have sent their hello and watch the aircraft."""
 
     async def run():
         pages = [Page(server.port) for _ in names]

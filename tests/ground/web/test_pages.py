@@ -1,4 +1,4 @@
-"""What pages say, nonsense too, without a network."""
+"""Messages of pages, invalid ones included, without a network."""
 
 import json
 

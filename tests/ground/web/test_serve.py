@@ -102,7 +102,7 @@ def test_no_command_leaves_without_telemetry_that_was_seen(aircraft, server):
     async def fly(page):
         await page.control()
         seen = await page.beacon()
-        # None is what a page sends that has drawn nothing; the others were never heard.
+        # A page that has drawn nothing sends None; the other beacons were never received.
         for beacon, code in (
             (None, "no_beacon"),
             (7, "stale"),

@@ -1,4 +1,4 @@
-"""What the server answers over HTTP, to a browser and to others."""
+"""The server's answers over HTTP, to a browser and to others."""
 
 import socket
 
@@ -31,7 +31,7 @@ def check_headers(headers):
 
 
 def raw(port, request):
-    """Return all that the server says to these bytes, until it closes."""
+    """Return the server's whole answer to these bytes, until it closes."""
     with socket.create_connection(("127.0.0.1", port), timeout=30) as peer:
         peer.sendall(request)
         said = b""

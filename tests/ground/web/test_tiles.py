@@ -1,4 +1,4 @@
-"""The map's pictures: fetched once, kept, and never asked for by the page elsewhere."""
+"""The map's pictures: fetched once, cached, and never requested elsewhere by the page."""
 
 import hashlib
 import os
@@ -20,7 +20,7 @@ PNG = b"\x89PNG\r\n\x1a\n" + bytes(500)
 
 
 class Source:
-    """A server of tiles; `asked` has the paths, `agents` who asked."""
+    """A server of tiles; `asked` has the requested paths, `agents` the user agents."""
 
     def __init__(self):
         self.asked, self.agents, self.body, self.status = [], set(), PNG, 200

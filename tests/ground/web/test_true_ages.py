@@ -29,7 +29,7 @@ LATE = {"kind": "silent", "level": "alarm", "text": "telemetry comes too late"}
 
 
 class ClockedAircraft(Aircraft):
-    """Tells its clock in each frame, and the same once more for the test."""
+    """Sends its clock in each frame, and the same again for the test."""
 
     def tell(self, name, data, **more):
         if name == "up.telemetry.update":
@@ -124,11 +124,11 @@ class NodePage:
 
 
 def judge(told):
-    """Compare what a page told with the truth; return the greatest true age."""
+    """Compare the page's reports with the truth; return the greatest true age."""
     for each in told:
         assert each["way_s"] >= each["trueWay_s"] - DOUBT_S - ROUNDING_S, each
         assert each["way_s"] <= each["trueWay_s"] + each["quickest_s"] + ROUNDING_S, each
-    # From the aircraft to the server: what the quickest frame took is in no age.
+    # From the aircraft to the server: no age includes the fastest frame's transit time.
     least_s = min(each["trueAge_s"] - each["trueWay_s"] for each in told)
     live_s = [each["trueAge_s"] for each in told if each["freshness"] == "live"]
     assert max(live_s, default=0.0) <= SILENT_S + DOUBT_S + least_s + ROUNDING_S

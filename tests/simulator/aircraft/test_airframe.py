@@ -67,7 +67,7 @@ def test_the_wing_lets_the_firmware_mix():
 
 @pytest.mark.parametrize("name", airframe_names())
 def test_profile_and_gains_are_what_the_raspberry_pis_files_take(name, tmp_path):
-    """What the simulator may not import, its test compares: the cog reads the same profile."""
+    """The simulator may not import the cog, so the test compares: both read the same profile."""
     import yaml
 
     airframe = load_airframe(name)

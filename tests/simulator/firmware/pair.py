@@ -61,7 +61,7 @@ class Aboard:
         return self.tap.status
 
     def stands(self):
-        """Return the status without what two clocks may tell differently."""
+        """Return the status without the values that may differ between two clocks."""
         return dataclasses.replace(
             self.status(), loop_us=0, late_us=0, receiver_age_ms=0, imu_age_ms=0
         )

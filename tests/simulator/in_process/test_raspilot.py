@@ -1,4 +1,4 @@
-"""The whole daemon in this process: its life, its errors, what it leaves behind."""
+"""The whole daemon in this process: its life, its errors, its leftovers."""
 
 import gc
 import os

@@ -15,7 +15,7 @@ TURNS = 12
 
 
 async def turn(rounds=TURNS):
-    """Let sockets do what they can do now."""
+    """Make sockets do everything that is due."""
     for _ in range(rounds):
         await sleep(0)
 

@@ -185,7 +185,7 @@ def test_of_too_many_clients_the_first_is_forgotten():
             await turn()
             await bench.pass_s(0)
             assert [data for data, _ in clients[-1].got] == [data]
-            # Who was forgotten is known again with its next datagram.
+            # A forgotten sender is known again with its next datagram.
             await bench.send(clients[0], b"again")
             await bench.pass_s(0)
             assert bench.arrived[-1] == b"again"

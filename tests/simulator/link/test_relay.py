@@ -1,4 +1,4 @@
-"""The relay between real sockets: every byte, in order, when the link says; and its faults."""
+"""The relay between real sockets: every byte, in order, on the link's schedule; and its faults."""
 
 import time
 from socket import SO_RCVBUF, SO_SNDBUF, SOL_SOCKET
@@ -288,7 +288,7 @@ def test_a_reader_that_reads_nothing_fills_a_bounded_memory_and_stops_the_sender
     async def fly():
         async with Bench(LinkSettings(delay_ms=5)) as bench:
             client, target = await bench.pair()
-            # What the two systems keep by themselves is not the relay's.
+            # The buffers of the two systems are not the relay's.
             client.transport.getHandle().setsockopt(SOL_SOCKET, SO_SNDBUF, 32768)
             target.transport.getHandle().setsockopt(SOL_SOCKET, SO_RCVBUF, 32768)
             target.transport.pauseProducing()

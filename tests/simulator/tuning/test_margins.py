@@ -1,4 +1,4 @@
-"""Margins, against loops whose margins are known in closed form."""
+"""Margins, compared with loops whose margins are known in closed form."""
 
 import cmath
 import math

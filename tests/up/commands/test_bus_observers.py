@@ -20,7 +20,7 @@ def bus():
 
 
 class Recorder:
-    """Notes what it sees."""
+    """Records the Commands that it sees."""
 
     def __init__(self, bus):
         self.seen = []

@@ -1,4 +1,4 @@
-"""Every Command and every role, as the protocols page says."""
+"""Every Command and every role, as in the protocols page."""
 
 import re
 from pathlib import Path

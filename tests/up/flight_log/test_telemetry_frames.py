@@ -173,7 +173,7 @@ def test_a_gap_in_telemetry_is_filled_from_the_commands(tmp_path):
         assert frame.data["orientation"]["roll"] == pytest.approx(100 * frame.time_s, abs=6)
         assert frame.data["age_ms"]["orientation"] <= 51
         assert frame.data["load"] == {"cpu": 33.0}
-        # What no Command tells grows old.
+        # A value without new Commands grows old.
         assert frame.data["age_ms"]["battery"] == pytest.approx(4000 + 1000 * frame.time_s, abs=2)
         assert frame.data["source"]["battery"] == "android"
 

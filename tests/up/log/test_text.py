@@ -12,7 +12,7 @@ from up.log.text import TextObserver, is_journal
 
 
 def logged(say, least=LogLevel.info, journal=False, namespace="serial_cog.port"):
-    """Return what `say(log)` writes."""
+    """Return the output of `say(log)`."""
     stream = io.StringIO()
     observer = TextObserver(stream, least, journal)
     say(Logger(namespace=namespace, observer=LogPublisher(observer)))

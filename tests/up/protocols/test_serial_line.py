@@ -271,7 +271,7 @@ def test_a_stuck_line_closes_at_once_and_forgets_what_waits(tmp_path):
         received = bytearray()
         while piece := cable.read():
             received += piece
-        # What the other end's own buffer had already is beyond recall.
+        # Data already in the other end's own buffer cannot be recalled.
         assert len(received) < taken * 16 / 2
 
     with_line(tmp_path, scenario)

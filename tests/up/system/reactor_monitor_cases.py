@@ -61,7 +61,7 @@ class HoldingProtocol(Protocol):
 
 
 def watch(folder, scenario, has_started=True):
-    """Run a scenario under the monitor; return what it named."""
+    """Run a scenario under the monitor; return the names that it reported."""
 
     async def run():
         up = build_up((HoldingModule,), reactor, folder, builtins=False)
@@ -88,7 +88,7 @@ class Sender(Protocol):
 
 
 async def send(module):
-    """Send a byte to a connection whose protocol holds."""
+    """Send a byte to a connection whose protocol blocks."""
     factory = Factory.forProtocol(HoldingProtocol)
     HoldingProtocol.module = module
     port = reactor.listenTCP(0, factory, interface="127.0.0.1")

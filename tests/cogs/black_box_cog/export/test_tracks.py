@@ -39,7 +39,7 @@ TRACKS = st.builds(
 
 
 def as_xml_has_it(text):
-    """What XML can say of a text: forbidden characters replaced, line ends as line feeds."""
+    """A text as far as XML can hold it: forbidden characters replaced, line ends as line feeds."""
     allowed = (
         c
         if c in "\t\n\r" or ("\x20" <= c <= "\ud7ff" or "\ue000" <= c <= "\ufffd" or c > "\uffff")

@@ -63,7 +63,7 @@ public abstract class AppBench {
         return (TextView) ((ViewGroup) find(R.id.field_input)).getChildAt(0);
     }
 
-    /** Fails unless a screen says something. */
+    /** Fails unless a screen shows a text. */
     static void mustSay(String wanted, String said) {
         assertTrue("said: " + said, said.contains(wanted));
     }

@@ -123,7 +123,7 @@ final class Handset {
         return answer;
     }
 
-    /** Ends the airborne service as the system does. */
+    /** Destroys the airborne service as the system does. */
     void destroyUp() {
         up.destroy();
         up = null;
@@ -202,7 +202,7 @@ final class Handset {
                 .putExtra(BatteryManager.EXTRA_TECHNOLOGY, "Li-ion"));
     }
 
-    /** Lets a sensor tell values to all who listen. */
+    /** Delivers a sensor's values to all its listeners. */
     void sense(int type, float... values) {
         SensorEvent event = ShadowSensorManager.createSensorEvent(values.length, type);
         System.arraycopy(values, 0, event.values, 0, values.length);

@@ -39,7 +39,7 @@ public final class MeetingTest extends AppBench {
         return handset.ground().telemetry().number(path);
     }
 
-    /** Lets the sensors go on and the screens draw, until something holds. */
+    /** Runs the sensors and draws the screens until a condition holds. */
     private void fly(String what, Wait.Condition condition) throws Exception {
         Wait.until(what, () -> {
             handset.sense(Sensor.TYPE_PRESSURE, 978.6f);

@@ -11,7 +11,7 @@ import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 
-/** The other end of a link of lines, which a test plays: it listens, keeps what it hears. */
+/** The other end of a link of lines, played by a test: it listens and records received lines. */
 class Peer implements Closeable {
     private final ServerSocket server;
     private final List<String> heard = new ArrayList<String>();
@@ -23,7 +23,7 @@ class Peer implements Closeable {
         run("accept", this::accept);
     }
 
-    /** Something of a thread that ends with the connection. */
+    /** A step of a thread that ends with the connection. */
     interface Work {
         /** Does it. */
         void work() throws IOException;

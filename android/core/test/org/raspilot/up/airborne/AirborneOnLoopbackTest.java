@@ -114,7 +114,7 @@ public final class AirborneOnLoopbackTest {
         frames.close();
     }
 
-    /** Lets the sensors speak on the loop, once there is a link for what they say. */
+    /** Makes the sensors deliver on the loop, once there is a link for their readings. */
     private void give(final Airborne airborne, final Mounting mounting, final double rollDeg) {
         running.await("the link for Commands", new Callable<Boolean>() {
             @Override

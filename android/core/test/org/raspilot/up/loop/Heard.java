@@ -5,7 +5,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.Callable;
 
-/** Keeps what a TCP connection told; to be looked at on the loop. */
+/** Records the events of a TCP connection; to be read on the loop. */
 class Heard implements TcpListener {
     final List<String> told = new ArrayList<String>();
     final ByteArrayOutputStream bytes = new ByteArrayOutputStream();

@@ -58,7 +58,7 @@ public final class RunningLoop extends ExternalResource {
         }
     }
 
-    /** Waits until a condition holds, asked on the loop; fails when it does not. */
+    /** Waits until a condition, evaluated on the loop, holds; fails after a timeout. */
     public void await(final String what, final Callable<Boolean> condition) {
         final CountDownLatch latch = new CountDownLatch(1);
         loop.post(new Runnable() {

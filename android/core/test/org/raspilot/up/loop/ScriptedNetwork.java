@@ -75,13 +75,13 @@ public final class ScriptedNetwork implements Network {
             listener.onConnected();
         }
 
-        /** The peer says something. */
+        /** The peer sends data. */
         public void say(String text) {
             final byte[] bytes = text.getBytes(UTF_8);
             listener.onBytes(bytes, bytes.length);
         }
 
-        /** The connection ends, or cannot be made. */
+        /** The connection ends, or fails to open. */
         public void end(String reason) {
             if (isClosed) {
                 throw new AssertionError("ended by the other side already");

@@ -3,7 +3,7 @@ package org.raspilot.up.providers;
 import java.util.ArrayList;
 import java.util.List;
 
-/** A sensor whose readings a test gives. */
+/** A sensor with the test's readings. */
 public final class TestSource<R> implements SensorSource<R> {
     public String name;
     public int namesAsked;

@@ -44,8 +44,8 @@ import java.io.IOException;
  * ISO 8859-1; an id is a number that is never reused.
  *
  * <pre>
- * requests: ["connect", id, host, port, timeout_ms]  ["write", id, bytes]  ["full", id]  ["close", id]
- *        ["open", id]  ["send", id, bytes, host, port]  ["shut", id]
+ * requests: ["connect", id, host, port, timeout_ms]  ["write", id, bytes]  ["full", id]
+ *        ["close", id]  ["open", id]  ["send", id, bytes, host, port]  ["shut", id]
  * events: ["connected", id]  ["bytes", id, bytes]  ["room", id, count]  ["closed", id, reason]
  *        ["datagram", id, bytes, host, port]
  * </pre>

@@ -7,7 +7,7 @@ import java.util.List;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.wire.Seat;
 
-/** What the user of the ground console asks for. */
+/** The command line options of the ground console. */
 final class ConsoleOptions {
     /** What {@code --help} prints. */
     static final String HELP = ""
@@ -34,7 +34,7 @@ final class ConsoleOptions {
     final GroundSettings settings;
     /** What to print of telemetry. */
     final List<String> values;
-    /** Whether the user only wants to read. */
+    /** Whether to print only the help. */
     final boolean wantsHelp;
 
     private ConsoleOptions(GroundSettings settings, List<String> values, boolean wantsHelp) {
