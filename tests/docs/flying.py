@@ -82,7 +82,7 @@ def options_of(line: str) -> list[str]:
 
 @contextmanager
 def flying(folder: Path, files: Mapping[str, str], line: str = "make run") -> Iterator[Flight]:
-    """Fly as ``line`` says until the end of the block, with these files in the application."""
+    """Fly by the command ``line`` until the end of the block; the application has these files."""
     tree = copy_of_the_tree(folder / "tree")
     for name, text in files.items():
         (tree / "raspilot" / name).write_text(text, encoding="utf-8")
