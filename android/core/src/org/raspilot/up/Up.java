@@ -27,7 +27,7 @@ public final class Up {
         this(loop, new ProvidersController(loop), faults);
     }
 
-    /** Makes an Up with providers that are there already. */
+    /** Creates an Up with the given providers. */
     public Up(Loop loop, ProvidersController providers, HandlerFaultListener faults) {
         this.loop = loop;
         this.providers = providers;
@@ -49,9 +49,9 @@ public final class Up {
     }
 
     /**
-     * Makes an Up the one of this process; null takes it away.
+     * Sets the Up of this process; null removes it.
      *
-     * @throws IllegalStateException when another one is there
+     * @throws IllegalStateException when another one is set
      */
     public static synchronized void setInstance(Up up) {
         if (up != null && instance != null && instance != up) {

@@ -58,7 +58,7 @@ final class Handset {
         return PreferenceManager.getDefaultSharedPreferences(application);
     }
 
-    /** Keeps a setting as its screen does. */
+    /** Stores a setting as its screen does. */
     void set(int key, String value) {
         preferences().edit().putString(application.getString(key), value).commit();
     }

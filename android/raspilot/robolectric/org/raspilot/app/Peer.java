@@ -69,7 +69,7 @@ class Peer implements Closeable {
             try {
                 connection.close();
             } catch (IOException gone) {
-                // It is gone, as it should be.
+                // It is gone, as expected.
             }
             connection = null;
         }

@@ -85,7 +85,7 @@ final class AppSettings {
         }
     }
 
-    /** Keeps how the phone lies in the aeroplane. */
+    /** Stores the phone's mounting in the aeroplane. */
     void setMounting(Mounting mounting) {
         preferences.edit().putString(context.getString(R.string.key_mounting), mounting.toText())
                 .apply();
@@ -102,7 +102,7 @@ final class AppSettings {
         return Side.TOP;
     }
 
-    /** Keeps which side of the phone is at the nose. */
+    /** Stores which side of the phone is at the nose. */
     void setNose(Side nose) {
         preferences.edit().putString(context.getString(R.string.key_nose), nose.name()).apply();
     }
@@ -114,7 +114,7 @@ final class AppSettings {
         return SettingRule.number(value);
     }
 
-    /** Keeps the pressure at altitude zero, hPa. */
+    /** Stores the pressure at altitude zero, hPa. */
     void setReferencePressureHPa(double hPa) {
         preferences.edit().putString(context.getString(R.string.key_reference_pressure),
                 String.format(Locale.ROOT, "%.2f", hPa)).apply();

@@ -73,7 +73,7 @@ enum Screen {
         return other == part || isBeside;
     }
 
-    /** Returns the screen that stands for this one in such a window. */
+    /** Returns the screen that replaces this one in such a window. */
     Screen in(boolean isTwoPanes) {
         return hasTab(isTwoPanes) ? this : GROUND;
     }

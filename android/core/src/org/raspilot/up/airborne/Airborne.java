@@ -112,7 +112,7 @@ public final class Airborne {
     }
 
     /**
-     * Returns the mounting by which the aeroplane is level now, and keeps to it.
+     * Returns the mounting that makes the current attitude level, and uses it from now on.
      *
      * @param nose which side of the phone points to the nose
      * @throws IllegalStateException without a fresh reading of the rotation sensor (a sentence)

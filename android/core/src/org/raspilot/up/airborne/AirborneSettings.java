@@ -140,7 +140,7 @@ public final class AirborneSettings {
         return declinationDeg;
     }
 
-    /** Returns how the phone lies in the aeroplane. */
+    /** Returns the phone's mounting in the aeroplane. */
     public Mounting mounting() {
         return mounting;
     }
@@ -289,7 +289,7 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets how the phone lies in the aeroplane. */
+        /** Sets the phone's mounting in the aeroplane. */
         public Builder mounting(Mounting value) {
             mounting = value;
             return this;

@@ -26,7 +26,7 @@ public final class AltitudeCommand extends BaseCommand {
     private final String mode;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

@@ -22,7 +22,7 @@ public class BaseCommand {
         this.message = message;
     }
 
-    /** Makes the Command that a message is, under the name that it has today. */
+    /** Creates the Command of a message, under its current name. */
     protected BaseCommand(String name, GeneralMessage message) {
         this(name.equals(message.name()) ? message
                 : message.with(name, message.id(), message.beacon()));

@@ -26,7 +26,7 @@ public final class CommandReceiver {
             new WeakHashMap<AnswerSink, AnswerMemory>();
     private final Map<String, Long> counts = new HashMap<String, Long>();
 
-    /** Makes a receiver for the links of one loop. */
+    /** Creates a receiver for the links of one loop. */
     public CommandReceiver(CommandRegistry registry, CommandExecutor executor, Loop loop) {
         this.registry = registry;
         this.executor = executor;

@@ -9,7 +9,7 @@ public final class CommandRegistry {
     private final Map<String, CommandReader> readers = new HashMap<String, CommandReader>();
     private final Map<String, String> primaryNames = new HashMap<String, String>();
 
-    /** Makes an empty registry. */
+    /** Creates an empty registry. */
     public CommandRegistry() {
     }
 

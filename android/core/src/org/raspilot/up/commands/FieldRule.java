@@ -23,7 +23,9 @@ final class FieldRule {
     private final int maxLength;
     private final String description;
 
-    /** Makes a rule; {@code choices} null: anything; {@code description}: after "must be". */
+    /**
+     * Creates a rule; {@code choices} null: no restriction; {@code description}: after "must be".
+     */
     FieldRule(FieldType type, double minimum, double maximum, List<?> choices, int maxLength,
             String description) {
         this.type = type;

@@ -8,7 +8,7 @@ import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
 /**
- * A flight mode; taken only while the pilot's switch stands at AUTO, and never ACRO. Source:
+ * A flight mode; accepted only while the pilot's switch is at AUTO, and never ACRO. Source:
  * docs/protocols.md 5.
  */
 public final class FlightModeCommand extends BaseCommand {
@@ -28,7 +28,7 @@ public final class FlightModeCommand extends BaseCommand {
     private final String mode;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

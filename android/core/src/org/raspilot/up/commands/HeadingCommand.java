@@ -26,7 +26,7 @@ public final class HeadingCommand extends BaseCommand {
     private final String mode;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

@@ -19,7 +19,7 @@ public final class MarkCommand extends BaseCommand {
     private final String text;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

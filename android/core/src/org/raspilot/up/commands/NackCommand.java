@@ -21,7 +21,7 @@ public final class NackCommand extends BaseCommand {
     private final String reason;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

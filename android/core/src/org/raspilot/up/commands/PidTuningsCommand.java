@@ -27,7 +27,7 @@ public final class PidTuningsCommand extends BaseCommand {
     }
 
     /**
-     * Makes the Command that sets the gains.
+     * Creates the Command that sets the gains.
      *
      * @throws InvalidCommandException when a gain is out of its range
      */

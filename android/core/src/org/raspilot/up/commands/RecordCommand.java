@@ -20,7 +20,7 @@ public final class RecordCommand extends BaseCommand {
     private final Map<String, Object> content;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

@@ -22,7 +22,7 @@ public final class TelemetryFrequencyCommand extends BaseCommand {
     private final double periodMs;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

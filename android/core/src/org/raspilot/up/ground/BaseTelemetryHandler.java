@@ -14,7 +14,7 @@ import org.raspilot.up.commands.BaseCommandHandler;
 public abstract class BaseTelemetryHandler<T> extends BaseCommandHandler {
     private final TelemetrySource source;
 
-    /** Makes a handler of that {@link GroundSide}'s frames. */
+    /** Creates a handler of that {@link GroundSide}'s frames. */
     protected BaseTelemetryHandler(TelemetrySource source) {
         this.source = source;
     }

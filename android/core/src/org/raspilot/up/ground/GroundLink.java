@@ -58,7 +58,7 @@ final class GroundLink implements UpSocketListener {
                 .withRetryMs(FIRST_RETRY_MS, LAST_RETRY_MS);
         socket = new UpSocket(loop,
                 new FixedPlace(new Place(settings.host(), settings.port(), 0)), this,
-                // A thesis peer knows no heartbeat.
+                // A thesis peer does not support heartbeats.
                 settings.isDirect() ? lines : lines.withHeartbeatMs(HEARTBEAT_MS), random);
     }
 

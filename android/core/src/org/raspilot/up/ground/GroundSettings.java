@@ -94,7 +94,7 @@ public final class GroundSettings {
         return host.indexOf(':') >= 0 ? "[" + host + "]:" + port : host + ":" + port;
     }
 
-    /** Returns under which name a {@link TokenStore} keeps the token of this aircraft there. */
+    /** Returns the key of this aircraft's token in a {@link TokenStore}. */
     public String tokenKey() {
         return host + "_" + port + "_" + aircraft;
     }

@@ -4,7 +4,7 @@ import org.raspilot.up.wire.Seat;
 
 /** A snapshot of link, seat and aircraft. Immutable. */
 public final class GroundStatus {
-    /** What a {@link GroundSide} fills in before it makes a status of it. */
+    /** The values that a {@link GroundSide} fills in before it creates a status. */
     static final class Draft {
         LinkFacts link = new LinkFacts();
         boolean isDirect;

@@ -21,7 +21,7 @@ final class LinkFacts {
     long malformed;
     long strangeControl;
 
-    /** Forgets what only a connection can know. */
+    /** Clears the state that needs a connection. */
     void become(LinkState now, long nowMs, String why) {
         state = now;
         sinceMs = nowMs;

@@ -26,7 +26,7 @@ final class PlaceGaps {
         return nowMs - beforeMs > Math.max(GAP_MS, PERIODS * periodMs);
     }
 
-    /** Returns the time between two places as it was in the middle of the last ones; 0: unknown. */
+    /** Returns the median time between the last positions; 0: unknown. */
     private double periodMs() {
         if (intervals < INTERVALS) {
             return 0;

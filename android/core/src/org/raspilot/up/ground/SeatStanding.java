@@ -2,11 +2,11 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Seat;
 
-/** How it stands with the seat that commands. */
+/** The state of the seat that commands. */
 public enum SeatStanding {
     /** No link. */
     UNKNOWN,
-    /** This ground commands; always so on a direct link, which knows no seats. */
+    /** This ground commands; always so on a direct link, which has no seats. */
     OURS,
     /** The seat is free; a proxy may reserve it for its last owner for three seconds. */
     FREE,
@@ -15,7 +15,7 @@ public enum SeatStanding {
     /** This ground listens and does not know yet who commands. */
     LATER;
 
-    /** Returns how it stands; a direct link knows no seats, so all may be sent there. */
+    /** Returns the state of the seat; a direct link has no seats, so all may send there. */
     static SeatStanding of(LinkFacts facts, boolean isDirect) {
         if (facts.state != LinkState.OPEN) {
             return UNKNOWN;

@@ -32,7 +32,7 @@ final class Inbox {
         return waiting.isEmpty();
     }
 
-    /** Forgets those that wait and all that come. */
+    /** Discards the waiting calls and all later ones. */
     synchronized void close() {
         isClosed = true;
         waiting.clear();

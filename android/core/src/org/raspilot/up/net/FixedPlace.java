@@ -6,7 +6,7 @@ import org.raspilot.up.loop.Cancellable;
 public final class FixedPlace implements PlaceFinder {
     private final Place place;
 
-    /** Makes a finder of {@code place}. */
+    /** Creates a finder of {@code place}. */
     public FixedPlace(Place place) {
         this.place = place;
     }

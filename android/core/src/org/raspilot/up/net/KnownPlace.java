@@ -20,7 +20,7 @@ public final class KnownPlace implements PlaceFinder {
         return place;
     }
 
-    /** Forgets the place. */
+    /** Clears the place. */
     public void forget() {
         place = null;
     }

@@ -25,7 +25,7 @@ public final class RunnerClient implements PlaceFinder {
     private RunnerAnswer lastAnswer;
 
     /**
-     * Makes a client.
+     * Creates a client.
      *
      * @param host the runner's name or address
      * @param port its port, {@link #PORT} unless configured

@@ -26,7 +26,7 @@ final class SendQueue {
     private long replaced;
     private long bytesOut;
 
-    /** Makes a queue of frames as they are, or of lines, of at most 64 KiB in order or newest. */
+    /** Creates a queue of raw frames, or of lines, of at most 64 KiB in order or newest. */
     SendQueue(boolean isRaw) {
         this.isRaw = isRaw;
     }
@@ -91,7 +91,7 @@ final class SendQueue {
         }
     }
 
-    /** Forgets everything: the connection is gone. Returns how many lines or frames died. */
+    /** Clears the queue: the connection is gone. Returns the number of dropped lines or frames. */
     int clear() {
         final int count = ordered.size() + newest.size() + (begun != null ? 1 : 0);
         ordered.clear();

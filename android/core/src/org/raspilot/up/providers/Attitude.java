@@ -15,7 +15,7 @@ public final class Attitude {
     private final double pitchDeg;
     private final double yawDeg;
 
-    /** Keeps roll and pitch as they are, and the yaw as 0 to 360. */
+    /** Stores roll and pitch unchanged, and the yaw as 0 to 360. */
     public Attitude(double rollDeg, double pitchDeg, double yawDeg) {
         this.rollDeg = rollDeg;
         this.pitchDeg = pitchDeg;

@@ -9,7 +9,7 @@ public final class Fix {
     private final Double speedMS;
     private final Double bearingDeg;
 
-    /** Keeps the values as they are; {@link LocationProvider} judges them. */
+    /** Stores the values unchanged; {@link LocationProvider} validates them. */
     public Fix(
             double latitudeDeg,
             double longitudeDeg,

@@ -3,8 +3,8 @@ package org.raspilot.up.providers;
 import org.raspilot.up.wire.SafeText;
 
 /**
- * How the device lies in the aeroplane: the rotation from aircraft axes (nose, right wing, down) to
- * device axes (right edge, top edge, out of the screen). Any orientation will do.
+ * The device's mounting in the aeroplane: the rotation from aircraft axes (nose, right wing, down)
+ * to device axes (right edge, top edge, out of the screen). Any orientation is allowed.
  */
 public final class Mounting {
     private static final int LONGEST_SHOWN = 80;

@@ -51,7 +51,7 @@ public final class Panic {
         return delayMs;
     }
 
-    /** Returns the period that a stream of this own period keeps now, ms. */
+    /** Returns the current period of a stream with that normal period, ms. */
     public long periodMs(long ownPeriodMs) {
         return Math.max(ownPeriodMs, delayMs);
     }

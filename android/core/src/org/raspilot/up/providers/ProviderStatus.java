@@ -11,7 +11,7 @@ public final class ProviderStatus {
     private final String problem;
     private final long sent;
 
-    /** Keeps the values. */
+    /** Stores the values. */
     public ProviderStatus(
             String name,
             String sensor,

@@ -7,7 +7,7 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.up.loop.Loop;
 
-/** Keeps the providers: registers, starts and stops them (thesis 4.5.2). Only on the loop. */
+/** Manages the providers: registers, starts and stops them (thesis 4.5.2). Only on the loop. */
 public final class ProvidersController {
     private final Loop loop;
     private final Panic panic = new Panic();
@@ -56,7 +56,7 @@ public final class ProvidersController {
         }
     }
 
-    /** Stops and forgets a provider; returns whether there was one of that name. */
+    /** Stops and removes a provider; returns whether there was one of that name. */
     public boolean unregister(String name) {
         UpProvider provider = providers.remove(name);
         if (provider != null) {

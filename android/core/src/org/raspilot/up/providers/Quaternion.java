@@ -12,7 +12,7 @@ public final class Quaternion {
     private final double y;
     private final double z;
 
-    /** Keeps the four parts as they are. */
+    /** Stores the four parts unchanged. */
     public Quaternion(double w, double x, double y, double z) {
         this.w = w;
         this.x = x;

@@ -7,7 +7,7 @@ public final class RotationRate {
     private final double zRadS;
     private final long timeMs;
 
-    /** Keeps the values as they are. */
+    /** Stores the values unchanged. */
     public RotationRate(double xRadS, double yRadS, double zRadS, long timeMs) {
         this.xRadS = xRadS;
         this.yRadS = yRadS;

@@ -4,9 +4,10 @@ import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
 
 /**
- * A provider that makes of each reading of one sensor one Command: extend it for your own sensor.
+ * A provider that converts each reading of one sensor to one Command: extend it for your own
+ * sensor.
  *
- * @param <R> what one reading is
+ * @param <R> the type of one reading
  */
 public abstract class SensorProvider<R> extends UpProvider {
     private final SensorSource<R> source;

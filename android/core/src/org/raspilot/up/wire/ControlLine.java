@@ -65,9 +65,9 @@ public final class ControlLine {
     }
 
     /**
-     * Makes SEAT_COMMAND with the token that resumes the seat.
+     * Creates SEAT_COMMAND with the token that resumes the seat.
      *
-     * @throws IllegalArgumentException when it has not the form of a token
+     * @throws IllegalArgumentException when the token is malformed
      */
     public static ControlLine seatCommand(String token) {
         if (!Hello.isToken(token)) {

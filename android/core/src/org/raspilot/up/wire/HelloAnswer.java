@@ -31,7 +31,7 @@ public final class HelloAnswer {
         return new HelloAnswer(aircraft, seat, token, null, null);
     }
 
-    /** Makes the answer that refuses, with one of the codes of the protocol and a sentence. */
+    /** Creates the answer that refuses, with one of the codes of the protocol and a sentence. */
     public static HelloAnswer refused(String code, String reason) {
         return new HelloAnswer(null, null, null, code, reason);
     }

@@ -20,12 +20,12 @@ public final class LineSplitter {
     private boolean isSkipping;
     private long droppedTooLong;
 
-    /** Makes a splitter for lines of General Messages. */
+    /** Creates a splitter for lines of General Messages. */
     public LineSplitter() {
         this(LONGEST_LINE);
     }
 
-    /** Makes a splitter for lines of at most {@code longestBytes}, LF included. */
+    /** Creates a splitter for lines of at most {@code longestBytes}, LF included. */
     public LineSplitter(int longestBytes) {
         longestContent = longestBytes - 1;
     }
@@ -45,7 +45,7 @@ public final class LineSplitter {
         return lines;
     }
 
-    /** Forgets an unfinished line: the next byte is another connection's. */
+    /** Discards an unfinished line: the next byte is another connection's. */
     public void reset() {
         heldLength = 0;
         isSkipping = false;

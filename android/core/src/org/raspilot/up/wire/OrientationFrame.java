@@ -23,7 +23,7 @@ public final class OrientationFrame {
     private final float pitchRateDegS;
     private final float yawRateDegS;
 
-    /** Makes a frame of any values; see {@link #isInRange}. */
+    /** Creates a frame of any values; see {@link #isInRange}. */
     public OrientationFrame(float rollDeg, float pitchDeg, float yawDeg, float rollRateDegS,
             float pitchRateDegS, float yawRateDegS) {
         this.rollDeg = rollDeg;

@@ -47,7 +47,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
         return fixed().mode(AirborneMode.BLACK_BOX);
     }
 
-    /** Makes the phone and starts it. */
+    /** Creates the phone and starts it. */
     Airborne start(AirborneSettings settings) {
         airborne = new Airborne(loop, settings, this, this, this, new Random(1));
         airborne.start();

@@ -53,7 +53,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         faults.mustBeNone();
     }
 
-    /** Makes the ground with these settings and starts it. */
+    /** Creates the ground with these settings and starts it. */
     GroundBench start(GroundSettings with) {
         settings = with;
         ground = new GroundSide(loop, settings, tokens, executor, this, new Random(7));
@@ -154,7 +154,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
                 + "\", \"reason\": \"" + reason + "\"}}");
     }
 
-    /** Keeps answers. */
+    /** Records answers. */
     AnswerListener keeping() {
         return new AnswerListener() {
             @Override

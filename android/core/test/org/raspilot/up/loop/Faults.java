@@ -18,7 +18,7 @@ public final class Faults implements FaultListener {
         return new ArrayList<Throwable>(all);
     }
 
-    /** Returns those until now and forgets them: they were meant. */
+    /** Returns and clears the faults so far: they were intended. */
     public List<Throwable> takeAll() {
         final List<Throwable> taken = all();
         all.clear();

@@ -48,7 +48,7 @@ public final class AndroidSources implements Sensors {
         battery = new BatterySource(lasting, new Handler(looper), posting, texts);
     }
 
-    /** Returns the best of what a phone has; its own fusion knows north and its gyroscope. */
+    /** Returns the best source of a phone; its own fusion includes north and its gyroscope. */
     static SensorSource<Rotation> rotation(SensorDesk desk, Executor loop, SourceTexts texts,
             ProblemListener problems) {
         SensorSource<Rotation> vector = new VectorSource(desk, loop, texts, problems);

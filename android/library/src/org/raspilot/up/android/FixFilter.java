@@ -15,7 +15,7 @@ final class FixFilter {
         knownBeforeMs = newestKnownMs;
     }
 
-    /** Forgets it: the system knew none. */
+    /** Resets it: the system had no fix. */
     void begin() {
         begin(Long.MIN_VALUE);
     }

@@ -8,7 +8,7 @@ public enum Lack {
     LOCATION,
     /** The location is there and permitted, but switched off in the phone's settings. */
     LOCATION_OFF,
-    /** There is nothing by which the phone knows how it lies. */
+    /** No sensor for the phone's orientation. */
     ROTATION,
     /** No gyroscope. */
     GYROSCOPE,

@@ -8,7 +8,9 @@ import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
-/** Shows a screen how the phone lies, whether or not it is sent. All on the main thread. */
+/**
+ * Delivers the phone's orientation to a screen, whether or not it is sent. All on the main thread.
+ */
 public final class RotationFeed {
     private final SensorSource<Rotation> source;
 
@@ -30,7 +32,7 @@ public final class RotationFeed {
         return source.isPresent();
     }
 
-    /** Returns what it knows it by, or a sentence why it does not. */
+    /** Returns the name of its source, or a sentence why there is none. */
     public String name() {
         return source.name();
     }

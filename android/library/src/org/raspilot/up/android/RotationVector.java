@@ -28,7 +28,7 @@ final class RotationVector {
             square += (double) value * value;
         }
         boolean isFinite = !Double.isNaN(square) && !Double.isInfinite(square);
-        // Without the fourth three zeros are the phone that lies flat with its top to the north.
+        // Without the fourth value three zeros mean: flat, with the top to the north.
         boolean isLong = !hasFourth || square >= SHORTEST * SHORTEST;
         return isFinite && isLong ? Rotation.ofVector(known, timeMs) : null;
     }

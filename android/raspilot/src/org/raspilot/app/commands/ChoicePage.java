@@ -37,7 +37,7 @@ final class ChoicePage implements Page {
         return field.isRequired() && field.choices() != null && field.choices().size() <= MOST;
     }
 
-    /** Makes the page. */
+    /** Creates the page. */
     ChoicePage(CommandForm form, Desk desk) {
         this.form = form;
         this.desk = desk;

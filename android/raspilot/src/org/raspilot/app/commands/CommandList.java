@@ -29,7 +29,7 @@ final class CommandList extends BaseAdapter {
     private final List<Object> lines = new ArrayList<Object>();
     private BitSet offered = new BitSet();
 
-    /** Makes a list of all forms. */
+    /** Creates a list of all forms. */
     CommandList(Desk desk, List<CommandForm> forms) {
         this.desk = desk;
         this.forms = forms;
@@ -70,7 +70,7 @@ final class CommandList extends BaseAdapter {
         }
     }
 
-    /** Returns the form at a place; null: a heading stands there. */
+    /** Returns the form at a place; null for a heading. */
     CommandForm form(int place) {
         Object line = lines.get(place);
         return line instanceof CommandForm ? (CommandForm) line : null;

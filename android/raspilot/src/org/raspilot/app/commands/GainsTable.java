@@ -38,7 +38,7 @@ final class GainsTable {
     private final List<Cell> cells = new ArrayList<Cell>();
     private boolean isFilling;
 
-    /** Makes the cells in the list that the page has for them. */
+    /** Creates the cells in the list that the page has for them. */
     GainsTable(View page, GainsEditor editor, ChangeListener listener) {
         this.editor = editor;
         this.listener = listener;

@@ -21,7 +21,7 @@ final class AlarmPanel implements View.OnClickListener {
     private final AlarmBell bell;
     private final Sounder sounder;
 
-    /** Finds its views; the bell is kept by who makes this. */
+    /** Finds its views; the caller owns the bell. */
     AlarmPanel(View root, AlarmBell bell, Sounder sounder) {
         this.bell = bell;
         this.sounder = sounder;

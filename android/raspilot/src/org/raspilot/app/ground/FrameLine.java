@@ -11,8 +11,8 @@ import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
 
 /**
- * The line at the top of a screen: mode, motor, age of the newest frame; or for how long nothing
- * came. It knows which frame was drawn, and so seen.
+ * The line at the top of a screen: mode, motor, age of the newest frame or duration of the silence.
+ * It records which frame was drawn, and so seen.
  */
 public final class FrameLine implements FrameText.DrawnListener {
     private final FrameText view;

@@ -51,7 +51,7 @@ final class GroundSpeed {
         count++;
     }
 
-    /** Forgets every place. */
+    /** Clears all positions. */
     void clear() {
         count = 0;
     }

@@ -27,7 +27,7 @@ final class InstrumentPanel {
     private final BarsView servos;
     private final GroundSpeed groundSpeed;
 
-    /** Finds its views; the speed's past is kept by who makes this. */
+    /** Finds its views; the caller owns the history of the speed. */
     InstrumentPanel(View root, GroundSpeed groundSpeed) {
         this.groundSpeed = groundSpeed;
         attitude = (AttitudeView) root.findViewById(R.id.ground_attitude);

@@ -18,7 +18,7 @@ final class Row {
     enum Look {
         /** As any other. */
         PLAIN,
-        /** As it should be. */
+        /** Normal. */
         GOOD,
         /** It needs attention. */
         WARNING,
@@ -42,7 +42,7 @@ final class Row {
         value = (TextView) element.findViewById(R.id.row_value);
     }
 
-    /** Makes a row at the end of a list of rows. */
+    /** Creates a row at the end of a list of rows. */
     static Row in(ViewGroup list, int labelText, Inks inks) {
         LayoutInflater inflater = LayoutInflater.from(list.getContext());
         View element = inflater.inflate(R.layout.row_ground, list, false);

@@ -15,7 +15,7 @@ import org.raspilot.up.ground.Busy;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
 
-/** Who flies, how, what forbids it, and how it stands with board, phones and load. */
+/** Control, mode, vetoes, and the state of board, phones and load. */
 final class StatePanel {
     private static final double LOW_PERCENT = 20;
     private static final long BATTERY_EACH_MS = 5000;

@@ -38,7 +38,7 @@ public final class TapeGeometry {
         count = 2 * half + 1;
     }
 
-    /** Takes the value that stands at the pointer. */
+    /** Takes the value at the pointer. */
     public void show(float value) {
         float steps = value / step;
         middle = Math.round((double) steps);

@@ -193,7 +193,7 @@ public final class TrackView extends Instrument {
         refit();
     }
 
-    /** Chooses the part of the world, makes the texts that belong to it, and draws soon. */
+    /** Chooses the section of the world, creates its texts, and draws soon. */
     private void refit() {
         boolean isThere = !Double.isNaN(aircraftNorthM);
         double south = isThere ? Math.min(0, aircraftNorthM) : 0;

@@ -35,7 +35,7 @@ final class LoopProgram implements FaultListener {
         void stop();
     }
 
-    /** Makes a loop of that name. */
+    /** Creates a loop of that name. */
     LoopProgram(String name, Words words) {
         this.words = words;
         loop = new SelectorLoop(name, this);

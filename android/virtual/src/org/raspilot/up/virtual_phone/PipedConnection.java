@@ -3,7 +3,7 @@ package org.raspilot.up.virtual_phone;
 import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.loop.TcpListener;
 
-/** A TCP connection that a simulator keeps. */
+/** A TCP connection of a simulator. */
 final class PipedConnection implements TcpConnection {
     /** How many bytes it takes before some have left: as a small send buffer. */
     static final int ROOM_BYTES = 8192;

@@ -13,7 +13,7 @@ import org.raspilot.up.loop.TcpListener;
 import org.raspilot.up.loop.UdpListener;
 import org.raspilot.up.loop.UdpPort;
 
-/** A network that lies behind a pipe: a simulator opens, writes and closes for it. */
+/** A network behind a pipe: a simulator opens, writes and closes for it. */
 final class PipedNetwork implements Network {
     /** How bytes become text: each byte one character. */
     static final Charset BYTES = Charset.forName("ISO-8859-1");
@@ -44,13 +44,13 @@ final class PipedNetwork implements Network {
         toDo.add(Arrays.asList(words));
     }
 
-    /** Forgets a connection or a socket. */
+    /** Discards a connection or a socket. */
     void forget(long id) {
         connections.remove(id);
         ports.remove(id);
     }
 
-    /** Returns what the simulator is to do, and forgets it. */
+    /** Returns and clears the requests to the simulator. */
     List<Object> takeToDo() {
         List<Object> taken = toDo;
         toDo = new ArrayList<Object>();
