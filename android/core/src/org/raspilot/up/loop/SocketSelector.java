@@ -54,7 +54,7 @@ class SocketSelector {
         // Before the wait, so that a selector which only throws is replaced as well.
         emptyRounds++;
         if (waitMs == 0 || isReplaced) {
-            // A wakeup of the old selector does not wake the new one: the loop looks for calls first.
+            // The old selector's wakeups do not reach the new one: the loop checks for calls first.
             selector.selectNow();
         } else {
             selector.select(waitMs < 0 ? 0 : waitMs);
