@@ -21,8 +21,8 @@ settings.load_profile("ci" if os.environ.get("UP_REQUIRE_TOOLS") == "1" else "te
 # A worker takes a whole file. Those that take minutes come first: none is left for the end.
 LONG_FILES = ("test_browser.py", "test_shipped_real.py", "test_ending.py", "test_shipped.py")
 
-# A shell that starts something in the background lets it ignore Ctrl-C, and every program that it
-# starts as well: then none of the tests' own programs would end by it.
+# A shell starts a background program with Ctrl-C ignored, and its children inherit that: then
+# Ctrl-C would end none of the tests' own programs.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
@@ -33,9 +33,9 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session", autouse=True)
 def hangup():
-    """Let what tests start end when its terminal closes, also where ``nohup`` started the tests.
+    """Let programs of tests end when their terminal closes, even if ``nohup`` started the tests.
 
-    A function is no handler after exec: children get the default, the tests themselves go on. Not
+    A function is not kept as handler after exec: children get the default, the tests continue. Not
     at import: xdist's controller keeps ignoring the signal.
     """
     before = signal.getsignal(signal.SIGHUP)

@@ -1,4 +1,4 @@
-"""The systemd units: how much of the system a program could harm, by systemd's own measure."""
+"""The systemd units: the exposure of the system to a program, by systemd's own measure."""
 
 import re
 import subprocess

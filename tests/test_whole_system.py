@@ -34,7 +34,7 @@ def test_it_says_what_flies_what(flight):
 
 
 def test_the_attitude_on_the_ground_is_the_attitude_of_the_model(flight):
-    """What the firmware makes of its IMU's bytes, in turbulence, within its own error."""
+    """The firmware's attitude from its IMU's bytes, in turbulence, within its own error."""
     frames = flight.telemetry(20)
     truth = [(float(row["roll_deg"]), float(row["pitch_deg"])) for row in flight.truth()]
     for frame in frames:

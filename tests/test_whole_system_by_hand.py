@@ -61,7 +61,7 @@ def short_folder():
 
 
 def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, processes):
-    """Only the phone flies: it asks the runner, Raspilot is spawned, the ground sees it."""
+    """Only the phone flies: it requests a runner, Raspilot is spawned, the ground sees it."""
     config = tmp_path / "config"
     black_box = config / "blackbox"
     black_box.mkdir(parents=True)
@@ -103,7 +103,7 @@ def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, proce
 
 
 def test_provisional_black_box_and_back(tmp_path, processes):
-    """Without an Arduino the daemon says so after 5 s, and comes back when it answers."""
+    """Without an Arduino the daemon reports it after 5 s, and recovers when it answers."""
     board = tmp_path / "board"
     (tmp_path / "arduino.yml").write_text(f"port: {board}\n")
     (tmp_path / "android.yml").write_text("general port: 0\norientation port: 0\n")

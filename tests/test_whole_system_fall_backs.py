@@ -55,7 +55,7 @@ def test_without_flight_model_and_autobahn_a_recorded_flight_flies_and_no_page(t
 
 
 def clone_with_nothing_built(folder):
-    """What a user has who never could build the firmware."""
+    """The files of a user who never could build the firmware."""
     ignored = shutil.ignore_patterns("__pycache__", "build", "build-*")
     for name in ("up", "raspilot", "simulator", "arduino"):
         shutil.copytree(ROOT / name, folder / name, ignore=ignored)

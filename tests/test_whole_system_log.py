@@ -62,7 +62,7 @@ class Log:
 
 
 class Flight:
-    """A run whose daemon was killed in the air; what was true a moment before."""
+    """A run whose daemon was killed in the air; the state a moment before."""
 
     def __init__(self, folder):
         self.showcase = showcase = Showcase(folder).ready()
@@ -120,7 +120,7 @@ def test_commands_and_outputs_are_in_it_with_their_origins(flight):
 
 
 def test_the_truth_is_beside_the_estimate(flight):
-    """At equal times of the log the firmware told the true roll; how many there are is Panic's."""
+    """At equal times of the log the firmware reported the true roll; Panic limits their number."""
     truth = flight.log.series("simulator.truth", "roll_deg")
     told = flight.log.series("up.orientation.update", "roll")
     assert max(abs(roll) for _, roll in truth) > 5, "it banks"

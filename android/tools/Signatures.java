@@ -16,14 +16,14 @@ import org.codehaus.mojo.animal_sniffer.SignatureChecker;
 import org.codehaus.mojo.animal_sniffer.logging.Logger;
 
 /**
- * Checks by Animal Sniffer that classes call nothing which an Android level does not have.
+ * Checks by Animal Sniffer that classes call only what an Android level provides.
  *
- * <p>{@code build SIGNATURE JAR...} notes what the jars offer; {@code check SIGNATURE IGNORED
- * ALLOWED JAR...} checks the jars against it; {@code --} begins another check. IGNORED are packages, with commas, that are not
- * looked at; ALLOWED is a file with the references (one a line, as this program says them, # for
- * a comment) that are right although the signature lacks them, or {@code -}. A reference that is
- * allowed and never met is told too: the list stays true. Exits with 1 where something is
- * told.
+ * <p>{@code build SIGNATURE JAR...} records the API of the jars; {@code check SIGNATURE IGNORED
+ * ALLOWED JAR...} checks the jars against it; {@code --} starts another check. IGNORED are
+ * packages, separated by commas, that are not checked; ALLOWED is a file with the references (one a
+ * line, as this program prints them, # for a comment) that are right although the signature lacks
+ * them, or {@code -}. An allowed reference that does not occur is reported too, so that the list
+ * stays true. Exits with 1 if anything is reported.
  */
 public final class Signatures {
     private static final String SAID = "Undefined reference: ";
@@ -94,7 +94,7 @@ public final class Signatures {
         return found;
     }
 
-    /** What Animal Sniffer says, less what is allowed. */
+    /** The findings of Animal Sniffer, without the allowed ones. */
     private static final class Told implements Logger {
         private final Set<String> allowed;
         private final Set<String> met = new HashSet<String>();

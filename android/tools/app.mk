@@ -4,7 +4,7 @@ LIBRARY ?= library
 RASPILOT ?= raspilot
 MANIFEST := $(RASPILOT)/AndroidManifest.xml
 
-# The levels that have classes of their own, and what each level offers.
+# The levels with their own classes, and the framework of each level.
 LEVELS := $(sort $(patsubst src-%,%,$(notdir $(wildcard $(LIBRARY)/src-* $(RASPILOT)/src-*))))
 FRAMEWORK_23 := $(JARS)/android-all-6.0.1_r3-robolectric-r1.jar
 FRAMEWORK_26 := $(JARS)/android-all-8.0.0_r4-robolectric-r1.jar
@@ -53,7 +53,7 @@ $(RESOURCES) $(R_JAVA) &: $(RES) $(MANIFEST) $(BUILD)/RES.list ../up/version.py 
 	@touch $(RESOURCES) $(R_JAVA)
 
 # Classes for a newer Android know the framework of exactly that level, and the core. How its own
-# annotations are written is not ours to lint.
+# annotations are written is not linted.
 define level
 NEWER_$(1) := $$(call newer,$(1))
 $(BUILD)/newer-$(1).jar: $$(NEWER_$(1)) $(CORE_JAR) $(BUILD)/NEWER_$(1).list $(JARS)/.level-$(1)
@@ -77,7 +77,7 @@ $(BUILD)/unsigned.apk: $(RESOURCES) $(DEX) tools/assemble.py | $(BUILD)/debian-t
 	@$(PYTHON) tools/assemble.py $(RESOURCES) $(DEX) $@.loose
 	@rm -f $@ && zipalign -p 4 $@.loose $@ && rm $@.loose
 
-# Another key decides, too.
+# Another key also triggers signing.
 SIGNER := $(ANDROID_KEYSTORE) $(ANDROID_KEY_ALIAS)
 $(APK): $(BUILD)/unsigned.apk $(BUILD)/SIGNER.list tools/sign
 	@tools/sign $< $@ $(BUILD)/debug.keystore '$(TYPED_IN)'

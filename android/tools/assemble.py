@@ -12,7 +12,7 @@ from pathlib import Path
 
 from pack import add
 
-# The system maps the table into memory; what is compressed in itself does not shrink again.
+# The system maps the table into memory; compressed files do not shrink again.
 STORED = (".arsc", ".png", ".ogg")
 
 

@@ -1,7 +1,7 @@
-"""Takes out of an Android framework jar what its public stubs lack: java, javax and open packages.
+"""Extracts from an Android framework jar what its public stubs lack: java, javax, open packages.
 
 ``boot.py FRAMEWORK OUT``. The hidden classes beside them (``com.android.internal`` and others) stay
-out, so that nothing can be compiled against them.
+out, so that no code can be compiled against them.
 """
 
 from __future__ import annotations

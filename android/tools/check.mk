@@ -1,7 +1,7 @@
-# What is wrong is found before it flies: calls newer than their guard, and SpotBugs.
+# Static checks: calls newer than their guard, and SpotBugs.
 PUBLIC_23 := $(JARS)/gummy-bears-api-23-0.12.0.signature
 PUBLIC_26 := $(JARS)/gummy-bears-api-26-0.12.0.signature
-# No signature of API 29 can be had: what it has and API 26 has not stands in a list.
+# There is no signature of API 29: a list has what it adds to API 26.
 PUBLIC_29 := $(PUBLIC_26)
 SNIFFER := $(JARS)/animal-sniffer-1.24.jar:$(JARS)/asm-9.7.jar
 SNIFF := $(JVM) -cp $(BUILD)/signatures.jar:$(SNIFFER) Signatures
@@ -16,7 +16,7 @@ $(BUILD)/api-$(LEAST).signature: $(JARS)/.stubs $(BOOT) $(BUILD)/signatures.jar
 
 # Everything keeps to the java.* of API 16; android.* too, but for the classes of newer levels,
 # which keep to what is public in theirs. Those are reached behind the check of the version only.
-# What resources name is as old.
+# Names in resources are checked against the same level.
 $(BUILD)/.guarded: $(CORE_JAR) $(APP_JAR) $(NEWER_JARS) $(MANIFEST) $(BUILD)/api-$(LEAST).signature \
 		tools/guards.py tools/resources.py $(RES) $(LEVELS:%=$(JARS)/.level-%) \
 		$(wildcard tools/newer-*.list)

@@ -1,7 +1,7 @@
-"""Fetches by Maven the jars of the groups of pom.xml that are not here yet, and checks their sums.
+"""Fetches by Maven the missing jars of pom.xml's groups, and checks their sums.
 
 ``fetch.py FOLDER GROUP...``: a group is an execution of pom.xml. Every jar must have its SHA-256 in
-jars.sha256; one that differs is removed. ``--offline`` as Maven's own; ``--list`` only says the
+jars.sha256; one that differs is removed. ``--offline`` as Maven's own; ``--list`` only prints the
 file names.
 """
 
@@ -27,7 +27,7 @@ PROGRESS = re.compile(r"(Downloading|Downloaded) from \S+ \S+/([^/\s]+\.jar)(?: 
 
 
 class FetchError(Exception):
-    """Jars cannot be had as they should be: the message is one sentence."""
+    """Jars are missing or wrong: the message is one sentence."""
 
 
 def groups(pom: Path) -> dict[str, list[str]]:
@@ -51,7 +51,7 @@ def sums(listed: Path) -> dict[str, str]:
 
 
 def check(file: Path, expected: dict[str, str], source: str) -> None:
-    """Raise ``FetchError`` unless ``file`` has the sum that it should; remove it then."""
+    """Raise ``FetchError`` unless ``file`` has its listed sum; remove it then."""
     if file.name not in expected:
         raise FetchError(f"{source} has no SHA-256 of {file.name}, which pom.xml names")
     with file.open("rb") as opened:
@@ -65,7 +65,7 @@ def check(file: Path, expected: dict[str, str], source: str) -> None:
 
 
 def fetch(folder: Path, wanted: list[str], pom: Path, listed: Path, options: list[str]) -> None:
-    """See to it that every jar of the groups ``wanted`` is in ``folder``, with its sum.
+    """Fetch every missing jar of the groups ``wanted`` into ``folder``, and check its sum.
 
     Raises ``FetchError``.
     """
@@ -78,7 +78,7 @@ def fetch(folder: Path, wanted: list[str], pom: Path, listed: Path, options: lis
         missing = [name for name in known[group] if not (folder / name).is_file()]
         if missing:
             print(f"fetch {group}: {len(missing)} jars by Maven", flush=True)
-            # What Maven writes arrives whole or not at all.
+            # Maven's files appear complete or not at all.
             with tempfile.TemporaryDirectory(dir=folder, prefix=".new-") as work:
                 maven(group, known[group], Path(work), pom, options)
                 for name in known[group]:
@@ -92,7 +92,7 @@ def fetch(folder: Path, wanted: list[str], pom: Path, listed: Path, options: lis
 
 
 def maven(group: str, names: list[str], folder: Path, pom: Path, options: list[str]) -> None:
-    """Let Maven copy the jars of a group into ``folder``; say what it fetches meanwhile."""
+    """Let Maven copy the jars of a group into ``folder``; print their names during that."""
     program = shutil.which("mvn")
     if program is None:
         raise FetchError(f"fetching jars needs mvn (Debian packages {PACKAGES})")
@@ -124,16 +124,16 @@ def maven(group: str, names: list[str], folder: Path, pom: Path, options: list[s
 
 
 def reason(errors: list[str]) -> str:
-    """Return what matters of Maven's error lines: the cause, or the file that it cannot read."""
+    """Return the cause in Maven's error lines, or the file that it cannot read."""
     told = [each for each in errors if each]
     if not told:
         return ""
     # "Plugin p or one of its dependencies ...: Could not transfer artifact a from/to place
-    # (address): cause -> [Help 1]": the words before the cause are those of its own plumbing.
+    # (address): cause -> [Help 1]": the words before the cause are irrelevant here.
     text = re.sub(r"\s*->\s*\[Help \d+\]$", "", told[0])
     if found := re.search(r".*from/to \S+ \([^)]*\): (.+)$", text):
         return re.sub(r"^transfer failed for \S+?(?: proxy: ProxyInfo\{.*?\})?: ", "", found[1])
-    # "1 problem was encountered ...": which one stands in the next line.
+    # "1 problem was encountered ...": the next line has the problem.
     if re.search(r"problems? w(?:as|ere) encountered", text) and len(told) > 1:
         return told[1]
     return text if len(text) <= LONGEST_REASON else f"{text[:LONGEST_REASON]} ..."

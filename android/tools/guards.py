@@ -36,7 +36,7 @@ HANDLER = re.compile(r"^\s+(\d+)\s+(\d+)\s+(\d+)\s+(?:Class (\S+)|any)")
 NEWER_JAR = re.compile(r"newer-(\d+)\.jar")
 SDK_INT = re.compile(r"// Field android/os/Build\$VERSION\.SDK_INT:I")
 PUSHED = re.compile(r"^(?:iconst_(m1|\d)|[bs]ipush|ldc)$")
-# The bytes after the tag of every kind of constant but text (the Java Virtual Machine
+# The bytes after the tag of every kind of constant except text (the Java Virtual Machine
 # Specification, table 4.4-A).
 CONSTANT_BYTES = dict.fromkeys((7, 8, 16, 19, 20), 2) | {15: 3, 5: 8, 6: 8}
 CONSTANT_BYTES |= dict.fromkeys((3, 4, 9, 10, 11, 12, 17, 18), 4)
@@ -59,7 +59,7 @@ class Instruction:
 
 @dataclass(slots=True)
 class Method:
-    """A method's declaration, its instructions, where exceptions go (from, to, handler), which."""
+    """A method: its declaration, its instructions, its exception table (from, to, handler)."""
 
     declared: str
     code: dict[int, Instruction] = field(default_factory=dict)
@@ -67,7 +67,7 @@ class Method:
     caught: list[str] = field(default_factory=list)
 
     def targets(self) -> set[int]:
-        """Return every place in the code that something jumps to."""
+        """Return every jump target in the code."""
         found = {handler for _, _, handler in self.handlers}
         for each in self.code.values():
             found.update(target for _, target in each.cases)
@@ -78,7 +78,7 @@ class Method:
 
 @dataclass(slots=True)
 class Listing:
-    """A class as ``javap -c -p`` lists it; fields are methods without code here."""
+    """A class in the form of ``javap -c -p``; fields are methods without code here."""
 
     name: str
     declared: str
@@ -86,7 +86,7 @@ class Listing:
 
 
 def level(name: str) -> int:
-    """Return the Android level of a class by its package; 0 for one that needs none."""
+    """Return the Android level of a class by its package; 0 if it requires none."""
     found = NEWER.fullmatch(name)
     return int(found[1]) if found else 0
 
@@ -138,16 +138,16 @@ def constant(instruction: Instruction) -> int | None:
 
 
 def shown(operator: str, number: int, known: int) -> int:
-    """Return the least SDK_INT after ``SDK_INT operator number`` held, ``known`` before."""
+    """Return the minimum SDK_INT after ``SDK_INT operator number`` held, ``known`` before."""
     least = {"ge": number, "eq": number, "gt": number + 1}.get(operator, known)
     return max(known, least)
 
 
 def compared(method: Method, at: int, before: list[Instruction]) -> tuple[str, int] | None:
-    """Return how SDK_INT stands in the comparison at ``at``, after the instructions ``before``.
+    """Return the position of SDK_INT in the comparison at ``at``, after ``before``.
 
-    ``("", n)`` for SDK_INT first and n second, ``("mirrored", n)`` the other way round. What is
-    jumped into between reading and comparing, as ``?:`` does, compares something else at times.
+    ``("", n)`` for SDK_INT first and n second, ``("mirrored", n)`` the other way round. A jump
+    target between reading and comparing, as in ``?:``, may compare another value.
     """
     if len(before) < 2 or {before[-1].at, at} & method.targets():
         return None
@@ -160,7 +160,7 @@ def compared(method: Method, at: int, before: list[Instruction]) -> tuple[str, i
 
 
 def edges(method: Method, at: int, known: int) -> Iterator[tuple[int, int]]:
-    """Yield where the instruction at ``at`` leads to, and the least SDK_INT known there."""
+    """Yield the successors of the instruction at ``at``, and the minimum SDK_INT known there."""
     code = method.code
     here = code[at]
     before = [code[each] for each in sorted(code) if each < at][-2:]
@@ -190,7 +190,7 @@ def edges(method: Method, at: int, known: int) -> Iterator[tuple[int, int]]:
 
 
 def least_known(method: Method, entered: int) -> dict[int, int]:
-    """Return the least SDK_INT that is sure at every instruction that can be reached."""
+    """Return the minimum SDK_INT that is certain at every reachable instruction."""
     known: dict[int, int] = {}
     waiting = [(min(method.code), entered)] if method.code else []
     while waiting:
@@ -214,7 +214,7 @@ def faults(listing: Listing) -> Iterator[str]:
                 yield f"{listing.name} declares {name}, which needs API {needed}: {method.declared}"
         for needed, name in named(" ".join(method.caught)):
             if needed > own:
-                # The whole method fails verification where the class is not there.
+                # The whole method fails verification on a system without the class.
                 yield f"{listing.name}: {method.declared} catches {name}, which needs API {needed}"
         known = least_known(method, own)
         for at, instruction in method.code.items():
@@ -244,15 +244,15 @@ def texts(code: bytes) -> Iterator[str]:
 
 
 def unseen(listing: Listing, code: bytes) -> Iterator[str]:
-    """Yield one sentence for every newer class that is named where no instruction is.
+    """Yield one sentence for every newer class that is named outside of instructions.
 
-    That is an annotation, mostly: what javap lists says nothing of it.
+    Mostly that is an annotation, which javap does not list.
     """
     seen = {name for _, name in named(listing.declared)}
     for method in listing.methods:
         lines = [method.declared, *method.caught, *(each.operands for each in method.code.values())]
         seen.update(name for line in lines for _, name in named(line))
-    # A class within a class brings those around it.
+    # A nested class requires its enclosing classes.
     seen |= {name[:at] for name in seen for at, each in enumerate(name) if each == "$"}
     for text in texts(code):
         for needed, name in named(text):
@@ -268,7 +268,7 @@ def inside(jar: Path) -> dict[str, bytes]:
 
 
 def listed(jar: Path, classes: list[str]) -> str:
-    """Return what ``javap`` says of the classes in ``jar``."""
+    """Return the output of ``javap`` for the classes in ``jar``."""
     if not classes:
         return ""
     command = ["javap", "-J-XX:TieredStopAtLevel=1", "-c", "-p", "-cp", str(jar), *classes]

@@ -1,8 +1,8 @@
 """Draws the icons: a banked horizon behind the wings of an attitude indicator.
 
 ``icons.py RES`` writes ic_launcher.png and ic_notification.png into the drawable folders of every
-density. The launcher's icon is in colour; the notification's is white, as Android asks (it takes
-the shape alone). Shapes are distances: a pixel is covered as far as its middle is inside.
+density. The launcher's icon is in colour; the notification's is white, as Android requires (it uses
+only the shape). Shapes are distances: a pixel is covered by the distance of its middle.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def stroke(x: float, y: float, points: tuple[tuple[float, float], ...], half: fl
 
 
 def blend(low: Colour, high: Colour, share: float) -> Colour:
-    """Return the colour ``share`` of the way from ``low`` to ``high``."""
+    """Return the colour at ``share`` between ``low`` and ``high``."""
     share = min(1.0, max(0.0, share))
     red, green, blue = (a + (b - a) * share for a, b in zip(low, high, strict=True))
     return red, green, blue
@@ -122,7 +122,7 @@ def filtered(rows: list[bytes], kind: int) -> bytes:
 
 
 def png(rows: list[bytes]) -> bytes:
-    """Return a PNG (RGBA, 8 bits) of the rows, packed by whichever filter packs best."""
+    """Return a PNG (RGBA, 8 bits) of the rows, with the filter that compresses best."""
 
     def chunk(name: bytes, content: bytes) -> bytes:
         checked = name + content

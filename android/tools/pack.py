@@ -1,4 +1,4 @@
-"""Packs a folder into a jar or zip whose bytes depend on nothing but its contents."""
+"""Packs a folder into a jar or zip whose bytes depend only on its contents."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import sys
 import zipfile
 from pathlib import Path
 
-# The first moment that a zip can tell.
+# The earliest time that a zip can store.
 THE_TIME = (1980, 1, 1, 0, 0, 0)
 
 
 def pack(archive: Path, folder: Path) -> None:
-    """Write every file of ``folder`` into ``archive``, sorted, compressed, of one fixed time.
+    """Write every file of ``folder`` into ``archive``, sorted, compressed, with one fixed time.
 
-    The archive appears at once when it is whole.
+    The archive appears only when it is complete.
     """
     names = sorted(each.relative_to(folder).as_posix() for each in folder.rglob("*"))
     new = archive.with_name(f"{archive.name}.{os.getpid()}")

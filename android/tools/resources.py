@@ -1,9 +1,9 @@
-"""Checks that resources for every Android name nothing that API 16 lacks.
+"""Checks that resources for every Android use only what API 16 has.
 
 ``resources.py RES STUBS``: ``aapt`` knows the resources of a newer Android, too, and what an older
-one lacks ends the app there when it is drawn. Looked through are the XML files of all folders but
-those of newer versions (``values-v21``): names of the system's resources, elements of drawables,
-views of layouts. Attributes are not: an older Android passes over those that it does not know.
+one lacks ends the app there when it is drawn. It checks the XML files of all folders except those
+of newer versions (``values-v21``): names of the system's resources, elements of drawables, views of
+layouts. It does not check attributes: an older Android ignores unknown ones.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ DRAWABLES = {
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """What the least Android has: resources as (type, name), and its classes by their paths."""
+    """The resources of the minimum Android as (type, name), and its classes by their paths."""
 
     resources: frozenset[tuple[str, str]]
     classes: frozenset[str]
 
 
 def offer(stubs: Path) -> Offer:
-    """Read the jar of the public stubs of the least Android."""
+    """Read the jar of the public stubs of the minimum Android."""
     with zipfile.ZipFile(stubs) as opened:
         classes = [each for each in opened.namelist() if each.endswith(".class")]
     kinds = [each[:-6].replace("/", ".") for each in classes if each.startswith("android/R$")]
@@ -57,7 +57,7 @@ def offer(stubs: Path) -> Offer:
 
 
 def names(element: ElementTree.Element) -> Iterator[tuple[str, str, str]]:
-    """Yield as it is written, type and name of each resource of the system that is named here."""
+    """Yield the text, type and name of each resource of the system that is named here."""
     for text in (*element.attrib.values(), element.text or ""):
         for found in SYSTEM.finditer(text.strip()):
             usual = "attr" if found[1] == "?" else ""
@@ -68,14 +68,14 @@ def names(element: ElementTree.Element) -> Iterator[tuple[str, str, str]]:
 
 
 def is_view(tag: str, offered: Offer) -> bool:
-    """Say whether a layout may hold an element: one of ours, or one that the least Android has."""
+    """Return whether a layout may have an element: one of ours, or one of the minimum Android."""
     if "." in tag:
         return not tag.startswith("android.") or tag.replace(".", "/") in offered.classes
     return tag in LAYOUT_WORDS or any(each + tag in offered.classes for each in VIEWS)
 
 
 def faults(file: Path, offered: Offer) -> Iterator[str]:
-    """Yield what is wrong with one file, a sentence each."""
+    """Yield the errors of one file, a sentence each."""
     kind = file.parent.name.split("-")[0]
     for element in ElementTree.parse(file).iter():
         for written, type_, name in names(element):
@@ -88,7 +88,7 @@ def faults(file: Path, offered: Offer) -> Iterator[str]:
 
 
 def files(res: Path) -> Iterator[Path]:
-    """Yield the XML files of all folders that the least Android reads."""
+    """Yield the XML files of all folders that the minimum Android reads."""
     for folder in sorted(res.iterdir()):
         found = VERSION.search(folder.name)
         if not found or int(found[1]) <= LEAST:

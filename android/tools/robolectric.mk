@@ -7,7 +7,7 @@ ROBO_SET := $(BUILD)/robolectric
 PICTURES ?= $(BUILD)/pictures
 DOCS_PICTURES ?= ../docs/pictures
 
-# All that the two groups bring; two archives keep their classes one level deeper.
+# All jars of the two groups; two archives have their classes one level deeper.
 ROBO_FILES := $(addprefix $(JARS)/,$(shell $(PYTHON) tools/fetch.py --list $(JARS) robolectric))
 ROBO_LIBS := $(filter %.jar,$(ROBO_FILES))
 ROBO_AARS := $(filter %.aar,$(ROBO_FILES))

@@ -1,8 +1,8 @@
 """Checks a finished APK against its manifest and the promises of its Makefile.
 
-``verify.py APK MANIFEST VERSION LIMIT``: package and levels, the version, permissions exactly as
-the manifest asks (none implied), nothing that a phone must have, no native code, a readable dex,
-and its size. ``verify.py code VERSION`` says the version as the number that Android compares.
+``verify.py APK MANIFEST VERSION LIMIT``: package and levels, the version, permissions exactly as in
+the manifest (none implied), no required features, no native code, a readable dex, and its size.
+``verify.py code VERSION`` prints the version as the number that Android compares.
 """
 
 from __future__ import annotations
@@ -19,30 +19,30 @@ PACKAGE = "org.raspilot"
 LEAST_SDK = "16"
 TARGET_SDK = "29"
 NAME = "{http://schemas.android.com/apk/res/android}name"
-# aapt implies a touch screen for every app unless it says that it needs none.
+# aapt implies a touch screen for every app unless its manifest declares it optional.
 HARMLESS = {"android.hardware.faketouch", "android.hardware.touchscreen"}
 
 
 def version_code(version: str) -> int:
-    """Return the number that rises with the version: 1.2.3 is 10203."""
+    """Return a number that increases with the version: 1.2.3 is 10203."""
     major, minor, patch = (int(each) for each in version.split("."))
     return major * 10000 + minor * 100 + patch
 
 
 def promised(manifest: Path) -> list[str]:
-    """Return the permissions that a manifest in text asks for."""
+    """Return the permissions in the text of a manifest."""
     root = ElementTree.parse(manifest).getroot()
     return sorted(each.get(NAME, "") for each in root.iter("uses-permission"))
 
 
 def badging(apk: Path) -> str:
-    """Return what ``aapt dump badging`` says of an APK."""
+    """Return the output of ``aapt dump badging`` for an APK."""
     command = ["aapt", "dump", "badging", str(apk)]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 def faults(said: str, asked: list[str], version: str) -> Iterator[str]:
-    """Yield one sentence for everything in the badging that is not as it should be."""
+    """Yield one sentence for every error in the badging."""
     expected = {
         f"package: name='{PACKAGE}'": rf"package: name='{re.escape(PACKAGE)}' ",
         f"versionCode='{version_code(version)}'": rf" versionCode='{version_code(version)}' ",
@@ -68,7 +68,7 @@ def faults(said: str, asked: list[str], version: str) -> Iterator[str]:
 
 
 def dex_fault(apk: Path) -> str | None:
-    """Return what ``dexdump`` finds wrong with the code's checksum and structure; None for good."""
+    """Return the faults that ``dexdump`` finds in the code's checksum and structure, or None."""
     checked = subprocess.run(["dexdump", "-c", str(apk)], capture_output=True, text=True)
     read = subprocess.run(["dexdump", "-f", str(apk)], capture_output=True, text=True)
     if checked.returncode != 0 or "Checksum verified" not in checked.stdout:
@@ -79,7 +79,7 @@ def dex_fault(apk: Path) -> str | None:
 
 
 def main(arguments: list[str]) -> int:
-    """Check the APK that ``arguments`` name; say its size; return the exit status."""
+    """Check the APK that ``arguments`` name; print its size; return the exit status."""
     if arguments[0] == "code":
         print(version_code(arguments[1]))
         return 0

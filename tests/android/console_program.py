@@ -11,7 +11,7 @@ ATTITUDE = (
 
 
 class ConsoleProgram(JavaProcess):
-    """A ground station that keeps every frame it was told by its handler of telemetry."""
+    """A ground station that keeps every frame that its telemetry handler receives."""
 
     def __init__(self, *options, values=(), prefix=()):
         paths = ",".join((*ATTITUDE, *values))
@@ -59,21 +59,21 @@ class ConsoleProgram(JavaProcess):
         self.until(may_send, "the seat")
 
     def ask(self, name, **data):
-        """Send a Command and return what became of it."""
+        """Send a Command and return its outcome."""
         return self._ask(send=name, data=data)
 
     def gains(self, wanted):
-        """Ask for gains, set them or undo it; return what became of it."""
+        """Request gains, set them or undo a change; return the outcome."""
         return self._ask(gains=wanted)
 
     def ask_later(self, name, **data):
-        """Send a Command; return the tag by which ``answer`` finds what became of it."""
+        """Send a Command; return the tag by which ``answer`` finds its outcome."""
         self._asked += 1
         self.say(send=name, data=data, tag=str(self._asked))
         return str(self._asked)
 
     def answer(self, tag):
-        """Return what became of a Command, None before that is known."""
+        """Return the outcome of a Command, or None before it is known."""
         return next((each for each in self.all("answer") if each["tag"] == tag), None)
 
     def _ask(self, **line):
@@ -84,6 +84,6 @@ class ConsoleProgram(JavaProcess):
 
 
 def number_in(frame):
-    """Return the number of a frame's attitude, None without one; fails when it is none of ours."""
+    """Return the number of a frame's attitude, None without one; fails for a foreign attitude."""
     values = [frame["values"][path] for path in ATTITUDE]
     return None if None in values else number_of(values)

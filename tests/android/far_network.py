@@ -1,4 +1,4 @@
-"""A network of its own at the end of a link that delays, loses and goes dark: needs root."""
+"""A network namespace at the end of a link that delays, loses and goes dark: needs root."""
 
 import fcntl
 import heapq
@@ -97,7 +97,7 @@ class FarNetwork:
         try:
             os.write(target, packet)
         except OSError:
-            # Its interface is not up yet, or not any more.
+            # Its interface is not up yet, or already gone.
             self.lost += 1
             return
         self.passed += 1

@@ -1,4 +1,4 @@
-"""A program of the phone's jars on a JVM of its own: JSON lines to it and from it."""
+"""A program of the phone's jars on its own JVM: JSON lines to it and from it."""
 
 import json
 import os
@@ -14,7 +14,7 @@ from tests.support.java import java_program
 
 
 class JavaProcess:
-    """``events`` are all that it said, each with the moment (monotonic s) at which it came."""
+    """``events`` are all its events, each with the time (monotonic s) at which it arrived."""
 
     def __init__(self, main, *options, prefix=()):
         command = [*prefix, *java_program().command(*map(str, options), main=main)]
@@ -37,7 +37,7 @@ class JavaProcess:
         self.end()
 
     def say(self, **line):
-        """Say a line; one that has ended does not hear it."""
+        """Send a line; no effect after the program has ended."""
         data = json.dumps(line).encode() + b"\n"
         with self._lock, suppress(BrokenPipeError, ValueError):
             self.process.stdin.write(data)
@@ -51,7 +51,7 @@ class JavaProcess:
         ]  # fmt: skip
 
     def until(self, condition, what):
-        """Wait for a condition and return its value; a program that died is told at once."""
+        """Wait for a condition and return its value; a dead program is reported immediately."""
 
         def is_so():
             assert self.process.poll() is None, self.complaints

@@ -1,4 +1,4 @@
-"""A motion whose every attitude has a number, by which a receiver knows what it must be."""
+"""A motion whose every attitude has a number, by which a receiver can check it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def attitude(number):
 
 
 def sensors(number):
-    """Return what the sensors of a phone say that lies flat, its top edge ahead."""
+    """Return the sensor readings of a phone that lies flat, its top edge ahead."""
     roll, pitch, yaw, *rates = attitude(number)
     rotation = body_to_world(roll, pitch, yaw).times(SWAP.conjugate())
     return {
@@ -35,7 +35,7 @@ def sensors(number):
 
 
 def number_of(values):
-    """Return the number of an attitude (roll to yaw rate); fails when it is none of ours."""
+    """Return the number of an attitude (roll to yaw rate); fails for a foreign attitude."""
     number = round(values[5] / YAW_RATE_STEP)
     wanted = attitude(number)
     off = [abs((got - want + 180) % 360 - 180) for got, want in zip(values, wanted, strict=True)]

@@ -19,7 +19,7 @@ ALTITUDE_M = 500.0
 class PhoneProgram(JavaProcess):
     """A phone that reads ``readings`` as often as it wants to; it turns by the numbered motion.
 
-    ``number`` is that of the newest attitude it was told.
+    ``number`` is that of the newest attitude that it received.
     """
 
     def __init__(self, *options, prefix=()):

@@ -39,7 +39,7 @@ class RealDaemon(Daemon):
 
     @property
     def listener_port(self):
-        """Return the port of its own listener for grounds."""
+        """Return the port of its listener for grounds."""
         return int(re.findall(r"ground listens on port (\d+)", self.said())[-1])
 
     @property
@@ -54,9 +54,9 @@ class RealDaemon(Daemon):
         return ("--raspberry", f"{host}:{general}:{orientation}")
 
     def log_of(self, topic):
-        """Return what the flight's log has of a topic, oldest first; it may be written still."""
+        """Return a topic's records in the flight's log, oldest first; it may still be growing."""
         return [each for log in self.logs() for each in log.messages.get(topic, [])]
 
     def logs(self):
-        """Return what was recorded, flight by flight."""
+        """Return the recorded messages, flight by flight."""
         return [Log(path) for path in sorted(Path(self.flights).glob("*.mcap"))]

@@ -13,7 +13,7 @@ CHUNK = 4096
 class SlowRelay:
     """Carries connections to a port of this machine; each way takes ``delay_s``.
 
-    ``cut(count)`` lets so many more bytes through to the target and then resets both ends.
+    ``cut(count)`` passes that many more bytes to the target and then resets both ends.
     """
 
     def __init__(self, port, delay_s=0.0):
@@ -33,7 +33,7 @@ class SlowRelay:
         return self
 
     def __exit__(self, *_):
-        # Closing alone would not wake who waits in accept.
+        # Closing alone would not wake a thread in accept.
         with suppress(OSError):
             self._listener.shutdown(socket.SHUT_RDWR)
         self._listener.close()
@@ -42,7 +42,7 @@ class SlowRelay:
             _reset(*pair)
 
     def cut(self, count):
-        """Reset every connection after so many more bytes to the target."""
+        """Reset every connection after that many more bytes to the target."""
         with self._lock:
             self._left = count
 
@@ -84,7 +84,7 @@ class SlowRelay:
                 except OSError:
                     data = b""
                 if is_cut:
-                    # What was passed has to be read before the reset throws it away.
+                    # The passed bytes have to be read before the reset discards them.
                     with suppress(OSError):
                         target.shutdown(socket.SHUT_WR)
                     _reset(source)

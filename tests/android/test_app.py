@@ -41,7 +41,7 @@ def test_the_app_passes_its_tests_and_meets_the_daemon(daemon, tmp_path):
     said = make("test-app", f"ROBO_OPTIONS={options}", pictures, is_built=True)
     counted = re.search(r"^OK \((\d+) tests\)$", said, re.MULTILINE)
     assert counted and int(counted[1]) > 25, said
-    # What the app in the air sent has come to the daemon's own ground, too.
+    # The daemon's own ground has received the airborne app's messages, too.
     daemon.ground.sees("what the phone sent", **FIX, android__batteryLevel=83)
     drawn = sorted(each.name for each in (tmp_path / "pictures").iterdir())
     assert drawn == [f"android-{name}.png" for name in ("airborne", "commands", "ground", "tablet")]
@@ -59,7 +59,7 @@ def test_only_the_loop_opens_sockets():
     loop = "core/src/org/raspilot/up/loop/"
     others = {each for each in found if not each.startswith(loop)}
     assert others == {
-        # Which addresses a broadcast goes to: asked on the loop.
+        # The addresses of a broadcast: read on the loop.
         "core/src/org/raspilot/up/net/InterfaceBroadcasts.java",
         # Reads an address that the system wrote; names are never looked up there.
         "library/src-23/org/raspilot/up/android/api23/NetworkCalls.java",

@@ -1,4 +1,4 @@
-"""A small app is built, signed and verified; what is wrong with it stops the build, named."""
+"""A small app is built, signed and verified; a fault in it stops the build with its name."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def test_a_warning_of_the_compiler_fails(app):
 
 
 def test_a_warning_about_resources_fails(app):
-    # A string that is translated and has no text by itself: aapt warns of it only.
+    # A translated string without a default text: aapt only warns of it.
     folder = app / "raspilot" / "res" / "values-de"
     folder.mkdir()
     (folder / "strings.xml").write_text(

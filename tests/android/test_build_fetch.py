@@ -1,4 +1,4 @@
-"""Jars are fetched once, and only as they are listed; what is missing is told in a sentence."""
+"""Jars are fetched once, and only as listed; a missing one is reported in a sentence."""
 
 from __future__ import annotations
 

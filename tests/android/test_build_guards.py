@@ -135,7 +135,7 @@ def packed(folder, name):
 
 @pytest.fixture(scope="module")
 def found(tmp_path_factory):
-    """What is wrong with each class, all compiled and read at once."""
+    """The findings for each class, all compiled and read together."""
     need_jdk()
     folder = tmp_path_factory.mktemp("guards")
     sources = {"Build": SDK, "New": NEW_23, "Newer": NEW_26}

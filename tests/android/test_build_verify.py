@@ -1,4 +1,4 @@
-"""What an APK says of itself is held against its manifest and against what is promised."""
+"""The claims of an APK are compared with its manifest and with the project's promises."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PERMISSION = '<uses-permission android:name="android.permission.{}" />\n    <app
 
 
 def faults(folder, old="", new="", version="0.1.0", asked=None):
-    """Compile the fixture's resources with its manifest changed; return what is wrong with them."""
+    """Compile the fixture's resources with its manifest changed; return the findings."""
     need_android()
     shutil.copytree(FIXTURE, folder / "raspilot")
     manifest = folder / "raspilot" / "AndroidManifest.xml"

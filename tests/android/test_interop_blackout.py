@@ -1,4 +1,4 @@
-"""30 s without a radio, for the Java phone and the Java ground at once: what is late is gone."""
+"""30 s without a radio for the Java phone and the Java ground together: late data is dropped."""
 
 import time
 
@@ -67,7 +67,7 @@ def test_thirty_seconds_of_darkness(system, radio):
     far, near, phone, ground = system.far, system.near, system.phone, system.daemon.ground
     assert far.ask("black_box.mark", text="light")["outcome"] == "ACK"
     before = system.memory()
-    # The night falls; what is sent in it is answered in it, and never carried out.
+    # Commands sent during the outage are answered during it, and never executed.
     dark_s = time.monotonic()
     radio.is_dark = True
     sent = [far.ask_later("black_box.mark", text="dark 0")]
@@ -98,7 +98,7 @@ def test_thirty_seconds_of_darkness(system, radio):
     attitude_s = time.monotonic() - light_s
     print(f"blackout: missed by both after {missed_s:.1f} s; back after {telemetry_s:.2f} s"
           f" (telemetry), {phone_s:.2f} s (phone), {attitude_s:.2f} s (attitude)")  # fmt: skip
-    # Who was cut off has the seat again, and what it says is carried out.
+    # The disconnected owner has the seat again, and its Commands are executed.
     far.holds()
     assert far.ask("black_box.mark", text="light again")["outcome"] == "ACK"
     assert far.ask("android.speak", text="good morning")["outcome"] == "ACK"

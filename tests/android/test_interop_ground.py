@@ -87,7 +87,7 @@ def test_arming_without_a_beacon_is_refused_at_both_ends(system):
         to_mute = ("--proxy", f"127.0.0.1:{system.proxy.ground_port}", "--aircraft", "mute")
         with ConsoleProgram(*to_mute) as console:
             console.until(lambda: console.status.get("standing") == "OURS", "the seat")
-            # It lives, and says nothing: the proxy misses who is silent for 3 s.
+            # It runs but sends nothing: the proxy drops a peer that is silent for 3 s.
             console.until(lambda: mute.say("\n") and console.status["online"], "the aircraft")
             refused = console.ask("up.arm")
             assert (refused["outcome"], refused["code"]) == ("REFUSED", "no_beacon")
@@ -139,7 +139,7 @@ def test_gains_with_ack_fly_in_the_firmware_and_an_undo_brings_the_old_back(syst
     answer = console.gains(wanted)
     assert answer["outcome"] == "ACK", answer
     console.until(lambda: console.all("gains")[-1]["flying"] == wanted, "them at the Java ground")
-    # What the firmware holds, read back by another ground.
+    # The firmware's values, read back by another ground.
     ground = system.daemon.ground
     del ground.messages[:]
     assert ground.ask("arduino.pids.tunings", request=True) == ""
@@ -207,7 +207,7 @@ def test_ages_are_honest_behind_a_slow_link(system, console):
 
 
 def compare(near, far, count):
-    """Return the medians of the newest frames' ages, true and as the far ground tells them."""
+    """Return the medians of the newest frames' ages: the true ones and those of the far ground."""
     came_s = {said["beacon"]: at for at, said in list(near.events) if said["event"] == "telemetry"}
     told = [(at, said) for at, said in list(far.events) if said["event"] == "telemetry"][-count:]
     both = [((at - came_s[said["beacon"]]) * 1000, said["age_ms"])
@@ -245,7 +245,7 @@ def test_gains_over_a_link_of_300_ms(system, console):
 
 
 def test_the_seat_comes_back_by_its_token_after_a_cut(system, console):
-    """A listener waits for the seat; whoever was cut off has it back before the proxy frees it."""
+    """A listener waits for the seat; the disconnected owner gets it back before it is released."""
     console.say(seat="release")
     console.until(lambda: console.status["standing"] != "OURS", "that it is left")
     with (

@@ -23,7 +23,7 @@ BACK_S = 5.0
 
 
 class Stranger(threading.Thread):
-    """Another aircraft of the proxy, whose telemetry must never be seen; it comes back, too."""
+    """Another aircraft of the proxy, whose telemetry must never be seen; it reconnects, too."""
 
     def __init__(self, port):
         super().__init__(daemon=True)
@@ -125,7 +125,7 @@ def test_both_come_back_and_nothing_is_crossed(system):
     assert phone.said == ["back", "again"]
     assert len(phone.connections) == 2, "the phone did not notice the proxy"
     assert proxy_s < BACK_S and daemon_s < BACK_S
-    # Every frame is one that the phone said, and none overtook another.
+    # Every frame is one that the phone sent, and none overtook another.
     numbers = [number_in(frame) for frame in console.frames]
     known = [number for number in numbers if number is not None]
     assert known == sorted(known)

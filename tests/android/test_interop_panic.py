@@ -49,7 +49,7 @@ def test_the_load_guard_of_the_daemon_slows_the_phone(daemon):
     for topic in ("up.location.update", "up.orientation.update", "up.heading.change"):
         times_s = [time_s for time_s, _ in daemon.log_of(topic)]
         assert len(times_s) >= 2, topic
-        # What was sent before the phone had heard of it, and one more at the end.
+        # The frames sent before the phone received the Command, and one more at the end.
         assert sum(time_s > times_s[-1] - WINDOW_S for time_s in times_s) <= MOST, topic
 
 

@@ -48,7 +48,7 @@ def test_a_phone_finds_the_daemon_by_discovery_and_all_readings_arrive(daemon):
         wanted = phone.number * 91 % 719 / 2
         ground.comes("heading.actual", wanted, 0.1)
         assert ground.at("source.orientation") != "android", "orientation is off by itself"
-        # What changes is told.
+        # Changes are reported.
         phone.readings["battery"] = 41
         phone.readings["fix"] = {**FIX, "latitude": 50.1}
         ground.sees("the change", location__latitude=50.1, android__batteryLevel=41)
@@ -76,7 +76,7 @@ def test_every_attitude_that_arrives_is_one_that_the_sensors_said(daemon, transp
         assert (frames() - begun) / (took_s + 0.2) < hz * 1.15, "not more than was asked for"
         assert ground.at("counters.android.orientation_dropped") == 0
         assert ground.at("source.orientation") == "android"
-        # It stands still, and what is shown is what the sensors say.
+        # The phone stands still, and the display equals the sensors' readings.
         phone.is_turning = False
         console.until(lambda: console.number() == phone.number, "the newest attitude")
         shown = [number_in(frame) for frame in console.frames]

@@ -36,7 +36,7 @@ def no_look_up():
 
 
 class PythonGround:
-    """The link of the Python ground station, and what came over it."""
+    """The link of the Python ground station, and its received messages."""
 
     def __init__(self, folder, port):
         settings = Settings("127.0.0.1", port, AIRCRAFT, Seat.LISTEN)
@@ -47,7 +47,7 @@ class PythonGround:
         self.messages.append(message)
 
     def on_link(self):
-        """Hear of it: the status is looked at."""
+        """Receive it: the status is read."""
 
     @property
     def frames(self):

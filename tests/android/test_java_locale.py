@@ -1,4 +1,4 @@
-"""What a phone writes does not depend on its language: other digits would go over the air."""
+"""The phone's messages do not depend on its language, which may have other digits."""
 
 from __future__ import annotations
 

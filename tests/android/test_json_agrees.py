@@ -50,7 +50,7 @@ MANY = settings(
 
 
 class Echo:
-    """A JVM that says what the Up Library makes of a line."""
+    """A JVM that prints how the Up Library parses a line."""
 
     def __init__(self, command):
         self._jvm = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
@@ -87,7 +87,7 @@ def echo(tmp_path_factory):
 
 
 def check(echo, line):
-    """Hold what the Up Library makes of a line against what Python makes of it."""
+    """Compare the Up Library's result for a line with Python's."""
     said = echo.ask(line)
     try:
         message = decode(line)
@@ -155,7 +155,7 @@ LINES = st.one_of(
     VALUES,
     st.lists(st.sampled_from([*'{}[],:"\\-.0e', '"id":', "1", "null", " ", "\x00"])).map("".join),
 )
-# A text with a lone surrogate is no UTF-8: as bytes it is.
+# A text with a lone surrogate has no UTF-8 form: as bytes it has.
 BYTES = st.one_of(LINES.map(lambda text: text.encode("utf-8", "surrogatepass")), st.binary())
 
 
@@ -218,7 +218,7 @@ def commands(draw):
 
 
 def constraints_of(name):
-    """Return what each field of a Command must be, by its name on the wire."""
+    """Return the rule of each field of a Command, by its name on the wire."""
     cls = CATALOGUE.get(name)
     hints = typing.get_type_hints(cls)
     constraints = {field.name: constraint_of(field, hints) for field in dataclasses.fields(cls)}
@@ -283,7 +283,8 @@ def check_command(echo, name, data):
     try:
         CATALOGUE.get(name).from_data(message.data)
     except InvalidCommandError as error:
-        # The phone takes a longer or shorter delay of Panic Mode, as an older Raspberry Pi says it.
+        # The phone accepts a longer or shorter delay of Panic Mode, as an older Raspberry Pi sends
+        # it.
         if "panic" in name and str(error).startswith("delay_ms"):
             return
         assert complaint is not None, f"Python refuses {name} {data}: {error}"

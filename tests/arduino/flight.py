@@ -33,8 +33,8 @@ class Message:
 class Flight:
     """A booted firmware: sticks centred, throttle low, AUX1 as given, still and level.
 
-    What the tests read are servo pulses, bytes of the line, EEPROM. ``may_be_cut`` is for who
-    resets the firmware: the frame that it was sending then is no broken one.
+    The tests read servo pulses, bytes of the line, EEPROM. ``may_be_cut`` is for tests that reset
+    the firmware: a frame cut by the reset does not count as broken.
     """
 
     def __init__(self, *options, aux1=LOW, boots=True, receiver=True, **more):
@@ -106,7 +106,7 @@ class Flight:
         raise AssertionError(f"no {letter} came within 600 ms")
 
     def status(self):
-        """Return the newest status, asked for by a Start Command if need be."""
+        """Return the newest status, requested by a Start Command if necessary."""
         self.send("s")
         return BoardStatus(
             *(

@@ -67,7 +67,7 @@ def build(arduino: Path) -> Path:
 
 
 def passes(elf: Path, tests: list[str]) -> bool:
-    """Return whether tests pass with an ELF; raises ``ValueError`` when there are none of them."""
+    """Return whether tests pass with an ELF; raises ``ValueError`` when no tests were found."""
     command = [sys.executable, "-m", "pytest", "-q", "-x", "--no-header", "-p", "no:cacheprovider"]
     done = subprocess.run(
         [*command, *(f"tests/arduino/{each}" for each in tests)],
@@ -84,7 +84,7 @@ def passes(elf: Path, tests: list[str]) -> bool:
 
 
 def judge(entry: dict) -> str:
-    """Return what happened to one mutation; ``caught`` is what is wanted."""
+    """Return the result of one mutation; ``caught`` is the wanted one."""
     try:
         with tempfile.TemporaryDirectory() as folder:
             arduino = copy_of_the_firmware(Path(folder))

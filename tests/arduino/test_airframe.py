@@ -161,7 +161,7 @@ def test_a_profile_is_kept_over_a_power_cycle(flight):
     ],
 )
 def test_fbw_asks_for_its_limits_at_full_stick(flight, channel, stick, attitude):
-    """Where bank and pitch are what the stick asks for, the surfaces are at rest."""
+    """When bank and pitch equal the stick's demand, the surfaces are at rest."""
     fit(flight)
     flight.tilt(*attitude)
     flight.sticks(**{channel: stick}, aux1=MIDDLE)

@@ -1,4 +1,4 @@
-"""Arming: what it takes, what it concerns, and what never does it."""
+"""Arming: its conditions, its effects, and what never arms."""
 
 import math
 
@@ -40,7 +40,7 @@ def test_only_an_edge_of_aux2_arms(calm):
 
 @pytest.mark.parametrize("receiver_after_ms", [0, 2500])
 def test_an_aux2_that_is_high_at_power_on_arms_nothing(receiver_after_ms):
-    """Nor one of a receiver that is switched on when nothing else speaks against it any more."""
+    """Neither does that of a receiver switched on when no other veto is left."""
     flight = Flight(boots=False, receiver=False)
     flight.run_ms(receiver_after_ms)
     flight.rig.receiver.sticks(aux2=HIGH)
@@ -90,7 +90,7 @@ def test_the_edge_is_debounced_for_300_ms(calm):
     calm.sticks(260, aux2=HIGH)
     calm.sticks(500, aux2=LOW)
     assert not calm.status().is_armed
-    # A low that is too short is no low: what follows is no edge.
+    # A low that is too short does not count: the following high is not an edge.
     calm.sticks(500, throttle=1200, aux2=HIGH)
     calm.sticks(100, throttle=LOW)
     calm.sticks(200, aux2=LOW)
@@ -169,7 +169,7 @@ def test_what_speaks_against_arming_holds_off_switch_and_command(calm, against, 
     assert not status.is_armed
     against(calm)
     assert calm.ask("a") == reason
-    # What went by is not made up for: the switch must move again.
+    # A missed edge is not made up for: the switch must move again.
     calm.rig.imu.plug()
     calm.rig.receiver.start()
     calm.sticks(1300, throttle=LOW)
@@ -209,7 +209,7 @@ def test_a_broken_profile_holds_off_arming(calm):
     status = flight.status()
     assert status.vetoes & 64
     assert not status.is_armed
-    # It flies all the same, as the profile of the first boot says.
+    # It flies nevertheless, by the profile of the first boot.
     assert flight.servo_us("ailerons") == pytest.approx(1500, abs=1)
 
 

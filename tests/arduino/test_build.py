@@ -44,7 +44,7 @@ def test_a_wrong_option_is_a_sentence():
 def make_or_skip(target):
     """Return what make printed; without what it needs, skip as for any missing tool.
 
-    It has a lock of its own: whoever flies the firmware need not wait for these minutes.
+    It has its own lock, so that tests with the firmware need not wait for these minutes.
     """
     try:
         return make(target, lock_name=f".{target}.lock")

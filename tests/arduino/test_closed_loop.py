@@ -1,4 +1,4 @@
-"""The compiled firmware flies an aircraft: servo pulses in, what an IMU on board would feel out."""
+"""The compiled firmware flies an aircraft: servo pulses in, the readings of an IMU on board out."""
 
 import math
 
@@ -17,8 +17,8 @@ ROLL_LAG_S, PITCH_LAG_S = 0.12, 0.15
 class Aircraft:
     """Roll and pitch of a small aircraft that turns without slipping, and banked sinks its nose.
 
-    In such a turn the accelerometer feels the floor, not the ground: whoever believes it levels to
-    a bank.
+    In such a turn the accelerometer shows the floor, not the ground: a controller that trusts it
+    levels to a bank.
     """
 
     def __init__(self, roll_deg=0.0, pitch_deg=0.0):
@@ -69,7 +69,7 @@ def fly(flight, aircraft, seconds, watch=None):
 
 
 def banked(roll_deg, pitch_deg, **options):
-    """Return a flight at an attitude, in ACRO so that nothing levels it meanwhile."""
+    """Return a flight at an attitude, in ACRO so that it is not levelled in between."""
     flight = Flight(**options)
     flight.run_ms(1500)
     flight.tilt(roll_deg, pitch_deg, seconds=0.4)
@@ -144,5 +144,5 @@ def test_an_imu_lost_in_a_bank_leaves_the_pilot_the_surfaces_and_fbw_levels_when
     flight.rig.imu.plug()
     fly(flight, aircraft, 3.0)
     assert flight.mode() == "f"
-    # What it turned unseen is not known, and only slowly found.
+    # Rotation during the gap is unknown, and only slowly found.
     assert abs(aircraft.roll_deg) < 10

@@ -21,7 +21,7 @@ def vectors(name):
 
 
 def thesis(flight, data, wait_ms=60):
-    """Send bare bytes and return what comes, without looking for frames."""
+    """Send bare bytes and return the received bytes, without looking for frames."""
     flight.rig.serial.read()
     flight.rig.serial.write(data)
     flight.rig.run_us(wait_ms * 1000)
@@ -29,7 +29,7 @@ def thesis(flight, data, wait_ms=60):
 
 
 def speaks_checked(flight):
-    """Return whether a frame is answered, once a zero has ended what came before."""
+    """Return whether a frame is answered after a zero has ended the bytes before it."""
     flight.rig.serial.write(b"\0")
     flight.rig.run_us(120_000)
     flight.rig.serial.read()
@@ -44,7 +44,7 @@ def is_thesis(flight):
 
 
 def open_door(flight):
-    """Send what an old Raspberry Pi sends when it starts: gains, then panic's end."""
+    """Send the start-up messages of an old Raspberry Pi: gains, then panic's end."""
     flight.rig.serial.write(GAINS + PANIC)
     flight.rig.run_us(60_000)
 

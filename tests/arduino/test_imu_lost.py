@@ -47,7 +47,7 @@ def fbw(shared):
 
 
 def widths(flight, from_cycle):
-    """Return what the ailerons got in pulses that rose after a cycle."""
+    """Return the ailerons' pulses that rose after a cycle."""
     pulses = flight.rig.servo.pulses("ailerons")
     return [each.width_us for each in pulses if each.rise_cycle > from_cycle]
 
@@ -144,7 +144,7 @@ def test_plugged_in_and_failing_at_any_byte_of_its_set_up(fbw, fault):
         imu.mend()
         fbw.run_ms(120)
         assert fbw.status().flags & IMU
-        # It measures what it measured before: no setting was left out.
+        # It measures as before: no setting was left out.
         fbw.tilt(-20 if byte else 30, seconds=0.2)
         at = f"byte {byte} of transfer {transfer}"
         assert fbw.attitude()[0] == pytest.approx(-20 if byte else 30, abs=2), at
@@ -184,7 +184,7 @@ def test_another_part_at_the_address_is_not_taken_for_the_imu(fbw):
 
 @pytest.mark.parametrize("loss", [unplug, lambda imu: imu.fail(Fault.SCL_LOW)])
 def test_servos_and_loop_do_not_wait_for_an_imu(loss):
-    """Not at start, and not for ever after."""
+    """Not at start, and not later either."""
     flight = Flight(boots=False)
     loss(flight.rig.imu)
     flight.run_ms(300)
@@ -208,7 +208,7 @@ def test_servos_and_loop_do_not_wait_for_an_imu(loss):
 
 
 def test_an_imu_lost_for_a_few_samples_keeps_its_attitude(fbw):
-    """The attitude goes on from the gyro: what was turned meanwhile is made up for."""
+    """The attitude continues from the gyro: rotation during the gap is made up for."""
     fbw.rig.imu.unplug()
     fbw.run_ms(30)
     fbw.rig.imu.plug()

@@ -1,4 +1,4 @@
-"""What the EEPROM keeps on the compiled firmware, and what a cut of the power leaves of it."""
+"""The EEPROM's content on the compiled firmware, and the effects of power cuts."""
 
 import struct
 
@@ -13,7 +13,7 @@ PROFILE_VETO = 64
 
 
 def keep(flight, letter, payload):
-    """Send what is to be kept and wait until the EEPROM has it."""
+    """Send the settings and wait until the EEPROM has stored them."""
     assert flight.ask(letter, payload) == "K"
     flight.run_ms(600)
     assert not flight.rig.eeprom.is_writing

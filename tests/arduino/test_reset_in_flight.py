@@ -1,8 +1,8 @@
-"""Resets in flight: what comes back after the watchdog's, and what must never come back by itself.
+"""Resets in flight: what recovers after the watchdog's, and what must never recover automatically.
 
-The loop is made to stand still from outside, in the binary that flies: the instruction with which a
-slot ends, ``wdr``, becomes a jump to itself, as if a cell of the flash had failed, and is mended
-once the watchdog has bitten.
+The loop is stopped from outside, in the flown binary: the instruction that ends a slot, ``wdr``,
+becomes a jump to itself, as if a cell of the flash had failed, and is restored after the watchdog's
+reset.
 """
 
 import itertools
@@ -119,7 +119,7 @@ def test_a_loop_that_stands_still_with_interrupts_off_flies_on_without_bootloade
 
 
 def test_with_optiboot_a_deaf_stop_gives_the_surfaces_back_and_no_motor():
-    """Optiboot clears the cause of the reset, and nothing could be marked: it is no proof."""
+    """Optiboot clears the cause of the reset, and nothing could be marked: it proves nothing."""
     try:
         flight = aloft(build_optiboot())
     except RigUnavailableError as error:
@@ -259,7 +259,7 @@ def test_no_other_reset_ever_arms(bootloader, how):
     assert not status.cause & RESTORED
     assert not status.cause & Reset.WATCHDOG
     assert status.mode == "f"
-    # AUX2 stands at high as it did: that is no edge.
+    # AUX2 stays high: that is not an edge.
     flight.sticks(500, throttle=LOW)
     assert not flight.status().is_armed
 
@@ -275,7 +275,7 @@ def test_power_that_fails_after_a_reset_in_flight_does_not_arm(bootloader):
 
 
 def turning(bank_deg, speed_m_s=12.0):
-    """Return what an IMU feels in a level turn without slip."""
+    """Return the readings of an IMU in a level turn without slip."""
     bank = math.radians(bank_deg)
     turn_deg_s = math.degrees(GRAVITY_M_S2 * math.tan(bank) / speed_m_s)
     rates = (0.0, turn_deg_s * math.sin(bank), turn_deg_s * math.cos(bank))

@@ -1,4 +1,4 @@
-"""Who flies: the pilot's switch, and how far the Raspberry Pi's authority goes."""
+"""Control authority: the pilot's switch, and the limits of the Raspberry Pi."""
 
 import pytest
 
@@ -20,7 +20,7 @@ def shared():
 
 @pytest.fixture
 def armed(shared):
-    """Return an armed aircraft, level, sticks centred, the switch at ACRO, nothing asked."""
+    """Return an armed aircraft, level, sticks centred, the switch at ACRO, without requests."""
     shared.rig.receiver.start()
     shared.tilt(0, seconds=0.2)
     shared.sticks(ailerons=1500, elevator=1500, rudder=1500, throttle=LOW, aux1=LOW, aux2=HIGH)
@@ -66,7 +66,7 @@ def test_each_position_selects_what_the_profile_says():
     assert flight.mode() == "f"
     flight.sticks(aux1=HIGH)
     assert flight.mode() == "r"
-    # Still, and no rate asked: RATE does not level.
+    # At rest, and no rate requested: RATE does not level.
     assert flight.servo_us("ailerons") == pytest.approx(1500, abs=5)
 
 

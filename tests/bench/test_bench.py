@@ -1,6 +1,6 @@
-"""The benchmarks' arithmetic: turns, ratios, spread, what is too noisy, what is left out.
+"""The benchmarks' arithmetic: turns, ratios, spread, noise limits, exclusions.
 
-How fast anything is, is not tested.
+Speed itself is not tested.
 """
 
 import subprocess

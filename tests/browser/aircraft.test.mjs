@@ -24,7 +24,7 @@ after(async () => {
 
 afterEach(() => GroundPage.closeAll());
 
-/** What is shown of keys of the telemetry that begin so. */
+/** The displayed values of telemetry keys with that prefix. */
 async function shown(ground, start) {
   return (await ground.values()).filter(({ key }) => key.startsWith(start));
 }
@@ -70,7 +70,7 @@ test("another aircraft is chosen, and one that says nothing shows nothing of the
   ground.assertClean();
 });
 
-/** Whether the chart at a place tells that. */
+/** Whether the chart at a place shows that. */
 function charted([place, words]) {
   const label = document.querySelectorAll("#charts .chart-canvas")[place]?.getAttribute("aria-label");
   return label?.includes(words);

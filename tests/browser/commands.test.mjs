@@ -1,4 +1,4 @@
-// What somebody asks of the aircraft by the page is carried out by it, or refused with its reason.
+// The aircraft executes each request of the page, or refuses it with its reason.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 

@@ -1,4 +1,4 @@
-// Two browsers and one control: who has it commands, the other watches, and it is handed over.
+// Two browsers and one control: its owner commands, the other watches, and it is handed over.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 

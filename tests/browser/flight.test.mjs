@@ -16,7 +16,7 @@ const GPS_M = 9;
 const BAROMETER_M = 2;
 /** What the firmware makes of its IMU in turbulence, degrees. */
 const ESTIMATE_DEG = 4;
-/** A location is called old after this time, and what is live has come on the way since. */
+/** A location is stale after this time; live values have arrived since. */
 const LOCATION_S = 1.9;
 const SILENT_S = 0.9;
 let showcase;

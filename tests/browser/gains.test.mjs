@@ -29,7 +29,7 @@ after(async () => {
 
 afterEach(() => GroundPage.closeAll());
 
-/** What the board itself says that it flies, to another ground station. */
+/** The board's own report of its active gains, to another ground station. */
 async function gainsOfBoard() {
   const port = String(showcase.groundPort);
   const environment = { XDG_STATE_HOME: showcase.folder };

@@ -103,7 +103,7 @@ test("keys and values stay text in the list of all telemetry, and in a chart of 
     flight.tell({ data: { ...telemetry(text), [`${text} n`]: { [text]: 7 } } });
     const isListed = (text) =>
       [...document.querySelectorAll("#telemetry-list .leaf-path")].some((each) => each.textContent.includes(text));
-    // What would turn a line about or end it is written out, and what is long is cut.
+    // Characters that reverse or end a line are escaped, and long texts are cut.
     const part = text.startsWith("long") ? "long AAAA" : text.startsWith("\u202E") ? "gnp.elif" : text;
     await ground.until(isListed, `a row of ${text.slice(0, 40)}`, part);
     assert.deepEqual(await harm(), NO_HARM, text.slice(0, 40));

@@ -1,4 +1,4 @@
-// What has stopped to be of now stops to look so, and comes back by itself.
+// Values that are no longer current stop looking current, and recover automatically.
 import assert from "node:assert/strict";
 import { after, afterEach, before, test } from "node:test";
 
@@ -13,9 +13,9 @@ const GPS_M = 9;
 const WITHIN_S = 1.0;
 /** A live location is at most so old: on board and on the way. */
 const LIVE_LOCATION_S = 1.9 + 0.2;
-/** What the page and its server know by themselves, of now even when the aircraft says nothing. */
+/** The page's and its server's own values, current even when the aircraft is silent. */
 const OF_THE_PAGE = ["link.age", "link.rate", "link.lost", "link.page"];
-/** A proxy that says that the aircraft is gone is heard: all this is of now then. */
+/** The proxy reports that the aircraft is gone: all these values are current then. */
 const OF_THE_PROXY = ["link.proxy", "link.latency", "link.aircraft"];
 let showcase;
 let browser;
@@ -33,7 +33,7 @@ after(async () => {
 afterEach(() => GroundPage.closeAll());
 
 /**
- * Let the page write down, by its own clock, how old the newest frame is whenever the state of the
+ * Let the page record, by its own clock, how old the newest frame is whenever the state of the
  * aircraft changes, what is shown as live while it is silent, and how long it was held up itself.
  */
 function watchSilence([ofThePage, ofTheProxy]) {

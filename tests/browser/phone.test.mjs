@@ -53,7 +53,7 @@ async function disarm(ground, hold) {
   await ground.until(() => document.querySelector("#bar-armed").textContent === "disarmed", "disarmed");
 }
 
-/** What is wider than the screen. */
+/** The elements wider than the screen. */
 async function tooWide(ground) {
   return ground.page.evaluate(() => {
     const root = document.scrollingElement;

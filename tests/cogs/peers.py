@@ -1,4 +1,4 @@
-"""What stands at the other end of a socket: raw bytes, no codec of the project's."""
+"""The far end of a socket: raw bytes, without the project's codec."""
 
 # ruff: noqa: N802 - Twisted's names
 
@@ -14,7 +14,7 @@ from tests.support.reactor import until
 
 
 class Peer(Protocol):
-    """One TCP connection: what came, whether it is open."""
+    """One TCP connection: the received data, whether it is open."""
 
     def __init__(self):
         self.received = b""

@@ -59,7 +59,7 @@ class Daemon:
 
 
 def application(folder, **files):
-    """An application whose only modules are those of the three cogs."""
+    """An application with only the modules of the three cogs."""
     (folder / "config").mkdir(parents=True)
     (folder / "UpFile").write_text("package: flying\n", encoding="utf-8")
     for name, text in files.items():

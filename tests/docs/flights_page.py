@@ -60,7 +60,7 @@ def _scenario(name: str, scenario: Scenario, summary: dict[str, Any]) -> Iterato
 
 
 def read_summaries(folder: Path) -> dict[str, dict[str, Any]]:
-    """Return what the flights in a folder came to; raises ValueError with a sentence."""
+    """Return the results of the flights in a folder; raises ValueError with a sentence."""
     found = {}
     for name in shipped():
         path = folder / name / SUMMARY
@@ -73,7 +73,7 @@ def read_summaries(folder: Path) -> dict[str, dict[str, Any]]:
 
 
 def main() -> int:
-    """Write the page's tables anew; return the exit status."""
+    """Write the page's tables again; return the exit status."""
     try:
         summaries = read_summaries(Path(sys.argv[1] if sys.argv[1:] else "run/flights"))
     except ValueError as error:

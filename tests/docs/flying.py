@@ -42,7 +42,7 @@ class Flight:
         )
 
     def wait_for(self, condition: Callable[[], bool]) -> None:
-        """Wait while everything runs; fails with what was said."""
+        """Wait while everything runs; fails with the printed messages."""
         deadline_s = time.monotonic() + LIMIT_S
         while not condition():
             assert self.process.poll() is None, self.said.read_text()
@@ -62,7 +62,7 @@ def lines_of(page: str, kind: str) -> list[str]:
 
 
 def copy_of_the_tree(folder: Path) -> Path:
-    """A clone of what the pages touch, as it is after ``make run`` has installed everything."""
+    """A clone of the paths that the pages touch, after ``make run`` has installed everything."""
     ignored = shutil.ignore_patterns("__pycache__")
     for name in ("raspilot", "simulator", "cogs"):
         shutil.copytree(REPOSITORY / name, folder / name, ignore=ignored)
@@ -82,7 +82,7 @@ def options_of(line: str) -> list[str]:
 
 @contextmanager
 def flying(folder: Path, files: Mapping[str, str], line: str = "make run") -> Iterator[Flight]:
-    """Fly as ``line`` says until the end of the block, with these files in the application."""
+    """Fly by the command ``line`` until the end of the block; the application has these files."""
     tree = copy_of_the_tree(folder / "tree")
     for name, text in files.items():
         (tree / "raspilot" / name).write_text(text, encoding="utf-8")

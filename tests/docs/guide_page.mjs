@@ -21,7 +21,7 @@ async function press(name) {
   await ground.page.getByRole("button", { name, exact: true }).click();
 }
 
-/** Wait until the page says what the guide quotes, whatever its numbers are. */
+/** Wait until the page shows the guide's quotation, ignoring its numbers. */
 async function says(selector, quoted) {
   assert.ok(PAGE.includes(`\`${quoted}\``), `the guide does not quote ${quoted}`);
   const pattern = quoted.replace(/[.?*+^$()[\]{}|\\]/g, "\\$&").replace(/\d+(\\\.\d+)?/g, "[\\d.]+");

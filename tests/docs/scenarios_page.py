@@ -78,7 +78,7 @@ def _signal_tables() -> Iterator[str]:
 
 
 def main() -> None:
-    """Write the page's tables anew."""
+    """Write the page's tables again."""
     head, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
     _, _, tail = rest.partition(END)
     PAGE.write_text(f"{head}{BEGIN}\n{tables()}\n{END}{tail}", encoding="utf-8")

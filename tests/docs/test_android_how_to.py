@@ -49,7 +49,7 @@ def lines_that_start(program):
 
 @pytest.fixture(scope="module")
 def compiled(tmp_path_factory):
-    """The folder of the page's classes, compiled as the page says and with every warning."""
+    """The folder of the page's classes, compiled by the page's command and with every warning."""
     need_jdk()
     make("core")
     folder = tmp_path_factory.mktemp("page")
@@ -68,7 +68,7 @@ def compiled(tmp_path_factory):
 
 
 class Said:
-    """What a program says, line by line."""
+    """The output of a program, line by line."""
 
     def __init__(self, process):
         self.lines = []
@@ -113,7 +113,7 @@ def raspberry():
 
 
 def ask(stream, number, pictures):
-    """Send the page's Command and return what became of it."""
+    """Send the page's Command and return its outcome."""
     data = {"name": "plane.camera.release", "data": {"pictures": pictures}, "id": str(number)}
     stream.write(json.dumps(data) + "\n")
     stream.flush()

@@ -1,4 +1,4 @@
-"""docs/android.md says what the app says: words, settings, rates; its tests and its bench are."""
+"""docs/android.md agrees with the app: words, settings, rates; its tests and its bench exist."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def test_what_is_bold_is_written_so_on_the_screen():
         pattern = re.escape(text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'"))
         known.append(re.sub(r"%\d\\\$[+.\d]*[sdf]", ".+", pattern))
     wrong = []
-    # A table's head and the words that are told apart from the screen's are not bold.
+    # A table's head and the words that are contrasted with the screen's are not bold.
     for shown in re.findall(r"\*\*([^*]+)\*\*", TEXT):
         plain = shown.rstrip(":")
         if plain not in NOT_ON_THE_SCREEN and not any(re.fullmatch(k, plain) for k in known):
@@ -177,7 +177,7 @@ def test_the_cards_rows_are_numbered_and_each_has_a_box():
 
 @pytest.fixture
 def bench(tmp_path):
-    """The card's bench on ports of its own: where the phone finds it, the ground's port."""
+    """The card's bench on its own ports: where the phone finds it, the ground's port."""
     make_folder, write_config, start = lines_of("android.md", "bench")
     ports = choose_port_sets(1)[0]
     for line in (make_folder, write_config.replace("port: 50002", "port: 0")):

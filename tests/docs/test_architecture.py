@@ -143,7 +143,7 @@ def test_telemetry(aircraft):
     aircraft.wire.clear()
     with traced() as calls:
         aircraft.advance(0.12)
-    # What is sent leaves when the transport asks for it.
+    # Queued data is sent when the transport requests it.
     aircraft.wire.producer.resumeProducing()
     assert b"up.telemetry.update" in aircraft.wire.value()
     assert_in_order(steps("telemetry"), calls)
@@ -184,7 +184,7 @@ def proxy(tmp_path):
 
 
 def in_a_page(proxy, folder, act):
-    """Serve the page in this process; return what is called while a page acts there."""
+    """Serve the page in this process; return the calls while a page acts there."""
 
     async def run():
         catalogue = Catalogue.installed()

@@ -1,4 +1,4 @@
-"""What docs/airframe.md says of bootloaders holds on the simulated chip."""
+"""The statements of docs/airframe.md about bootloaders hold on the simulated chip."""
 
 from __future__ import annotations
 

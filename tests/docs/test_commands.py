@@ -20,7 +20,7 @@ PARSERS = {"up": make_parser, "up-ground": lambda: make_ground_parser({})}
 
 
 def words_of(line):
-    """Return the words of the first command in a line, without what is put there for people."""
+    """Return the words of the first command in a line, without its parts for readers."""
     line = re.split(r" \| | && |   +|…|\.\.\.| \[", line)[0]
     return [{"N": "1", "SECONDS": "1"}.get(word, word) for word in shlex.split(line, comments=True)]
 
@@ -40,7 +40,7 @@ def test_up_understands_what_the_page_says(page, capsys):
         if program in ("make", "up-sim"):
             continue
         parser = PARSERS[program]()
-        # A mention of a verb alone is no whole command: its help must know it.
+        # A mention of a verb alone is not a whole command: its help must know it.
         verb_alone = len(arguments) == 1 or (arguments[:1] == ["create"] and len(arguments) == 2)
         if verb_alone:
             arguments = [*arguments, "--help"]
@@ -64,7 +64,7 @@ def test_up_sim_knows_the_verbs_and_options_that_the_page_says(page, capsys):
 
 
 def targets_of(folder):
-    """Return what the Makefile of a folder, and the parts it includes, can make."""
+    """Return the targets of a folder's Makefile and its included parts."""
     paths = [folder / "Makefile", *folder.glob("*/*.mk")]
     text = "\n".join(path.read_text(encoding="utf-8") for path in paths)
     return set(" ".join(re.findall(r"^([a-z][a-z -]*):", text, re.MULTILINE)).split())

@@ -1,4 +1,4 @@
-"""docs/firmware.md says what the firmware's sources say."""
+"""docs/firmware.md agrees with the firmware's sources."""
 
 from __future__ import annotations
 

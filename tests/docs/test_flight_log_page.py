@@ -1,4 +1,4 @@
-"""What the flight log's page shows works on a log that the black box's own writer wrote."""
+"""The flight log page's examples work on a log of the black box's own writer."""
 
 from __future__ import annotations
 

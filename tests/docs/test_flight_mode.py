@@ -80,7 +80,7 @@ class Rig:
 
 
 def test_level_ignores_the_sticks_and_only_when_it_is_on(controllers, tmp_path):
-    # As on the page it extends Raspilot's controller, here as an application of its own.
+    # As on the page it extends Raspilot's controller, here as a separate application.
     loaded = controllers("level_flight_controller", files_of(PAGE)[LEVEL])
     controller = loaded["LevelFlightController"]
     level = sys.modules[controller.__module__].LevelCommand

@@ -1,4 +1,4 @@
-"""The guide does what it says: its commands, its module, its Command, its cog."""
+"""The guide works as written: its commands, its module, its Command, its cog."""
 
 from __future__ import annotations
 
@@ -138,14 +138,14 @@ def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
 
 
 def _look_at_the_flight(flight, said):
-    """Run what the guide says of a flight that has ended."""
+    """Run the guide's commands for a flight that has ended."""
     for line in lines_of(PAGE, "after"):
         done = flight.run(line)
         assert done.returncode == 0, done.stdout + done.stderr
         assert "default" in done.stdout or "report.html" in done.stdout
     assert (flight.tree / "my_flight" / "report.html").is_file()
     (line,) = lines_of(PAGE, "replay")
-    # The last lines of make run say the same of this flight.
+    # The last lines of make run agree about this flight.
     assert line in said and lines_of(PAGE, "after")[-1].partition(" -o")[0] in said
     with ExitStack() as stack:
         words = flight.tree / "replay said"

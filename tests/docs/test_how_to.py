@@ -1,4 +1,4 @@
-"""The examples of the how-to pages do what the pages say."""
+"""The examples of the how-to pages work as the pages state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pages lead where they say, and name what exists."""
+"""Links of pages have targets, and pages name only existing things."""
 
 from __future__ import annotations
 

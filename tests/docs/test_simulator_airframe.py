@@ -1,4 +1,4 @@
-"""docs/simulator-airframe.md: its aircraft is derived, loaded and flown as the page says."""
+"""docs/simulator-airframe.md: its aircraft is derived, loaded and flown by the page's steps."""
 
 import re
 import sys
@@ -21,7 +21,7 @@ TEXT = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """The folder of somebody who has followed the page."""
+    """The folder of a user who has followed the page."""
     for name, text in files_of(PAGE).items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(text, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""docs/simulator.md: its commands do what it says, and what can be asked for is on it."""
+"""docs/simulator.md: its commands work as stated, and it lists every option."""
 
 import re
 import shlex

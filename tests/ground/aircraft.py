@@ -41,7 +41,7 @@ def frame(**more):
 
 
 class Aircraft:
-    """Sends telemetry every 30 ms and answers Commands as a test tells it.
+    """Sends telemetry every 30 ms and answers Commands as a test defines.
 
     `answers` maps a Command's name to a function of its message that returns (name, data) pairs;
     a Command without one is acked.
@@ -139,7 +139,7 @@ def ground(folder, port, *arguments, **more):
 
 
 class Ground:
-    """An up-ground that goes on; `said` and `complained` grow while it runs."""
+    """A running up-ground; `said` and `complained` grow while it runs."""
 
     def __init__(self, folder, port, *arguments):
         self.said = ""
@@ -178,7 +178,7 @@ class Ground:
         return status
 
     def expect(self, text):
-        """Wait until it says a text."""
+        """Wait until it prints a text."""
         until(lambda: text in self.said, f"{text!r} in {self.said!r} {self.complained!r}")
 
     def _read(self, pipe, name):

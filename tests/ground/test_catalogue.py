@@ -33,7 +33,7 @@ def test_every_command_of_the_page_that_a_ground_may_send_is_listed(catalogue):
 
 
 def test_what_only_boards_and_modules_send_is_not_listed(catalogue):
-    # The page writes a dash where nobody outside may send it.
+    # The page writes a dash where no peer may send it.
     hidden = {name for name, _, role in rows() if role in ("board", "sensor") or len(role) == 1}
     assert "up.system.stop" in hidden
     assert not hidden & {cls.NAME for cls in catalogue.sendable()}

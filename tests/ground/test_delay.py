@@ -1,4 +1,4 @@
-"""A message that was held up on its way is known to be old."""
+"""The age of a message includes its delay in transit."""
 
 import pytest
 from hypothesis import given, settings
@@ -14,7 +14,7 @@ LEAST_S = 0.08
 def journey(steps, drift=0.0, apart_s=5000.0, rounding_ms=3):
     """Yield (stamp_ms, came_s, held_s) of messages in order, as a link delivers them.
 
-    ``steps`` are (seconds since the message before, seconds that it waits besides its way).
+    ``steps`` are (seconds since the message before, seconds of delay in addition to the transit).
     """
     sent_s, came_s = 0.0, 0.0
     for after_s, wait_s in steps:

@@ -1,4 +1,4 @@
-"""What a person types as the fields of a Command."""
+"""Typed text as the fields of a Command."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""What the link makes of what it hears, without a network."""
+"""The link's reactions to received lines, without a network."""
 
 import pytest
 from twisted.internet.task import Clock
@@ -12,7 +12,7 @@ TOKEN = "0123456789abcdef" * 2
 
 
 class Connection:
-    """A connection of which nothing is asked but to remember."""
+    """A connection that only records."""
 
     dropped_too_long = 0
 

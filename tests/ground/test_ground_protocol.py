@@ -14,7 +14,7 @@ from up_ground.ground_protocol import GroundProtocol
 
 
 class Transport(StringTransportWithDisconnection):
-    """Takes the socket options on a socket of its own."""
+    """Takes the socket options on its own socket."""
 
     def __init__(self):
         super().__init__()

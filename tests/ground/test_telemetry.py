@@ -1,4 +1,4 @@
-"""How old is what is known."""
+"""The age of known values."""
 
 import pytest
 from hypothesis import given, settings
@@ -32,7 +32,7 @@ def test_the_age_of_a_reading_is_that_on_board_and_on_the_way_and_since():
 
 
 def clocked(telemetry, clock_ms, now_s, beacon=None):
-    """Take a frame that tells the aircraft's clock; return its age."""
+    """Take a frame with the aircraft's clock; return its age."""
     data = frame(system={"clock_ms": clock_ms})
     telemetry.take(GeneralMessage(NAME, data, None, beacon), now_s)
     return telemetry.age_s(now_s)

@@ -20,7 +20,7 @@ ENTER, LEAVE = b"\x1b[?1049h", b"\x1b[?1049l"
 
 
 class Screen:
-    """An up-ground on a pseudo terminal, and what it wrote."""
+    """An up-ground on a pseudo terminal, and its output."""
 
     def __init__(self, folder, port, *arguments):
         self.written = b""

@@ -1,4 +1,4 @@
-"""`up-ground watch` where it is no full screen: lines, one picture, JSON."""
+"""`up-ground watch` without a full screen: lines, one picture, JSON."""
 
 import json
 import os

@@ -63,7 +63,7 @@ def light(inside):
 
 
 def python(inside, program):
-    """Run a small program inside and return what it wrote."""
+    """Run a small program inside and return its output."""
     return must(*inside, "python3", "-c", program)
 
 

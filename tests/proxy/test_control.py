@@ -1,4 +1,4 @@
-"""Control lines, and telling them from what is relayed."""
+"""Control lines, and how they differ from relayed ones."""
 
 import pytest
 from hypothesis import given

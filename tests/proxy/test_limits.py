@@ -1,4 +1,4 @@
-"""How many of what the proxy bears."""
+"""The limits of the proxy."""
 
 from tests.proxy.virtual import Bench
 

@@ -98,7 +98,7 @@ HUGE = b"x" * 20_000_000
         (b"\x00" * 10_000, 431),
         (b"GET /" + HUGE, 431),
         (HEAD + b"X: " + HUGE, 431),
-        # The answer survives a body that nobody reads.
+        # The answer survives an unread request body.
         (HEAD + b"Content-Length: 20000000\r\n\r\n" + HUGE, 431),
         (HEAD + b"\r\n" + HUGE, 200),
         # One request a connection.

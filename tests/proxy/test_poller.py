@@ -1,4 +1,4 @@
-"""Waiting for many sockets at once."""
+"""Waiting for many sockets in one call."""
 
 import itertools
 import socket

@@ -43,7 +43,7 @@ def test_it_stops_without_waiting_for_whoever_is_connected(tmp_path, how):
 
 
 def test_an_interrupt_ends_it_in_the_background_of_a_script_too(tmp_path):
-    # A shell without job control gives what it starts with & an ignored SIGINT.
+    # A shell without job control starts background programs with SIGINT ignored.
     shell = ("sh", "-c", 'trap "" INT; exec "$@"', "sh")
     with Program(tmp_path, prefix=shell) as proxy:
         assert proxy.end(signal.SIGINT) == 0

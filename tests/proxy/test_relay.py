@@ -1,4 +1,4 @@
-"""Whole lines, whoever is slow, whoever leaves in the middle of one."""
+"""Whole lines, also with slow peers and peers that leave in the middle of one."""
 
 import pytest
 

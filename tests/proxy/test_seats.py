@@ -1,4 +1,4 @@
-"""Who commands, who listens, and how the seat changes hands."""
+"""The commanding ground, the listeners, and how the seat changes hands."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Clients that never say hello: the aircraft `default`."""
+"""Clients that never send a hello: the aircraft `default`."""
 
 import pytest
 

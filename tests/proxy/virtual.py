@@ -12,7 +12,7 @@ DEADLINE_S = 20.0
 
 
 class HandReactor(task.Clock):
-    """A reactor whose time and whose events the test moves by hand."""
+    """A reactor whose time and events the test controls."""
 
     def __init__(self):
         super().__init__()
@@ -27,7 +27,7 @@ class HandReactor(task.Clock):
 
 
 class Peer:
-    """A client of the virtual proxy; `heard` is all that it has read."""
+    """A client of the virtual proxy; `heard` is all its received data."""
 
     def __init__(self, bench, port):
         self.bench = bench
@@ -58,7 +58,7 @@ class Peer:
             self.heard += chunk
 
     def expect(self, data):
-        """Wait until `data` was heard, and forget everything up to its end."""
+        """Wait until `data` was received, and discard everything up to its end."""
         if isinstance(data, str):
             data = data.encode("ascii")
         self.bench.until(lambda: data in self.heard, f"{data!r}, heard {self.heard[-300:]!r}")
@@ -112,7 +112,7 @@ class Bench:
             peer.read()
 
     def settle(self):
-        """Let what was sent on the loopback arrive and have its effects."""
+        """Wait until the data sent on the loopback has arrived and had its effects."""
         for _ in range(5):
             self.pump()
 

@@ -38,7 +38,7 @@ OTHER_GAINS = GainSet(LOOP, LOOP)
 
 
 class Ground(BaseMissionControlProvider):
-    """A ground that keeps what it is sent."""
+    """A ground that records received messages."""
 
     def __init__(self):
         super().__init__()
@@ -160,7 +160,7 @@ def test_pulses_stay_within_their_limits(rig):
 
 
 class TestNothingIsSent:
-    """Without what control stands on there is no Output: the board flies by itself."""
+    """Without the inputs of control there is no Output: the board flies alone."""
 
     def test_before_the_board_lets_it(self, tmp_path):
         rig = Rig(tmp_path)
@@ -271,7 +271,7 @@ class TestThePast:
 
 
 class TestModes:
-    """What is offered, shown and asked for."""
+    """Offered, shown and requested modes."""
 
     def test_offered_by_what_is_valid(self, tmp_path):
         rig = Rig(tmp_path)
@@ -439,7 +439,7 @@ class TestGains:
 
 
 def test_a_mode_that_the_board_refuses_is_no_wish(rig):
-    """With the switch elsewhere the board refuses; later at AUTO the Pi still asks for control."""
+    """With the switch elsewhere the board refuses; later at AUTO the Pi still requests control."""
     rig.state(MANUAL)
     rig.bus.execute_command(FlightModeCommand("FBW"), GROUND)
     rig.modes.clear()

@@ -7,7 +7,7 @@ from tests.runner.runners import RunnerProcess
 
 @pytest.fixture
 def runners(short_path):
-    """Make real runners, each with a folder of its own; all are gone afterwards."""
+    """Make real runners, each with its own folder; all are stopped afterwards."""
     made = []
 
     def make(**config):

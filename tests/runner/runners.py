@@ -1,4 +1,4 @@
-"""A real runner in a process of its own, and ways to talk to it and to what it started."""
+"""A real runner in its own process, and ways to talk to it and to its instances."""
 
 import contextlib
 import json
@@ -67,7 +67,7 @@ class Talk:
         return self.hear()
 
     def order(self, text):
-        """Let the fixture application do something and return what it says."""
+        """Make the fixture application do something and return its answer."""
         self.socket.sendall(text.encode() + b"\n")
         return self.lines.readline().decode().strip()
 
@@ -84,7 +84,7 @@ class Talk:
 
 
 class RunnerProcess:
-    """`up-runner` with a configuration of its own; everything it started ends with `clean`."""
+    """`up-runner` with its own configuration; everything it started ends with `clean`."""
 
     def __init__(self, folder, **config):
         self.folder = folder
@@ -120,7 +120,7 @@ class RunnerProcess:
         return gate
 
     def launch(self, *options, under_systemd=True):
-        """Start the program and return at once."""
+        """Start the program and return immediately."""
         self.write("runner.yml", self.settings)
         environ = {
             name: value
@@ -154,7 +154,7 @@ class RunnerProcess:
         return self
 
     def output(self):
-        """Return all that the program said until now."""
+        """Return the output of the program so far."""
         while select.select([self.process.stderr], [], [], 0)[0]:
             data = self.process.stderr.read()
             if not data:
@@ -163,7 +163,7 @@ class RunnerProcess:
         return self.said
 
     def says(self, text):
-        """Wait until the program said something."""
+        """Wait until the program has printed a text."""
         return wait_until(lambda: text in self.output(), f"the runner says {text!r}")
 
     def talk(self, port=None, source="127.0.0.1"):
@@ -172,7 +172,7 @@ class RunnerProcess:
         return talk
 
     def ask(self, **request):
-        """Ask on a connection of its own."""
+        """Send a request on its own connection."""
         talk = Talk(self.port)
         try:
             answer = talk.ask(request)
@@ -202,7 +202,7 @@ class RunnerProcess:
         return self._finish()
 
     def wait(self):
-        """Wait for the end of a runner that ends by itself; return the exit status."""
+        """Wait until a runner exits; return the exit status."""
         return self._finish()
 
     def _finish(self):

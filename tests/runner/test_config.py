@@ -1,4 +1,4 @@
-"""runner.yml and what it means."""
+"""runner.yml and its meaning."""
 
 from pathlib import Path
 

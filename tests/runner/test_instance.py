@@ -24,7 +24,7 @@ PORTS = {"general": 50001, "orientation": 50000}
 
 
 class RecordedChild:
-    """A process that does only what the test says."""
+    """A process that the test controls completely."""
 
     def __init__(self, pid):
         self.pid = pid

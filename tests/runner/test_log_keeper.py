@@ -1,4 +1,4 @@
-"""Logs that stay small while somebody writes them, and traces that do not pile up."""
+"""Logs that stay small during writes, and traces that do not pile up."""
 
 import os
 
@@ -27,7 +27,7 @@ def test_a_writer_goes_on_at_the_beginning_after_a_rotation(tmp_path):
         assert keeper.rotate("a") is False
     os.write(log, b"new")
     os.close(log)
-    # Only the end of what was too long, and no hole at the beginning of the new one.
+    # Only the end of the long log, and no hole at the beginning of the new one.
     assert files(tmp_path) == {"a.log": b"new", "a.log.1": b"3" * 10, "a.log.2": b"2" * 10}
 
 

@@ -1,4 +1,4 @@
-"""What instances say, whatever they say."""
+"""Notifications of instances, invalid ones included."""
 
 from hypothesis import given, settings
 from hypothesis import strategies as st

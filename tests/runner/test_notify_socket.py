@@ -1,4 +1,4 @@
-"""The socket that hears instances."""
+"""The socket that receives the instances' notifications."""
 
 import array
 import os

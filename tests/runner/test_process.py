@@ -69,7 +69,7 @@ def test_terminate_asks_and_kill_does_not():
         second.kill()
         await until(lambda: first_ends and second_ends)
         assert (first_ends, second_ends) == ([-signal.SIGTERM], [-signal.SIGKILL])
-        # It is over: nothing is done to whoever has the number now.
+        # It has ended: the process that has the number now is left alone.
         first.terminate()
         second.kill()
 

@@ -1,4 +1,4 @@
-"""What one runner leaves for the next."""
+"""The state that one runner leaves for the next."""
 
 import json
 

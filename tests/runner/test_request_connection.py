@@ -30,7 +30,7 @@ class Line(StringTransport):
 
 
 class Port:
-    """A request port whose answers the test gives, and one connection to it."""
+    """A request port with the test's answers, and one connection to it."""
 
     def __init__(self, at_once=True, **limits):
         self.clock = Clock()
@@ -201,7 +201,7 @@ def test_an_ipv6_network_is_one_source(hosts, is_one_source):
     assert (second is None) == is_one_source
     assert port.server.counts["address limit"] == is_one_source
     port.server.on_gone(first)
-    # A source whose connections have ended may come again.
+    # A source whose connections have ended may connect again.
     assert port.connect(hosts[0]) is not None
 
 

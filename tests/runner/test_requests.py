@@ -28,7 +28,7 @@ def test_a_malformed_line_is_answered_and_the_connection_stays(runners):
         answer = talk.ask(line)
         assert answer["error"] and answer["running"] is False and answer["instance"] is None
         assert answer["message"] == "Raspilot not running"
-    # Not a thesis client any more, whatever it says.
+    # No longer a thesis client, whatever it sends.
     assert talk.ask(b"hello\n")["error"] == "the request is not valid JSON"
     assert talk.ask({"action": "status"})["error"] is None
     assert runner.instances() == []
@@ -57,7 +57,7 @@ def test_a_gigabyte_without_a_line_feed_costs_no_memory(runners):
     runner = runners(connections={"idle": 2}).start()
     before_kb = memory_kb(runner.process.pid)
     for head in (b"{", b"x"):
-        # A thesis client that never listens is not read any more, and dropped when it is silent.
+        # A thesis client that never reads is not read either, and dropped when it is silent.
         flood(runner.talk().socket, head, b"x" * 65536)
     assert memory_kb(runner.process.pid) - before_kb < 10_000
     assert runner.ask(action="status")["error"] is None

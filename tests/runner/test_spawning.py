@@ -345,5 +345,5 @@ def test_the_answer_to_a_pipelined_heap_comes_in_order(runners):
         b"".join(b'{"action": "status", "aircraft": "%s"}\r\n\n' % name.encode() for name in names)
     )
     assert [talk.hear()["instance"] for _ in names] == names
-    # An empty line after a request is no thesis client.
+    # An empty line after a request does not make a thesis client.
     assert runner.instances() == []

@@ -103,7 +103,7 @@ def test_a_lost_or_broken_record_orphans_nobody(runners, damage):
     record = runner.run_folder / "glider-1" / "state.json"
     record.unlink() if damage is None else record.write_text(damage)
     runner.start()
-    # Nothing tells whether it is ready: it is killed when it does not say so again.
+    # It never reports ready: it is killed when its watchdog messages stop.
     wait_until(lambda: not is_alive(first["pid"]), "the process without a record ended")
     wait_until(lambda: runner.status()["error"] is None, "it is forgotten")
     second = runner.spawn()
@@ -153,7 +153,7 @@ def test_killed_at_any_moment_of_a_start_it_doubles_nobody(runners):
         runner.start()
         answer = runner.ask(aircraft="glider-1")
         if not answer["running"]:
-            # The runner died before the process could say that it was ready.
+            # The runner died before the process could report ready.
             wait_until(lambda: runner.ask(aircraft="glider-1")["running"], "it runs")
         assert len(runner.instances()) == 1
         runner.terminate()

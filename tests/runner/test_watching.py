@@ -1,4 +1,4 @@
-"""What a real runner does about instances that end, hang, or lose their phone."""
+"""A real runner's reactions to instances that end, hang, or lose their phone."""
 
 import os
 import signal

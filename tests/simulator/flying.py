@@ -14,7 +14,7 @@ BEAT_S = 0.02
 
 
 class Flown:
-    """A world that has been booted, the switch where it is to be, and what it said."""
+    """A world that has been booted, the switch in position, and its output."""
 
     def __init__(
         self,

@@ -53,7 +53,7 @@ class Listener:
             self.messages.append(Message(chr(body[1]), body[2:-2], body[0]))
 
     def take(self, letters=None):
-        """Return what came since, of these types only."""
+        """Return the messages since the last call, of these types only."""
         taken, self.messages = self.messages, []
         return [each for each in taken if letters is None or each.type in letters]
 

@@ -37,7 +37,7 @@ class Program:
         self.process.stderr.close()
 
     def wait_for(self, text):
-        """Wait until the program has said this."""
+        """Wait until the program has printed this."""
         deadline = time.monotonic() + DEADLINE_S
         while text not in self.output:
             select.select([self.process.stdout], [], [], 0.1)

@@ -1,4 +1,4 @@
-"""SIGTERM, SIGHUP, a closed terminal and a killed parent: nothing goes on, nothing is left."""
+"""SIGTERM, SIGHUP, a closed terminal and a killed parent: every process and file is cleaned up."""
 
 import fcntl
 import os
@@ -75,7 +75,7 @@ def words_of(pid):
 
 @contextmanager
 def program(folder, *words, code=None, python=False, **options):
-    """Run up-sim in a session of its own; whatever it leaves is ended."""
+    """Run up-sim in its own session; remaining processes are ended."""
     program = [] if python else ["-c", code] if code else ["-m", "up_simulator.cli"]
     command = [sys.executable, *program, *words]
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, **options}
@@ -141,7 +141,7 @@ def test_real_programs_and_their_folder_go_with_the_flight(in_a_folder, number):
     with program(in_a_folder, "fly", "real.yml", "--no-picture") as process:
         wait(lambda: len(ours(in_a_folder)) == and_jvm(2) and left(in_a_folder), "the daemon")
         process.send_signal(number)
-        # The terminal's end is told twice: by the kernel and by the shell.
+        # The terminal's end is reported twice: by the kernel and by the shell.
         process.send_signal(number)
         told = process.communicate(timeout=LIMIT_S)[0].decode()
         assert ours(in_a_folder) == []
@@ -225,7 +225,7 @@ def test_tuning_takes_its_workers_along(in_a_folder, number):
         # Itself, what watches its semaphores, and two workers.
         wait(lambda: len(ours(in_a_folder)) == 4, "two workers")
         if number == signal.SIGKILL:
-            # Nothing can keep a worker whose parent is killed before it has begun from complaining.
+            # A worker whose parent is killed before it has started cannot be kept from complaining.
             wait(lambda: sum(map(ignores_interrupts, ours(in_a_folder))) == 3, "their handlers")
         process.send_signal(number)
         told = process.communicate(timeout=LIMIT_S)[0].decode()

@@ -76,7 +76,7 @@ def shorter(difference_deg):
 def test_the_battery_is_what_was_set_and_told_at_once(fly):
     flying = fly()
     flying.start()
-    # A level is told at once, but not twice within a second.
+    # A level is reported immediately, but not twice within a second.
     flying.fly(1.1)
     flying.phone.set_battery(12)
     flying.until(lambda: flying.ground.telemetry["android"]["batteryLevel"] == 12, 0.5)

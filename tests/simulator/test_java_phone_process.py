@@ -8,7 +8,7 @@ import pytest
 from up_simulator.java_phone_process import JavaPhoneProcess
 
 LIMIT_S = 60.0
-# It reads only when the file is there, and says the number of each line, or that it is none.
+# It reads only when the file exists, and prints the number of each line, or an error without one.
 READER = """
 import json, os, sys, time
 while not os.path.exists(sys.argv[1]):
@@ -42,7 +42,7 @@ def test_a_line_that_was_begun_is_finished_before_the_next(reader):
     process, gate = reader
     said = 0
     while process.dropped < 3:
-        # No divisor of what a pipe holds: the last one gets in by half.
+        # Not a divisor of the pipe's capacity: half of the last one fits.
         process.say({"n": said, "content": "x" * 5000})
         said += 1
     gate.touch()
@@ -54,5 +54,5 @@ def test_a_line_that_was_begun_is_finished_before_the_next(reader):
         heard.extend(process.hear())
     assert all(each["event"] == "heard" for each in heard), heard
     numbers = [each["n"] for each in heard if each["n"] < said]
-    # What was begun came; the three after it were dropped, and counted.
+    # The started line arrived; the three after it were dropped, and counted.
     assert numbers == list(range(said - 3))

@@ -30,7 +30,7 @@ class Clock:
 
 
 class Console:
-    """The ground console on a JVM of its own."""
+    """The ground console on its own JVM."""
 
     def __init__(self, program, folder, port):
         options = ["--direct", f"127.0.0.1:{port}", "--values", ",".join(VALUES)]
@@ -145,7 +145,7 @@ def test_the_daemon_has_what_is_true_and_the_ground_reads_it(system):
     system.until(lambda: abs(system.frame["altitude"] - 700) < 2, "the climb")
     system.phone.set_battery(33)
     system.until(lambda: system.frame["android.batteryLevel"] == 33, "the battery")
-    # What is said to it goes through daemon and phone and back.
+    # Its input passes through daemon and phone and back.
     system.console.say(send="android.speak", data={"text": "mind the trees"}, tag="1")
     system.until(lambda: "says: 'mind the trees'" in system.said, "it speaks")
     system.until(lambda: system.console.answers, "the answer")

@@ -1,4 +1,4 @@
-"""What the phone says and answers, in virtual time."""
+"""The phone's messages and answers, in virtual time."""
 
 import json
 import math
@@ -284,7 +284,7 @@ def test_a_fix_is_late_by_what_the_seed_draws(seed):
     found = []
     for at in range(200):
         time_s = at * 0.1
-        # 111 m a second to the north: what a fix wanders and jitters by is 0.05 s of it.
+        # 111 m a second to the north: drift and jitter of a fix are 0.05 s of it.
         state = replace(bench.flight.state, time_s=time_s, latitude_deg=50 + time_s / 1000)
         sensors.altitude(state)
         found.append(time_s - (sensors.location(state)["latitude"] - 50) * 1000)

@@ -175,7 +175,7 @@ def test_it_finds_the_raspberry_pi_by_discovery(server, answer):
         discovery.settimeout(DEADLINE_S)
         arguments = ("--discover", f"127.0.0.1:{port_of(discovery)}", "--phone-host", "192.0.2.1")
         with phone(server, *arguments) as program:
-            # The first question goes unanswered: it asks again.
+            # The first request is not answered: it is repeated.
             discovery.recvfrom(512)
             program.wait_for("no answer from Discovery")
             question, asker = discovery.recvfrom(512)

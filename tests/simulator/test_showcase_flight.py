@@ -1,4 +1,4 @@
-"""``make run`` in a terminal: what it does when its picture dies."""
+"""``make run`` in a terminal: its behaviour when its picture dies."""
 
 import os
 import pty
@@ -18,7 +18,7 @@ ENTERS, LEAVES, SHOWS_CURSOR = "\x1b[?1049h", "\x1b[?1049l", "\x1b[?25h"
 
 
 class Terminal:
-    """``make run`` in a terminal of its own."""
+    """``make run`` in its own terminal."""
 
     def __init__(self, folder):
         self.own, self.other = pty.openpty()
@@ -32,7 +32,7 @@ class Terminal:
         self.shown = ""
 
     def wait_for(self, text):
-        """Wait until this is shown, and forget what was shown until then; return it."""
+        """Wait until this is shown, and discard the output up to it; return it."""
         deadline_s = time.monotonic() + DEADLINE_S
         while text not in self.shown:
             if select.select([self.own], [], [], 0.05)[0]:

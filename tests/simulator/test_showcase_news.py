@@ -1,4 +1,4 @@
-"""What `make run` tells of the aircraft, by a clock of the test's own."""
+"""Reports of `make run` about the aircraft, by a clock of the test."""
 
 from twisted.internet.task import Clock
 
@@ -18,7 +18,7 @@ def test_a_busy_machine_is_said_once_and_then_once_a_minute():
     assert [time_s // 1 for time_s, _ in said] == [0, 60, 120, 180]
     assert said[0][1] == LATE
     assert said[1][1].startswith("late 480 times more, by 120.00 s in all")
-    # What was held back is said also when nothing more comes, and only once.
+    # Delayed news is reported also without further news, and only once.
     clock.advance(60)
     (last,) = news.of([])
     assert last.startswith("late 59 times more")

@@ -1,4 +1,4 @@
-"""The compiled firmware flies the glider of JSBSim: what the pilot does, what fails, what holds."""
+"""The compiled firmware flies the glider of JSBSim: the pilot's actions, faults, and limits."""
 
 import pytest
 
@@ -79,7 +79,7 @@ def test_the_same_seed_flies_the_same_flight_to_the_last_bit_and_byte():
 def test_a_flight_that_begins_in_a_bank_begins_with_a_board_that_knows_it():
     flown = Flown(start=Start(roll_deg=40, pitch_deg=10), boots=False)
     flown.world.boot()
-    # The boot ends tilted and at rest: what comes now is the flight.
+    # The boot ends tilted and at rest: everything after it is the flight.
     assert flown.world.time_s == 0
     flown.listen()
     flown.fly(0.1)

@@ -25,18 +25,18 @@ FROM_ABOVE = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "MAKEOVERRIDES", "TEST")
 
 
 class AndroidBuildError(Exception):
-    """make fails: the message is what it printed."""
+    """make fails: the message is its output."""
 
 
 class AndroidBuildLateError(AndroidBuildError):
-    """make was ended: the message says after which time, and what it printed."""
+    """make was ended: the message has the time limit and the output."""
 
 
 def make(*arguments, folder=ANDROID, env=None, is_built=False, limit_s=LONGEST_S):
     """Run make in ``folder`` and return what it printed. Raises ``AndroidBuildError``.
 
-    One process at a time builds in the project's own folder; what ``is_built`` only runs there, and
-    nobody waits for it.
+    One process at a time builds in the project's own folder; a target that ``is_built`` only runs
+    there, without the lock.
     """
     need_tool("make")
     BUILD.mkdir(exist_ok=True)
@@ -60,7 +60,7 @@ def _run(command, env, limit_s):
         try:
             said, _ = running.communicate(timeout=limit_s)
         except subprocess.TimeoutExpired:
-            # Make alone would leave behind what it waits for.
+            # Make alone would leave its child processes behind.
             os.killpg(running.pid, signal.SIGKILL)
             said, _ = running.communicate()
             late = f"{' '.join(command)} was ended after {limit_s} s\n{said}"

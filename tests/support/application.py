@@ -1,4 +1,4 @@
-"""Small applications on the disk, each with a package name of its own."""
+"""Small applications on the disk, each with its own package name."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _numbers = itertools.count()
 
 
 def write_application(root: Path, files: dict[str, str], name: str = "") -> Application:
-    """Write an application with an UpFile and these files; give it a package nobody else has."""
+    """Write an application with an UpFile and these files; its package name is unique."""
     package = name or f"tested_application_{next(_numbers)}"
     root.mkdir(parents=True, exist_ok=True)
     (root / "UpFile").write_text(f"package: {package}\n")

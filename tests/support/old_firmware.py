@@ -1,4 +1,4 @@
-"""The thesis's firmware on a pty, as a program of its own: what it hears, echoes and streams."""
+"""The thesis's firmware on a pty, as a separate program: its input, its echoes, its stream."""
 
 import argparse
 import struct

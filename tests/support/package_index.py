@@ -1,4 +1,4 @@
-"""A package index on the loopback interface that notes what it is asked for."""
+"""A package index on the loopback interface that records requests."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ def wait(condition, what, limit_s=LIMIT_S):
 
 
 class Showcase:
-    """`make run` on any free ports, without the picture; ``end_all`` ends what a test left.
+    """`make run` on any free ports, without the picture; ``end_all`` ends leftovers of a test.
 
     ``started`` names every one of this process, for `end_all`.
     """

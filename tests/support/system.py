@@ -27,7 +27,7 @@ def build_up(
     config: Mapping[str, str] | None = None,
     builtins: bool = True,
 ) -> Up:
-    """Return an initialized Up of these classes and, unless told otherwise, the built-in ones."""
+    """Return an initialized Up of these classes and, by default, the built-in ones."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in (config or {}).items():
         (folder / name).write_text(text, encoding="utf-8")

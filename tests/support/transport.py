@@ -7,7 +7,7 @@ from twisted.internet.testing import StringTransport
 
 
 class Transport(StringTransport):
-    """The peer is ``host``; what an option of the socket would do does not happen."""
+    """The peer is ``host``; socket options have no effect."""
 
     def __init__(self, host, port=5000):
         super().__init__(peerAddress=IPv4Address("TCP", host, port))

@@ -1,4 +1,4 @@
-"""Real virtual environments that see this project and what it needs, but no cog."""
+"""Real virtual environments with this project and its dependencies, but without cogs."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class VirtualEnvironment:
             for name, text in os.environ.items()
             if not name.startswith(("PIP_", "PYTHON", "UP_", "GIT_"))
         }
-        # No index at all, so that what a test does not give cannot come from anywhere.
+        # No index at all, so that only the test's packages are available.
         closed = {"PIP_CONFIG_FILE": os.devnull, "PIP_NO_INDEX": "1", "PIP_NO_CACHE_DIR": "1"}
         # pip's own spelling of --no-build-isolation: setuptools is here and on no test's index.
         closed["PIP_NO_BUILD_ISOLATION"] = "0"

@@ -1,4 +1,4 @@
-"""What sets up a folder of JavaScript: npm, once, quietly, or a sentence that says why not."""
+"""Setting up a folder of JavaScript: npm, once, quietly, or a sentence with the reason."""
 
 import shutil
 import subprocess
@@ -41,7 +41,7 @@ class Machine:
         return path.read_text().splitlines() if path.exists() else []
 
     def set_up(self):
-        """Run the tool; returns its status and what it says, wherever."""
+        """Run the tool; returns its status and its output of both streams."""
         done = subprocess.run(
             [self.bin / "sh", NPM_MODULES, self.modules],
             env={"PATH": str(self.bin)},

@@ -1,4 +1,4 @@
-"""What `make run` does about missing compilers: install them where it may, else say what flies."""
+"""Missing compilers in `make run`: installed if permitted, otherwise a replacement is reported."""
 
 import subprocess
 from pathlib import Path
@@ -88,7 +88,7 @@ class Machine:
         (self.state / name).touch()
 
     def run(self):
-        """Return what was said, on both streams; it always succeeds."""
+        """Return the output of both streams; it always succeeds."""
         done = subprocess.run(
             [TOOLCHAIN],
             env={"PATH": str(self.programs), "STATE": str(self.state)},

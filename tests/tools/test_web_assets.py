@@ -62,7 +62,7 @@ def tarball(files):
 
 
 class Checkout:
-    """What the script needs of a checkout, and a registry on the loopback interface."""
+    """The files of a checkout that the script needs, and a registry on the loopback interface."""
 
     def __init__(self, folder):
         self.folder = folder / "checkout"
@@ -91,7 +91,7 @@ class Checkout:
         return self.folder / "ground" / "package-lock.json"
 
     def offer(self, name, packed):
-        """Serve a package and write into the lock file what it shall be."""
+        """Serve a package and write its expected value into the lock file."""
         lock = json.loads(self.lock.read_text())
         entry = lock["packages"][f"node_modules/{name}"]
         entry["integrity"] = "sha512-" + base64.b64encode(hashlib.sha512(packed).digest()).decode()
@@ -106,7 +106,7 @@ class Checkout:
         (self.registry / name).write_text(json.dumps(told))
 
     def run(self, **environ):
-        """Return what was said on both streams; it always succeeds."""
+        """Return the output of both streams; it always succeeds."""
         kept = {key: value for key, value in os.environ.items() if not key.startswith("npm_")}
         own = {"HOME": str(self.home), "npm_config_registry": self.url, "no_proxy": "127.0.0.1"}
         done = subprocess.run(

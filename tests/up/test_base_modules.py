@@ -1,4 +1,4 @@
-"""The three kinds of module: what they say of themselves, and threads."""
+"""The three kinds of module: their declarations, and threads."""
 
 import threading
 
@@ -76,7 +76,7 @@ class Faulty(Worker):
 
 
 class Stuck(Worker):
-    """Blocks and does not hear that it shall stop."""
+    """Blocks and ignores the request to stop."""
 
     let_go = threading.Event()
 

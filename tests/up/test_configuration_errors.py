@@ -1,4 +1,4 @@
-"""A program that cannot run as it is configured says everything at once."""
+"""A program with an invalid configuration reports all errors together."""
 
 import subprocess
 import sys
@@ -32,7 +32,7 @@ COGS = "lost_cog:\n  modules:\n    - {class_name: A, prefix: lost_cog.modules.a}
 
 
 def run(root, **environ):
-    """Return the exit status and the lines that the program says."""
+    """Return the exit status and the lines that the program prints."""
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", RUN, str(root)],
         cwd=ROOT,

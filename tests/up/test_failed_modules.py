@@ -1,4 +1,4 @@
-"""A module that failed is no part of the system any more, in whichever phase it failed."""
+"""A failed module is removed from the system, in whichever phase it failed."""
 
 import pytest
 from twisted.internet.defer import CancelledError, Deferred
@@ -78,7 +78,7 @@ class Broken(BaseStartedModule):
 
 
 class Needing(Controller):
-    """Is skipped, as what it needs did not start."""
+    """Is skipped, because a dependency did not start."""
 
     broken = needs(Broken)
 

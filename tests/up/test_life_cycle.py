@@ -1,4 +1,4 @@
-"""Modules that start, fail, hang or raise, and what becomes of the rest."""
+"""Modules that start, fail, hang or raise, and the effects on the rest."""
 
 import pytest
 from twisted.internet.defer import CancelledError, Deferred
@@ -22,7 +22,7 @@ def forget():
 
 
 class Noted(BaseStartedModule):
-    """Writes down what it goes through."""
+    """Records the calls of its life cycle."""
 
     def _execute_start(self):
         calls.append(f"{self.class_name} starts")
@@ -48,7 +48,7 @@ class Third(Noted):
 
 
 class System:
-    """A small system whose time the test moves."""
+    """A small system whose time the test controls."""
 
     def __init__(self, folder, *classes):
         self.clock = Clock()
@@ -182,14 +182,14 @@ def test_what_needs_a_failed_module_is_not_started_however_far(tmp_path):
 
 
 class Hanging(Noted):
-    """Never says that it started."""
+    """Never reports that it started."""
 
     def _execute_start(self):
         return Deferred()
 
 
 class Stubborn(Noted):
-    """Goes on whatever it is told."""
+    """Ignores every request to stop."""
 
     async def _execute_start(self):
         while True:

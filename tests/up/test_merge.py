@@ -1,4 +1,4 @@
-"""Contents of modules become one object that JSON can hold, whatever they are."""
+"""Contents of any modules become one object that JSON can hold."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""The whole program in real processes: what fails, hangs and is told to end."""
+"""The whole program in real processes: failures, hangs and requests to stop."""
 
 import os
 import queue
@@ -55,7 +55,7 @@ class Daemon:
         self.process.stdout.close()
 
     def expect(self, words):
-        """Wait until the program has said these words."""
+        """Wait until the program has printed these words."""
         deadline_s = time.monotonic() + DEADLINE_S
         while words not in self.text:
             line = self._words.get(timeout=max(0.1, deadline_s - time.monotonic()))
@@ -238,7 +238,7 @@ def test_black_box_mode_builds_nothing_for_the_arduino():
 
 
 class Supervisor:
-    """What systemd hears, on a real socket."""
+    """The messages to systemd, on a real socket."""
 
     def __init__(self, folder):
         self.path = folder / "notify"

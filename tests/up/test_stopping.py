@@ -1,4 +1,4 @@
-"""What was opened is closed: after failed starts, and in time whatever hangs."""
+"""Opened resources are closed: after failed starts, and in time even if something hangs."""
 
 import threading
 
@@ -17,7 +17,7 @@ STEP_S = 0.001
 
 
 class Opening(BaseStartedModule):
-    """Opens a port, then fails as ``fail`` says."""
+    """Opens a port, then fails by the setting ``fail``."""
 
     is_open = False
 

@@ -18,7 +18,7 @@ from up.telemetry_controller import TelemetryController
 
 
 class Speaker(BaseModule):
-    """Says what it is told to."""
+    """Reports the values that a test sets."""
 
     content = {}
 

@@ -12,7 +12,7 @@ BUILD = (
     "import sys; from pathlib import Path; from up_rig import build;"
     " build.ARDUINO = Path(sys.argv[1]); build.make('anything')"
 )
-# Tells that it runs, then compiles until the other end of the pipe is closed.
+# Reports that it runs, then compiles until the other end of the pipe is closed.
 COMPILER = """#!/bin/sh
 echo runs > "$2/begun"
 read -r _ < "$2/end"

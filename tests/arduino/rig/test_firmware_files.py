@@ -1,4 +1,4 @@
-"""What the rig loads, and what it refuses in one sentence."""
+"""Files that the rig loads, and files that it refuses in one sentence."""
 
 import os
 

@@ -101,7 +101,7 @@ def test_an_imu_that_is_not_there_does_not_answer(case):
     assert set(bursts(rig)) == {(0x20, 0xAA)}
     rig.imu.plug()
     rig.run_us(40_000)
-    # It is back, but asleep, as nobody has told it to wake.
+    # It is back, but asleep, as no register write has woken it.
     assert set(bursts(rig)) == {(OK, 0)}
 
 
@@ -145,7 +145,7 @@ def test_gone_at_any_byte_is_no_answer(case, byte):
     rig.imu.fail_at_byte(byte if first else byte - 2, Fault.NO_ANSWER, after_transfers=not first)
     seen = bursts(rig)
     assert seen[-1] == (0x20, 0xAA)
-    # Nobody acknowledges an address or a register; what nobody sends reads as ones.
+    # An address or register without a device is not acknowledged and reads as ones.
     expected = {0: 0x20, 1: 0x30, 2: 0x48}.get(byte, OK)
     changed = next(each for each in seen if each != (OK, 0))
     assert changed[0] in (expected, 0x20)

@@ -68,7 +68,7 @@ def test_entering_an_interrupt_takes_its_cycles(case):
         rises = [cycle for cycle, level in rig.servo.pin_edges(LED) if level]
         latencies.add(rises[-1] - edge)
     # 3 to the flag, up to 2 of the running instruction, 4 of entry, 3 of the vector's jump, 2 of
-    # SBI: never less than the sum of what is certain.
+    # SBI: at least the sum of the certain ones.
     assert min(latencies) == 3 + 4 + 3 + 2
     assert max(latencies) <= 12 + 3
 

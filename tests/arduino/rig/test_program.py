@@ -46,7 +46,7 @@ def echo(tmp_path):
 
 
 def exchange(path, data):
-    """Write bytes and return as many; they are sent again until the chip is there to hear."""
+    """Write bytes and return as many; they are sent again until the chip receives them."""
     file = os.open(path, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
     try:
         deadline = time.monotonic() + DEADLINE_S
@@ -152,7 +152,7 @@ def real_time(tmp_path):
 
 
 def pulses(rig):
-    """Spies on the aux2 pulses of the frame that is on its way."""
+    """Spies on the aux2 pulses of the frame in transit."""
     return [each for each in rig.receiver.sent if each.channel == "aux2"]
 
 

@@ -1,4 +1,4 @@
-"""The pty: there for everybody who opens it, never blocking, its link made and removed."""
+"""The pty: open to every process, never blocking, its link made and removed."""
 
 import fcntl
 import os
@@ -29,7 +29,7 @@ def opened(line):
 
 
 def read_all(file):
-    """Return what comes until nothing has come for a moment, at least one byte."""
+    """Return the received bytes until a short silence, at least one byte."""
     found = b""
     while select.select([file], [], [], 0.05 if found else 20.0)[0]:
         found += os.read(file, 65536)
@@ -37,7 +37,7 @@ def read_all(file):
 
 
 def fill(line):
-    """Write 600 messages that nobody reads, each with the reader's side before the next."""
+    """Write 600 messages without a reader, each with the reader's side before the next."""
     for number in range(600):
         waiting, dropped = line._unread(), line.dropped
         line.write(b"%08d" % number)

@@ -60,7 +60,7 @@ class Writer:
         self.set_register(register + 1, value >> 8)
 
     def witness(self):
-        """Keep the flags of now in a place of their own: in r16,SREG; sts ..,r16."""
+        """Store the current flags in their own place: in r16,SREG; sts ..,r16."""
         self.words += [0xB70F, 0x9300, SREG_AT + self.random.randrange(1, 0x200)]
 
     def skip(self):
@@ -124,7 +124,7 @@ class Writer:
 
 
 def memory(rig):
-    """Return registers and RAM (what lies between belongs to the peripherals)."""
+    """Return registers and RAM (the range between them belongs to the peripherals)."""
     data = rig._library.rig_data(rig._handle)
     return bytes(data[:32]) + bytes(data[0x5D:0x5F]) + bytes(data[0x100:RAM_END])
 

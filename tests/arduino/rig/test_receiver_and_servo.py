@@ -166,5 +166,5 @@ def test_the_prototypes_board_has_its_wires_elsewhere(tmp_path):
     assert PROTOTYPE.servos["throttle"] == 8 + 1
     rig.receiver.start(at_us=0)
     rig.run_until_us(200_000)
-    # D2 is no input of that board, so that the program sees no pulse.
+    # D2 is not an input of that board, so the program sees no pulse.
     assert rig.servo.pulses("ailerons") == []

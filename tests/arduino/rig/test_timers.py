@@ -31,7 +31,7 @@ def words(said):
 def test_the_count_is_read_exactly(case):
     _rig, said = case(1)
     reads = words(said)
-    # 800 cycles of waiting and what the loop takes besides, 100 ticks and a few.
+    # 800 cycles of waiting plus those of the loop, 100 ticks and a few.
     steps = {after - before for before, after in itertools.pairwise(reads)}
     assert len(steps) <= 2
     assert all(100 < step <= 104 for step in steps)

@@ -5,7 +5,7 @@ import { createRequire } from "node:module";
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 /**
- * Return the faults of a page (WCAG 2 A and AA) that keep somebody from using it.
+ * Return the faults of a page (WCAG 2 A and AA) that exclude users.
  * @returns {Promise<{rule: string, where: string[]}[]>}
  */
 export async function seriousFaults(page) {

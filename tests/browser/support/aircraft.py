@@ -1,4 +1,4 @@
-"""An aircraft of a test: says to a proxy what it is told to, and answers every Command.
+"""An aircraft of a test: sends its input to a proxy, and answers every Command.
 
 Arguments: the proxy's airborne port, its hello. Reads JSON lines: ``{"data": {...}}`` is its
 telemetry from then on (deeply merged with that of the ground station's tests unless ``"whole"`` is

@@ -1,7 +1,7 @@
 // Debian's Chromium without a screen, and pages that keep what they were asked and complained of.
 import { chromium } from "playwright-core";
 
-/** Nothing that would speak to anybody by itself. */
+/** Flags against connections that the browser opens automatically. */
 const FLAGS = [
   "--disable-gpu",
   "--disable-quic",
@@ -20,7 +20,7 @@ export const PHONE = {
 };
 
 /**
- * Start a browser with an empty profile of its own; `close()` ends it.
+ * Start a browser with an empty profile; `close()` ends it.
  * @param {string[]} flags more of them
  */
 export async function startBrowser(flags = []) {
@@ -32,12 +32,12 @@ export async function startBrowser(flags = []) {
 }
 
 /**
- * Open a page in a context of its own: another user's browser.
- * `page.seen` keeps its requests (URLs), its errors and what the Content-Security-Policy stopped.
+ * Open a page in its own context: another user's browser. `page.seen` keeps its requests (URLs),
+ * its errors and what the Content-Security-Policy stopped.
  * @param {import("playwright-core").Browser} browser
  * @param {string} address
  * @param {object} options of the context, such as LAPTOP and PHONE; `first`: runs before the page's
- *   own scripts
+ *     own scripts
  */
 export async function openPage(browser, address, { first, ...options } = LAPTOP) {
   const context = await browser.newContext({ reducedMotion: "reduce", ...options });

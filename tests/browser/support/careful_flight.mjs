@@ -1,11 +1,11 @@
-// An aircraft as it is configured for real flights: no gains are set while it flies.
+// An aircraft as configured for real flights: gains cannot be set in flight.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { Program, PYTHON, shortFolder, startProgram } from "./program.mjs";
 
 /**
- * Start proxy, aircraft, daemon and the page's server, each by hand as a guide tells it.
+ * Start proxy, aircraft, daemon and the page's server, each by hand as in a guide.
  * @returns {Promise<{address: string, stop: () => Promise<void>}>}
  */
 export async function startCarefulFlight() {

@@ -1,4 +1,4 @@
-// The real proxy and the real server of the page, and an aircraft that says what a test wants.
+// The real proxy, the real server of the page, and an aircraft that sends what a test defines.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";

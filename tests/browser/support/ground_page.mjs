@@ -1,4 +1,4 @@
-// The ground station's page as somebody uses it.
+// The ground station's page as a user operates it.
 import assert from "node:assert/strict";
 
 import { LAPTOP, openPage, outsideRequests } from "./browser.mjs";
@@ -78,7 +78,7 @@ export class GroundPage {
     );
   }
 
-  /** The text of the first element of a selector; null: there is none. */
+  /** The text of the first element of a selector, or null. */
   async text(selector) {
     return this.page.evaluate((s) => document.querySelector(s)?.textContent ?? null, selector);
   }
@@ -89,7 +89,7 @@ export class GroundPage {
     return this.page.evaluate(([s, n]) => document.querySelector(s)?.getAttribute(n) ?? null, words);
   }
 
-  /** What is shown of a key of the telemetry. */
+  /** The displayed value of a telemetry key. */
   async value(key) {
     return this.text(`[data-key="${key}"]`);
   }
@@ -201,13 +201,13 @@ export class GroundPage {
     await this.untilHolder("you");
   }
 
-  /** Give control back, to whoever asks next. */
+  /** Give control back to the next requester. */
   async leaveControl() {
     await this.press("#control-release");
     await this.until(() => document.querySelector("#control-holder").dataset.holder !== "you", "no control");
   }
 
-  /** Wait until control is in somebody's hands: you, page, ground, nobody. */
+  /** Wait until control has that owner: you, page, ground, nobody. */
   async untilHolder(holder) {
     const held = (holder) => {
       const all = window.testMessages.filter(({ message }) => message.type === "status");

@@ -1,4 +1,4 @@
-"""The radio of a test: takes the sticks of a showcase and tells what the aircraft does.
+"""The radio of a test: takes over the sticks of a showcase and reports the aircraft's motion.
 
 Reads JSON lines: ``{"ailerons": 1700, "aux1": 2000}`` moves sticks from then on, ``null`` gives
 them back. Writes a JSON line for every answer of the aircraft: ``unix_s``, ``roll_deg``,

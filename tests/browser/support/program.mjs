@@ -172,7 +172,7 @@ export function childrenOf(pid) {
         found.push({ pid: Number(name), words: words.slice(0, -1) });
       }
     } catch {
-      // It has ended meanwhile.
+      // It has ended already.
     }
   }
   return found;

@@ -1,4 +1,4 @@
-// `make run` for a test: the showcase with ports of its own, in a folder of its own.
+// `make run` for a test: the showcase with its own ports, in its own folder.
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 

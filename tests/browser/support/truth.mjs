@@ -3,9 +3,9 @@
 const METRES_PER_DEG = 111_320;
 
 /**
- * Return a showcase's true states so far, each with the time of the machine's clock at which it was.
- * The model flies in real time and each state is written at once: the freshest that a line was ever
- * seen tells what its clock began with.
+ * Return a showcase's true states so far, each with the time of the machine's clock at which it
+ * was. The model flies in real time and each state is written immediately: the line that was read
+ * with the least delay gives the start of its clock.
  */
 export async function truthOf(showcase) {
   let began_s = Infinity;

@@ -7,7 +7,7 @@ const LOOK_AGAIN_MS = 20;
 /**
  * Wait for a condition and return its value.
  * @param {() => unknown} condition may return a promise; false, null and undefined mean not yet
- * @param {string | (() => string)} what what is awaited, for the message
+ * @param {string | (() => string)} what the awaited condition, for the message
  * @param {number} limit_s
  * @returns {Promise<any>} the first other value; rejects when it does not come
  */

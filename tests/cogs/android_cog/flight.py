@@ -17,7 +17,7 @@ PORTS = "general port: 0\norientation port: 0\naddress: 127.0.0.1\n"
 
 
 class Flight:
-    """Built, started, and ended again; ``heard`` has what was published of chosen Commands."""
+    """Built, started, and stopped again; ``heard`` has the published Commands of chosen types."""
 
     def __init__(self, folder, text="", mode=Mode.AUTO, ports=PORTS):
         config = {"android.yml": ports + text}
@@ -63,7 +63,7 @@ class Flight:
 
 
 class Asker:
-    """A link of somebody on the ground, and what it was answered."""
+    """A link of a ground peer, and its answers."""
 
     def __init__(self, up, name, role=Role.OPERATOR):
         self.up = up

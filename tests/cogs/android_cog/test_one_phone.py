@@ -1,4 +1,4 @@
-"""One phone at a time: who owns the link, and what becomes of the others."""
+"""One phone at a time: the owner of the link, and the fate of the others."""
 
 from android_cog.phone_link import MAX_UNDECIDED, MAX_UNDECIDED_LINE, PhoneLink
 from twisted.internet.endpoints import TCP4ClientEndpoint
@@ -25,7 +25,7 @@ def place(latitude, id=None):
 
 
 async def phone_at(flight, host, port="general"):
-    """Connect from a loopback address of its own, which stands for another machine."""
+    """Connect from another loopback address, which stands for another machine."""
     factory = Factory.forProtocol(Peer)
     endpoint = TCP4ClientEndpoint(
         reactor, "127.0.0.1", flight.up.ports[port], bindAddress=(host, 0)

@@ -1,4 +1,4 @@
-"""Telemetry for the phone: seldom, and the newest."""
+"""Telemetry for the phone: at a low rate, and the newest."""
 
 from itertools import pairwise
 

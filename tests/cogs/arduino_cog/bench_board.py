@@ -19,8 +19,8 @@ DEADLINE_S = 60.0
 class BenchBoard:
     """A board behind ``link`` that a program can open; a thread lets its time pass.
 
-    Its time never runs ahead of real time, and falls behind on a slow machine: what is promised
-    in milliseconds is judged by its own cycles. ``rig()`` gives the bench while time stands still.
+    Its time never runs ahead of real time, and falls behind on a slow machine: limits in
+    milliseconds are checked by its own cycles. ``rig()`` gives the bench while time stands still.
     """
 
     def __init__(self, elf, link, sticks=None):
@@ -103,7 +103,7 @@ class BenchBoard:
             return rig.servo.pulses(channel)
 
     def wait(self, condition, what):
-        """Wait for a condition; a board that died is told at once."""
+        """Wait for a condition; the death of the board is reported immediately."""
         deadline_s = time.monotonic() + DEADLINE_S
         while not (value := condition()):
             assert self._failure is None, self._failure

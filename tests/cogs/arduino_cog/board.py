@@ -41,7 +41,7 @@ ARMED, AT_AUTO, RECEIVER, IMU, GAINS_STORED = 1, 2, 4, 8, 64
 # The rudder has no angle loop.
 FACTORY = (*(float(each) for each in range(1, 16)), 0.0, 0.0, 0.0)
 PUSHED = "gt"
-# What a new Arduino holds, as the protocols page orders it (2.6).
+# The defaults of an Arduino, in the order of the protocols page (2.6).
 PROFILE = (
     *(0, 0, 1000, 2000) * 4, 0, 1, b"afA", 5000, 2000, 2500, -300, 2000,
     1000, 900, 1500, 1500, 1500, 0,
@@ -66,7 +66,7 @@ class Ground(BaseMissionControlProvider):
 
 
 class BoardRig(Rig):
-    """A system with the Arduino cog, and a board that answers as ``answers`` says.
+    """A system with the Arduino cog, and a board with the answers of ``answers``.
 
     ``refuse`` maps a type to the reason it is refused for; types in ``mute`` get no answer.
     """
@@ -131,13 +131,13 @@ class BoardRig(Rig):
         )  # fmt: skip
 
     def start_alone(self):
-        """Start before any board is there: the port is open and says nothing."""
+        """Start before any board is there: the port is open and silent."""
         self.on_command = lambda command: None
         self.start()
         self.on_command = self.answer
 
     def connect(self, *, armed=False):
-        """Start, and let the board say that it is there."""
+        """Start, with the board's first messages."""
         self.start()
         self.status(armed=armed)
 
@@ -166,7 +166,7 @@ class BoardRig(Rig):
         self.say("r", struct.pack(">4H", 1500, 1500, pulse_us, 1500))
 
     def alive(self, seconds=1.0, **status):
-        """Let time pass on a board that says its status five times a second."""
+        """Advance the time on a board that sends its status five times a second."""
         for _ in range(round(seconds / 0.2)):
             self.advance(0.2)
             self.status(**status)

@@ -1,4 +1,4 @@
-"""`python main.py` as a process, and a pilot on the ground who speaks to it."""
+"""`python main.py` as a process, and a pilot on the ground who sends Commands to it."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def wait(condition, what):
 
 
 class Daemon:
-    """Raspilot with a configuration of the test's, on ports of its own."""
+    """Raspilot with a configuration of the test's, on its own ports."""
 
     def __init__(self, folder, port, **files):
         self.folder = folder / "config"

@@ -1,4 +1,4 @@
-"""airframe.yml, and what it says as a profile."""
+"""airframe.yml, and its values in the profile."""
 
 import struct
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The profile: the Arduino's is the truth, airframe.yml changes what it names."""
+"""The profile: the Arduino's values are the truth, airframe.yml changes those that it names."""
 
 import struct
 
@@ -44,7 +44,7 @@ def framed(make_rig):
 
 @pytest.fixture
 def said(monkeypatch):
-    """What the module says, by level."""
+    """The log messages of the module, by level."""
     lines = []
     for level in ("info", "warning", "error"):
         monkeypatch.setattr(
@@ -197,7 +197,7 @@ def test_a_lost_confirmation_is_no_reason_to_write_again(framed):
     rig.on_command = mute_but_good
     rig.connect(armed=False)
     rig.alive(5)
-    # The exchange itself repeats once; after that what the board holds is asked for first.
+    # The exchange itself repeats once; after that the board's values are requested first.
     assert len(rig.sent("C")) == 2
     assert rig.up.vetoes.own == {}
 

@@ -1,4 +1,4 @@
-"""Arming, flight modes and panic: what is asked of the Arduino."""
+"""Arming, flight modes and panic: requests to the Arduino."""
 
 import pytest
 from arduino_cog.modules.arduino_provider import ArduinoProvider

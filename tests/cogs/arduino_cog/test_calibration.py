@@ -1,4 +1,4 @@
-"""Calibrating from the ground: the board alone says no."""
+"""Calibrating from the ground: only the board refuses."""
 
 import pytest
 from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand

@@ -1,4 +1,4 @@
-"""In flight: armed, or without a motor once the receiver was heard since the board started."""
+"""In flight: armed, or without a motor once the receiver was seen since the board started."""
 
 import struct
 

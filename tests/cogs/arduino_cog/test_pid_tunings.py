@@ -40,7 +40,7 @@ def refusal(outcome):
 
 @pytest.fixture
 def tuned(make_rig, monkeypatch):
-    # The clock stands still here: the disk answers at once. The thread has tests of its own.
+    # The clock stands still here: the disk answers immediately. The thread has its own tests.
     monkeypatch.setattr(gains_keeper, "_in_thread", lambda work: work())
 
     def make(framing="checked", pids=GOOD, **more):

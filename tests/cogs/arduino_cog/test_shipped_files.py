@@ -1,4 +1,4 @@
-"""What the serial and the Arduino cog ship."""
+"""The shipped files of the serial and the Arduino cog."""
 
 import importlib
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""`python main.py` and the firmware as it is compiled, on a real pty; time is the board's own."""
+"""`python main.py` and the compiled firmware, on a real pty; time is the board's own."""
 
 import itertools
 import os
@@ -17,7 +17,7 @@ from up_rig import CYCLES_PER_US
 from up_rig.imu import motion_at
 
 AIRFRAME = "rudder: {trim_us: 40}\nfly_by_wire: {roll_deg: 33.333}\n"
-# Not what a new board holds.
+# Not the default of a board.
 GAINS = PIDS.template().replace("p: 2.0", "p: 2.25")
 CALM = "panic threshold: 100\n"
 PANIC = "panic threshold: 1\ncalm down threshold: 0\ninterval: 0.1\n"
@@ -33,7 +33,7 @@ def elf():
 
 
 def await_profile(board, ground):
-    """Wait until the board holds what airframe.yml says."""
+    """Wait until the board has the values of airframe.yml."""
     board.wait(lambda: not any("airframe.yml" in veto for veto in ground.at("vetoes")), "profile")
 
 
@@ -315,7 +315,7 @@ def test_the_raspberry_flies_by_the_pins_and_panic_leaves_it_its_streams(raspber
     daemon.ground.comes("rx.ailerons", 1700, 3)
     widths = [p.width_us for p in board.pulses("ailerons") if p.rise_cycle > since]
     assert all(near(width, 1500, 1) for width in widths), "without gains the stick moves nothing"
-    # The pilot takes over by the switch: the stick is at the pins at once.
+    # The pilot takes over by the switch: the stick reaches the pins immediately.
     board.move(aux1=1000)
     board.gives("ailerons", 1700, 3)
 
@@ -325,7 +325,7 @@ def all_neutral(pulses):
 
 
 class Cut:
-    """Ends a program in the middle of a frame: half of what comes next still goes through.
+    """Ends a program in the middle of a frame: half of the next frame still passes.
 
     It waits for a frame while the program holds the ailerons neutral: on a busy machine the board
     may be levelling instead, because the last Output has ended.
@@ -339,7 +339,7 @@ class Cut:
     def __call__(self, data):
         if self.cycle is not None:
             return b""
-        # Frames with an Output are 16 bytes; what is shorter is the veto's.
+        # Frames with an Output are 16 bytes; shorter ones are the veto's.
         pulses = self.board._rig.servo.pulses("ailerons")[-5:]
         if len(data) < 16 or not data.endswith(b"\0") or not all_neutral(pulses):
             return data

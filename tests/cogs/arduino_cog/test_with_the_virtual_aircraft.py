@@ -1,4 +1,4 @@
-"""The cog and a board in a process of its own, on a real pty: the firmware on chip and host."""
+"""The cog and a board in another process, on a real pty: the firmware on chip and host."""
 
 import os
 import signal
@@ -39,7 +39,7 @@ HOST = (
 
 
 class Aircraft:
-    """The board, in a process of its own; ``command`` is what follows ``python -m``."""
+    """The board, in its own process; ``command`` follows ``python -m``."""
 
     def __init__(self, link, *command):
         self.link = link
@@ -106,7 +106,7 @@ def system(tmp_path, framing="checked", controller="arduino", modules=MODULES):
 
 
 def profile_of(up):
-    """Return the profile once nothing is against it any more."""
+    """Return the profile once it has no veto left."""
     return None if "airframe.yml" in up.vetoes.own else up.get_module(ArduinoProfile).held
 
 
@@ -183,7 +183,7 @@ def test_outputs_move_the_servos_and_those_of_old_frames_do_not(aircraft, tmp_pa
 
 
 class FlightMode(BaseStartedModule):
-    """Asks for a bank, 50 times a second."""
+    """Requests a bank, 50 times a second."""
 
     ROLL_DEG = 0.0
 

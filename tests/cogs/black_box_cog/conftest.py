@@ -7,6 +7,6 @@ from tests.cogs.black_box_cog.flights import Flight
 
 @pytest.fixture(autouse=True)
 def nobody_listens():
-    """No recorder of a test hears the log of the next."""
+    """A test's recorder must not receive the log of the next test."""
     yield
     Flight.stop_all()

@@ -1,4 +1,4 @@
-"""A recorder whose clock and disk the test holds, and its flights as the official reader reads."""
+"""A recorder whose clock and disk the test controls, and its flights by the official reader."""
 
 import errno
 import json
@@ -60,7 +60,7 @@ class TestedDisk(Disk):
 
 
 class HalfFullDisk(TestedDisk):
-    """A disk on which so many bytes have room, to the byte."""
+    """A disk with room for that many bytes, to the byte."""
 
     room = None
 
@@ -75,7 +75,7 @@ class HalfFullDisk(TestedDisk):
 
 
 class Flight:
-    """A recorder in a folder, its rounds run by the test; it hears the log until it is over."""
+    """A recorder in a folder, its rounds run by the test; it receives the log until it is over."""
 
     listening = set()
 
@@ -111,7 +111,7 @@ class Flight:
 
     @classmethod
     def stop_all(cls):
-        """Hear the log no more."""
+        """Stop receiving the log."""
         while cls.listening:
             cls.listening.pop().stop()
 
@@ -124,11 +124,11 @@ class Flight:
         self.wall_s += seconds
 
     def say(self, number, origin=BOARD):
-        """Publish one Command that can be told from others by its roll."""
+        """Publish one Command that is distinguishable from others by its roll."""
         self.intake.observe(OrientationCommand(float(number), 0.0, 0.0), origin)
 
     def fly(self, seconds, rate_hz=10, first=0, origin=BOARD):
-        """Say numbers at a rate, with the recorder's rounds between; return the next number."""
+        """Log numbers at a rate, with the recorder's rounds between; return the next number."""
         number = first
         for _ in range(round(seconds * rate_hz)):
             self.say(number, origin)
@@ -162,7 +162,7 @@ def messages(path):
                     data = json.loads(record.data)
                     found.append((topics[record.channel_id], record.log_time, data))
         except (EndOfFile, struct.error):
-            # That is how it says that a record is cut off.
+            # This is its message for a record that is cut off.
             pass
     return found
 

@@ -1,6 +1,6 @@
-"""A flight on a small file system of its own: ``python -m tests...full_disk FOLDER READ_ONLY``.
+"""A flight on its own small file system: ``python -m tests...full_disk FOLDER READ_ONLY``.
 
-Prints what happened as JSON. To be run in a mount namespace where FOLDER is a few hundred KB.
+Prints the result as JSON. To be run in a mount namespace where FOLDER is a few hundred KB.
 """
 
 import json

@@ -31,7 +31,7 @@ def quiet(maker):
 
 
 def eventful(maker):
-    """Gains change, somebody sets a mark, there is a truth, and texts are malicious."""
+    """Gains change, marks are set, there is a truth, and texts are malicious."""
     quiet(maker)
     maker.put(2.0, AndroidBatteryCommand(80))
     maker.put(5.9, PIDTuningsCommand(pids=gains(3.0).data), GROUND)

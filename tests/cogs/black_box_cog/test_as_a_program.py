@@ -1,4 +1,4 @@
-"""Raspilot as a user runs it, with a phone that speaks: stopped, killed, two at once."""
+"""Raspilot as a user runs it, with a phone that sends: stopped, killed, two instances."""
 
 import json
 import os
@@ -61,7 +61,7 @@ class Aircraft:
         return until(lambda: re.search(pattern, self.log), f"{pattern} in {self.log}")
 
     def speak(self):
-        """Say a level of the battery that was not said before."""
+        """Send a battery level that was not sent before."""
         self.battery += 1
         data = {"level": self.battery / 10}
         self.phone.sendall(json.dumps({"name": "android.battery", "data": data}).encode() + b"\n")
@@ -111,7 +111,7 @@ def test_stopped_it_leaves_a_whole_file(aircraft, tmp_path):
     assert log.series("android.battery", "level")[1] == [number / 10 for number in range(1, 52)]
     assert {"config/config.yml", "config/android.yml"} <= set(log.attachments)
     assert log.metadata["flight"]["mode"] == "black box"
-    # Nobody is on the ground: the recorder asked for telemetry.
+    # Without a ground: the recorder requested telemetry.
     assert log.topics["up.telemetry.update"] > 0
     assert "stopping: SIGTERM" in lines_in(log.paths[0])
 

@@ -37,7 +37,7 @@ from up.telemetry_controller import TelemetryController
 
 
 class Talkative(BaseStartedModule):
-    """Says something at its start and at its stop."""
+    """Logs a line at its start and at its stop."""
 
     def _execute_start(self):
         self._log_info("opened a port")

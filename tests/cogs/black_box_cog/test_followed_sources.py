@@ -1,4 +1,4 @@
-"""What the log tells of a reading is what its provider used, whichever source was heard first."""
+"""The log has the reading that its provider used, whichever source came first."""
 
 import pytest
 from black_box_cog.export.log_track import points_of

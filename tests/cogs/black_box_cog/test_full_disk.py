@@ -14,7 +14,7 @@ SIZE = "size=800k"
 
 
 def flown_on(folder, options, *arguments):
-    """Fly on a tmpfs of its own, in a mount namespace that goes with the program."""
+    """Fly on a tmpfs in a mount namespace that ends with the program."""
     need_root()
     unshare, mount = need_tool("unshare", "util-linux"), need_tool("mount")
     alone = [unshare, "--mount", "--propagation", "private"]

@@ -1,4 +1,4 @@
-"""What a power cut leaves: every byte that was synced, and of the rest any part."""
+"""Files after a power cut: every synced byte, and any part of the rest."""
 
 import pytest
 from black_box_cog.recorder import BUSY_S
@@ -33,7 +33,7 @@ class SyncedDisk(TestedDisk):
 
 @pytest.fixture
 def flown(tmp_path):
-    """A flight of a few seconds: its file before its end, when it was synced, what was said."""
+    """A flight of a few seconds: its file before its end, the times of its syncs, its messages."""
     flight = Flight(tmp_path, SyncedDisk(lambda: flight.now_s))
     said = []
     for _ in range(15):
@@ -67,7 +67,7 @@ def test_cut_at_every_byte_a_second_is_lost_at_most(flown, tmp_path):
 
 
 def test_what_the_disk_had_room_for_but_not_written_is_read_as_nothing(flown, tmp_path):
-    """A journal may keep the new length of a file without what was written there."""
+    """A journal may keep the new length of a file without the data written there."""
     path, data, synced, said, _ = flown
     at_s, size = synced[-2]
     path.write_bytes(data[:size] + bytes(len(data) - size))

@@ -28,7 +28,7 @@ def flight(tmp_path):
 
 
 class FloodedError(Exception):
-    """Raised by a Command that cannot tell its data."""
+    """Raised by a Command that cannot return its data."""
 
 
 # When it records

@@ -1,4 +1,4 @@
-"""What the recorder does when the disk fails."""
+"""The recorder when the disk fails."""
 
 import errno
 import shutil
@@ -149,7 +149,7 @@ def test_a_folder_that_is_a_file_is_said(tmp_path):
 
 
 class HangingDisk(TestedDisk):
-    """A disk whose sync lets something happen before it ends."""
+    """A disk whose sync runs a callback before it ends."""
 
     meanwhile = None
 

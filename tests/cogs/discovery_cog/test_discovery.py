@@ -19,7 +19,7 @@ from up.mode import Mode
 
 
 class Network:
-    """A transport that keeps what is written to it."""
+    """A transport that keeps written data."""
 
     def __init__(self, fault=None):
         self.written = []

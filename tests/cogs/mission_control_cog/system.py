@@ -9,7 +9,7 @@ from up.life_cycle import LifeCycle
 
 
 class Aircraft:
-    """Built, started, and ended again; ``heard`` has what was published of chosen Commands."""
+    """Built, started, and stopped again; ``heard`` has the published Commands of chosen types."""
 
     def __init__(self, folder, port=None, text="", host="127.0.0.1", modules=()):
         server = "" if port is None else f"remote_server: {{url: {host}, port: {port}}}\n"

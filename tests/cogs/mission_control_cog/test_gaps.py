@@ -57,7 +57,7 @@ class GroundStation:
 
 
 async def watch(ages, seconds):
-    """Look at what comes for some time."""
+    """Watch the received data for some time."""
     end_s = reactor.seconds() + seconds
     while reactor.seconds() < end_s:
         ages.look()
@@ -80,7 +80,7 @@ def test_after_a_blackout_fresh_data_come_and_no_stale_frame(tmp_path):
                 ages = Ages(a.up, ground)
                 await until(ages.look)
                 blackhole(inside)
-                # The ground loses its link too; it comes back by itself, as the aircraft does.
+                # The ground loses its link too; it reconnects automatically, as the aircraft does.
                 await sleep(BLACKOUT_S)
                 assert not a.provider.connected
                 light(inside)
@@ -90,7 +90,7 @@ def test_after_a_blackout_fresh_data_come_and_no_stale_frame(tmp_path):
                 await until(ages_after.look, 10)
                 assert reactor.seconds() - back_s <= 3.5
                 await watch(ages_after, 1.0)
-                # A frame is on its way for milliseconds here; a second is a backlog.
+                # A frame is in transit for milliseconds here; a second is a backlog.
                 assert ages_after.worst_s < 1.0
                 assert a.provider.telemetry_content["counters"]["mission_control"]["connects"] == 2
                 for each in (ground, again):
@@ -112,7 +112,7 @@ def test_a_gap_of_one_second_is_ridden_through(tmp_path):
                 light(inside)
                 await until(ages.look, 10)
                 await watch(ages, 1.0)
-                # TCP delivers in order what was sent before it noticed the gap, however old.
+                # TCP delivers in order the data sent before it noticed the gap, however old.
                 assert ages.worst_s < 3.0
                 await ground.close()
 
@@ -120,7 +120,7 @@ def test_a_gap_of_one_second_is_ridden_through(tmp_path):
 
 
 def test_after_a_cut_of_one_second_no_late_frame_is_shown(tmp_path, monkeypatch):
-    # As in the programs; frames tell their sender's monotonic time.
+    # As in the programs; frames carry their sender's monotonic time.
     monkeypatch.setattr(reactor, "seconds", time.monotonic)
     with network() as inside, Program(tmp_path / "p", OPEN, prefix=inside) as proxy:
 

@@ -61,7 +61,7 @@ def test_the_first_commands_the_others_listen_and_nobody_steals(tmp_path):
                 await until(lambda each=each: each.named("up.altitude.change"))
             counters = a.up.telemetry_controller.collect()["counters"]["ground"]
             assert counters == {"stations": 2, "not_holder": 1, "too_many": 0, "refused_peers": 0}
-            # The holder leaves; without a token its seat is free for who speaks next.
+            # The holder leaves; without a token its seat goes to the next sender.
             await one.close()
             two.say(period(400, "c"))
             assert (await two.answer("c"))["name"] == "up.ack"
@@ -89,7 +89,7 @@ def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_the_seat(tmp_pa
             assert again.lines[0] == b"UP1 ok aircraft=glider seat=command token=" + token
             again.say(b"UP1 seat release\n", period(300, "r"))
             assert (await again.answer("r"))["name"] == "up.ack"
-            # A half-open holder is displaced by its own token at once.
+            # A half-open holder is displaced by its own token immediately.
             (third,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
             await again.closed
             third.say(period(330, "s"))
@@ -205,7 +205,7 @@ def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
 
 
 class Station:
-    """A connection without a network: what the aircraft took of it."""
+    """A connection without a network: the data that the aircraft read from it."""
 
     def __init__(self, grounds_, clock, handle=None):
         self.link = grounds_.build()
@@ -302,7 +302,7 @@ def test_nothing_reaches_a_station_before_the_answer_to_its_hello():
         assert all_.send(b"word\n")
         assert station.received.startswith(b"UP1 ok ") and b"too early" not in station.received
         assert silent.received == b""
-        # Who has said nothing for a second says no hello.
+        # A peer that has sent nothing for a second sends no hello.
         clock.advance(1.0)
         assert all_.send(b"for all\n")
         assert silent.received == b"for all\n"

@@ -1,4 +1,4 @@
-"""What the ground may do: configuration, and less on a plain public link."""
+"""The role of the ground: configuration, and less on a plain public link."""
 
 import pytest
 

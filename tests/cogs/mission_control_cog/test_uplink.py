@@ -83,7 +83,7 @@ def test_an_absent_proxy_is_no_failure_and_is_found_when_it_comes(tmp_path):
             await late.open(port)
             peer = await accepted(late)
             first = await until(lambda: peer.named("up.telemetry.update"))
-            # What was made before the link is not sent later.
+            # Messages from before the link are not sent later.
             assert first[0]["beacon"] > a.up.beacons._first
             await late.close()
 

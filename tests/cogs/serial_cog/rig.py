@@ -1,4 +1,4 @@
-"""A serial line whose other end a test holds: a real pty, and time that the test moves."""
+"""A serial line whose other end a test controls: a real pty, and time that the test advances."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ STEP_S = 0.02
 
 
 class VirtualReactor(Clock):
-    """A clock that also knows descriptors; ``turn`` does what is there to do, without waiting."""
+    """A clock that also knows descriptors; ``turn`` handles everything ready, without waiting."""
 
     def __init__(self):
         super().__init__()
@@ -61,7 +61,7 @@ class VirtualReactor(Clock):
 
 
 class Port:
-    """A pty under a name of the test's choice, and what the Arduino's end sends and hears."""
+    """A pty under a name of the test's choice, and the Arduino's end: sent and received data."""
 
     def __init__(self, link, framing="checked"):
         self.link = link
@@ -159,7 +159,7 @@ class Rig:
         self.port.unplug()
 
     def turn(self):
-        """Let both ends do what they can do now."""
+        """Make both ends do everything that is due."""
         for _ in range(6):
             self.reactor.turn()
             for command in self.port.listen(self.reactor.seconds()):

@@ -1,4 +1,4 @@
-"""Who takes which type of frame."""
+"""The handler of each type of frame."""
 
 import pytest
 from serial_cog.handlers import HandlerTable, type_byte

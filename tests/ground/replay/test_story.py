@@ -71,7 +71,7 @@ def test_a_long_silence_is_told(tmp_path):
 def test_a_silence_begins_with_the_last_frame_before_it(tmp_path):
     path = write_flight(tmp_path / "flight.mcap", gap=(13.0, 19.0))
     story = Story(FlightLog.read([path]), "kite")
-    # Somebody listened to telemetry, and nothing else was logged either: none is made up.
+    # A telemetry listener, and nothing else in the log: no event is made up.
     assert story.frame_time_s(17.0) == pytest.approx(13.0)
     assert [each["kind"] for each in story.alarms_at(14.1)["active"]] == ["silent"]
     assert [each["kind"] for each in story.alarms_at(17.0)["active"]] == ["silent"]

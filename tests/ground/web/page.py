@@ -28,7 +28,7 @@ class _Client(WebSocketClientProtocol):
 
 
 class Page:
-    """Keeps what it was told; `say` sends, the coroutines wait."""
+    """Keeps its received messages; `say` sends, the coroutines wait."""
 
     def __init__(self, port, origin=None, host="127.0.0.1"):
         self.port, self.told = port, []
@@ -49,7 +49,7 @@ class Page:
         return self
 
     async def hello(self, name="test", watch="default", **more):
-        """Open the link, say hello and watch; return the welcome."""
+        """Open the link, send the hello and watch; return the welcome."""
         await self.open()
         self.say("hello", name=name, **more)
         welcome = await self.next("welcome")
@@ -91,7 +91,7 @@ class Page:
         return await until(find, what=f"a status; the newest is {self.newest('status')}")
 
     async def command(self, name, data=None, aircraft="default", **more):
-        """Send a Command, with the beacon that it was told last, and return its answer."""
+        """Send a Command, with the last received beacon, and return its answer."""
         if "beacon" not in more:
             more["beacon"] = await self.beacon()
         self.asks += 1
@@ -100,7 +100,7 @@ class Page:
         return await self.next("answer", lambda each: each["ask"] == ask)
 
     async def beacon(self):
-        """Return the newest frame's beacon; None where there is no aircraft to send one."""
+        """Return the newest frame's beacon; None without an aircraft to send one."""
         if not self.of("frame"):
             status = await self.next("status")
             if not (self.newest("status") or status)["link"]["aircraft_online"]:
@@ -148,7 +148,7 @@ def get(port, path, method="GET", **headers):
 
 
 def with_pages(server, look, *names):
-    """Run `look(*pages)`; the pages have said hello and watch the aircraft."""
+    """Run `look(*pages)`; the pages have sent their hello and watch the aircraft."""
 
     async def run():
         pages = [Page(server.port) for _ in names]

@@ -1,4 +1,4 @@
-"""Who may look, and who may control."""
+"""Permission to view, and permission to control."""
 
 import pytest
 from hypothesis import given

@@ -1,4 +1,4 @@
-"""What becomes of a Command, by the clock."""
+"""Outcomes of a Command, by the clock."""
 
 import pytest
 from twisted.internet.task import Clock

@@ -1,4 +1,4 @@
-"""What a page is told of the Commands."""
+"""The catalogue of Commands that a page receives."""
 
 import json
 from dataclasses import dataclass

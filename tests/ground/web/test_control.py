@@ -10,7 +10,7 @@ from up_ground.web.page_message import PageFault
 
 
 class Seat:
-    """A seat at a proxy that does nothing by itself."""
+    """A seat at a proxy that does nothing automatically."""
 
     def __init__(self):
         self.standing, self.holder, self.asked = Standing.FREE, None, None
@@ -171,7 +171,7 @@ def test_it_is_not_asked_for_ever(bench):
     asked = len(bench.seat.done)
     bench.clock.advance(30)
     assert len(bench.seat.done) == asked
-    # It comes after all: nobody wants it any more.
+    # The answer comes late: no page waits for it.
     bench.seat_is(Standing.OURS)
     assert bench.seat.done[-1] == "release"
 

@@ -40,7 +40,7 @@ def test_a_beacon_counts_for_two_seconds(desk):
     desk.clock.advance(1.0)
     desk.frame(101)
     for _ in range(50):
-        # Time goes on without a frame: what is looked at again is no new one.
+        # Time passes without a frame: a second look is not a new frame.
         desk.heard.look()
     codes = [desk.code(each) for each in (99, 100, 101, 102)]
     assert codes == ["stale", None, None, "unknown_beacon"]

@@ -1,4 +1,4 @@
-"""What is told of an aircraft: each change once, no flood, true ages."""
+"""Events of an aircraft: each change once, no flood, true ages."""
 
 import copy
 

@@ -4,7 +4,7 @@ from up_ground.web.page_output import PENDING_LIMIT, PageOutput
 
 
 class Transport:
-    """A transport that sends when it is told to."""
+    """A transport that sends on request."""
 
     def __init__(self):
         self.written, self.producer = [], None

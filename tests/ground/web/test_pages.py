@@ -1,4 +1,4 @@
-"""What pages say, nonsense too, without a network."""
+"""Messages of pages, invalid ones included, without a network."""
 
 import json
 
@@ -59,7 +59,7 @@ class Link:
 
 
 class Kite:
-    """An aircraft that notes what is asked of it."""
+    """An aircraft that records its requests."""
 
     name, summary = "kite", "kite"
 
@@ -345,10 +345,10 @@ def test_wrong_keys_are_limited_by_address():
         # One network of IPv6 is one address.
         assert "wrong" in why_not(f"guess-{number}", f"2001:db8::{number + 1:x}")
     assert why_not("guess", "2001:db8::99") == limited
-    # Otherwise whoever guesses on would see which guess was right.
+    # Otherwise a client that keeps guessing would see which guess was right.
     assert why_not("the-right-key", "2001:db8::1") == limited
     assert why_not("the-right-key", "2001:db8:0:1::1") == ""
-    # Who has shown the key before is not limited.
+    # A client that has shown the key before is not limited.
     bench.pages.on_closed(pilot)
     assert why_not("the-right-key", "2001:db8::1", token=pilot.told[0]["token"]) == ""
     bench.clock.advance(1 / ATTEMPTS_RATE_HZ)

@@ -23,7 +23,7 @@ def test_a_page_sees_the_aircraft(aircraft, server):
         assert status["link"]["state"] == "connected"
         assert status["link"]["aircraft_online"] is True
         assert abs(status["home"]["latitude"] - 50.0757) < 0.001
-        # The first track may be one of before the first frame: a page that comes now has points.
+        # The first track may precede the first frame: a page that connects now has points.
         page.say("watch", aircraft="default")
         track = await page.next("track", lambda each: each["points"])
         assert track["points"][-1][:2] == [50.0755, 14.4378]
@@ -102,7 +102,7 @@ def test_no_command_leaves_without_telemetry_that_was_seen(aircraft, server):
     async def fly(page):
         await page.control()
         seen = await page.beacon()
-        # None is what a page sends that has drawn nothing; the others were never heard.
+        # A page that has drawn nothing sends None; the other beacons were never received.
         for beacon, code in (
             (None, "no_beacon"),
             (7, "stale"),

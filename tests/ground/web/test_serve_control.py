@@ -1,4 +1,4 @@
-"""Who has control, by a real server: pages, other grounds, the seat of a real proxy."""
+"""Control of the aircraft on a real server: pages, other grounds, the seat of a real proxy."""
 
 from tests.ground.aircraft import Ground, ground
 from tests.ground.web.page import FBW, MODE, Page, with_pages
@@ -33,7 +33,7 @@ def test_a_page_that_vanishes_keeps_control_for_a_moment(aircraft, server):
         await again.status(lambda each: each["control"]["holder"] == "you")
         assert (await again.command(MODE, FBW))["outcome"] == "ack"
         await again.leave()
-        # Then it is free, and the page that asks gets it.
+        # Then it is free, and the next requesting page gets it.
         await other.status(lambda each: each["control"]["holder"] == "you")
 
     with_pages(server, fly, "pilot", "other")

@@ -75,7 +75,7 @@ def test_an_interrupt_ends_it_without_a_word(aircraft, proxy, tmp_path, number):
         with_pages(server, look, "pilot")
         assert server.wait() == 0
         assert server.complained == ""
-    # The seat was left: nobody waits for it.
+    # The seat was left: no page waits for it.
     assert ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
 
 

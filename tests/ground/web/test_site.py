@@ -1,4 +1,4 @@
-"""What the server answers over HTTP, to a browser and to others."""
+"""The server's answers over HTTP, to a browser and to others."""
 
 import socket
 
@@ -17,7 +17,7 @@ POLICY = (
 @pytest.fixture(scope="module")
 def server(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
-    # Nobody listens on port 1: the page is there nevertheless.
+    # Port 1 has no listener: the page is served nevertheless.
     with Serve(folder, 1) as server:
         yield server
 
@@ -31,7 +31,7 @@ def check_headers(headers):
 
 
 def raw(port, request):
-    """Return all that the server says to these bytes, until it closes."""
+    """Return the server's whole answer to these bytes, until it closes."""
     with socket.create_connection(("127.0.0.1", port), timeout=30) as peer:
         peer.sendall(request)
         said = b""

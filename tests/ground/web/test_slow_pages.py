@@ -15,7 +15,7 @@ TEXT, LONG = 0x1, 126
 
 
 class SlowPage:
-    """A WebSocket that reads when it is told to."""
+    """A WebSocket that reads on request."""
 
     def __init__(self, port):
         self.socket = socket.socket()
@@ -83,7 +83,7 @@ def test_a_page_that_reads_late_gets_the_newest_with_its_true_age(proxy, tmp_pat
         while not got or got[-1]["beacon"] < newest:
             got.append(page.next_of("frame"))
         assert len(got) < 30, "a queue of old frames came"
-        # Those that waited in the server say so; one that did not is as old as its way is long.
+        # Frames that waited in the server report it; one that did not is as old as its transit.
         assert max(each["age_ms"] for each in got) > 5
         skipped = [later["beacon"] - each["beacon"] for each, later in pairwise(got)]
         assert max(skipped) > 20

@@ -29,7 +29,7 @@ _RAW_HTML = re.compile(
 
 
 class _Page(HTMLParser):
-    """Collects what the rules of the page are about."""
+    """Collects the elements that the rules of the page apply to."""
 
     def __init__(self, text: str) -> None:
         super().__init__()

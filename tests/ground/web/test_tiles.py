@@ -1,4 +1,4 @@
-"""The map's pictures: fetched once, kept, and never asked for by the page elsewhere."""
+"""The map's pictures: fetched once, cached, and never requested elsewhere by the page."""
 
 import hashlib
 import os
@@ -20,7 +20,7 @@ PNG = b"\x89PNG\r\n\x1a\n" + bytes(500)
 
 
 class Source:
-    """A server of tiles; `asked` has the paths, `agents` who asked."""
+    """A server of tiles; `asked` has the requested paths, `agents` the user agents."""
 
     def __init__(self):
         self.asked, self.agents, self.body, self.status = [], set(), PNG, 200
@@ -186,7 +186,7 @@ def test_a_disk_that_stands_still_holds_nothing_else_up(source):
         for number, request in enumerate(requests):
             request.path, request.setETag = b"/tiles/3/4/%d" % number, lambda tag: None
             assert tiles.render(request) is NOT_DONE_YET
-        # This thread goes on while two of the cache's wait.
+        # This thread continues while two of the cache's wait.
         await soon(lambda: len(cache.calls) == 2, what="the cache's calls")
         assert source.asked == []
         cache.go_on.set()

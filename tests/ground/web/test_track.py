@@ -10,7 +10,7 @@ STEP_DEG = 0.0001
 
 
 class _Flight:
-    """Flies north, and tells a place each time."""
+    """Flies north, and reports a position each time."""
 
     def __init__(self) -> None:
         self.track = Track()

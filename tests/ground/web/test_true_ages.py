@@ -1,4 +1,4 @@
-"""What is told of ages, and the truth, behind links that hold everything up; on real sockets.
+"""Reported and true ages behind links that delay everything; on real sockets.
 
 Aircraft, proxy, server and page are programs on one machine, so that they have one clock.
 """
@@ -29,7 +29,7 @@ LATE = {"kind": "silent", "level": "alarm", "text": "telemetry comes too late"}
 
 
 class ClockedAircraft(Aircraft):
-    """Tells its clock in each frame, and the same once more for the test."""
+    """Sends its clock in each frame, and the same again for the test."""
 
     def tell(self, name, data, **more):
         if name == "up.telemetry.update":
@@ -85,7 +85,7 @@ def test_a_frame_that_is_held_up_before_the_proxy_is_as_old_as_it_is(proxy, tmp_
         told_s = each["age_ms"] / 1000
         least_s, oldest_s = min(least_s, true_s), max(oldest_s, true_s)
         assert told_s <= true_s + max(trips_ms) / 2000 + ROUNDING_S
-        # What the quickest frame took is all that nobody can know.
+        # The transit time of the fastest frame is all that cannot be known.
         assert told_s >= true_s - least_s - ROUNDING_S
     assert oldest_s > 1.3
 
@@ -124,11 +124,11 @@ class NodePage:
 
 
 def judge(told):
-    """Compare what a page told with the truth; return the greatest true age."""
+    """Compare the page's reports with the truth; return the greatest true age."""
     for each in told:
         assert each["way_s"] >= each["trueWay_s"] - DOUBT_S - ROUNDING_S, each
         assert each["way_s"] <= each["trueWay_s"] + each["quickest_s"] + ROUNDING_S, each
-    # From the aircraft to the server: what the quickest frame took is in no age.
+    # From the aircraft to the server: no age includes the fastest frame's transit time.
     least_s = min(each["trueAge_s"] - each["trueWay_s"] for each in told)
     live_s = [each["trueAge_s"] for each in told if each["freshness"] == "live"]
     assert max(live_s, default=0.0) <= SILENT_S + DOUBT_S + least_s + ROUNDING_S

@@ -1,4 +1,4 @@
-"""Airframe files: what ships, what a user may bring, what is said of mistakes."""
+"""Airframe files: the shipped ones, those of users, and the messages for mistakes."""
 
 import re
 import shutil
@@ -67,7 +67,7 @@ def test_the_wing_lets_the_firmware_mix():
 
 @pytest.mark.parametrize("name", airframe_names())
 def test_profile_and_gains_are_what_the_raspberry_pis_files_take(name, tmp_path):
-    """What the simulator may not import, its test compares: the cog reads the same profile."""
+    """The simulator may not import the cog, so the test compares: both read the same profile."""
     import yaml
 
     airframe = load_airframe(name)
@@ -196,7 +196,7 @@ def test_a_mistake_in_the_file_is_one_sentence(tmp_path, change, sentence):
         (lambda text: text.replace('"KG*M2"', '"STONES"'), 'Supplied unit: "STONES"'),
         (lambda text: text.replace('"LIFT"', '"UP"'), "An unknown axis type, UP"),
         (lambda text: text.replace("     -170", "  xx -170", 1), "Illegal character"),
-        # JSBSim goes on without this, and ends the process at that.
+        # JSBSim continues without this, and ends the process at that.
         (lambda text: text.replace("sin>", "sinus>"), "Bad operation <sinus>"),
         (lambda text: text.replace("p-aero-rad_sec", "p-air"), "velocities/p-air does not exist"),
         (

@@ -26,7 +26,7 @@ def flying(name="glider", start=None, **weather):
 
 
 def pushed(name, channel, pulse_us):
-    """Ask for what the sticks mean: the firmware of an aircraft with elevons mixes."""
+    """Demand by the sticks: the firmware of an aircraft with elevons mixes."""
     sticks = list(NEUTRAL)
     sticks[channel] = pulse_us
     if load_airframe(name).profile.get("mix") == "elevon":

@@ -1,4 +1,4 @@
-"""What a model of this class does in the air, with the figures of docs/simulator-airframe.md."""
+"""A model of this class in the air, with the figures of docs/simulator-airframe.md."""
 
 import math
 
@@ -180,7 +180,7 @@ def test_rudder_or_not_a_right_turn_is_flown_round(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_held_in_a_steep_bank_it_spirals_down_faster_and_faster_within_bounds(name):
-    """What the save is flown out of: 60 degrees of bank held by the ailerons, nothing pulled."""
+    """The start of the save: 60 degrees of bank held by the ailerons, nothing pulled."""
     flight = launched(name, roll_deg=60.0)
     for _ in range(400):
         state = flight.state

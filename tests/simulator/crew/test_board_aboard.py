@@ -1,4 +1,4 @@
-"""A board that was asked for by name and cannot be had: what to install or leave out."""
+"""A board that was requested by name and is missing: what to install or leave out."""
 
 import argparse
 import shutil

@@ -16,7 +16,7 @@ from up_simulator.world import World
 
 
 class EchoBoard(DirectBoard):
-    """A board that says again what it hears, and remembers when it heard it."""
+    """A board that echoes its input, and records the times of reception."""
 
     def __init__(self):
         super().__init__(seed=1)
@@ -30,7 +30,7 @@ class EchoBoard(DirectBoard):
 
 
 class Flown:
-    """A world on a line, its clock, and what it said."""
+    """A world on a line, its clock, and its output."""
 
     def __init__(self, script=""):
         self.clock, self.said = Clock(), []

@@ -84,7 +84,7 @@ def test_streams_come_in_real_time(tmp_path, kind):
                 newest = line.wait_for_type("O")
             passed_s = time.monotonic() - began_s
             count = struct.unpack(">H", newest.payload[:2])[0] - first_number
-        # Late is allowed on a loaded machine; early is not, but for what waited in the pty.
+        # Late is allowed on a loaded machine; early is not, except for data that waited in the pty.
         assert 0.2 * passed_s / 0.02 < count < passed_s / 0.02 + 60
 
 
@@ -129,7 +129,7 @@ def test_nobody_reading_does_no_harm(tmp_path):
             line.wait_for_type("K")
         began_s = time.monotonic()
         while time.monotonic() - began_s < 2.0:
-            time.sleep(0.05)  # an open line that nobody reads for two seconds: that is the test
+            time.sleep(0.05)  # an open line without a reader for two seconds: that is the test
         with Line(tmp_path / "board") as line:
             line.listener.feed(line.read())
             line.listener.take()

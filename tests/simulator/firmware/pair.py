@@ -61,7 +61,7 @@ class Aboard:
         return self.tap.status
 
     def stands(self):
-        """Return the status without what two clocks may tell differently."""
+        """Return the status without the values that may differ between two clocks."""
         return dataclasses.replace(
             self.status(), loop_us=0, late_us=0, receiver_age_ms=0, imu_age_ms=0
         )
@@ -82,7 +82,7 @@ class Pair:
             self.each("run_ms", BOOT_MS)
 
     def each(self, name, *arguments, **options):
-        """Do the same with both and return what came of it."""
+        """Do the same with both and return the result."""
         return [getattr(each, name)(*arguments, **options) for each in (self.host, self.chip)]
 
     def board(self, name, *arguments):

@@ -1,4 +1,4 @@
-"""What is aboard, and what is said where it cannot be had."""
+"""The built firmware, and the message if it cannot be built."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""Without a flight computer the servos have what the receiver sends, and nothing else."""
+"""Without a flight computer the servos have the receiver's pulses, and nothing else."""
 
 import math
 

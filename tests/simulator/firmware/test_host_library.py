@@ -1,4 +1,4 @@
-"""The host build by itself: every flight repeats, every board is its own, and what is missing."""
+"""The host build alone: every flight repeats, boards are independent, and what is missing."""
 
 import _ctypes
 import random
@@ -57,7 +57,7 @@ def test_power_on_forgets_all_but_the_eeprom(library):
     script(old)
     old.set_receiver(False)
     old.imu.set_fault("unplugged")
-    # What the receiver had begun, the line still held, and EEPROM was still to get.
+    # The receiver's unfinished input, the data still on the line, and pending EEPROM writes.
     old.run_us(100_000)
     old.read()
     new = HostBoard(library, imu_errors=ImuErrors(), eeprom=old.eeprom)

@@ -1,4 +1,4 @@
-"""Noise, bias, drift and vibration are what they are said to be, and the same for the same seed."""
+"""Noise, bias, drift and vibration have their configured values, and repeat for a seed."""
 
 import itertools
 import math

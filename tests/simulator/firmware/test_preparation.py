@@ -1,4 +1,4 @@
-"""An airframe's settings get into the board as the Pi puts them there, or it is said why not."""
+"""An airframe's settings reach the board as from the Pi, or the reason is reported."""
 
 import struct
 

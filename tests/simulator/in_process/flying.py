@@ -1,4 +1,4 @@
-"""The aircraft in the air with everybody aboard, in one process."""
+"""The aircraft in the air with all participants, in one process."""
 
 import hashlib
 
@@ -101,7 +101,7 @@ class Flying:
         return self.reactor.seconds()
 
     def start(self, *, phone=True):
-        """Start everybody and fly until all speak with each other."""
+        """Start all participants and fly until all communicate with each other."""
         self.raspilot.start()
         self.ground.start()
         if phone:

@@ -24,7 +24,7 @@ def fly(tmp_path):
 
 
 def mode_of(flying):
-    """Ask the board for its mode, past the daemon: its status comes too seldom to measure by."""
+    """Request the board's mode, past the daemon: its status is too infrequent to measure by."""
     tap = flying.board.tap
     flying.board.write(tap.command_bytes("m"))
     return tap.mode

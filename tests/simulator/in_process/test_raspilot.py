@@ -1,4 +1,4 @@
-"""The whole daemon in this process: its life, its errors, what it leaves behind."""
+"""The whole daemon in this process: its life, its errors, its leftovers."""
 
 import gc
 import os
@@ -294,7 +294,7 @@ def test_a_black_box_has_the_phone_alone(tmp_path):
     assert bench.board.heard == b""
     with pytest.raises(LookupError, match="SerialProvider"):
         bench.raspilot.module("SerialProvider")
-    # Nobody is at the proxy's port: it goes on trying and does no harm.
+    # The proxy's port has no listener: it keeps retrying and does no harm.
     assert "127.0.0.1" in bench.log()
     assert "CRITICAL" not in bench.log()
 

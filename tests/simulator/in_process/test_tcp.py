@@ -181,7 +181,7 @@ def test_a_pull_producer_is_asked_again_when_all_before_has_left():
     began_s = bench.reactor.seconds()
     bench.here.transport.registerProducer(producer, False)
     bench.reactor.advance(2.0)
-    # The link's rate decides, beyond what is on its way.
+    # The link's rate decides, beyond the data in transit.
     passed = (bench.reactor.seconds() - began_s) * 100_000
     assert 0.7 * passed <= len(bench.there.received) <= passed
     assert producer.asked <= len(bench.there.received) / 10_000 + 4
@@ -243,7 +243,7 @@ def test_bytes_that_nobody_acknowledges_end_the_connection_after_the_user_timeou
     bench.reactor.advance(3.0)
     assert bench.there.lost == "ConnectionLost"
     assert bench.there.lost_s - began_s == pytest.approx(1.5, abs=0.01)
-    # Nobody told the other side: it finds out when it speaks.
+    # The other side has no notice of it: it finds out when it sends.
     bench.restore()
     bench.reactor.advance(20.0)
     assert bench.here.lost is None

@@ -15,14 +15,14 @@ TURNS = 12
 
 
 async def turn(rounds=TURNS):
-    """Let sockets do what they can do now."""
+    """Make sockets do everything that is due."""
     for _ in range(rounds):
         await sleep(0)
 
 
 @implementer(IHalfCloseableProtocol)
 class Peer(Protocol):
-    """One end of a connection, which keeps what comes."""
+    """One end of a connection, which keeps received data."""
 
     def __init__(self):
         self.data = bytearray()
@@ -135,7 +135,7 @@ class Bench:
 
 
 class UdpPeer(DatagramProtocol):
-    """A UDP socket that keeps what comes, with the sender."""
+    """A UDP socket that keeps received datagrams, with their senders."""
 
     def __init__(self):
         self.got = []

@@ -13,7 +13,7 @@ from up_simulator.link.model import LinkModel, LinkSettings
 
 
 class Bench:
-    """A target that keeps, or answers, what comes; a relay in front of it; clients."""
+    """A target that keeps, or answers, its datagrams; a relay in front of it; clients."""
 
     def __init__(self, up=None, down=None):
         self.clock = Clock()
@@ -146,7 +146,7 @@ def test_a_stall_ends_in_a_burst_and_a_blackout_in_nothing():
 def test_the_largest_datagram_passes_whole():
     async def fly():
         async with Bench() as bench:
-            # A Twisted socket takes 8 KiB by itself.
+            # A Twisted socket takes 8 KiB on its own.
             bench.ports[0].maxPacketSize = 65536
             data = bytes(range(256)) * 250
             await bench.send(bench.client(), data)
@@ -185,7 +185,7 @@ def test_of_too_many_clients_the_first_is_forgotten():
             await turn()
             await bench.pass_s(0)
             assert [data for data, _ in clients[-1].got] == [data]
-            # Who was forgotten is known again with its next datagram.
+            # A forgotten sender is known again with its next datagram.
             await bench.send(clients[0], b"again")
             await bench.pass_s(0)
             assert bench.arrived[-1] == b"again"

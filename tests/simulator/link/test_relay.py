@@ -1,4 +1,4 @@
-"""The relay between real sockets: every byte, in order, when the link says; and its faults."""
+"""The relay between real sockets: every byte, in order, on the link's schedule; and its faults."""
 
 import time
 from socket import SO_RCVBUF, SO_SNDBUF, SOL_SOCKET
@@ -84,7 +84,7 @@ def test_bytes_are_as_old_as_the_link_makes_them():
             assert bench.targets == []
             await bench.pass_s(0.001)
             [target] = bench.targets
-            # The target may speak at once; its answer and the opening's come together.
+            # The target may send immediately; its answer and the opening's come together.
             target.send(b"hello")
             await bench.pass_s(0.039)
             assert not client.data
@@ -288,7 +288,7 @@ def test_a_reader_that_reads_nothing_fills_a_bounded_memory_and_stops_the_sender
     async def fly():
         async with Bench(LinkSettings(delay_ms=5)) as bench:
             client, target = await bench.pair()
-            # What the two systems keep by themselves is not the relay's.
+            # The buffers of the two systems are not the relay's.
             client.transport.getHandle().setsockopt(SOL_SOCKET, SO_SNDBUF, 32768)
             target.transport.getHandle().setsockopt(SOL_SOCKET, SO_RCVBUF, 32768)
             target.transport.pauseProducing()

@@ -1,4 +1,4 @@
-"""The picture of a flight: what is on it, that it is the same each time, what happens without."""
+"""The picture of a flight: its content, that it is reproducible, and missing data."""
 
 import builtins
 import re
@@ -26,7 +26,7 @@ def svg(log, tmp_path, **options):
 
 
 def words(text):
-    """Return what is written on a picture: matplotlib notes each text beside its outlines."""
+    """Return the texts of a picture: matplotlib notes each text beside its outlines."""
     return "\n".join(re.findall(r"<!-- (.*?) -->", text))
 
 

@@ -22,7 +22,7 @@ from up_simulator.world import World
     ("airframe", "wind_m_s", "minutes"), [("glider", 4.0, 3), ("wing", 6.0, 1)]
 )
 def test_it_stays_near_and_high_in_turbulence(airframe, wind_m_s, minutes):
-    """The firmware, built for this computer, holds what the pilot's sticks ask for."""
+    """The firmware, built for this computer, holds the demand of the pilot's sticks."""
     flown = load_airframe(airframe)
     weather = Weather(wind_m_s=wind_m_s, turbulence="moderate")
     flight = FlightDynamics(flown, weather=weather, seed=3)

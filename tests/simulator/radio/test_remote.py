@@ -1,4 +1,4 @@
-"""A radio in another terminal: it takes the sticks, shows what flies, and gives them back."""
+"""A radio in another terminal: it takes over the sticks, shows the mode, and gives them back."""
 
 import os
 import pty
@@ -281,7 +281,7 @@ def test_what_is_written_is_read():
 
 
 class Terminal:
-    """``up-sim radio keyboard`` in a terminal of its own."""
+    """``up-sim radio keyboard`` in its own terminal."""
 
     def __init__(self, path):
         self.own, self.other = pty.openpty()

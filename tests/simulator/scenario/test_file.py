@@ -1,4 +1,4 @@
-"""Scenario files: what they say, and every mistake at its place."""
+"""Scenario files: their meaning, and every mistake at its place."""
 
 import re
 from dataclasses import fields

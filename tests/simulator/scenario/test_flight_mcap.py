@@ -1,4 +1,4 @@
-"""A scenario's flight log, read by the official reader: what it holds, and that it repeats."""
+"""A scenario's flight log by the official reader: its content, and its reproducibility."""
 
 import json
 import math
@@ -37,7 +37,7 @@ PHONE = "raspilot: {runs: in process}\nphone: {}\nground: {}\n"
 
 
 class Read:
-    """What the official reader finds in a file."""
+    """The official reader's findings in a file."""
 
     def __init__(self, path):
         with path.open("rb") as file:

@@ -25,7 +25,7 @@ def fly(folder, text):
 
 
 def black_boxes(folder):
-    """What the daemon recorded, one log for each of its lives."""
+    """The daemon's recordings, one log for each of its lives."""
     found = sorted((folder / "run/flights/real/black-box").glob("*.mcap"))
     return [FlightLog.read([path]) for path in found]
 

@@ -1,4 +1,4 @@
-"""The program: verbs, exit statuses, what it writes, and sentences for mistakes."""
+"""The program: verbs, exit statuses, its output, and sentences for mistakes."""
 
 import json
 import os

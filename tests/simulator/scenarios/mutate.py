@@ -1,4 +1,4 @@
-"""Takes what each shipped scenario guards out of a copy of the project: it must fail there.
+"""Removes what each shipped scenario guards from a copy of the project: it must fail there.
 
 ``python -m tests.simulator.scenarios.mutate [NAME ...]`` prints the rows of docs/flights.md and
 exits 1 when a scenario still holds.

@@ -1,4 +1,4 @@
-"""Every shipped scenario says what it shows; those of the Arduino alone hold."""
+"""Every shipped scenario states its purpose; those of the Arduino alone hold."""
 
 import dataclasses
 
@@ -9,7 +9,7 @@ from tests.simulator.scenarios.shipped import ALONE, REAL, SCENARIOS, WITH_DAEMO
 from up_simulator.scenario.measures import limit_text
 from up_simulator.verbs.shelf import shipped_paths
 
-# Expectations that look for no more than who flies need no number of their own.
+# Expectations that check only who controls the aircraft need no number of their own.
 LEAST_EXPECTATIONS = 2
 ATTITUDE = ("truth.roll_deg", "truth.pitch_deg", "error.roll_deg", "error.pitch_deg")
 CONTROLLERS = ("controller-on-arduino", "controller-on-raspberry")
@@ -50,7 +50,7 @@ def test_real_programs_and_only_they_are_tagged_real(name):
 
 
 def attitudes(scenario):
-    """Return the names of what is expected of the attitude."""
+    """Return the names of the attitude's expectations."""
     return {each.name for each in scenario.expect if each.signal in ATTITUDE}
 
 

@@ -1,4 +1,4 @@
-"""``up-sim tune`` as it is typed: what it says, writes and refuses."""
+"""``up-sim tune`` as users type it: its output, its files and its errors."""
 
 import subprocess
 import sys
@@ -36,7 +36,7 @@ def test_one_axis_is_tuned_shown_and_written(bench, tmp_path, capsys):
     values = PIDS.parse(pids.read_bytes(), pids)
     assert f"ailerons: {{p: {values.rate.ailerons.p:g}, i: 0, d: 0}}" in said
     assert 0 < values.rate.ailerons.p < 6
-    # The axes that were not asked for keep what they had.
+    # Axes that were not requested keep their values.
     assert values.rate.elevator.p == bench.airframe.gains["rate"]["elevator"]["p"]
 
 

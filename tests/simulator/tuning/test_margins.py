@@ -1,4 +1,4 @@
-"""Margins, against loops whose margins are known in closed form."""
+"""Margins, compared with loops whose margins are known in closed form."""
 
 import cmath
 import math
@@ -80,7 +80,7 @@ def test_the_peak_of_the_sensitivity_is_how_near_it_comes_to_minus_one():
 
 
 def test_it_does_not_matter_which_turn_the_phase_is_told_in():
-    """A second integrator at low frequencies begins beyond -180 degrees, and is no ringing."""
+    """A second integrator at low frequencies begins beyond -180 degrees, which is not ringing."""
     margins = margins_of(loop(lambda s: 6 * (s + 1) * (s + 0.4) / s**3 * cmath.exp(-s * 0.03)))
     assert margins.is_stable
     assert margins.gain_margin_db > 10

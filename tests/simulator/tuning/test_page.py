@@ -1,4 +1,4 @@
-"""docs/tuning.md: its commands do what they say, its rules and options are those of the code."""
+"""docs/tuning.md: its commands work as stated, its rules and options are those of the code."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The figures of a step, against systems whose step responses are known in closed form."""
+"""The figures of a step, compared with systems whose responses are known in closed form."""
 
 import math
 import random

@@ -1,4 +1,4 @@
-"""The search: what it proposes keeps the rules when it is flown, and no rule is for show."""
+"""The search: flights with its proposals keep the rules, and every rule has an effect."""
 
 from dataclasses import replace
 

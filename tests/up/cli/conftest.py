@@ -1,4 +1,4 @@
-"""The command line in this process, and in one of its own."""
+"""The command line in this process, and in a separate one."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def up(capsys, monkeypatch, tmp_path):
 
 @pytest.fixture
 def own_process():
-    """Return a function that runs a Python module from the repository in a process of its own."""
+    """Return a function that runs a Python module from the repository in another process."""
 
     def run(*arguments: str, cwd: Path, **more: str) -> subprocess.CompletedProcess[str]:
         path = os.pathsep.join([str(REPOSITORY), *more.pop("paths", "").split(os.pathsep)])

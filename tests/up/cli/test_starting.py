@@ -31,7 +31,7 @@ def start(environment: VirtualEnvironment, *arguments: str, cwd: Path) -> subpro
 
 
 def read_until(process: subprocess.Popen[bytes], text: bytes) -> bytes:
-    """Return what the process said on stderr up to a text."""
+    """Return the process's output on stderr up to a text."""
     assert process.stderr is not None
     said = b""
     deadline = time.monotonic() + LIMIT_S

@@ -1,4 +1,4 @@
-"""Cogfile.yml: what is understood, and every mistake with its place."""
+"""Cogfile.yml: valid content, and every mistake with its place."""
 
 from pathlib import Path
 

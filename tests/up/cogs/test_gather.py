@@ -67,7 +67,7 @@ def test_what_a_person_registered_is_not_unregistered(environment, application, 
 
 
 def test_the_current_folder_may_be_the_one_of_the_cogs(environment, application, tree):
-    """The outer folder alpha_cog is no package, and must not hide the one that is."""
+    """The outer folder alpha_cog is not a package, and must not hide the one that is."""
     cogfile(application, BOTH)
     environment.run("-P", "-m", "up.cli", "-f", str(application), "gather", cwd=tree)
     assert registered(application) == {"alpha_cog": "cogfile", "beta_cog": "cogfile"}
@@ -83,7 +83,7 @@ def test_an_edited_source_needs_no_new_gathering(environment, application, tree)
 
 
 def test_names_of_the_tree_never_come_from_the_index(environment, application, tree, index):
-    """Somebody offers a newer alpha on the index; beta needs alpha, which no Cogfile lists."""
+    """The index offers a newer alpha; beta needs alpha, which no Cogfile lists."""
     stranger = tree.parent / "stranger"
     (stranger / "stranger_in_alpha").mkdir(parents=True)
     (stranger / "stranger_in_alpha/__init__.py").write_text("")

@@ -1,4 +1,4 @@
-"""What a folder's packaging says, read without running it."""
+"""The packaging files of a folder, read without running them."""
 
 import pytest
 from hypothesis import HealthCheck, example, given, settings

@@ -44,7 +44,7 @@ def make_bus(*commands, call_from_thread=None, clock=None):
 
 
 class Border:
-    """A receiver, a link, and what was answered on it."""
+    """A receiver, a link, and the answers on it."""
 
     def __init__(self, role=Role.PILOT, *commands):
         self.clock = Clock()
@@ -78,7 +78,7 @@ class Border:
 
 
 class Log:
-    """What is logged while it is entered."""
+    """The log records made inside the context."""
 
     def __enter__(self):
         self.events = []

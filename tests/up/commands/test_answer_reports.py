@@ -1,4 +1,4 @@
-"""What became of Commands is told on the bus, for the flight's log, whatever comes how often."""
+"""Outcomes of Commands are published on the bus for the flight's log, also for repetitions."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""An observer of the bus sees every Command and is no handler of any."""
+"""An observer of the bus sees every Command without being a handler."""
 
 import pytest
 from twisted.internet.defer import Deferred
@@ -20,7 +20,7 @@ def bus():
 
 
 class Recorder:
-    """Notes what it sees."""
+    """Records the Commands that it sees."""
 
     def __init__(self, bus):
         self.seen = []

@@ -1,4 +1,4 @@
-"""What comes from outside: judged by default deny, and answered."""
+"""Messages from outside: default deny, and answers."""
 
 from dataclasses import dataclass
 from typing import ClassVar

@@ -48,7 +48,7 @@ class Level(Mode):
 
 
 class Sink(BaseStartedModule):
-    """Remembers what is delivered."""
+    """Remembers delivered Commands."""
 
     def _execute_initialization(self):
         self.rolls, self.origins, self.outputs, self.seen = [], [], [], []

@@ -1,4 +1,4 @@
-"""Every Command and every role, as the protocols page says."""
+"""Every Command and every role, as in the protocols page."""
 
 import re
 from pathlib import Path
@@ -142,7 +142,7 @@ def test_who_may_send_what(name, data, roles, role):
     heard = []
 
     def hear(command):
-        # What the receiver itself publishes of this Command's fate came from nobody outside.
+        # The receiver's own publications about this Command do not come from outside.
         if border.bus.origin is not INTERNAL:
             heard.append(command)
 

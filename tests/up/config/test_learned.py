@@ -101,7 +101,7 @@ def test_a_file_that_was_edited_by_hand_becomes_the_good_copy(learned):
 
 
 def test_loading_alone_writes_nothing(learned):
-    """A configuration that people wrote and keep under version control stays as it is."""
+    """A configuration that people wrote and keep under version control is not changed."""
     learned.path.write_text("ailerons: {p: 1, i: 0}\nelevator: {p: 2, i: 0}\n")
     assert learned.load() == (Pids(Gains(1, 0), Gains(2, 0)), None)
     assert list(learned.path.parent.iterdir()) == [learned.path]

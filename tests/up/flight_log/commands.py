@@ -46,7 +46,7 @@ def example(cls: type[BaseCommand], is_full: bool) -> BaseCommand:
     values: dict[str, Any] = {}
     for field in dataclasses.fields(cls):
         constraint = constraint_of(field, hints)
-        # A request is a Command too; one without either is none.
+        # A request is a Command too; a record without either is not.
         if field.default is not dataclasses.MISSING and not is_full and field.name != "request":
             continue
         key = field.metadata.get("key") or field.name

@@ -92,14 +92,14 @@ class FlightMaker(LogMaker):
         self.add(time_s, "log", level=level, name=name, message=text)
 
     def every(self, begin_s: float, end_s: float, period_s: float, command, origin=BOARD) -> None:
-        """Put a Command, or what a function of the time gives, again and again."""
+        """Add a Command, or the result of a function of the time, repeatedly."""
         for number in range(round((end_s - begin_s) / period_s)):
             time_s = begin_s + number * period_s
             made = command(time_s) if callable(command) else command
             self.put(time_s, made, origin)
 
     def quiet_flight(self, length_s: float = 20.0, armed=(5.0, 15.0)) -> None:
-        """Put what a flight has in which nothing goes wrong; armed between these times."""
+        """Add the data of a flight without faults; armed between these times."""
 
         def state(time_s: float) -> FlightStateCommand:
             return FlightStateCommand("FBW", armed[0] <= time_s < armed[1], False, False)

@@ -1,4 +1,4 @@
-"""Small logs for the tests, and what the official package reads of them."""
+"""Small logs for the tests, and the official package's reading of them."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def small_log() -> bytes:
 
 
 def official_messages(data: bytes) -> list[tuple[int, int, int, int, bytes]]:
-    """Return what the official reader gives before the end or the first fault."""
+    """Return the official reader's messages before the end or the first fault."""
     found: list[tuple[int, int, int, int, bytes]] = []
     try:
         for record in StreamReader(io.BytesIO(data)).records:

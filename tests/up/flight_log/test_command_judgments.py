@@ -1,4 +1,4 @@
-"""What the ground asked for and did not get, as the flight's log tells it."""
+"""Requests of the ground without success, as the flight's log shows them."""
 
 from tests.up.flight_log.flights import FlightMaker
 from up.commands.answer_commands import CommandAnsweredCommand
@@ -16,7 +16,7 @@ def test_each_kind_of_refusal_is_told_once_with_its_count(tmp_path):
         maker.put(1 + number / 10, answered("up.disarm", "refused", "the throttle is not low"))
     maker.put(1.5, answered("up.disarm"))
     maker.put(1.6, answered("up.arm", "stale", "up.arm: too old"))
-    # The same in the program's log is not told again.
+    # The same record in the program's log is not reported again.
     maker.line(1, 2, "CommandExecutor", "Arming refused up.disarm: the throttle is not low")
     maker.put(1.9, answered("up.arm", untold=480))
     found = wrongs(maker.log(tmp_path))

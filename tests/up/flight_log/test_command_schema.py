@@ -25,7 +25,7 @@ _TYPES = {
 
 
 def fault_of(data, schema, path="data"):
-    """Return why data break a schema; empty: they do not. What it does not know it refuses."""
+    """Return why data break a schema; empty: they do not. Unknown keywords are refused."""
     known = {"$schema", "title", "description", "type", "properties", "required", "items"}
     known |= {"minimum", "maximum", "enum", "maxLength", "maxItems", "minItems"}
     known |= {"maxProperties", "nullable", "x-unit"}

@@ -1,4 +1,4 @@
-"""The attitude against the truth of a simulated flight: figures, and what is told as wrong."""
+"""The attitude compared with the truth of a simulated flight: figures, and findings."""
 
 import math
 

@@ -336,7 +336,7 @@ def test_no_mutation_raises_anything_else(place, changes, cut):
 
 @given(st.binary(max_size=300))
 def test_any_bytes_after_the_magic_are_read_without_a_fault(data):
-    # hypothesis and fixtures do not mix well here: a place of its own.
+    # hypothesis and fixtures do not mix well here, hence a separate folder.
     import tempfile
 
     with tempfile.TemporaryDirectory() as folder:

@@ -59,7 +59,7 @@ def test_every_checksum_is_right():
     data = small_log()
     footer = list(StreamReader(io.BytesIO(data), validate_crcs=True).records)[-1]
     assert type(footer).__name__ == "Footer"
-    # Of the summary the official reader asks no checksum: from its start up to the checksum.
+    # The official reader checks no checksum of the summary: from its start up to the checksum.
     until = len(data) - len(MAGIC) - 4
     assert footer.summary_crc == zlib.crc32(data[footer.summary_start : until])
     assert data[footer.summary_offset_start] == 0x0E

@@ -12,6 +12,6 @@ def test_an_hour_of_numbers_does_not_take_what_pythons_floats_would():
         series.add(number / 300, number / 7)
     taken, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    # Two numbers of eight bytes, and what an array that grows holds in reserve.
+    # Two numbers of eight bytes, and the reserve of a growing array.
     assert taken / COUNT < 24
     assert series.at(10.0, 1.0) == 3000 / 7

@@ -104,7 +104,7 @@ def test_without_telemetry_the_tree_is_put_together(tmp_path):
     }
     assert fourth["source"]["orientation"] == "arduino"
     assert fourth["source"]["battery"] == "android"
-    # What was given out is not changed by what comes later.
+    # Later telemetry does not change a frame that was given out.
     assert first["orientation"]["roll"] == 1.5
     assert first["home"]["distance"] == 0.0
     json.dumps([frame.data for frame in given], allow_nan=False)
@@ -150,7 +150,7 @@ def test_the_boards_attitude_wins_while_it_is_fresh(tmp_path):
 
 
 def test_a_gap_in_telemetry_is_filled_from_the_commands(tmp_path):
-    # Nobody wanted telemetry while the link to the ground was away.
+    # Telemetry had no receiver while the link to the ground was away.
     maker = FlightMaker()
     tree = {
         "orientation": {"roll": 1.0},
@@ -173,7 +173,7 @@ def test_a_gap_in_telemetry_is_filled_from_the_commands(tmp_path):
         assert frame.data["orientation"]["roll"] == pytest.approx(100 * frame.time_s, abs=6)
         assert frame.data["age_ms"]["orientation"] <= 51
         assert frame.data["load"] == {"cpu": 33.0}
-        # What no Command tells grows old.
+        # A value without new Commands grows old.
         assert frame.data["age_ms"]["battery"] == pytest.approx(4000 + 1000 * frame.time_s, abs=2)
         assert frame.data["source"]["battery"] == "android"
 

@@ -69,7 +69,7 @@ def test_a_receiver_that_is_lost_in_flight_is_an_alarm(maker, tmp_path):
     maker.quiet_flight(armed=(0, 20))
     for number in range(13):
         maker.put(8.05 + number * 0.1, rx(0), BOARD)
-    # The quiet flight goes on in between: as if it came and went.
+    # The quiet flight continues in between: as if the connection came and went.
     found = told(maker, tmp_path)
     assert [each.level for each in found] == ["alarm"]
     assert found[0].text == "the receiver was lost for 1.2 s"
@@ -151,7 +151,7 @@ def test_a_reset_before_the_log_began_is_told_where_it_was_in_flight(maker, tmp_
 def test_a_board_that_is_silent_in_flight(maker, tmp_path):
     maker.put(0, LinkStateCommand("arduino", True))
     maker.every(0, 4, 0.2, FlightStateCommand("FBW", True, False, False))
-    # What the cog says of a board that is gone: it is not known to be armed any more.
+    # What the cog publishes for a lost board: whether it is armed is unknown.
     maker.put(4.2, FlightStateCommand(None, False, False, False), BOARD)
     maker.put(4.2, LinkStateCommand("arduino", False))
     maker.put(5.4, LinkStateCommand("arduino", True))
@@ -186,7 +186,7 @@ def test_a_board_that_hears_nothing_and_a_late_loop_and_bad_frames(maker, tmp_pa
     maker.every(4, 6, 0.2, status(late_us=1200, frame_errors=7))
     maker.put(5.1, status(late_us=3100, frame_errors=7), BOARD)
     maker.every(6, 8, 0.2, status(frame_errors=160))
-    # A board that was reset counts anew; these are no more frames.
+    # The counters of a board restart at a reset; these are not more frames.
     maker.every(8, 10, 0.2, status(frame_errors=3))
     assert texts(maker, tmp_path) == [
         (2.0, "alarm", "the board did not hear Raspilot for 2.0 s"),

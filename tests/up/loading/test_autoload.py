@@ -1,4 +1,4 @@
-"""A new file in a folder is enough; a bad one harms no other and is named."""
+"""A new file in a folder is enough; a bad one does not affect others and is named."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Commands and handlers: disabled by name, broken in every way, and what is said of them."""
+"""Commands and handlers: disabled by name, broken in every way, with their messages."""
 
 import pytest
 
@@ -33,7 +33,7 @@ def application_of(folder, text, disabled=()):
 
 
 def load(folder, text, disabled=()):
-    """Return the plan; the check of the application must agree on what is wrong."""
+    """Return the plan; the check of the application must report the same errors."""
     application = application_of(folder, text, disabled)
     plan = plan_of(application)
     findings = check_application(application, context_of(application))

@@ -1,4 +1,4 @@
-"""What is chosen among the classes, and in which order it comes."""
+"""The chosen classes, and their order."""
 
 import re
 from pathlib import Path

@@ -12,7 +12,7 @@ from up.log.text import TextObserver, is_journal
 
 
 def logged(say, least=LogLevel.info, journal=False, namespace="serial_cog.port"):
-    """Return what `say(log)` writes."""
+    """Return the output of `say(log)`."""
     stream = io.StringIO()
     observer = TextObserver(stream, least, journal)
     say(Logger(namespace=namespace, observer=LogPublisher(observer)))
@@ -136,7 +136,7 @@ def test_a_full_or_closed_stream_raises_nothing():
     with Path("/dev/full").open("w") as full:
         observer = TextObserver(full, LogLevel.info, False)
         observer({"log_format": "x", "log_time": 0.0, "log_level": LogLevel.info})
-        # What is still in the stream's buffer must have somewhere to go when it closes.
+        # Data still in the stream's buffer must have a destination when it closes.
         with Path(os.devnull).open("w") as null:
             os.dup2(null.fileno(), full.fileno())
     observer({"log_format": "x", "log_time": 0.0, "log_level": LogLevel.info})

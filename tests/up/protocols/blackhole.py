@@ -1,4 +1,4 @@
-"""Run inside a network namespace of its own: how long does a link take to notice a blackhole?
+"""Run inside a separate network namespace: how long does a link take to notice a blackhole?
 
 Argument: `sending` or `idle`. Prints the seconds and the reason.
 """

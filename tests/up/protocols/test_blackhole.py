@@ -1,4 +1,4 @@
-"""A peer that is there and hears nothing, as behind a cellular gap; needs root and nftables."""
+"""A peer that is connected but receives nothing, as in a cellular gap; needs root and nftables."""
 
 import os
 import subprocess

@@ -15,7 +15,7 @@ from up.protocols.general_message_link import (
 
 
 class Listener:
-    """A real port whose links note what they are told."""
+    """A real port whose links record their messages."""
 
     def __init__(self, **options):
         self.links = []

@@ -38,7 +38,7 @@ class Cable:
         try:
             return os.read(self.master, 65536)
         except OSError as error:
-            # Nothing there yet, or nobody has the other end open.
+            # Nothing there yet, or the other end is not open.
             if error.errno in (errno.EAGAIN, errno.EIO):
                 return b""
             raise
@@ -113,7 +113,7 @@ def test_the_port_may_be_plugged_in_later(tmp_path):
         await sleep(0.5)
         cable.plug()
         await until(lambda: notes.line.is_open)
-        # Several attempts failed for one reason, which is told once.
+        # Several attempts failed for one reason, which is reported once.
         assert len(notes.events) == 2
         assert "is missing" in notes.events[0]
         assert notes.events[1] == "opened"
@@ -271,7 +271,7 @@ def test_a_stuck_line_closes_at_once_and_forgets_what_waits(tmp_path):
         received = bytearray()
         while piece := cable.read():
             received += piece
-        # What the other end's own buffer had already is beyond recall.
+        # Data already in the other end's own buffer cannot be recalled.
         assert len(received) < taken * 16 / 2
 
     with_line(tmp_path, scenario)

@@ -1,4 +1,4 @@
-"""What providers know, from whom, how old, and what telemetry shows of it."""
+"""Values of providers, their sources and ages, and their form in telemetry."""
 
 import math
 import re
@@ -177,7 +177,7 @@ def test_home_is_the_first_place_and_the_way_back_is_computed_here(rig):
 
 
 def page_keys():
-    """Return what the page's table of telemetry keys names: key -> its parts."""
+    """Return the names in the page's table of telemetry keys: key -> its parts."""
     page = (Path(__file__).parents[3] / "docs" / "protocols.md").read_text(encoding="utf-8")
     section = page.split("\n## 6 ")[1].split("\n## 7 ")[0]
     found = {}

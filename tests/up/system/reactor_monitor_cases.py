@@ -1,4 +1,4 @@
-"""Whoever holds the reactor is named, on a real reactor."""
+"""Calls that block the reactor are named, on a real reactor."""
 
 import signal
 import sys
@@ -38,7 +38,7 @@ class HoldingHandler(BaseCommandHandler):
 
 
 class HoldingModule(BaseModule):
-    """Holds wherever it is asked to."""
+    """Blocks wherever it is called."""
 
     def on_number(self, command):
         hold()
@@ -48,7 +48,7 @@ class HoldingModule(BaseModule):
 
 
 class HoldingProtocol(Protocol):
-    """A connection that belongs to a module, or to nobody."""
+    """A connection that belongs to a module, or to none."""
 
     module = None
 
@@ -61,7 +61,7 @@ class HoldingProtocol(Protocol):
 
 
 def watch(folder, scenario, has_started=True):
-    """Run a scenario under the monitor; return what it named."""
+    """Run a scenario under the monitor; return the names that it reported."""
 
     async def run():
         up = build_up((HoldingModule,), reactor, folder, builtins=False)
@@ -88,7 +88,7 @@ class Sender(Protocol):
 
 
 async def send(module):
-    """Send a byte to a connection whose protocol holds."""
+    """Send a byte to a connection whose protocol blocks."""
     factory = Factory.forProtocol(HoldingProtocol)
     HoldingProtocol.module = module
     port = reactor.listenTCP(0, factory, interface="127.0.0.1")

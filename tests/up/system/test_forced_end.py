@@ -1,4 +1,4 @@
-"""A process that cannot end by itself is ended."""
+"""A process that fails to exit is ended."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""What a supervisor hears."""
+"""Notifications of a supervisor."""
 
 import os
 import socket

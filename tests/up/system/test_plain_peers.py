@@ -1,4 +1,4 @@
-"""Who may speak to a plain listener."""
+"""Peers that may use a plain listener."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Who holds the reactor is named; in a process of its own, for the alarm is the process's.
+"""Calls that block the reactor are named; in another process, since the alarm is per process.
 
 A thread that was there before the monitor (those of a parallel test runner, say) could take the
 alarm away from it; a daemon has none.

@@ -1,4 +1,4 @@
-"""A track as GPX and KML: whatever the flight was, other programs read what was meant."""
+"""A track as GPX and KML: other programs read every flight as it was."""
 
 import math
 from datetime import UTC, datetime, timedelta
@@ -39,7 +39,7 @@ TRACKS = st.builds(
 
 
 def as_xml_has_it(text):
-    """What XML can say of a text: forbidden characters replaced, line ends as line feeds."""
+    """A text as far as XML can hold it: forbidden characters replaced, line ends as line feeds."""
     allowed = (
         c
         if c in "\t\n\r" or ("\x20" <= c <= "\ud7ff" or "\ue000" <= c <= "\ufffd" or c > "\uffff")

@@ -1,4 +1,4 @@
-"""What is drawn over time: silences stay open, peaks stay, nonsense is not drawn."""
+"""Charts over time: silences stay open, peaks stay, invalid values are not drawn."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""``up log report``: one page that needs nothing else, asks nobody and runs nothing."""
+"""``up log report``: one self-contained page that makes no request and runs no script."""
 
 import base64
 import io
@@ -37,7 +37,7 @@ VOID = {"meta", "source", "img"}
 
 
 class Page(HTMLParser):
-    """What is in a page, and a list of what must not be."""
+    """The content of a page, and a list of what it must not contain."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=True)

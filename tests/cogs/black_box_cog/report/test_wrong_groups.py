@@ -1,4 +1,4 @@
-"""What went wrong, each kind once."""
+"""Findings, each kind once."""
 
 from black_box_cog.report.verdict import verdict_of
 from black_box_cog.report.wrong_groups import groups_of, worst_of

@@ -245,7 +245,7 @@ test("a replay's speeds and times are those of the flight at any speed", () => {
       const location = { latitude: 50 + (time_s * 10) / 111195, longitude: 8 };
       frame({ location, altitude: time_s * 2, age_ms: { location: 0, altitude: 0 } }, { age_ms: 0, time_s });
       assert.equal(store.frameAt_s, time_s);
-      // What the way to the page takes is no time of the flight.
+      // The transit time to the page is not time of the flight.
       clock.advance(step_s / speed + Math.random() * 0.02);
     }
     assert.ok(Math.abs(store.motion.groundSpeed_m_s - 10) < 0.1, `${speed} ${store.motion.groundSpeed_m_s}`);

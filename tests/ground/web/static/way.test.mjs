@@ -12,7 +12,7 @@ beforeEach(() => {
   way = new Way();
 });
 
-/** A message that left at `sent_s` of the page's clock and took so long. */
+/** A message sent at `sent_s` of the page's clock with that transit time. */
 function hear(sent_s, way_s, asked_s = null, drift = 0) {
   return way.take((sent_s * (1 + drift) + APART_S) * 1000, sent_s + way_s, asked_s);
 }

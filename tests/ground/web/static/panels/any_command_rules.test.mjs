@@ -7,7 +7,7 @@ import { ruleAgainst, warningOf } from "../../../../../ground/up_ground/web/stat
 const GAINS = "arduino.pids.tunings";
 const asker = { objection: () => "" };
 
-/** An aircraft that is armed, and whose rule about gains is told. */
+/** An aircraft that is armed, and whose rule about gains is known. */
 function flying(tune_in_flight) {
   return { aircraftState: "live", status: { tune_in_flight }, flag: (path) => path === "armed", text: () => null };
 }

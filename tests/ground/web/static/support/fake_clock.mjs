@@ -1,4 +1,4 @@
-/** A clock that stands still until it is told to go on, with the timers that hang on it. */
+/** A clock that advances only on request, with its timers. */
 export class FakeClock {
   #timers = new Map();
   #last = 0;

@@ -1,4 +1,4 @@
-/** The far end of a page's sockets: keeps what the page sent, says what it is told. */
+/** The far end of a page's sockets: records the page's messages, sends what a test defines. */
 export class FakeServer {
   sockets = [];
 

@@ -22,12 +22,12 @@ public final class Up {
     private final CommandReceiver receiver;
     private final ProvidersController providers;
 
-    /** Makes an Up on a loop; the listener is told of handlers that fail. */
+    /** Creates an Up on a loop; exceptions from handlers are reported to the listener. */
     public Up(Loop loop, HandlerFaultListener faults) {
         this(loop, new ProvidersController(loop), faults);
     }
 
-    /** Makes an Up with providers that are there already. */
+    /** Creates an Up with the given providers. */
     public Up(Loop loop, ProvidersController providers, HandlerFaultListener faults) {
         this.loop = loop;
         this.providers = providers;
@@ -49,9 +49,9 @@ public final class Up {
     }
 
     /**
-     * Makes an Up the one of this process; null takes it away.
+     * Sets the Up of this process; null removes it.
      *
-     * @throws IllegalStateException when another one is there
+     * @throws IllegalStateException when another one is set
      */
     public static synchronized void setInstance(Up up) {
         if (up != null && instance != null && instance != up) {
@@ -65,22 +65,22 @@ public final class Up {
         return loop;
     }
 
-    /** Returns where an application registers its own Commands. */
+    /** Returns the registry for an application's own Commands. */
     public CommandRegistry commandRegistry() {
         return registry;
     }
 
-    /** Returns where an application registers its handlers. */
+    /** Returns the registry for an application's handlers. */
     public CommandExecutor commandExecutor() {
         return executor;
     }
 
-    /** Returns where links bring in what they receive. */
+    /** Returns the receiver for the links' messages. */
     public CommandReceiver commandReceiver() {
         return receiver;
     }
 
-    /** Returns where an application registers its providers. */
+    /** Returns the registry for an application's providers. */
     public ProvidersController providersController() {
         return providers;
     }

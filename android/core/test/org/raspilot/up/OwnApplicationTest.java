@@ -26,10 +26,10 @@ import org.raspilot.up.wire.OrientationFrame;
 import org.raspilot.up.wire.Vectors;
 
 /**
- * An application of one's own: a camera that is released from the ground, and a sensor for light.
+ * Your own application: a camera that is released from the ground, and a sensor for light.
  *
- * <p>It reads like an example because it is one: a Command, a handler and a provider are one class
- * and one registration each, and nothing of the Up Library knows of them.
+ * <p>It serves as an example: a Command, a handler and a provider are one class and one
+ * registration each, and the Up Library has no code for them.
  */
 public final class OwnApplicationTest {
     /** A Command: its name, its fields with their bounds. */
@@ -50,7 +50,7 @@ public final class OwnApplicationTest {
         }
     }
 
-    /** A handler: what is to be done. */
+    /** A handler: the action of a Command. */
     static final class ReleaseHandler extends BaseCommandHandler {
         long roomFor = 5;
 
@@ -175,7 +175,7 @@ public final class OwnApplicationTest {
         }
     }
 
-    /** A sensor that measures when it is told to. */
+    /** A sensor that measures on request. */
     private static final class LightSensor implements SensorSource<Double> {
         private SensorListener<Double> listener;
 

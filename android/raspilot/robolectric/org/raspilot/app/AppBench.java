@@ -38,7 +38,7 @@ public abstract class AppBench {
         return ((TextView) find(id)).getText().toString();
     }
 
-    /** Turns or resizes the window: the system makes it anew. */
+    /** Turns or resizes the window: the system recreates it. */
     final void become(String qualifiers) {
         RuntimeEnvironment.setQualifiers(qualifiers);
         handset.window.recreate();
@@ -63,7 +63,7 @@ public abstract class AppBench {
         return (TextView) ((ViewGroup) find(R.id.field_input)).getChildAt(0);
     }
 
-    /** Fails unless a screen says something. */
+    /** Fails unless a screen shows a text. */
     static void mustSay(String wanted, String said) {
         assertTrue("said: " + said, said.contains(wanted));
     }

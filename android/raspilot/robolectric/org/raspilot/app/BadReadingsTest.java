@@ -21,7 +21,7 @@ import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.SelectorLoop;
 import org.robolectric.annotation.Config;
 
-/** What a phone says of itself and is not so: it ends no flight, and none of it is sent. */
+/** False values from a phone's own sensors: they end no flight, and are never sent. */
 @Config(sdk = 29)
 public final class BadReadingsTest extends AppBench {
     private PlayedBoard board;

@@ -27,7 +27,7 @@ final class Drawing {
         int height = activity.getResources().getDisplayMetrics().heightPixels;
         View root = activity.getWindow().getDecorView();
         Wait.pass(1);
-        // What was shown or hidden by the first layout needs the second.
+        // Views that the first layout showed or hid need the second.
         for (int again = 0; again < 2; again++) {
             root.measure(View.MeasureSpec.makeMeasureSpec(width, View.MeasureSpec.EXACTLY),
                     View.MeasureSpec.makeMeasureSpec(height, View.MeasureSpec.EXACTLY));
@@ -39,7 +39,7 @@ final class Drawing {
         return new Drawing(bitmap);
     }
 
-    /** Returns how many colours there are, at most so many. */
+    /** Returns the number of colours, at most that many. */
     int colours(int most) {
         Set<Integer> seen = new HashSet<Integer>();
         int[] row = new int[bitmap.getWidth()];

@@ -50,7 +50,7 @@ final class Handset {
     ActivityController<MainActivity> window;
 
     Handset() {
-        // The system connects nobody to a service that does not run; the shadow would.
+        // The system connects no client to a service that does not run; the shadow would.
         shadow.declareComponentUnbindable(upName);
     }
 
@@ -58,7 +58,7 @@ final class Handset {
         return PreferenceManager.getDefaultSharedPreferences(application);
     }
 
-    /** Keeps a setting as its screen does. */
+    /** Stores a setting as its screen does. */
     void set(int key, String value) {
         preferences().edit().putString(application.getString(key), value).commit();
     }
@@ -123,7 +123,7 @@ final class Handset {
         return answer;
     }
 
-    /** Ends the airborne service as the system does. */
+    /** Destroys the airborne service as the system does. */
     void destroyUp() {
         up.destroy();
         up = null;
@@ -134,7 +134,7 @@ final class Handset {
         Wait.pass(0);
     }
 
-    /** Connects who waits for the service, and whoever binds later. */
+    /** Connects the clients that wait for the service, and later ones. */
     private void bindUp(IBinder binder) {
         unbindable().remove(upName);
         shadow.setComponentNameAndServiceForBindServiceForIntent(
@@ -202,12 +202,12 @@ final class Handset {
                 .putExtra(BatteryManager.EXTRA_TECHNOLOGY, "Li-ion"));
     }
 
-    /** Lets a sensor tell values to all who listen. */
+    /** Delivers a sensor's values to all its listeners. */
     void sense(int type, float... values) {
         SensorEvent event = ShadowSensorManager.createSensorEvent(values.length, type);
         System.arraycopy(values, 0, event.values, 0, values.length);
         event.timestamp = SystemClock.elapsedRealtime() * 1000000L;
-        // The shadow's own way tells it to those who listen to other sensors, too.
+        // The shadow's own method would also notify listeners of other sensors.
         Sensor sensor = sensors().getSensorList(type).get(0);
         for (SensorEventListener each : sensors().getListeners()) {
             if (sensors().hasListener(each, sensor)) {

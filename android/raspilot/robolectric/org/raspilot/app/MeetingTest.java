@@ -10,7 +10,7 @@ import org.raspilot.up.ground.SeatStanding;
 import org.robolectric.annotation.Config;
 
 /**
- * Both ends of the application meet a real daemon and a real proxy, which somebody else started:
+ * Connects both ends of the application to a real daemon and a real proxy, started by the caller:
  * the properties {@code meeting.general}, {@code meeting.orientation}, {@code meeting.proxy} are
  * ports of 127.0.0.1, {@code meeting.aircraft} is the aircraft's name.
  */
@@ -39,7 +39,7 @@ public final class MeetingTest extends AppBench {
         return handset.ground().telemetry().number(path);
     }
 
-    /** Lets the sensors go on and the screens draw, until something holds. */
+    /** Runs the sensors and draws the screens until a condition holds. */
     private void fly(String what, Wait.Condition condition) throws Exception {
         Wait.until(what, () -> {
             handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
@@ -70,7 +70,7 @@ public final class MeetingTest extends AppBench {
         openCommand("up.telemetry.frequency");
         field().setText("50");
         fly("that it may be sent", () -> find(R.id.page_send).isEnabled());
-        // What is sent names the frame that was drawn.
+        // A sent Command names the frame that was drawn.
         Drawing.of(handset.window.get());
         find(R.id.page_send).performClick();
         fly("the answer", () -> text(R.id.commands_newest).startsWith("Telemetry period")

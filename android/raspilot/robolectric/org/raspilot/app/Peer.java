@@ -11,7 +11,7 @@ import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 
-/** The other end of a link of lines, which a test plays: it listens, keeps what it hears. */
+/** The other end of a link of lines, played by a test: it listens and records received lines. */
 class Peer implements Closeable {
     private final ServerSocket server;
     private final List<String> heard = new ArrayList<String>();
@@ -23,7 +23,7 @@ class Peer implements Closeable {
         run("accept", this::accept);
     }
 
-    /** Something of a thread that ends with the connection. */
+    /** A step of a thread that ends with the connection. */
     interface Work {
         /** Does it. */
         void work() throws IOException;
@@ -33,11 +33,11 @@ class Peer implements Closeable {
         return server.getLocalPort();
     }
 
-    /** Hears a line that is no heartbeat; on a thread of the peer's. */
+    /** Called with a line that is not a heartbeat; on a thread of the peer's. */
     void onLine(String line) throws IOException {
     }
 
-    /** Returns all lines heard so far that are no heartbeats. */
+    /** Returns all lines received so far except heartbeats. */
     final synchronized List<String> heard() {
         return new ArrayList<String>(heard);
     }
@@ -46,7 +46,7 @@ class Peer implements Closeable {
         return connection != null;
     }
 
-    /** Sends a line; without effect where nobody is connected. */
+    /** Sends a line; no effect without a connection. */
     final void say(String line) {
         Socket now;
         synchronized (this) {
@@ -69,7 +69,7 @@ class Peer implements Closeable {
             try {
                 connection.close();
             } catch (IOException gone) {
-                // It is gone, as it should be.
+                // It is gone, as expected.
             }
             connection = null;
         }

@@ -25,8 +25,8 @@ import org.robolectric.annotation.GraphicsMode;
 
 /**
  * Draws the screens by the system's own graphics library, with sensors, an aeroplane and real
- * sockets behind them. The property {@code pictures} is the folder; with {@code pictures.all}
- * every screen is drawn in every shape, for a look at all of them.
+ * sockets behind them. The property {@code pictures} is the folder; with {@code pictures.all} every
+ * screen is drawn in every shape, for a review of all of them.
  */
 @RunWith(RobolectricTestRunner.class)
 @Config(sdk = 29, qualifiers = PicturesTest.UPRIGHT)
@@ -79,7 +79,7 @@ public final class PicturesTest {
     @Test
     public void thePicturesOfThePages() throws Exception {
         handset.choose(Screen.GROUND);
-        // Its speed is known when the aeroplane was seen for a while.
+        // Its speed is known after some time of positions.
         for (int again = 0; again < 30; again++) {
             live();
         }
@@ -188,7 +188,7 @@ public final class PicturesTest {
         throw new AssertionError("the list has no " + command);
     }
 
-    /** Lets the sensors speak and the newest frame be seen. */
+    /** Makes the sensors deliver and the newest frame visible. */
     private void live() throws Exception {
         handset.sense(Sensor.TYPE_ROTATION_VECTOR, Handset.BANKED);
         handset.sense(Sensor.TYPE_GYROSCOPE, 0.01f, 0.02f, -0.01f);

@@ -4,7 +4,7 @@ import java.io.IOException;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
-/** A Raspberry Pi's General Message port: it acks what is asked. */
+/** A Raspberry Pi's General Message port: it acks requests. */
 final class PlayedBoard extends Peer {
     private static final Pattern ID = Pattern.compile("\"id\": \"([^\"]*)\"");
 
@@ -19,7 +19,7 @@ final class PlayedBoard extends Peer {
         }
     }
 
-    /** Says whether a message of a name came. */
+    /** Returns whether a message with that name arrived. */
     boolean hasHeard(String name) {
         for (String line : heard()) {
             if (line.contains("\"name\": \"" + name + "\"")) {

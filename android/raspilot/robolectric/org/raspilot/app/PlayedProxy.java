@@ -29,7 +29,7 @@ final class PlayedProxy extends Peer {
         run("fly", this::flyOn);
     }
 
-    /** Lets the aeroplane tell ten frames a second, or none. */
+    /** Makes the aeroplane send ten frames a second, or none. */
     synchronized void setFlying(boolean isFlyingNow) {
         isFlying = isFlyingNow;
     }

@@ -13,7 +13,7 @@ import org.junit.Test;
 import org.raspilot.up.android.SpawnService;
 import org.robolectric.Robolectric;
 
-/** Black Box Mode: start asks the runner first, by the intent service. */
+/** Black Box Mode: start first sends a request to the runner, by the intent service. */
 public final class SpawnTest extends AppBench {
     private Peer runner;
     private String answer;

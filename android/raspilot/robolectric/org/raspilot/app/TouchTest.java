@@ -49,7 +49,7 @@ public final class TouchTest extends AppBench {
         return button;
     }
 
-    /** Lets fingers lie on the middles of buttons, the last one newly come. */
+    /** Puts fingers on the middles of buttons, the last one newly down. */
     private void touch(HoldButton... under) {
         MotionEvent.PointerProperties[] fingers = new MotionEvent.PointerProperties[under.length];
         MotionEvent.PointerCoords[] places = new MotionEvent.PointerCoords[under.length];
@@ -69,7 +69,7 @@ public final class TouchTest extends AppBench {
     }
 
     private void hold() {
-        // As a screen draws: a press is void when the screen hangs meanwhile.
+        // Draws as a screen does: a press is void when the screen hangs during it.
         for (int frame = 0; frame < 100; frame++) {
             Wait.pass(16);
         }

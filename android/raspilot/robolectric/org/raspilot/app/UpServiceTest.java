@@ -29,7 +29,7 @@ import org.robolectric.annotation.Config;
 import org.robolectric.shadows.ShadowPowerManager;
 import org.robolectric.util.ReflectionHelpers;
 
-/** The airborne service: in the foreground, awake, with and without sensors, brought back. */
+/** The airborne service: in the foreground, awake, with and without sensors, restarted. */
 public final class UpServiceTest extends AppBench {
     private PlayedBoard board;
     private AirborneStatus status;

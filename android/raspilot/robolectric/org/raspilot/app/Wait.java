@@ -13,13 +13,13 @@ final class Wait {
     private Wait() {
     }
 
-    /** What is waited for. */
+    /** The awaited condition. */
     interface Condition {
-        /** Says whether it is there. */
+        /** Returns whether it is true. */
         boolean holds() throws Exception;
     }
 
-    /** Lets the main thread work until something holds; fails after a long while. */
+    /** Runs the main thread until a condition holds; fails after a long timeout. */
     static void until(String what, Condition condition) throws Exception {
         long endNs = System.nanoTime() + LONGEST_NS;
         ShadowLooper.idleMainLooper();
@@ -32,7 +32,7 @@ final class Wait {
         }
     }
 
-    /** Lets so much of the main thread's time pass, ms: its timers run, the sockets' do not. */
+    /** Advances the main thread's time, ms: its timers run, the sockets' do not. */
     static void pass(long ms) {
         ShadowLooper.idleMainLooper();
         ShadowLooper.shadowMainLooper().idleFor(Duration.ofMillis(ms));

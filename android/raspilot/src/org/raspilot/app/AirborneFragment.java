@@ -10,7 +10,7 @@ import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService;
 import org.raspilot.up.android.ProblemListener;
 
-/** The airborne screen: what is sent, at which rate, whereto, and how the phone is mounted. */
+/** The airborne screen: sent readings, rates, destination, and the phone's mounting. */
 public final class AirborneFragment extends Fragment
         implements AirborneLink.Watcher, EventBook.Watcher, SpawnDesk.Watcher {
     private static final String IS_STARTING = "starting";
@@ -119,7 +119,7 @@ public final class AirborneFragment extends Fragment
         showRun();
     }
 
-    /** Goes on where the user has answered; what was refused is a sensor that is absent. */
+    /** Continues after the user's answer; a refused permission makes its sensor absent. */
     void permissionsAnswered() {
         if (getActivity() == null) {
             return;

@@ -14,9 +14,9 @@ import org.raspilot.up.android.UpWatcher;
  * so that looking starts nothing. On the main thread.
  */
 final class AirborneLink {
-    /** Hears of the service. */
+    /** Receives the changes of the service. */
     interface Watcher {
-        /** Takes the newest status; null: the service does not run, or has said nothing yet. */
+        /** Takes the newest status; null: the service does not run, or has not reported yet. */
         void onAirborne(AirborneStatus status);
     }
 
@@ -53,7 +53,7 @@ final class AirborneLink {
         this.watcher = watcher;
     }
 
-    /** Begins to look; it hears of a service that is started later, too. */
+    /** Starts to watch, also a service that is started later. */
     void begin() {
         if (!isBound) {
             isBound = true;
@@ -61,7 +61,7 @@ final class AirborneLink {
         }
     }
 
-    /** Ends it. */
+    /** Stops it. */
     void end() {
         if (airside != null) {
             airside.remove(statuses);
@@ -77,7 +77,7 @@ final class AirborneLink {
         context.bindService(new Intent(context, RaspilotUpService.class), connection, 0);
     }
 
-    /** A binding ends with the service that was stopped: the next one needs another. */
+    /** A binding ends with the stopped service: the next one needs another. */
     private void bindAnew() {
         if (isBound) {
             context.unbindService(connection);
@@ -85,7 +85,7 @@ final class AirborneLink {
         }
     }
 
-    /** Says whether the service runs. */
+    /** Returns whether the service runs. */
     boolean isRunning() {
         return airside != null;
     }

@@ -13,8 +13,8 @@ import org.raspilot.up.providers.Side;
 import org.raspilot.up.wire.Seat;
 
 /**
- * The settings as the user made them. A value that is none (of an older version, of a broken
- * file) is told in a sentence by an IllegalArgumentException when it is used.
+ * The user's settings. An invalid value (of an older version, of a broken file) throws an
+ * IllegalArgumentException with a sentence when it is used.
  */
 final class AppSettings {
     private final Context context;
@@ -68,12 +68,12 @@ final class AppSettings {
                 ? AirborneMode.BLACK_BOX : AirborneMode.FLIGHT_CONTROLLER;
     }
 
-    /** Says whether sockets stay on the Wi-Fi in which the Raspberry Pi is found. */
+    /** Returns whether sockets stay on the Wi-Fi in which the Raspberry Pi is found. */
     boolean isOnWifi() {
         return preferences.getBoolean(context.getString(R.string.key_on_wifi), false);
     }
 
-    /** Returns how the phone lies in the aeroplane; flat, where what is kept is none. */
+    /** Returns the phone's mounting in the aeroplane; flat if the stored value is invalid. */
     Mounting mounting() {
         String kept = preferences.getString(context.getString(R.string.key_mounting), "");
         try {
@@ -85,7 +85,7 @@ final class AppSettings {
         }
     }
 
-    /** Keeps how the phone lies in the aeroplane. */
+    /** Stores the phone's mounting in the aeroplane. */
     void setMounting(Mounting mounting) {
         preferences.edit().putString(context.getString(R.string.key_mounting), mounting.toText())
                 .apply();
@@ -102,7 +102,7 @@ final class AppSettings {
         return Side.TOP;
     }
 
-    /** Keeps which side of the phone is at the nose. */
+    /** Stores which side of the phone is at the nose. */
     void setNose(Side nose) {
         preferences.edit().putString(context.getString(R.string.key_nose), nose.name()).apply();
     }
@@ -114,18 +114,18 @@ final class AppSettings {
         return SettingRule.number(value);
     }
 
-    /** Keeps the pressure at altitude zero, hPa. */
+    /** Stores the pressure at altitude zero, hPa. */
     void setReferencePressureHPa(double hPa) {
         preferences.edit().putString(context.getString(R.string.key_reference_pressure),
                 String.format(Locale.ROOT, "%.2f", hPa)).apply();
     }
 
-    /** Says whether the screen stays on while the airborne screen is seen. */
+    /** Returns whether the screen stays on while the airborne screen is visible. */
     boolean isScreenKept() {
         return preferences.getBoolean(context.getString(R.string.key_keep_screen), false);
     }
 
-    /** Keeps whether the screen stays on. */
+    /** Stores whether the screen stays on. */
     void setScreenKept(boolean isKept) {
         preferences.edit().putBoolean(context.getString(R.string.key_keep_screen), isKept)
                 .apply();

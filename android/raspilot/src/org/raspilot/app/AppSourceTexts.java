@@ -4,7 +4,7 @@ import android.content.Context;
 import org.raspilot.up.android.Lack;
 import org.raspilot.up.android.SourceTexts;
 
-/** What a phone lacks, in the words of the resources. */
+/** The texts for missing parts of a phone, from the resources. */
 final class AppSourceTexts implements SourceTexts {
     private final Context context;
 

@@ -21,7 +21,7 @@ final class AppTheme {
                 ? R.style.Theme_Raspilot_Dark : R.style.Theme_Raspilot_Daylight;
     }
 
-    /** Decides for a wish (`dark`, `daylight`, else the system's) and a configuration's uiMode. */
+    /** Returns whether a setting (`dark`, `daylight`, otherwise the uiMode's) is a dark theme. */
     static boolean isDark(String wish, int uiMode) {
         if (DARK.equals(wish) || DAYLIGHT.equals(wish)) {
             return DARK.equals(wish);

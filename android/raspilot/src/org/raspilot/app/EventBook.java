@@ -4,14 +4,14 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 
-/** What happened since the application began, the newest last, bounded. On the main thread. */
+/** The events since the application started, the newest last, bounded. On the main thread. */
 public final class EventBook {
-    /** So many lines are kept. */
+    /** Maximum number of lines. */
     public static final int KEPT = 500;
 
-    /** Hears of new lines. */
+    /** Receives new lines. */
     public interface Watcher {
-        /** Hears that the book has changed. */
+        /** Called when the book has changed. */
         void onEvents();
     }
 
@@ -71,7 +71,7 @@ public final class EventBook {
         return Collections.unmodifiableList(new ArrayList<Entry>(entries));
     }
 
-    /** Returns the newest line; null: there is none. */
+    /** Returns the newest line, or null if absent. */
     public Entry newest() {
         return entries.isEmpty() ? null : entries.get(entries.size() - 1);
     }

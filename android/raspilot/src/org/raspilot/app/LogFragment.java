@@ -15,7 +15,7 @@ import android.widget.Toast;
 import java.text.SimpleDateFormat;
 import java.util.Locale;
 
-/** The log screen: what happened since the application began, to read, share and copy. */
+/** The log screen: the events since the application started, to read, share and copy. */
 public final class LogFragment extends Fragment implements EventBook.Watcher {
     private static final String TIME = "HH:mm:ss";
 

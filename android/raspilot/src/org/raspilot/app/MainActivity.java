@@ -56,7 +56,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
     public void onTabReselected(ActionBar.Tab tab, FragmentTransaction unused) {
     }
 
-    /** Hears the answer of the user; the API 16 stubs do not know what it overrides. */
+    /** Receives the user's answer; without @Override, because the API 16 stubs lack the method. */
     public void onRequestPermissionsResult(int request, String[] permissions, int[] answers) {
         Fragment airborne = getFragmentManager().findFragmentByTag(Screen.Part.AIRBORNE.name());
         if (airborne instanceof AirborneFragment) {
@@ -66,7 +66,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
 
     private void makeTabs() {
         ActionBar bar = getActionBar();
-        // On a phone the tabs say where one is; a title would take a tenth of the screen besides.
+        // On a phone the tabs name the screen; a title would take another tenth of it.
         bar.setDisplayShowHomeEnabled(false);
         bar.setDisplayShowTitleEnabled(isTwoPanes);
         if (!isTwoPanes) {

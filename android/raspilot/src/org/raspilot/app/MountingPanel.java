@@ -14,9 +14,9 @@ import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.Side;
 
 /**
- * How the phone lies in the aeroplane: the aeroplane's attitude by the phone now, and the press
- * that makes it level. Works whether or not anything is sent; a service that sends hears of the
- * new mounting by the settings. On the main thread.
+ * The phone's mounting in the aeroplane: the current attitude by the phone, and the button that
+ * makes it level. Works whether or not the service runs; a running service takes the new mounting
+ * from the settings. On the main thread.
  */
 final class MountingPanel implements SensorListener<Rotation> {
     private static final long PERIOD_MS = 100;
@@ -57,12 +57,12 @@ final class MountingPanel implements SensorListener<Rotation> {
         nose.setOnItemSelectedListener(new NoseListener());
     }
 
-    /** Begins to read. */
+    /** Starts to read. */
     void begin() {
         feed.begin(PERIOD_MS, this);
     }
 
-    /** Ends it. */
+    /** Stops reading. */
     void end() {
         feed.end();
         newest = null;

@@ -15,7 +15,7 @@ import java.util.List;
 import org.raspilot.up.android.Permissions;
 import org.raspilot.up.android.api23.Asking;
 
-/** What the phone's own settings must permit, with the way there, and whether the screen stays. */
+/** The phone's settings that the app needs, links to them, and whether the screen stays on. */
 final class PhonePanel {
     private static final int REQUEST = 1;
     /** Android 6; the API 16 stubs do not know it. */
@@ -65,12 +65,12 @@ final class PhonePanel {
         battery.setVisibility(isSpared ? View.GONE : View.VISIBLE);
     }
 
-    /** Says whether the location may be read as precisely as an aeroplane needs it. */
+    /** Returns whether the location may be read with the precision that an aeroplane needs. */
     boolean isLocationPermitted() {
         return Permissions.has(activity, Manifest.permission.ACCESS_FINE_LOCATION);
     }
 
-    /** Asks the user for what is not permitted yet; false: there is nothing to ask. */
+    /** Requests the missing permissions from the user; returns false if none is missing. */
     boolean ask() {
         List<String> missing = missing();
         if (Build.VERSION.SDK_INT < 23 || missing.isEmpty()) {
@@ -86,7 +86,7 @@ final class PhonePanel {
             missing.add(Manifest.permission.ACCESS_FINE_LOCATION);
             missing.add(Manifest.permission.ACCESS_COARSE_LOCATION);
         }
-        // For applications of an older target the system asks by itself.
+        // For applications of an older target the system asks automatically.
         boolean isOurs = Build.VERSION.SDK_INT >= TIRAMISU
                 && activity.getApplicationInfo().targetSdkVersion >= TIRAMISU;
         if (isOurs && !Permissions.has(activity, Permissions.POST_NOTIFICATIONS)) {
@@ -95,7 +95,7 @@ final class PhonePanel {
         return missing;
     }
 
-    /** Hears that the user, or the system without asking, has answered. */
+    /** Called when the user, or the system without a dialog, has answered. */
     void answered() {
         show();
         boolean isRefusedForGood = Build.VERSION.SDK_INT >= 23 && !isLocationPermitted()
@@ -107,7 +107,7 @@ final class PhonePanel {
         isPermitting = false;
     }
 
-    /** Asks; where the system does not ask any more, its page of permissions follows. */
+    /** Requests them; if the system shows no dialog, opens its page of permissions. */
     private void permit() {
         isPermitting = ask();
     }

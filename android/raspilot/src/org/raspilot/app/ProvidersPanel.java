@@ -90,7 +90,7 @@ final class ProvidersPanel {
                 : context.getString(R.string.age_s, ageMs / 1000);
     }
 
-    /** Returns the name on the screen; an application's own provider is called as it is. */
+    /** Returns the displayed name; an application's own provider has its plain name. */
     private String name(String provider) {
         if (provider.equals(LocationProvider.NAME)) {
             return context.getString(R.string.provider_location);

@@ -5,7 +5,7 @@ import android.content.Context;
 import android.content.pm.ApplicationInfo;
 import android.os.StrictMode;
 
-/** What lives as long as the process: the log and the spawn requests. */
+/** The state of the process: the log and the spawn requests. */
 public final class RaspilotApplication extends Application {
     private final EventBook events = new EventBook();
     private SpawnDesk spawning;
@@ -21,7 +21,7 @@ public final class RaspilotApplication extends Application {
         spawning = new SpawnDesk(this);
         boolean isDebug = (getApplicationInfo().flags & ApplicationInfo.FLAG_DEBUGGABLE) != 0;
         if (isDebug) {
-            // Whoever speaks to the network on the main thread shall notice at once.
+            // Makes network access on the main thread fail immediately.
             StrictMode.setThreadPolicy(new StrictMode.ThreadPolicy.Builder()
                     .detectNetwork()
                     .penaltyLog()
@@ -35,12 +35,12 @@ public final class RaspilotApplication extends Application {
         return events;
     }
 
-    /** Writes a line into the log, of now. On the main thread. */
+    /** Adds a line with the current time to the log. On the main thread. */
     public void note(String sentence) {
         events.add(System.currentTimeMillis(), sentence);
     }
 
-    /** Returns who asks runners. On the main thread. */
+    /** Returns the desk for spawn requests. On the main thread. */
     SpawnDesk spawning() {
         return spawning;
     }

@@ -14,7 +14,7 @@ import org.raspilot.up.android.SourceTexts;
 public final class RaspilotUpService extends BaseUpService {
     private static final String CHANNEL = "airborne";
 
-    /** The system keeps no listener that nobody else keeps. */
+    /** The system does not keep a strong reference to a listener. */
     private final SharedPreferences.OnSharedPreferenceChangeListener changes =
             new SharedPreferences.OnSharedPreferenceChangeListener() {
                 @Override
@@ -69,7 +69,7 @@ public final class RaspilotUpService extends BaseUpService {
         RaspilotApplication.of(this).note(getString(R.string.altitude_zeroed, hPa));
     }
 
-    /** Takes what holds at once; everything else holds from the next start on. */
+    /** Applies the settings that take effect immediately; others do at the next start. */
     private void takeChange(String key) {
         if (getString(R.string.key_mounting).equals(key)) {
             setMounting(new AppSettings(this).mounting());

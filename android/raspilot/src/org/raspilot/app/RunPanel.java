@@ -11,7 +11,7 @@ import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.airborne.OrientationTransport;
 
-/** The upper part of the airborne screen: the link, start and stop, what is configured. */
+/** The upper part of the airborne screen: the link, start and stop, the configuration. */
 final class RunPanel {
     private final Context context;
     private final TextView panic;
@@ -32,7 +32,7 @@ final class RunPanel {
         onOff.setOnClickListener(pressed);
     }
 
-    /** Shows what is configured. */
+    /** Shows the configuration. */
     void showSettings(AirborneSettings settings) {
         mode.setText(settings.mode() == AirborneMode.BLACK_BOX
                 ? R.string.mode_name_black_box : R.string.mode_name_flight_controller);
@@ -40,14 +40,14 @@ final class RunPanel {
         orientation.setText(orientation(settings));
     }
 
-    /** Shows that what is configured cannot be used, and why. */
+    /** Shows that the configuration is invalid, and why. */
     void showFault(String sentence) {
         mode.setText(sentence);
         where.setText("");
         orientation.setText("");
     }
 
-    /** Shows that nothing runs, and the newest line of the log, which may say why. */
+    /** Shows that nothing runs, and the newest line of the log, possibly with the reason. */
     void showStopped(boolean isSpawning, String newest) {
         panic.setVisibility(View.GONE);
         String state = context.getString(isSpawning ? R.string.link_spawning : R.string.link_off);
@@ -57,7 +57,7 @@ final class RunPanel {
                 isSpawning ? R.attr.upOnAlarm : R.attr.upOnAccent);
     }
 
-    /** Shows what runs; null: nothing is known of it yet. */
+    /** Shows the running state; null: nothing is known of it yet. */
     void showRunning(AirborneStatus status) {
         boolean isPanic = status != null && status.panicDelayMs() > 0;
         panic.setVisibility(isPanic ? View.VISIBLE : View.GONE);
@@ -107,7 +107,7 @@ final class RunPanel {
         }
     }
 
-    /** Sets a text only when it is another one: what reads aloud would say it again. */
+    /** Sets a text only if it changed: a screen reader would repeat it. */
     private static void setText(TextView view, String text) {
         if (!text.contentEquals(view.getText())) {
             view.setText(text);

@@ -12,7 +12,7 @@ enum Screen {
     SETTINGS(R.string.screen_settings, Part.SETTINGS),
     LOG(R.string.screen_log, Part.LOG);
 
-    /** A fragment and the pane that it lives in for as long as it lives. */
+    /** A fragment and the pane that contains it during its whole life. */
     enum Part {
         AIRBORNE(R.id.pane_first) {
             @Override
@@ -62,23 +62,23 @@ enum Screen {
         this.part = part;
     }
 
-    /** Says whether a window with or without room for two panes has a tab for this. */
+    /** Returns whether a window with or without room for two panes has a tab for this. */
     boolean hasTab(boolean isTwoPanes) {
         return this != COMMANDS || !isTwoPanes;
     }
 
-    /** Says whether a part is to be seen while this is chosen. */
+    /** Returns whether a part is visible while this is chosen. */
     boolean shows(Part other, boolean isTwoPanes) {
         boolean isBeside = isTwoPanes && this == GROUND && other == Part.COMMANDS;
         return other == part || isBeside;
     }
 
-    /** Returns the screen that stands for this one in such a window. */
+    /** Returns the screen that replaces this one in such a window. */
     Screen in(boolean isTwoPanes) {
         return hasTab(isTwoPanes) ? this : GROUND;
     }
 
-    /** Returns the screen of a name, or the airborne one where no screen is called so. */
+    /** Returns the screen of that name, or the airborne one if unknown. */
     static Screen named(String name) {
         for (Screen screen : values()) {
             if (screen.name().equals(name)) {

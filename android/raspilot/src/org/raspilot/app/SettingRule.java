@@ -3,7 +3,7 @@ package org.raspilot.app;
 import java.util.regex.Pattern;
 import org.raspilot.up.providers.AltitudeProvider;
 
-/** What a setting must be, and the sentence that says so. */
+/** The rule for a setting, and the sentence that states it. */
 enum SettingRule {
     /** A host's name or address. */
     HOST(R.string.rule_host) {
@@ -66,15 +66,15 @@ enum SettingRule {
         this.sentence = sentence;
     }
 
-    /** Says whether a value, without spaces around it, is one. */
+    /** Returns whether a value, trimmed, is valid. */
     abstract boolean holds(String value);
 
-    /** Returns the resource of the sentence that says what it must be. */
+    /** Returns the resource of the sentence that states the rule. */
     int sentence() {
         return sentence;
     }
 
-    /** Returns the number that a value says; some phones' keyboards have a comma only. */
+    /** Parses the number of a value; some phones' keyboards have only a comma. */
     static double number(String value) {
         return Double.parseDouble(value.replace(',', '.'));
     }

@@ -14,9 +14,9 @@ import org.raspilot.up.android.SpawnService;
  * the log, whichever screen is seen then. Lives with the process, on the main thread.
  */
 final class SpawnDesk {
-    /** Hears when a request begins and ends. */
+    /** Called when a request starts and ends. */
     interface Watcher {
-        /** Hears that {@link SpawnDesk#isAsking} has changed. */
+        /** Called when {@link SpawnDesk#isAsking} has changed. */
         void onSpawning();
     }
 
@@ -35,17 +35,17 @@ final class SpawnDesk {
         });
     }
 
-    /** Says whether an answer is awaited. */
+    /** Returns whether a request waits for its answer. */
     boolean isAsking() {
         return isAsking;
     }
 
-    /** Names who watches; null: nobody. */
+    /** Sets the watcher, or null. */
     void watch(Watcher now) {
         watcher = now;
     }
 
-    /** Asks; while an answer is awaited without effect. */
+    /** Sends a request; no effect while one waits for its answer. */
     void ask(AirborneSettings settings) {
         if (isAsking) {
             return;
@@ -86,7 +86,7 @@ final class SpawnDesk {
         try {
             BaseUpService.start(application, RaspilotUpService.class);
         } catch (IllegalStateException refusal) {
-            // The user went elsewhere meanwhile, and this system lets nobody start from there.
+            // The user has left the app, and this system starts no service from the background.
             application.note(application.getString(R.string.start_refused));
         }
     }

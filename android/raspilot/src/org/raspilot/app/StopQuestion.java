@@ -7,7 +7,7 @@ import android.content.DialogInterface;
 import android.os.Bundle;
 import org.raspilot.up.android.BaseUpService;
 
-/** Asks before an aeroplane in the air loses its phone. */
+/** Shows a confirmation before an aeroplane in the air loses its phone. */
 public final class StopQuestion extends DialogFragment {
     /** Its tag. */
     static final String TAG = "stop question";

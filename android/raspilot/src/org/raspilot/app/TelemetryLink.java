@@ -17,20 +17,20 @@ import org.raspilot.up.android.TelemetryService;
 
 /**
  * The one binding to the telemetry service for all fragments of the window, without a view. It
- * begins with the first who watches, outlives a rotation, and ends when the window has not been
- * seen for {@link #LINGER_MS}: a look at another application does not cost the seat.
+ * starts with the first watcher, survives a rotation, and ends when the window has been hidden for
+ * {@link #LINGER_MS}: a look at another application does not cost the seat.
  */
 public final class TelemetryLink extends Fragment {
-    /** Is told on the main thread. */
+    /** Called on the main thread. */
     public interface Watcher {
-        /** Takes the service's ground; at once, where it is bound already. */
+        /** Takes the service's ground; called immediately if already bound. */
         void onGround(TelemetryService.Ground ground);
 
-        /** Hears that it is gone; it may come again. */
+        /** Called when it is gone; it may come again. */
         void onGroundGone();
     }
 
-    /** So long after the window was seen last the link ends, ms. */
+    /** The link ends this time after the window was last visible, ms. */
     static final long LINGER_MS = 30000;
 
     private static final String TAG = "telemetry link";
@@ -62,13 +62,13 @@ public final class TelemetryLink extends Fragment {
     private boolean isSeen;
     private boolean isWanted;
 
-    /** Makes the link of a window that is being created, before its other fragments look. */
+    /** Creates the link of a new window, before its other fragments need it. */
     static void prepare(Activity activity) {
         of(activity);
         activity.getFragmentManager().executePendingTransactions();
     }
 
-    /** Returns the link of a window, made where there is none yet. */
+    /** Returns the link of a window; creates it if necessary. */
     public static TelemetryLink of(Activity activity) {
         FragmentManager manager = activity.getFragmentManager();
         TelemetryLink link = (TelemetryLink) manager.findFragmentByTag(TAG);
@@ -123,12 +123,12 @@ public final class TelemetryLink extends Fragment {
         bindIfDue();
     }
 
-    /** Takes a watcher away; it is told nothing any more. */
+    /** Removes a watcher; it is not called afterwards. */
     public void unwatch(Watcher watcher) {
         watchers.remove(watcher);
     }
 
-    /** Lets the service take the settings of now, where it runs. */
+    /** Makes the service apply the current settings, if it runs. */
     void reload() {
         if (ground != null) {
             ground.reload();

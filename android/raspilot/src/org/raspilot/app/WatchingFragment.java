@@ -11,8 +11,8 @@ import org.raspilot.up.ground.Telemetry;
 /**
  * A screen that watches the aircraft from start to stop (thesis 4.5.3).
  *
- * <p>It is told to draw five times a second, so that what is old looks old within a second even
- * when no message comes. Main thread only.
+ * <p>It redraws five times a second, so that stale values are greyed out within a second even when
+ * no message arrives. Main thread only.
  */
 public abstract class WatchingFragment extends Fragment {
     private static final long TICK_MS = 200;
@@ -76,13 +76,13 @@ public abstract class WatchingFragment extends Fragment {
         super.onStop();
     }
 
-    /** Draws everything, as old as it is now; there may be no view. */
+    /** Draws everything with its current age; there may be no view. */
     protected abstract void showAll();
 
     /** Draws what moves with a frame that has just come; there may be no view. */
     protected abstract void showNewest();
 
-    /** Hears which ground is watched from now on; null: none. */
+    /** Called with the ground to watch from now on; null: none. */
     protected abstract void onGround(TelemetryService.Ground newGround);
 
     /** Returns the ground that is watched; null: none. */

@@ -37,10 +37,10 @@ public final class Airborne {
     private boolean isRunning;
 
     /**
-     * Takes its surroundings; nothing begins before {@link #start}.
+     * Stores its dependencies; nothing starts before {@link #start}.
      *
-     * @param random seeded by whoever makes it: waits vary by it, and the identity by which
-     *     the Raspberry Pi tells this phone from another
+     * @param random a seeded source: it varies the retry waits and makes the identity by which the
+     *     Raspberry Pi distinguishes this phone from others
      */
     public Airborne(Loop loop, AirborneSettings settings, Sensors sensors, Speaker speaker,
             AirborneListener listener, Random random) {
@@ -62,7 +62,7 @@ public final class Airborne {
         });
     }
 
-    /** Begins to read, to connect and to send. */
+    /** Starts to read, to connect and to send. */
     public void start() {
         if (!isRunning) {
             isRunning = true;
@@ -72,7 +72,7 @@ public final class Airborne {
         }
     }
 
-    /** Ends everything; it may be started again. */
+    /** Stops everything; it may be started again. */
     public void stop() {
         if (isRunning) {
             isRunning = false;
@@ -92,7 +92,7 @@ public final class Airborne {
         return up.providersController();
     }
 
-    /** Returns where else to send: newest wins, nothing is kept without a link. */
+    /** Returns the sink for other messages: newest wins, nothing is kept without a link. */
     public Outlet outlet() {
         return link;
     }
@@ -106,13 +106,13 @@ public final class Airborne {
                         handlers.telemetry(), answers));
     }
 
-    /** Takes another mounting at once. */
+    /** Replaces the mounting immediately. */
     public void setMounting(Mounting mounting) {
         basics.setMounting(mounting);
     }
 
     /**
-     * Returns the mounting by which the aeroplane is level now, and keeps to it.
+     * Returns the mounting that makes the current attitude level, and uses it from now on.
      *
      * @param nose which side of the phone points to the nose
      * @throws IllegalStateException without a fresh reading of the rotation sensor (a sentence)
@@ -137,7 +137,7 @@ public final class Airborne {
     }
 
     /**
-     * Lets the altitude be zero where the phone is now; returns the reference pressure, hPa.
+     * Sets the altitude at the phone's position to zero; returns the reference pressure, hPa.
      *
      * @throws IllegalStateException without a reading of the barometer (a sentence)
      */
@@ -145,7 +145,7 @@ public final class Airborne {
         return basics.altitude().zeroHere();
     }
 
-    /** Tries at once instead of after the wait, as when the phone's network came back. */
+    /** Retries immediately instead of after the wait, as when the phone's network is back. */
     public void networkChanged() {
         if (isRunning) {
             link.reconnectNow();

@@ -3,7 +3,7 @@ package org.raspilot.up.airborne;
 import org.raspilot.up.commands.CommandReceiver;
 import org.raspilot.up.commands.NackCode;
 
-/** What was counted on the airborne side since it was made; immutable. */
+/** The counters of the airborne side since its creation; immutable. */
 final class AirborneCounters {
     private final long connections;
     private final long telemetry;
@@ -11,7 +11,7 @@ final class AirborneCounters {
     private final long refused;
     private final long malformed;
 
-    /** Takes the counts of now; answers are those that came to what was sent with an id. */
+    /** Takes the current counts; answers are those to messages sent with an id. */
     AirborneCounters(CommandReceiver receiver, long connections, long telemetry, long answers) {
         this.connections = connections;
         this.telemetry = telemetry;

@@ -19,12 +19,12 @@ final class AirborneHandlers {
     private final Answers answers;
     private long telemetry;
 
-    /** Takes the answers to what was sent with an id. */
+    /** Handles the answers to messages sent with an id. */
     interface Answers {
-        /** Takes that it was carried out. */
+        /** Takes an ack. */
         void onAck(String id);
 
-        /** Takes that it was not, and why. */
+        /** Takes a nack with its reason. */
         void onNack(String id, String reason);
     }
 

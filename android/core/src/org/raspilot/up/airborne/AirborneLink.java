@@ -15,7 +15,7 @@ import org.raspilot.up.providers.Outlet;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.OrientationFrame;
 
-/** The two links to the Raspberry Pi: one for Commands, one for orientation where it is on. */
+/** The two links to the Raspberry Pi: one for Commands and, if enabled, one for orientation. */
 final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     private static final String DEAD = "the Raspberry Pi does not answer any more";
 
@@ -27,18 +27,18 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     private String told = "";
     private boolean wasLost;
 
-    /** Is told what happens on the link for Commands. */
+    /** Receives the events of the link for Commands. */
     interface Owner {
-        /** Tells that it is there. */
+        /** Called when the link is open. */
         void onOpened(Place place);
 
         /** Gives a line that came. */
         void onLine(byte[] line, int length);
 
-        /** Tells that it is gone, and why. */
+        /** Called when the link is lost, with the reason. */
         void onClosed(String reason);
 
-        /** Tells why it is not there, once until that changes. */
+        /** Called with the reason why there is no link, once until it changes. */
         void onTrouble(String sentence);
     }
 
@@ -61,7 +61,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         });
     }
 
-    /** Begins to connect. */
+    /** Starts to connect. */
     void start() {
         told = "";
         wasLost = false;
@@ -79,7 +79,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         socket.stop();
     }
 
-    /** Tries at once instead of after the wait. */
+    /** Retries immediately instead of after the wait. */
     void reconnectNow() {
         socket.reconnectNow();
         if (orientation != null) {
@@ -87,12 +87,12 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         }
     }
 
-    /** Takes that an answer came to an id of ours. */
+    /** Notes an answer to one of our ids. */
     void answered(String id) {
         watch.answered(id);
     }
 
-    /** Returns where the link for Commands stands. */
+    /** Returns the state of the link for Commands. */
     UpSocketStatus status() {
         return socket.status();
     }
@@ -102,7 +102,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         return socket.counters().connects();
     }
 
-    /** Returns where orientation goes, or why it does not. */
+    /** Returns the destination of orientation, or why it is not sent. */
     String orientationText() {
         return orientation == null ? "off" : orientation.sentence();
     }

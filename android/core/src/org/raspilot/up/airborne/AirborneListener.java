@@ -2,17 +2,17 @@ package org.raspilot.up.airborne;
 
 import org.raspilot.up.net.Place;
 
-/** Is told on the loop what becomes of the airborne side. */
+/** Receives the events of the airborne side, on the loop. */
 public interface AirborneListener {
-    /** Tells that the link for Commands is there. */
+    /** Called when the link for Commands is open. */
     void onConnected(Place place);
 
-    /** Tells that it is gone, and why, in a sentence without a full stop. */
+    /** Called when the link is lost; the reason is a sentence without a full stop. */
     void onDisconnected(String reason);
 
-    /** Tells that Panic Mode began, changed or ended (0). */
+    /** Called when Panic Mode starts, changes or ends (0). */
     void onPanic(long delayMs);
 
-    /** Tells what else is worth a line of the log: why there is no link, which sensor is silent. */
+    /** Called for anything else worth logging: why there is no link, which sensor is silent. */
     void onEvent(String sentence);
 }

@@ -6,10 +6,10 @@ import java.util.List;
 import org.raspilot.up.providers.Mounting;
 
 /**
- * How the airborne side works; made by its {@link Builder}, whose {@code build()} judges it.
+ * Settings of the airborne side, created by its {@link Builder}, which validates them.
  *
- * <p>Ports and addresses are by default those of the Raspberry Pi's {@code android.yml},
- * {@code discovery.yml} and {@code runner.yml}.
+ * <p>Ports and addresses are by default those of the Raspberry Pi's {@code android.yml}, {@code
+ * discovery.yml} and {@code runner.yml}.
  */
 public final class AirborneSettings {
     private final AirborneMode mode;
@@ -80,7 +80,7 @@ public final class AirborneSettings {
         return discoveryPort;
     }
 
-    /** Returns where Discovery asks; empty: 255.255.255.255 and every interface's own. */
+    /** Returns Discovery's targets; empty: 255.255.255.255 and every interface's own. */
     public List<String> discoveryHosts() {
         return discoveryHosts;
     }
@@ -140,26 +140,26 @@ public final class AirborneSettings {
         return declinationDeg;
     }
 
-    /** Returns how the phone lies in the aeroplane. */
+    /** Returns the phone's mounting in the aeroplane. */
     public Mounting mounting() {
         return mounting;
     }
 
-    /** Returns whether a runner is asked for a server: in Black Box Mode, when one is named. */
+    /** Returns whether a runner starts the server: in Black Box Mode, if one is configured. */
     public boolean isByRunner() {
         return mode == AirborneMode.BLACK_BOX && !runnerHost.isEmpty();
     }
 
     /**
-     * Returns how orientation leaves in this mode: in Flight Controller Mode the Arduino's is flown
-     * by, and the phone's is off unless redundancy is wanted (thesis 4.2.3).
+     * Returns the transport of orientation in this mode. In Flight Controller Mode the Arduino's
+     * orientation is used, and the phone's is off unless redundancy is wanted (thesis 4.2.3).
      */
     public OrientationTransport orientationTransport() {
         boolean isWanted = mode == AirborneMode.BLACK_BOX || redundantOrientation;
         return isWanted ? orientation : OrientationTransport.OFF;
     }
 
-    /** Collects settings; what is not set keeps its default. */
+    /** Builds settings; a value that is not set keeps its default. */
     public static final class Builder {
         private AirborneMode mode = AirborneMode.FLIGHT_CONTROLLER;
         private String host = "";
@@ -211,7 +211,7 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets where Discovery asks; empty: 255.255.255.255 and every interface's own. */
+        /** Sets Discovery's targets; empty: 255.255.255.255 and every interface's own. */
         public Builder discoveryHosts(List<String> value) {
             discoveryHosts = new ArrayList<String>(value);
             return this;
@@ -289,7 +289,7 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets how the phone lies in the aeroplane. */
+        /** Sets the phone's mounting in the aeroplane. */
         public Builder mounting(Mounting value) {
             mounting = value;
             return this;

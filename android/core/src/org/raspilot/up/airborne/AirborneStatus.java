@@ -48,7 +48,7 @@ public final class AirborneStatus {
         return linkText;
     }
 
-    /** Returns where it is, or was last, connected to or trying to; null: nowhere yet. */
+    /** Returns the current or last place of the connection or attempt; null: none so far. */
     public Place place() {
         return place;
     }
@@ -63,7 +63,7 @@ public final class AirborneStatus {
         return orientation;
     }
 
-    /** Returns where orientation goes, or why it does not, in a sentence; {@code off}. */
+    /** Returns orientation's destination, or why it is not sent (a sentence); {@code off}. */
     public String orientationText() {
         return orientationText;
     }

@@ -4,16 +4,16 @@ import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 
 /**
- * Notices a connection that is dead although nobody closed it, as after a gap of the radio.
+ * Detects a dead connection that neither side closed, for example after a gap in radio coverage.
  *
- * <p>After a second in which no line came the next message carries an id, which asks for an answer;
- * one that does not come within two seconds ends the connection. A peer that has not answered an id
- * on this connection, as an old one never does, is not judged.
+ * <p>After one second without a received line, the next message carries an id, which requests an
+ * answer. If no answer comes within two seconds, the connection is closed. A peer that has not
+ * answered any id on this connection, such as an old one, is exempt.
  */
 final class AnswerWatch {
-    /** After so long without a line an answer is asked for, ms. */
+    /** An answer is requested after this time without a received line, ms. */
     static final long QUIET_MS = 1000;
-    /** So long an answer may take, ms. */
+    /** Timeout of an answer, ms. */
     static final long ANSWER_MS = 2000;
 
     private final Loop loop;
@@ -28,9 +28,9 @@ final class AnswerWatch {
     private boolean isAnswering;
 
     /**
-     * Makes a watch.
+     * Creates a watch.
      *
-     * @param prefix begins the ids, up to 8 hexadecimal digits and a dot: it identifies the phone (protocols 4)
+     * @param prefix of the ids, up to 8 hexadecimal digits and a dot; the phone's (protocols 4)
      */
     AnswerWatch(Loop loop, String prefix, Runnable onDead) {
         this.loop = loop;
@@ -38,7 +38,7 @@ final class AnswerWatch {
         this.onDead = onDead;
     }
 
-    /** Takes that a connection is there. */
+    /** Notes that a connection is open. */
     void opened() {
         closed();
         isOpen = true;
@@ -47,19 +47,19 @@ final class AnswerWatch {
         heardMs = loop.nowMs();
     }
 
-    /** Takes that it is gone. */
+    /** Notes that it is closed. */
     void closed() {
         isOpen = false;
         settle();
     }
 
-    /** Takes that a line came. */
+    /** Notes a received line. */
     void heard() {
         heardMs = loop.nowMs();
         settle();
     }
 
-    /** Takes that an answer came. */
+    /** Notes a received answer. */
     void answered(String id) {
         isAnswering |= isOpen && id.startsWith(prefix);
     }

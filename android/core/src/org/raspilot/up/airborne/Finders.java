@@ -18,7 +18,7 @@ final class Finders {
 
     private Finders() {}
 
-    /** Returns the runner in Black Box Mode, else the configured host, else Discovery. */
+    /** Returns the runner in Black Box Mode, otherwise the configured host, otherwise Discovery. */
     static PlaceFinder by(Loop loop, final AirborneSettings settings) {
         if (settings.isByRunner()) {
             RunnerRequest request = new RunnerRequest(

@@ -8,7 +8,7 @@ import org.raspilot.up.providers.ProviderState;
 import org.raspilot.up.providers.ProviderStatus;
 import org.raspilot.up.providers.ProvidersController;
 
-/** Tells the listener when a sensor falls silent and when it speaks again. */
+/** Reports when a sensor falls silent and when it delivers again. */
 final class SilenceReport {
     private static final long PERIOD_MS = 1000;
 

@@ -1,7 +1,7 @@
 package org.raspilot.up.airborne;
 
-/** Says a text aloud: Android's text to speech, or a line of the virtual phone. */
+/** Speaks a text: Android's text to speech, or a line of the virtual phone. */
 public interface Speaker {
-    /** Says it; called on the loop, is not to block. */
+    /** Speaks the text; called on the loop and must not block. */
     void speak(String text);
 }

@@ -19,7 +19,7 @@ public final class AckCommand extends BaseCommand {
     private final String commandId;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

@@ -7,11 +7,11 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
-/** An altitude above sea level, measured or asked for. Source: docs/protocols.md 5. */
+/** An altitude above sea level, measured or requested. Source: docs/protocols.md 5. */
 public final class AltitudeCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "up.altitude.change";
-    /** What may be asked for. */
+    /** The range of requested values. */
     public static final List<String> MODES =
             Collections.unmodifiableList(Arrays.asList("actual", "required"));
     /** Reads the Command from a message. */
@@ -26,7 +26,7 @@ public final class AltitudeCommand extends BaseCommand {
     private final String mode;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */
@@ -51,7 +51,7 @@ public final class AltitudeCommand extends BaseCommand {
         return altitudeM;
     }
 
-    /** Returns {@code actual} when it was measured, {@code required} when it is asked for. */
+    /** Returns {@code actual} for a measured value, {@code required} for a requested one. */
     public String mode() {
         return mode;
     }

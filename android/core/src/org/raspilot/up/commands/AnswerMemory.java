@@ -7,10 +7,10 @@ import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.Json;
 
 /**
- * The ids of one link and what was answered to them: the newest 256 of 60 s.
+ * The ids of one link and their answers: the newest 256 of the last 60 s.
  *
- * <p>An id with another name or other data is another Command, because old peers put one id on all
- * of theirs. Source: docs/protocols.md 4.
+ * <p>The same id with another name or other data is another Command, because old peers reuse one id
+ * for all Commands. Source: docs/protocols.md 4.
  */
 final class AnswerMemory {
     static final int REMEMBERED = 256;
@@ -18,7 +18,7 @@ final class AnswerMemory {
 
     private final Map<String, Entry> entries = new LinkedHashMap<String, Entry>();
 
-    /** Remembers a message with an id; returns what is known of it when it came before. */
+    /** Stores a message with an id; returns the known entry if the message is a repetition. */
     Entry remember(GeneralMessage message, long nowMs) {
         forgetOld(nowMs);
         String content = message.name() + " " + Json.write(message.data());
@@ -36,7 +36,7 @@ final class AnswerMemory {
         return null;
     }
 
-    /** Keeps the answer to an id for those who ask again. */
+    /** Stores the answer to an id for repetitions. */
     void keep(String id, GeneralMessage answer) {
         Entry entry = entries.get(id);
         if (entry != null) {
@@ -51,7 +51,7 @@ final class AnswerMemory {
         }
     }
 
-    /** One id: what came with it and what was answered. */
+    /** One id: its message and its answer. */
     static final class Entry {
         private final String content;
         private final long timeMs;
@@ -62,7 +62,7 @@ final class AnswerMemory {
             this.timeMs = timeMs;
         }
 
-        /** Returns the answer, or null as long as there is none. */
+        /** Returns the answer, or null until there is one. */
         GeneralMessage answer() {
             return answer;
         }

@@ -18,7 +18,7 @@ public final class ArmCommand extends BaseCommand {
         }
     };
 
-    /** Makes the Command. */
+    /** Creates the Command. */
     public ArmCommand() {
         this(new GeneralMessage(NAME, Collections.<String, Object>emptyMap()));
     }

@@ -12,17 +12,17 @@ import org.raspilot.up.wire.GeneralMessage;
 public class BaseCommand {
     private final GeneralMessage message;
 
-    /** Makes a Command that wants no answer and carries no beacon. */
+    /** Creates a Command without an id or a beacon. */
     public BaseCommand(String name, Map<String, ?> data) {
         this(new GeneralMessage(name, data));
     }
 
-    /** Makes the Command that a message is; its fields are not looked at. */
+    /** Creates the Command of a message; its fields are not validated. */
     public BaseCommand(GeneralMessage message) {
         this.message = message;
     }
 
-    /** Makes the Command that a message is, under the name that it has today. */
+    /** Creates the Command of a message, under its current name. */
     protected BaseCommand(String name, GeneralMessage message) {
         this(name.equals(message.name()) ? message
                 : message.with(name, message.id(), message.beacon()));
@@ -38,7 +38,7 @@ public class BaseCommand {
         return message.data();
     }
 
-    /** Returns the id under which an answer is asked for, or null. */
+    /** Returns the id for the requested answer, or null. */
     public final String id() {
         return message.id();
     }

@@ -19,7 +19,7 @@ public final class BatteryCommand extends BaseCommand {
     private final double levelPercent;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

@@ -4,7 +4,7 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.up.wire.MalformedException;
 
-/** One object of a catalogue; each reading raises when the key holds something else. */
+/** One object of a catalogue; each reader throws when the key has another type. */
 final class CatalogueEntry {
     private final Map<?, ?> description;
 
@@ -12,7 +12,7 @@ final class CatalogueEntry {
         this.description = description;
     }
 
-    /** Makes an entry of what a list holds. */
+    /** Creates an entry from an element of a list. */
     static CatalogueEntry of(Object value) throws MalformedException {
         if (!(value instanceof Map)) {
             throw new MalformedException("an entry of the catalogue is no object");

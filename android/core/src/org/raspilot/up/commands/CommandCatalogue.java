@@ -8,9 +8,9 @@ import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
 
 /**
- * Every Command that some ground may send, with its form: what {@code commands.json} says.
+ * Every Command that a ground may send, with its form: the content of {@code commands.json}.
  *
- * <p>The text is what the ground station's page gets: generated from the Commands themselves.
+ * <p>The text is the same as for the ground station's page, generated from the Commands.
  */
 public final class CommandCatalogue {
     private final List<CommandForm> forms = new ArrayList<CommandForm>();
@@ -20,9 +20,9 @@ public final class CommandCatalogue {
     }
 
     /**
-     * Reads the text of a catalogue: the object {@code {"type": "catalogue", "commands": [...]}}.
+     * Parses a catalogue: the object {@code {"type": "catalogue", "commands": [...]}}.
      *
-     * @throws MalformedException when it is none
+     * @throws MalformedException when the text is not a catalogue
      */
     public static CommandCatalogue read(String json) throws MalformedException {
         CommandCatalogue catalogue = new CommandCatalogue();

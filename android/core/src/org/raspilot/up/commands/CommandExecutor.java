@@ -17,7 +17,7 @@ public final class CommandExecutor {
     private static final CommandOutcome NOBODY_ASKS = new CommandOutcome() {
         @Override
         public void onDone(int handlers, Throwable fault) {
-            // A fault was told and counted where it happened.
+            // A fault was reported and counted where it happened.
         }
     };
 
@@ -30,14 +30,14 @@ public final class CommandExecutor {
     private boolean isDelivering;
     private long failedHandlers;
 
-    /** Makes a bus; the listener is told of handlers that fail. */
+    /** Creates a bus; exceptions from handlers are reported to the listener. */
     public CommandExecutor(CommandRegistry registry, HandlerFaultListener faults) {
         this.registry = registry;
         this.faults = faults;
     }
 
     /**
-     * Subscribes a handler to a Command by its name or alias and returns the handle that ends it;
+     * Subscribes a handler to a Command by its name or alias and returns the handle to remove it;
      * one handler may be registered several times.
      */
     public UUID registerCommand(String name, BaseCommandHandler handler) {
@@ -51,7 +51,7 @@ public final class CommandExecutor {
         return handle;
     }
 
-    /** Ends a subscription; false: the handle is none of that Command. */
+    /** Removes a subscription; returns false for a handle that does not belong to that Command. */
     public boolean unregisterCommand(String name, UUID handle) {
         Map<UUID, BaseCommandHandler> now = copyOfHandlers(name);
         if (now.remove(handle) == null) {
@@ -61,7 +61,7 @@ public final class CommandExecutor {
         return true;
     }
 
-    /** Says whether anybody subscribed to a Command. */
+    /** Returns whether a Command has a subscriber. */
     public boolean hasHandlers(String name) {
         return !handlersOf(name).isEmpty();
     }
@@ -80,7 +80,7 @@ public final class CommandExecutor {
         return failedHandlers;
     }
 
-    /** Delivers a Command, at once or after the one that is being delivered, and tells the end. */
+    /** Delivers a Command, immediately or after the current delivery, and reports the outcome. */
     void execute(final BaseCommand command, final CommandOutcome outcome) {
         waiting.add(new Runnable() {
             @Override

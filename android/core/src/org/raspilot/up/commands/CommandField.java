@@ -49,7 +49,7 @@ public final class CommandField {
         return name;
     }
 
-    /** Returns what kind of value it holds. */
+    /** Returns the type of its value. */
     public FieldType type() {
         return type;
     }
@@ -79,22 +79,22 @@ public final class CommandField {
         return maxLength;
     }
 
-    /** Says whether null is allowed. */
+    /** Returns whether null is allowed. */
     public boolean isNullable() {
         return nullable;
     }
 
-    /** Says whether it may not be left out. */
+    /** Returns whether the field is required. */
     public boolean isRequired() {
         return required;
     }
 
-    /** Returns what is allowed, in words: "a number between 0 and 5 s". */
+    /** Returns the allowed values in words: "a number between 0 and 5 s". */
     public String text() {
         return text;
     }
 
-    /** Returns what is wrong with a JSON value, a sentence that names the field, or null. */
+    /** Returns the error of a JSON value, a sentence that names the field, or null. */
     public String validate(Object value) {
         if (value == null && nullable) {
             return null;
@@ -104,8 +104,8 @@ public final class CommandField {
     }
 
     /**
-     * Returns the value that a person typed, as a JSON value; {@code null} is null where that is
-     * allowed and the field is no text.
+     * Converts typed text to a JSON value; {@code null} gives null if the field allows null and is
+     * not a text field.
      *
      * @throws InvalidCommandException with one sentence that names the field
      */

@@ -43,7 +43,7 @@ public final class CommandForm {
         return name;
     }
 
-    /** Returns older names of the same thing; unmodifiable. */
+    /** Returns older names of the Command; unmodifiable. */
     public List<String> aliases() {
         return aliases;
     }
@@ -58,7 +58,7 @@ public final class CommandForm {
         return text;
     }
 
-    /** Says whether it needs fresh telemetry, whose beacon it echoes. */
+    /** Returns whether the Command needs fresh telemetry, whose beacon it echoes. */
     public boolean needsBeacon() {
         return needsBeacon;
     }
@@ -73,7 +73,7 @@ public final class CommandForm {
         return fields.get(fieldName);
     }
 
-    /** Returns what is wrong with data of JSON values, a sentence that names the field, or null. */
+    /** Returns the error of JSON data, a sentence that names the field, or null. */
     public String validate(Map<String, ?> data) {
         for (Map.Entry<String, ?> given : data.entrySet()) {
             CommandField field = fields.get(given.getKey());
@@ -115,8 +115,8 @@ public final class CommandForm {
     }
 
     /**
-     * Returns the Command of what a person typed; one that the Up Library knows is checked as a
-     * whole besides.
+     * Builds the Command from typed text; a Command that the Up Library knows is also validated as
+     * a whole.
      *
      * @throws InvalidCommandException with one sentence that names the field
      */

@@ -1,12 +1,12 @@
 package org.raspilot.up.commands;
 
-/** Told what became of one Command on the bus. */
+/** Receives the outcome of one Command on the bus. */
 interface CommandOutcome {
     /**
-     * Hears that the handlers are done, on the loop thread.
+     * Called when the handlers have finished, on the loop thread.
      *
-     * @param handlers how many there were
-     * @param fault what the first of them threw that threw something, or null
+     * @param handlers the number of handlers
+     * @param fault the first exception that a handler threw, or null
      */
     void onDone(int handlers, Throwable fault);
 }

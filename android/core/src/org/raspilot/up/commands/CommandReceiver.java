@@ -26,7 +26,7 @@ public final class CommandReceiver {
             new WeakHashMap<AnswerSink, AnswerMemory>();
     private final Map<String, Long> counts = new HashMap<String, Long>();
 
-    /** Makes a receiver for the links of one loop. */
+    /** Creates a receiver for the links of one loop. */
     public CommandReceiver(CommandRegistry registry, CommandExecutor executor, Loop loop) {
         this.registry = registry;
         this.executor = executor;
@@ -79,21 +79,21 @@ public final class CommandReceiver {
         });
     }
 
-    /** Counts a line that is no General Message; refuses it when its id could be read. */
+    /** Counts a line that is not a General Message; rejects it if its id is readable. */
     public void receiveMalformed(MalformedException malformed, AnswerSink answers) {
         refuse(malformed.id(), answers, NackCode.MALFORMED, malformed.reason());
     }
 
     /**
-     * Returns how many messages came to an end: {@code received}, {@code repeated} or the word
-     * of a {@link NackCode}.
+     * Returns the number of messages with an outcome: {@code received}, {@code repeated} or the
+     * word of a {@link NackCode}.
      */
     public long count(String what) {
         Long count = counts.get(what);
         return count == null ? 0 : count;
     }
 
-    /** Throws it where the loop tells its listener of it. */
+    /** Throw it where the loop reports it to its listener. */
     private void tellLoop(final RuntimeException fault) {
         loop.post(new Runnable() {
             @Override

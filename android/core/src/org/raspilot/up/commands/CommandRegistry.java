@@ -9,7 +9,7 @@ public final class CommandRegistry {
     private final Map<String, CommandReader> readers = new HashMap<String, CommandReader>();
     private final Map<String, String> primaryNames = new HashMap<String, String>();
 
-    /** Makes an empty registry. */
+    /** Creates an empty registry. */
     public CommandRegistry() {
     }
 
@@ -36,7 +36,7 @@ public final class CommandRegistry {
     }
 
     /**
-     * Says which reader makes the Commands of a name, and which older names mean the same.
+     * Registers the reader of a Command name, and older names as aliases.
      *
      * @throws IllegalArgumentException when a name is taken
      */
@@ -48,7 +48,7 @@ public final class CommandRegistry {
         readers.put(name, reader);
     }
 
-    /** Says whether a name or alias is known. */
+    /** Returns whether a name or alias is known. */
     public boolean knows(String name) {
         return primaryNames.containsKey(name);
     }

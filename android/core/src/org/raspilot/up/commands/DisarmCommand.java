@@ -17,7 +17,7 @@ public final class DisarmCommand extends BaseCommand {
         }
     };
 
-    /** Makes the Command. */
+    /** Creates the Command. */
     public DisarmCommand() {
         this(new GeneralMessage(NAME, Collections.<String, Object>emptyMap()));
     }

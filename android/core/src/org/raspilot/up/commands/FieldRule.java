@@ -8,10 +8,10 @@ import java.util.Map;
 import org.raspilot.up.wire.SafeText;
 
 /**
- * What the value of a field must be: its type, bounds, choices and length.
+ * The rule for the value of a field: its type, bounds, choices and length.
  *
- * <p>A whole number is a number, too; a number without a fraction is no whole one. The contents of
- * objects and lists are not looked into.
+ * <p>A whole number is also a number; a number without a fraction is not a whole number. The
+ * contents of objects and lists are not checked.
  */
 final class FieldRule {
     private static final int LONGEST_SHOWN = 40;
@@ -23,7 +23,9 @@ final class FieldRule {
     private final int maxLength;
     private final String description;
 
-    /** Makes a rule; {@code choices} null: anything; {@code description}: after "must be". */
+    /**
+     * Creates a rule; {@code choices} null: no restriction; {@code description}: after "must be".
+     */
     FieldRule(FieldType type, double minimum, double maximum, List<?> choices, int maxLength,
             String description) {
         this.type = type;
@@ -64,7 +66,7 @@ final class FieldRule {
                 Integer.MAX_VALUE, description.toString());
     }
 
-    /** Returns what is wrong with a value as it reads after the field's name, or null. */
+    /** Returns the error of a value, worded to follow the field's name, or null if it is valid. */
     String complaint(Object value) {
         if (!isOfType(value) || !isChosen(value)) {
             return "must be " + description + ", not " + shown(value);

@@ -2,7 +2,7 @@ package org.raspilot.up.commands;
 
 import java.util.Locale;
 
-/** What kind of value a field of a Command holds, as the catalogue calls it. */
+/** The type of a Command's field, as in the catalogue. */
 public enum FieldType {
     /** True or false. */
     BOOLEAN,
@@ -17,12 +17,12 @@ public enum FieldType {
     /** A list; its contents are not described. */
     LIST;
 
-    /** Returns the word of the catalogue. */
+    /** Returns the name in the catalogue. */
     public String word() {
         return name().toLowerCase(Locale.ROOT);
     }
 
-    /** Returns the type of a word, or null when it is none. */
+    /** Returns the type with that name, or null if unknown. */
     public static FieldType ofWord(String word) {
         for (FieldType type : values()) {
             if (type.word().equals(word)) {

@@ -8,13 +8,13 @@ import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
 /**
- * A flight mode; taken only while the pilot's switch stands at AUTO, and never ACRO. Source:
+ * A flight mode; accepted only while the pilot's switch is at AUTO, and never ACRO. Source:
  * docs/protocols.md 5.
  */
 public final class FlightModeCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "up.flight_mode.set";
-    /** What may be asked for. */
+    /** The modes that may be requested. */
     public static final List<String> MODES =
             Collections.unmodifiableList(Arrays.asList("RATE", "FBW", "AUTO"));
     /** Reads the Command from a message. */
@@ -28,7 +28,7 @@ public final class FlightModeCommand extends BaseCommand {
     private final String mode;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

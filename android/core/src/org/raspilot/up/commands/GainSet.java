@@ -18,7 +18,7 @@ public final class GainSet {
     private final LoopGains stabilize;
     private final LoopGains navigation;
 
-    /** Makes a set; {@code navigation} null: it stays as it is. */
+    /** Creates a set; with {@code navigation} null the navigation gains do not change. */
     public GainSet(LoopGains rate, LoopGains stabilize, LoopGains navigation) {
         this.rate = rate;
         this.stabilize = stabilize;
@@ -26,8 +26,8 @@ public final class GainSet {
     }
 
     /**
-     * Reads {@code {ratePIDs, stabPIDs, navPIDs?}}, as {@code arduino.pids.values} tells it too;
-     * a set is taken whole or not at all.
+     * Parses {@code {ratePIDs, stabPIDs, navPIDs?}}, the form that {@code arduino.pids.values} uses
+     * too; a set is accepted whole or not at all.
      *
      * @throws InvalidCommandException with one sentence that names the place
      */

@@ -9,7 +9,7 @@ public final class Gains {
     private final double i;
     private final double d;
 
-    /** Makes the gains of one controller; {@link PidTuningsCommand} checks them. */
+    /** Creates the gains of one controller; {@link PidTuningsCommand} checks them. */
     public Gains(double p, double i, double d) {
         this.p = p;
         this.i = i;

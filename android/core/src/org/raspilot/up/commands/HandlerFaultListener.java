@@ -1,7 +1,7 @@
 package org.raspilot.up.commands;
 
-/** Told of a handler that failed; the other handlers and the link go on. */
+/** Receives the failures of handlers; the other handlers and the link continue. */
 public interface HandlerFaultListener {
-    /** Hears what a handler threw that is no refusal, on the loop thread. */
+    /** Called on the loop thread with an exception of a handler that is not a refusal. */
     void onHandlerFailed(BaseCommandHandler handler, BaseCommand command, Throwable fault);
 }

@@ -8,7 +8,7 @@ package org.raspilot.up.commands;
 public final class InvalidCommandException extends IllegalArgumentException {
     private static final long serialVersionUID = 1L;
 
-    /** Says which field breaks which rule. */
+    /** Creates it with the field and the rule it violates. */
     public InvalidCommandException(String sentence) {
         super(sentence);
     }

@@ -4,13 +4,11 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
-/**
- * Where the aircraft is: a position from a satellite receiver, WGS 84. Source: docs/protocols.md 5.
- */
+/** The aircraft's position from a satellite receiver, WGS 84. Source: docs/protocols.md 5. */
 public final class LocationCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "up.location.update";
-    /** An older name of the same thing. */
+    /** An older name of this Command. */
     public static final String ALIAS = "up.location.change";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {
@@ -28,7 +26,7 @@ public final class LocationCommand extends BaseCommand {
     private final Double bearingDeg;
 
     /**
-     * Makes the Command; what is null is left out.
+     * Creates the Command; null values are left out.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

@@ -6,7 +6,7 @@ public final class LoopGains {
     private final Gains elevator;
     private final Gains rudder;
 
-    /** Makes the gains of a loop; {@code rudder} null: it keeps its own. */
+    /** Creates the gains of a loop; {@code rudder} null: unchanged. */
     public LoopGains(Gains ailerons, Gains elevator, Gains rudder) {
         this.ailerons = ailerons;
         this.elevator = elevator;

@@ -4,7 +4,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
-/** A mark in the flight log, in the words of whoever sets it. Source: docs/protocols.md 5. */
+/** A mark in the flight log, with a text from its sender. Source: docs/protocols.md 5. */
 public final class MarkCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "black_box.mark";
@@ -19,7 +19,7 @@ public final class MarkCommand extends BaseCommand {
     private final String text;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

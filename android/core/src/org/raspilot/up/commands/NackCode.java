@@ -6,7 +6,7 @@ import java.util.Locale;
 public enum NackCode {
     /** It was no General Message. */
     MALFORMED,
-    /** There is no Command of that name. */
+    /** Unknown Command name. */
     UNKNOWN,
     /** A field is missing, of a wrong type, or out of range. */
     INVALID,
@@ -18,27 +18,27 @@ public enum NackCode {
     NO_BEACON,
     /** The aircraft has not sent the echoed beacon since its start. */
     UNKNOWN_BEACON,
-    /** Understood, permitted, and refused by whoever carries it out. */
+    /** Understood and permitted, but refused by the component that executes it. */
     REFUSED,
-    /** Whoever would carry it out is absent. */
+    /** The component that would execute it is absent. */
     UNAVAILABLE,
     /** Another phone is connected. */
     TAKEN,
     /** Panic Mode: the Raspberry Pi is too busy for it now. */
     OVERLOADED,
-    /** No answer from whoever carries it out. */
+    /** The component that executes it did not answer. */
     TIMEOUT,
     /** Carrying it out failed inside. */
     FAILED,
-    /** Nothing carries it out yet; the reason says what is missing. */
+    /** Not implemented by any component; the reason names what is missing. */
     NOT_SUPPORTED;
 
-    /** Returns the word that stands on the wire. */
+    /** Returns the word on the wire. */
     public String word() {
         return name().toLowerCase(Locale.ROOT);
     }
 
-    /** Returns the code of a word, or null when it is none that is known. */
+    /** Returns the code with that name, or null if unknown. */
     public static NackCode ofWord(String word) {
         for (NackCode code : values()) {
             if (code.word().equals(word)) {

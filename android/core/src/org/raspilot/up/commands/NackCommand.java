@@ -21,7 +21,7 @@ public final class NackCommand extends BaseCommand {
     private final String reason;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */
@@ -47,7 +47,7 @@ public final class NackCommand extends BaseCommand {
         return commandId;
     }
 
-    /** Returns the code's word; see {@link NackCode#ofWord}, which knows those of today. */
+    /** Returns the code's word; see {@link NackCode#ofWord} for the current ones. */
     public String code() {
         return code;
     }

@@ -11,7 +11,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class PanicCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "up.panic";
-    /** An older name of the same thing. */
+    /** An older name of this Command. */
     public static final String ALIAS = "load_guard.panic";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {
@@ -26,7 +26,7 @@ public final class PanicCommand extends BaseCommand {
     private final Double utilizationPercent;
 
     /**
-     * Makes the Command; what is null is left out.
+     * Creates the Command; null values are left out.
      *
      * @throws InvalidCommandException when a value is out of its range
      */
@@ -43,12 +43,12 @@ public final class PanicCommand extends BaseCommand {
         super(NAME, message);
         CommandFields fields = new CommandFields(message.data());
         panic = fields.flag("panic");
-        // An older Raspberry Pi says 0, and fractions; a period is never quicker than asked.
+        // An older Raspberry Pi sends 0 and fractions; rounding up never shortens a period.
         delayMs = (long) Math.ceil(fields.number("delay_ms", 0, 10000));
         utilizationPercent = fields.optionalNumber("utilization", 0, 100);
     }
 
-    /** Says whether Panic Mode holds. */
+    /** Returns whether Panic Mode is active. */
     public boolean panic() {
         return panic;
     }

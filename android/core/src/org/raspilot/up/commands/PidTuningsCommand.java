@@ -5,7 +5,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
-/** Asks for the gains, or sets all of them (thesis 4.2.4, docs/protocols.md 5). */
+/** Requests the gains, or sets all of them (thesis 4.2.4, docs/protocols.md 5). */
 public final class PidTuningsCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "arduino.pids.tunings";
@@ -20,14 +20,14 @@ public final class PidTuningsCommand extends BaseCommand {
     private final boolean isRequest;
     private final GainSet gains;
 
-    /** Makes the Command that asks for the gains. */
+    /** Creates the Command that requests the gains. */
     public static PidTuningsCommand request() {
         return new PidTuningsCommand(
                 new GeneralMessage(NAME, Collections.singletonMap("request", true)));
     }
 
     /**
-     * Makes the Command that sets the gains.
+     * Creates the Command that sets the gains.
      *
      * @throws InvalidCommandException when a gain is out of its range
      */
@@ -51,12 +51,12 @@ public final class PidTuningsCommand extends BaseCommand {
         gains = isRequest ? null : GainSet.ofData(new LinkedHashMap<String, Object>(pids));
     }
 
-    /** Says whether it asks for the gains. */
+    /** Returns whether it only requests the gains. */
     public boolean isRequest() {
         return isRequest;
     }
 
-    /** Returns the set to fly with, or null when it asks for it. */
+    /** Returns the set to use, or null for a request. */
     public GainSet gains() {
         return gains;
     }

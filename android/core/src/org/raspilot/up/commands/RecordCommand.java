@@ -4,9 +4,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
-/**
- * An object that goes into the flight log under a topic of its own. Source: docs/protocols.md 5.
- */
+/** An object for the flight log, under its own topic. Source: docs/protocols.md 5. */
 public final class RecordCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "black_box.record";
@@ -22,7 +20,7 @@ public final class RecordCommand extends BaseCommand {
     private final Map<String, Object> content;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */
@@ -47,7 +45,7 @@ public final class RecordCommand extends BaseCommand {
         return topic;
     }
 
-    /** Returns what is recorded; at most 4 KiB as JSON. Unmodifiable. */
+    /** Returns the recorded object; at most 4 KiB as JSON. Unmodifiable. */
     public Map<String, Object> content() {
         return content;
     }

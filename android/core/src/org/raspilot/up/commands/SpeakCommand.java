@@ -4,7 +4,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
-/** Words that the airborne phone shall say aloud. Source: docs/protocols.md 5. */
+/** A text for the airborne phone to speak. Source: docs/protocols.md 5. */
 public final class SpeakCommand extends BaseCommand {
     /** The name on the wire. */
     public static final String NAME = "android.speak";
@@ -19,7 +19,7 @@ public final class SpeakCommand extends BaseCommand {
     private final String text;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

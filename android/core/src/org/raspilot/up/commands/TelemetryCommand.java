@@ -15,7 +15,7 @@ public final class TelemetryCommand extends BaseCommand {
         }
     };
 
-    /** Makes a frame of a content; {@code beacon} null: none. */
+    /** Creates a frame with that content; {@code beacon} null: none. */
     public TelemetryCommand(Map<String, ?> content, Long beacon) {
         this(new GeneralMessage(NAME, content, null, beacon));
     }

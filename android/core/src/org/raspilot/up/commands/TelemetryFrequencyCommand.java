@@ -5,7 +5,7 @@ import java.util.Map;
 import org.raspilot.up.wire.GeneralMessage;
 
 /**
- * The period of telemetry that the ground wants; the prototype called it a frequency. Source:
+ * The period of telemetry that the ground requests; the prototype called it a frequency. Source:
  * docs/protocols.md 5.
  */
 public final class TelemetryFrequencyCommand extends BaseCommand {
@@ -22,7 +22,7 @@ public final class TelemetryFrequencyCommand extends BaseCommand {
     private final double periodMs;
 
     /**
-     * Makes the Command.
+     * Creates the Command.
      *
      * @throws InvalidCommandException when a value is out of its range
      */

@@ -7,12 +7,12 @@ import org.raspilot.up.wire.MalformedException;
 
 /** What a person typed into a field, as a JSON value. */
 final class TypedValue {
-    /** What stands for a text that is no value of the type. */
+    /** The result for text that is not a value of the type. */
     static final Object NONE = new Object();
 
     /**
-     * Some phones' keyboards for numbers have a comma only; what may be a group of thousands, as
-     * 1,000, is no number: one metre is not a thousand.
+     * The number keyboards of some phones have only a comma. Text that may be grouped thousands,
+     * such as 1,000, is rejected: one metre is not a thousand.
      */
     private static final Pattern NUMBER = Pattern.compile(
             "[+-]?([0-9]+(\\.[0-9]+|,[0-9]{1,2}|,[0-9]{4,})?|0,[0-9]{3})");

@@ -6,18 +6,18 @@ import java.util.Locale;
 import java.util.Map;
 
 /**
- * How old a frame of telemetry and each of its readings is: on the aircraft, on the way, and since
- * the frame came. Immutable; ask it with {@code nowMs} of the loop that received the frame, on any
+ * The age of a frame of telemetry and of each of its readings: on the aircraft, in transit, and
+ * since reception. Immutable; pass {@code nowMs} of the loop that received the frame, on any
  * thread.
  */
 public final class Age {
-    /** A frame that is older, ms, looks old on the screen before the second is over. */
+    /** A frame older than this, ms, is shown as stale, before a whole second has passed. */
     public static final long SILENT_MS = 900;
 
     private static final Map<String, Long> STALE_MS = new HashMap<String, Long>();
 
     static {
-        // Sources that come once a second or more seldom are stale later than SILENT_MS.
+        // Sources with a period of a second or longer become stale later than SILENT_MS.
         STALE_MS.put("location", 1900L);
         STALE_MS.put("altitude", 1900L);
         STALE_MS.put("heading", 1900L);
@@ -39,22 +39,22 @@ public final class Age {
         this.onBoardMs = onBoardMs;
     }
 
-    /** Returns the age of what was never heard: all is stale. */
+    /** Returns the age for telemetry that never arrived: everything is stale. */
     static Age unknown() {
         return new Age(false, true, 0, 0, Collections.<String, Double>emptyMap());
     }
 
     /**
-     * Returns the age of a frame that came at {@code receivedMs} after {@code wayMs}.
+     * Returns the age of a frame received at {@code receivedMs} after {@code wayMs} in transit.
      *
-     * @param onBoardMs the age of each reading when the frame was made, where it is known
+     * @param onBoardMs the known ages of readings when the frame was made
      */
     static Age ofFrame(long receivedMs, long wayMs, Map<String, Double> onBoardMs) {
         final Map<String, Double> copy = new HashMap<String, Double>(onBoardMs);
         return new Age(true, false, receivedMs, Math.max(0, wayMs), copy);
     }
 
-    /** Returns the same age of a frame that was so long on its way. */
+    /** Returns this age with another transit time of the frame. */
     Age ofWay(long anotherMs) {
         return new Age(isKnown, isLinkLost, receivedMs, Math.max(0, anotherMs), onBoardMs);
     }
@@ -64,23 +64,23 @@ public final class Age {
         return new Age(isKnown, true, receivedMs, wayMs, onBoardMs);
     }
 
-    /** Says whether the link that brought the frame is gone. */
+    /** Returns whether the link that delivered the frame is gone. */
     public boolean isLinkLost() {
         return isLinkLost;
     }
 
-    /** Returns how long the frame was on its way, ms, as far as that is known. */
+    /** Returns the frame's transit time, ms, as far as it is known. */
     public long wayMs() {
         return wayMs;
     }
 
-    /** Returns the age of the frame with its way, ms; null: there was none. */
+    /** Returns the age of the frame including transit, ms; null without a frame. */
     public Long frameMs(long nowMs) {
         return isKnown ? Long.valueOf(Math.max(0, nowMs - receivedMs) + wayMs) : null;
     }
 
     /**
-     * Returns the age of a reading, ms: on the aircraft, on the way and since; null: not known.
+     * Returns the age of a reading, ms: on the aircraft, in transit and since; null: unknown.
      *
      * @param reading {@code orientation rx servo flight location altitude heading battery}
      */
@@ -93,18 +93,18 @@ public final class Age {
         return frame + Math.round(Math.max(0.0, there));
     }
 
-    /** Says whether nothing of the frame can be trusted to be of now. */
+    /** Returns whether the frame is too old for any of its values to be current. */
     public boolean isSilent(long nowMs) {
         final Long frame = frameMs(nowMs);
         return isLinkLost || frame == null || frame > SILENT_MS;
     }
 
-    /** Says whether frames come, but so late that they are as good as silence. */
+    /** Returns whether frames arrive, but so late that they count as silence. */
     public boolean isLate(long nowMs) {
         return isKnown && !isLinkLost && wayMs > SILENT_MS && nowMs - receivedMs <= SILENT_MS;
     }
 
-    /** Says whether a reading is too old to be flown by; one without an age is as its frame. */
+    /** Returns whether a reading is too old to fly by; a reading without an age has its frame's. */
     public boolean isStale(String reading, long nowMs) {
         if (isSilent(nowMs)) {
             return true;

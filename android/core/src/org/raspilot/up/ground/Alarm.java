@@ -2,9 +2,9 @@ package org.raspilot.up.ground;
 
 /** Something that is wrong now. Immutable. */
 public final class Alarm {
-    /** What is wrong; one alarm of each kind at most. */
+    /** A fault; at most one alarm of each kind. */
     public enum Kind {
-        /** No telemetry of now: the link, the aircraft or its sender is silent. */
+        /** No current telemetry: the link, the aircraft or its sender is silent. */
         SILENT,
         /** The board flies without a receiver. */
         FAILSAFE,
@@ -30,7 +30,7 @@ public final class Alarm {
         this.text = text;
     }
 
-    /** Returns what is wrong. */
+    /** Returns the kind of fault. */
     public Kind kind() {
         return kind;
     }
@@ -40,12 +40,12 @@ public final class Alarm {
         return level;
     }
 
-    /** Returns what is wrong in words, safe to show. */
+    /** Returns a description of the fault, safe to display. */
     public String text() {
         return text;
     }
 
-    /** Says whether a phone should sound and vibrate for it. */
+    /** Returns whether the phone should sound and vibrate. */
     public boolean isLoud() {
         return level == EventLevel.ALARM || kind == Kind.BATTERY;
     }

@@ -7,11 +7,11 @@ import java.util.List;
 import java.util.Map;
 
 /**
- * The alarms that are on: one begins at once and ends {@link #OVER_MS} after its cause. Only on
- * the loop.
+ * The active alarms: each starts immediately and ends {@link #OVER_MS} after its cause. Only on the
+ * loop.
  */
 public final class Alarms {
-    /** An alarm ends when its cause has been away for so long, ms. */
+    /** An alarm ends when its cause has been absent for this time, ms. */
     public static final long OVER_MS = 2000;
     /** The airborne phone's battery is low below this, percent. */
     public static final double BATTERY_LOW = 20;
@@ -20,7 +20,7 @@ public final class Alarms {
 
     private static final double BATTERY_BACK = 3;
 
-    /** The alarms of a moment. Immutable. */
+    /** A snapshot of the alarms. Immutable. */
     public static final class Snapshot {
         private final long version;
         private final List<Alarm> active;
@@ -40,7 +40,7 @@ public final class Alarms {
             return active;
         }
 
-        /** Says whether one of them should sound and vibrate. */
+        /** Returns whether an active alarm should sound and vibrate. */
         public boolean isLoud() {
             for (Alarm each : active) {
                 if (each.isLoud()) {
@@ -50,7 +50,7 @@ public final class Alarms {
             return false;
         }
 
-        /** Says whether an alarm of that kind is on. */
+        /** Returns whether an alarm of that kind is active. */
         public boolean has(Alarm.Kind kind) {
             for (Alarm each : active) {
                 if (each.kind() == kind) {
@@ -69,12 +69,12 @@ public final class Alarms {
     Alarms() {
     }
 
-    /** Returns the alarms of now. */
+    /** Returns the active alarms. */
     public Snapshot snapshot() {
         return snapshot;
     }
 
-    /** Ends all: nobody listens to the aircraft any more. */
+    /** Ends all alarms: the aircraft is no longer monitored. */
     void clear() {
         causeMs.clear();
         known.clear();
@@ -82,7 +82,7 @@ public final class Alarms {
         publish();
     }
 
-    /** Looks at the moment; true: what is wrong has changed. */
+    /** Updates the alarms; returns whether they changed. */
     boolean take(Telemetry telemetry, GroundStatus status, long nowMs) {
         hadBoard = hadBoard || Boolean.TRUE.equals(Fact.board(telemetry));
         for (Alarm each : wrong(telemetry, status)) {
@@ -146,7 +146,7 @@ public final class Alarms {
         return found;
     }
 
-    /** The same words as long as the same is wrong: an alarm must not blink with each attempt. */
+    /** The text is constant while the cause lasts: an alarm must not blink with each attempt. */
     private static String silence(GroundStatus status) {
         if (!status.isOpen()) {
             return "no link";

@@ -3,17 +3,17 @@ package org.raspilot.up.ground;
 import java.util.Locale;
 import java.util.Map;
 
-/** What became of a Command. Immutable; each Command that is sent has exactly one. */
+/** The outcome of a Command. Immutable; each sent Command has exactly one. */
 public final class Answer {
-    /** What became of it. */
+    /** The kind of outcome. */
     public enum Outcome {
         /** The aircraft carried it out. */
         ACK,
         /** The aircraft refused it. */
         NACK,
-        /** It was sent and no answer came: nobody knows whether it was carried out. */
+        /** Sent and not answered in time: it may or may not have been executed. */
         TIMEOUT,
-        /** It was sent and the link was lost before an answer: nobody knows either. */
+        /** Sent, and the link was lost before an answer: it may or may not have been executed. */
         LOST,
         /** It was not sent. */
         REFUSED
@@ -41,12 +41,12 @@ public final class Answer {
         return new Answer(Outcome.REFUSED, name, code, reason, null, null);
     }
 
-    /** Returns what became of it. */
+    /** Returns the kind of outcome. */
     public Outcome outcome() {
         return outcome;
     }
 
-    /** Says whether the aircraft carried it out. */
+    /** Returns whether the aircraft executed it. */
     public boolean isAck() {
         return outcome == Outcome.ACK;
     }
@@ -57,14 +57,14 @@ public final class Answer {
     }
 
     /**
-     * Returns the aircraft's code of a NACK (docs/protocols.md 4), of a REFUSED one of
-     * {@code no_link no_aircraft no_seat no_beacon stale forbidden invalid busy}, else empty.
+     * Returns the aircraft's code of a NACK (docs/protocols.md 4), for REFUSED one of {@code
+     * no_link no_aircraft no_seat no_beacon stale forbidden invalid busy}, otherwise an empty text.
      */
     public String code() {
         return code;
     }
 
-    /** Returns why, safe to show; empty where there is nothing to say. */
+    /** Returns the reason, safe to display, or an empty text. */
     public String reason() {
         return reason;
     }
@@ -74,7 +74,7 @@ public final class Answer {
         return roundTripMs;
     }
 
-    /** Returns what was asked for besides the ack (gains, profile), unmodifiable, or null. */
+    /** Returns the requested data (gains, profile), unmodifiable, or null. */
     public Map<String, Object> data() {
         return data;
     }

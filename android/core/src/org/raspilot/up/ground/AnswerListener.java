@@ -1,6 +1,6 @@
 package org.raspilot.up.ground;
 
-/** Hears what became of a Command: once, on the loop, perhaps before the call returned. */
+/** Receives the outcome of a Command: once, on the loop, possibly before the call returns. */
 public interface AnswerListener {
     /** Takes the answer. */
     void onAnswer(Answer answer);

@@ -15,15 +15,15 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.SafeText;
 
-/** Commands that were sent: each ends once, whatever comes twice, late or for another one. */
+/** Sent Commands: each ends once, regardless of duplicate, late or foreign answers. */
 final class Answers {
-    /** An answer that has not come by then, ms, does not count any more. */
+    /** Timeout of an answer, ms; a later answer is ignored. */
     static final long LIMIT_MS = 3000;
-    /** So many Commands may wait for their answer. */
+    /** Maximum number of Commands that wait for an answer. */
     static final int MOST = 32;
 
     private static final int LONGEST_REASON = 500;
-    /** What comes besides the ack when a Command asks for something. */
+    /** The message with the requested data, by the name of the request. */
     private static final Map<String, String> CONTENT_OF = new HashMap<String, String>();
 
     static {
@@ -76,9 +76,9 @@ final class Answers {
         return strange;
     }
 
-    /** Returns the id under which to send a Command; the listener hears what becomes of it. */
+    /** Returns the id to send a Command with; the listener receives its outcome. */
     String expect(BaseCommand command, AnswerListener listener) {
-        // Grounds share the aircraft's link: the number alone would be another one's, too.
+        // Grounds share the aircraft's link, so a plain number would not be unique.
         final String id = String.format(Locale.ROOT, "%016x-%d", random.nextLong(), ++number);
         final boolean asks = isRequest(command);
         final String awaited = asks ? CONTENT_OF.get(command.name()) : null;
@@ -86,14 +86,14 @@ final class Answers {
         return id;
     }
 
-    /** Says whether a Command only asks for something, which every observer may. */
+    /** Returns whether a Command is only a request, which every observer may send. */
     static boolean isRequest(BaseCommand command) {
         return CONTENT_OF.containsKey(command.name())
                 && (!command.name().equals("arduino.pids.tunings")
                 || Boolean.TRUE.equals(command.data().get("request")));
     }
 
-    /** Forgets a Command that could not be sent after all; its listener hears nothing. */
+    /** Discards a Command that could not be sent after all; its listener is not called. */
     void withdraw(String id) {
         final Sent gone = sent.remove(id);
         if (gone != null) {
@@ -101,7 +101,7 @@ final class Answers {
         }
     }
 
-    /** Takes what the aircraft says, where it answers something. */
+    /** Takes a Command of the aircraft, if it is an answer. */
     void take(GeneralMessage message) {
         final boolean isAck = message.name().equals(AckCommand.NAME);
         if (isAck || message.name().equals(NackCommand.NAME)) {
@@ -125,7 +125,7 @@ final class Answers {
         }
     }
 
-    /** Hears that the link is gone: what was sent may or may not have arrived. */
+    /** Called when the link is lost: sent Commands may or may not have arrived. */
     void lost() {
         for (Sent each : new ArrayList<Sent>(sent.values())) {
             endUnanswered(each, Answer.Outcome.LOST, "the link was lost before an answer came");

@@ -1,6 +1,6 @@
 package org.raspilot.up.ground;
 
-/** What a {@link GroundListener} was told last: it hears what is news, and its figures each s. */
+/** The last state sent to a {@link GroundListener}: changes immediately, figures each s. */
 final class Bulletin {
     private static final long STATUS_MS = 1000;
 
@@ -14,7 +14,7 @@ final class Bulletin {
         this.listener = listener;
     }
 
-    /** Tells a status. */
+    /** Reports a status. */
     void tell(GroundStatus status, long nowMs) {
         toldMs = nowMs;
         wasSilent = status.isSilent();
@@ -22,17 +22,17 @@ final class Bulletin {
         listener.onStatus(status);
     }
 
-    /** Says whether the status is to be told again for its figures. */
+    /** Returns whether the status is due again for its figures. */
     boolean isDue(long nowMs) {
         return nowMs - toldMs >= STATUS_MS;
     }
 
-    /** Says whether a frame changes what was told about its age. */
+    /** Returns whether a frame changes the reported age. */
     boolean isNews(Telemetry frame, long nowMs) {
         return wasSilent != frame.isSilent(nowMs) || wasLate != frame.age().isLate(nowMs);
     }
 
-    /** Tells that something changed when the sum of all versions, which only rise, has risen. */
+    /** Reports a change when the sum of all versions, which only increase, has increased. */
     void tellChanged(long versions) {
         if (versions != toldVersions) {
             toldVersions = versions;

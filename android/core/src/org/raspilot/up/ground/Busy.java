@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 import java.util.Locale;
 
-/** Says that the Raspberry Pi is busy, in words; all of them are equal, so that it is one event. */
+/** States in words that the Raspberry Pi is busy; all are equal, so that it is one event. */
 public final class Busy {
     private final String words;
 
@@ -10,7 +10,7 @@ public final class Busy {
         this.words = words;
     }
 
-    /** Returns a Busy, false while it is not busy, null while nobody says. */
+    /** Returns a Busy, false while it is not busy, null if unknown. */
     static Object of(Telemetry telemetry) {
         final Boolean isBusy = telemetry.flag("load.panic");
         return Boolean.TRUE.equals(isBusy) ? new Busy(words(telemetry)) : isBusy;

@@ -6,10 +6,7 @@ import org.raspilot.up.commands.DisarmCommand;
 import org.raspilot.up.commands.TelemetryFrequencyCommand;
 import org.raspilot.up.loop.Loop;
 
-/**
- * Sends what may be sent now or says why it is not: nothing waits for a better moment, nothing is
- * sent twice.
- */
+/** Sends what may be sent now or returns why not: nothing is queued, nothing is sent twice. */
 final class CommandDesk {
     private final Loop loop;
     private final GroundSettings settings;
@@ -83,13 +80,13 @@ final class CommandDesk {
         return null;
     }
 
-    /** Returns who has the seat; one that was left is not ours, whatever is still to be said. */
+    /** Returns the state of the seat; a seat we left is not ours, even while unconfirmed. */
     SeatStanding standing() {
         final LinkFacts facts = link.facts();
         return SeatStanding.of(facts, settings.isDirect());
     }
 
-    /** Nobody commands what they do not see: the screen may hang, or what it shows be late. */
+    /** A pilot must see the aircraft's state to command: the screen may hang or show late data. */
     private Answer beaconFault(BaseCommand command, Long shown) {
         if (shown == null) {
             if (beacons.areNoneSent() && !command.name().equals(ArmCommand.NAME)

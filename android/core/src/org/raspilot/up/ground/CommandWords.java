@@ -5,7 +5,7 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
 
-/** What a Command does and what became of it, in the words of an event. */
+/** The description of a Command and of its outcome in an event. */
 final class CommandWords {
     private static final int SHOWN_CHANGES = 4;
     private static final Map<String, String> WORDS = new HashMap<String, String>();
@@ -26,7 +26,7 @@ final class CommandWords {
     private CommandWords() {
     }
 
-    /** Returns a Command in words; one that is not known here by its name. */
+    /** Returns a Command in words; an unknown one by its name. */
     static String of(BaseCommand command) {
         final String words = WORDS.get(command.name());
         if (words == null) {
@@ -35,7 +35,7 @@ final class CommandWords {
         return words.replace("%s", String.valueOf(command.data().get(FIELDS.get(command.name()))));
     }
 
-    /** Returns a set of gains in words: what it changes. */
+    /** Returns in words what a set of gains changes. */
     static String ofGains(List<GainChange> changes) {
         final StringBuilder text = new StringBuilder("gains");
         for (int place = 0; place < Math.min(SHOWN_CHANGES, changes.size()); place++) {
@@ -47,7 +47,7 @@ final class CommandWords {
         return text.toString();
     }
 
-    /** Returns what became of a Command that was sent. */
+    /** Returns the outcome of a sent Command. */
     static String outcome(String words, Answer answer) {
         switch (answer.outcome()) {
             case ACK:

@@ -1,16 +1,16 @@
 package org.raspilot.up.ground;
 
 /**
- * Tells how much longer than the quickest one a message was on its way, by its sender's clock.
+ * Estimates how much longer than the fastest one a message was in transit, by its sender's clock.
  *
- * <p>The two clocks need not agree on any moment: what even the quickest message took is in no
- * figure. Of the quickest one nothing is forgotten but the drift, so that a queue that stands for
- * minutes is not taken for the length of the way: after a time t the figure is too small by up to
- * 2 t {@link #DRIFT}, and never too great. A clock that goes back, or falls behind by
- * {@link #NEW_CLOCK_MS} at once, is another clock: it begins anew.
+ * <p>The clocks need not be synchronized, so the transit time of the fastest message is not
+ * included. The minimum rises only by {@link #DRIFT}, so a queue that stays full for minutes is
+ * not taken for transit time: after a time t the estimate is too small by up to 2 t {@link #DRIFT},
+ * and never too large. A clock that goes back, or falls behind by {@link #NEW_CLOCK_MS} in one
+ * step, is another clock: the estimate is reset.
  */
 public final class Delay {
-    /** Two clocks run apart by no more than this: 0.1 ms in a second. */
+    /** The maximum drift between two clocks: 0.1 ms in a second. */
     public static final double DRIFT = 1e-4;
     /** No message is held up by so much more than the one before: links are given up sooner. */
     public static final double NEW_CLOCK_MS = 30000;
@@ -27,15 +27,15 @@ public final class Delay {
         return hasBegun;
     }
 
-    /** Begins anew, with another clock or another way. */
+    /** Resets the estimate, for another clock or another path. */
     public void forget() {
         hasLeast = false;
     }
 
     /**
-     * Takes a message that comes at {@code arrivalMs} and returns by how many ms it was held up.
+     * Takes a message that arrives at {@code arrivalMs}; returns its delay in ms.
      *
-     * @param stamp its sender's clock in ms when it left; null where none is told: null then
+     * @param stamp its sender's clock in ms when it was sent; if null, the result is null
      */
     public Double take(Double stamp, double arrivalMs) {
         hasBegun = false;

@@ -1,6 +1,6 @@
 package org.raspilot.up.ground;
 
-/** Something that happened, in plain words. Immutable. */
+/** An event in plain words. Immutable. */
 public final class Event {
     private final long number;
     private final long atMs;
@@ -32,8 +32,7 @@ public final class Event {
     }
 
     /**
-     * Returns one word for its kind: {@code mode armed failsafe panic link source veto battery
-     * command gains}.
+     * Returns its kind: {@code mode armed failsafe panic link source veto battery command gains}.
      */
     public String kind() {
         return kind;

@@ -4,8 +4,8 @@ package org.raspilot.up.ground;
 public enum EventLevel {
     /** Good to know. */
     INFO,
-    /** To be looked at. */
+    /** Needs attention. */
     WARNING,
-    /** To be acted on at once. */
+    /** Requires immediate action. */
     ALARM
 }

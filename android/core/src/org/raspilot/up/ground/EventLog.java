@@ -8,12 +8,12 @@ import org.raspilot.up.wire.SafeText;
 
 /** The newest events, the oldest of them going when there are too many. Only on the loop. */
 public final class EventLog {
-    /** So many events are kept. */
+    /** Maximum number of events kept. */
     public static final int KEPT = 200;
 
     private static final int LONGEST_TEXT = 400;
 
-    /** The events of a moment. Immutable. */
+    /** A snapshot of the events. Immutable. */
     public static final class Snapshot {
         private final long version;
         private final List<Event> events;
@@ -38,7 +38,7 @@ public final class EventLog {
     private long number;
     private Snapshot snapshot = new Snapshot(0, Collections.<Event>emptyList());
 
-    /** Says that something happened; {@code kind} as in {@link Event#kind}. */
+    /** Adds an event; {@code kind} as in {@link Event#kind}. */
     public void note(long atMs, EventLevel level, String kind, String text) {
         number++;
         events.add(new Event(number, atMs, level, kind, SafeText.of(text, LONGEST_TEXT)));
@@ -52,7 +52,7 @@ public final class EventLog {
         return number;
     }
 
-    /** Returns the events of now. */
+    /** Returns the current events. */
     public Snapshot snapshot() {
         if (snapshot.version() != number) {
             snapshot = new Snapshot(number,

@@ -1,8 +1,8 @@
 package org.raspilot.up.ground;
 
-/** A value of telemetry that is worth an event when it changes, and the words for it. */
+/** A value of telemetry whose changes are events, and their texts. */
 abstract class Fact {
-    /** What is not connected and never told anything is not gone. */
+    /** Not connected and without a reading so far, which is not a loss. */
     static final String NOT_YET = "not yet";
 
     final String key;
@@ -13,21 +13,21 @@ abstract class Fact {
         this.kind = kind;
     }
 
-    /** Returns the value; null: not known, which is no change. */
+    /** Returns the value, or null if unknown, which is not a change. */
     abstract Object read(Telemetry telemetry);
 
-    /** Returns the words of a change, null where it needs none; {@code before} null: the first. */
+    /** Returns the text of a change, null if it needs none; {@code before} null: the first. */
     abstract String words(Object before, Object now);
 
     /** Returns how much the change matters. */
     abstract EventLevel level(Object before, Object now);
 
-    /** Returns whether the board is connected, or NOT_YET; null: nobody says. */
+    /** Returns whether the board is connected, or NOT_YET, or null if unknown. */
     static Object board(Telemetry telemetry) {
         return part(telemetry, "arduino.connected", "flight", "rx", "servo");
     }
 
-    /** Returns whether the airborne phone is connected, or NOT_YET; null: nobody says. */
+    /** Returns whether the airborne phone is connected, or NOT_YET, or null if unknown. */
     static Object phone(Telemetry telemetry) {
         return part(telemetry, "android.connected", "battery");
     }

@@ -5,7 +5,7 @@ import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
 
-/** What of a frame is worth an event when it changes. */
+/** The values of a frame whose changes are events. */
 final class Facts {
     /** All of them. */
     static final List<Fact> ALL = Collections.unmodifiableList(Arrays.asList(
@@ -63,7 +63,7 @@ final class Facts {
                 reading + " comes from", EventLevel.WARNING);
     }
 
-    /** A text whose change is said with both values. */
+    /** A text whose change is reported with both values. */
     private static final class Named extends Fact {
         private final String path;
         private final String what;
@@ -92,7 +92,7 @@ final class Facts {
         }
     }
 
-    /** A flag that is said when it becomes bad, and when it is good again. */
+    /** A flag that is reported when it becomes bad, and when it is good again. */
     private static final class Flag extends Fact {
         private final String path;
         private final Boolean bad;
@@ -191,7 +191,7 @@ final class Facts {
         }
     }
 
-    /** What speaks against arming; the first element says whether the aircraft is armed. */
+    /** The arming vetoes; the first element is whether the aircraft is armed. */
     private static final class Vetoes extends Fact {
         Vetoes() {
             super("vetoes", "veto");

@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 /** Whether a value may be flown by. */
 public enum Freshness {
-    /** It is there and as young as it should be. */
+    /** Present and not stale. */
     LIVE,
     /** It is there, but too old, or the link is silent: it is shown as old. */
     STALE,

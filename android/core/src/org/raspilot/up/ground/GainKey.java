@@ -60,17 +60,17 @@ public final class GainKey {
         return LOOP_WORDS[loop] + " " + AXIS_WORDS[axis] + " " + term().toUpperCase(Locale.ROOT);
     }
 
-    /** Says whether a controller uses it: none holds a yaw angle, none navigates yet. */
+    /** Returns whether a controller uses it; none holds a yaw angle or navigates yet. */
     public boolean isUsed() {
         return loop == 0 || loop == 1 && axis < 2;
     }
 
-    /** Says whether it is the rudder's, which a set may leave out. */
+    /** Returns whether it belongs to the rudder, which a set may leave out. */
     boolean isRudder() {
         return axis == 2;
     }
 
-    /** Says whether a set has its loop. */
+    /** Returns whether a set has its loop. */
     boolean isIn(GainSet set) {
         return loopOf(set) != null;
     }

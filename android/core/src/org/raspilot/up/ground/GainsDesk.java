@@ -11,18 +11,18 @@ import org.raspilot.up.commands.InvalidCommandException;
 import org.raspilot.up.commands.PidTuningsCommand;
 import org.raspilot.up.loop.Loop;
 
-/** Asks for the gains, knows what flies now, sets them whole and undoes it. Only on the loop. */
+/** Requests, tracks, replaces and restores the active gains, as whole sets. On the loop only. */
 public final class GainsDesk {
-    /** So many sets are remembered, and so many can be undone. */
+    /** Maximum number of sets that are kept and can be undone. */
     public static final int KEPT = 50;
-    /** What the aircraft tells of its gains. */
+    /** Receives the gains that the aircraft reports. */
     static final String VALUES = "arduino.pids.values";
 
     /** The board holds gains in single precision. */
     private static final double SINGLE = 1e-6;
     private static final double NEAR_ZERO = 1e-9;
 
-    /** The gains of a moment. Immutable. */
+    /** A snapshot of the gains. Immutable. */
     public static final class Snapshot {
         private final long version;
         private final GainSet flying;
@@ -44,12 +44,12 @@ public final class GainsDesk {
             return version;
         }
 
-        /** Returns what the aircraft said last that flies; null: it has not said yet. */
+        /** Returns the last gains that the aircraft reported; null: none so far. */
         public GainSet flying() {
             return flying;
         }
 
-        /** Returns when it said so, by the loop's clock, ms; null: never. */
+        /** Returns the time of that report, by the loop's clock, ms; null: none. */
         public Long toldMs() {
             return toldMs;
         }
@@ -91,7 +91,7 @@ public final class GainsDesk {
         return version;
     }
 
-    /** Returns the gains of now. */
+    /** Returns the current gains. */
     public Snapshot snapshot() {
         if (snapshot == null || snapshot.version() != version) {
             snapshot = new Snapshot(version, flying, toldMs, undoable.peekLast(),
@@ -100,7 +100,7 @@ public final class GainsDesk {
         return snapshot;
     }
 
-    /** Asks the aircraft which gains fly; the answer's data are they. */
+    /** Requests the active gains from the aircraft; they are the answer's data. */
     public void ask(AnswerListener listener) {
         isDue = false;
         sender.send(PidTuningsCommand.request(), null, listener);
@@ -115,7 +115,7 @@ public final class GainsDesk {
         transmit(gains, shownBeacon, listener, false);
     }
 
-    /** Sets what flew before the newest set that was carried out and not yet undone. */
+    /** Restores the gains from before the newest set that was executed and not yet undone. */
     public void undo(Long shownBeacon, AnswerListener listener) {
         final GainSet before = undoable.peekLast();
         if (before == null) {
@@ -140,9 +140,9 @@ public final class GainsDesk {
     }
 
     /**
-     * Returns the gains that a Command sets; null: it sets none.
+     * Returns the gains that a Command sets, or null if it sets none.
      *
-     * @throws InvalidCommandException with one sentence when they are no whole set
+     * @throws InvalidCommandException with one sentence when the set is incomplete
      */
     static GainSet gainsOf(BaseCommand command) {
         final Object pids = command.data().get("pids");
@@ -157,7 +157,7 @@ public final class GainsDesk {
         return GainSet.ofData(data);
     }
 
-    /** Takes what the aircraft says that flies; false: it is no set of gains. */
+    /** Takes the aircraft's active gains; returns false if the value is not a set. */
     boolean told(Map<String, Object> values) {
         try {
             flying = GainSet.ofData(values);
@@ -169,18 +169,18 @@ public final class GainsDesk {
         return true;
     }
 
-    /** Hears that the aircraft may fly others: the link is another one. */
+    /** Called when the link is another one: the aircraft may use other gains. */
     void want() {
         isDue = true;
     }
 
-    /** Asks for the gains where they are due; called while Commands can be sent. */
+    /** Requests the gains when due; called while Commands can be sent. */
     void onMoment() {
         if (isDue) {
             ask(new AnswerListener() {
                 @Override
                 public void onAnswer(Answer answer) {
-                    // Asked by itself: once. What came is told; the pilot can ask again.
+                    // One automatic request. Its result is reported; the pilot can request again.
                 }
             });
         }
@@ -221,7 +221,7 @@ public final class GainsDesk {
                 undoable.remove();
             }
         }
-        // After a timeout nobody knows which gains fly, until the aircraft has told.
+        // After a timeout the active gains are unknown until the aircraft reports them.
         isDue |= answer.outcome() != Answer.Outcome.NACK;
         version++;
     }

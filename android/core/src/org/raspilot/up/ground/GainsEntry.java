@@ -3,7 +3,7 @@ package org.raspilot.up.ground;
 import java.util.List;
 import org.raspilot.up.commands.GainSet;
 
-/** One set of gains that was sent, and what became of it. Immutable. */
+/** One set of gains that was sent, and its outcome. Immutable. */
 public final class GainsEntry {
     private final int number;
     private final long atMs;
@@ -39,7 +39,7 @@ public final class GainsEntry {
         return after;
     }
 
-    /** Returns what became of it. */
+    /** Returns the outcome. */
     public Answer answer() {
         return answer;
     }

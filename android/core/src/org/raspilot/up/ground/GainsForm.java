@@ -18,10 +18,10 @@ public final class GainsForm {
     }
 
     /**
-     * Returns the set that the form holds.
+     * Returns the set of the form.
      *
-     * <p>Rate and stabilize must be whole for ailerons and elevator; the rudder is in both or in
-     * neither; navigation is whole or empty, its rudder may be empty.
+     * <p>Rate and stabilize must be complete for ailerons and elevator; the rudder is in both or in
+     * neither; navigation is complete or empty, its rudder may be empty.
      *
      * @param cells the typed texts by {@link GainKey#path}; an empty one counts as absent
      * @throws InvalidCommandException with one sentence that names the gain
@@ -43,7 +43,7 @@ public final class GainsForm {
         return set;
     }
 
-    /** Returns the texts with which a form begins; a gain that the set has not is empty. */
+    /** Returns the initial texts of a form; a gain that the set lacks is empty. */
     public static Map<String, String> cells(GainSet set) {
         final Map<String, String> cells = new HashMap<String, String>();
         for (GainKey key : GainKey.ALL) {
@@ -53,7 +53,7 @@ public final class GainsForm {
         return cells;
     }
 
-    /** Returns a sentence that says why a set may not be sent; null: it may. */
+    /** Returns a sentence why a set may not be sent, or null. */
     public static String fault(GainSet set) {
         if (set.rate() == null || set.stabilize() == null) {
             return "the set is not whole: the " + (set.rate() == null ? "rate" : "stabilize")
@@ -66,7 +66,7 @@ public final class GainsForm {
         for (GainKey key : GainKey.ALL) {
             final Double value = key.of(set);
             if (value == null) {
-                // A set without navigation leaves that as it is.
+                // A set without navigation leaves the navigation gains unchanged.
                 if (!key.isRudder() && key.isIn(set)) {
                     return "the set is not whole: " + key.words() + " is missing";
                 }
@@ -78,7 +78,7 @@ public final class GainsForm {
         return null;
     }
 
-    /** Returns the gain that a person has typed, with a point or a comma; null: it is none. */
+    /** Parses a typed gain, with a point or a comma; null if it is not a gain. */
     public static Double number(String typed) {
         final String trimmed = typed.trim();
         if (!NUMBER.matcher(trimmed).matches()) {

@@ -46,7 +46,7 @@ public final class GroundCounters {
         return tooLong;
     }
 
-    /** Returns how many lines of the proxy said nothing known, or came out of turn. */
+    /** Returns the number of unknown or unexpected lines of the proxy. */
     public long strangeControl() {
         return strangeControl;
     }

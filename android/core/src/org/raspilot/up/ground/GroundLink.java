@@ -17,14 +17,14 @@ import org.raspilot.up.wire.SafeText;
 import org.raspilot.up.wire.Seat;
 
 /**
- * The link to the aircraft: says hello, keeps the seat and its token, comes back after each loss.
+ * The link to the aircraft: sends the hello, keeps the seat and its token, reconnects after losses.
  *
  * <p>Source: docs/protocols.md 9.
  */
 final class GroundLink implements UpSocketListener {
-    /** A hello that is not answered for so long, ms, is given up. */
+    /** Timeout of the hello, ms. */
     static final long HELLO_TIMEOUT_MS = 5000;
-    /** A proxy says by then, ms, who commands; an aircraft's own listener never does. */
+    /** By then, ms, a proxy has reported who commands; an aircraft's own listener never does. */
     static final long HOLDER_TOLD_MS = 1000;
 
     private static final int CONNECT_TIMEOUT_MS = 5000;
@@ -58,7 +58,7 @@ final class GroundLink implements UpSocketListener {
                 .withRetryMs(FIRST_RETRY_MS, LAST_RETRY_MS);
         socket = new UpSocket(loop,
                 new FixedPlace(new Place(settings.host(), settings.port(), 0)), this,
-                // A thesis peer knows no heartbeat.
+                // A thesis peer does not support heartbeats.
                 settings.isDirect() ? lines : lines.withHeartbeatMs(HEARTBEAT_MS), random);
     }
 
@@ -99,12 +99,12 @@ final class GroundLink implements UpSocketListener {
         socket.reconnectNow();
     }
 
-    /** Sends a line; false: there is no link, or too much waits. */
+    /** Sends a line; returns false without a link, or when too much data waits. */
     boolean send(byte[] line) {
         return isOpen() && socket.send(line);
     }
 
-    /** Hears that the period of telemetry may change. */
+    /** Called when the period of telemetry may change. */
     void expectAnotherPeriod() {
         quiet.expectAnotherPeriod();
     }
@@ -115,7 +115,7 @@ final class GroundLink implements UpSocketListener {
         }
         claim.want(Seat.COMMAND);
         if (!isOpen()) {
-            // Nobody can be asked now; the next hello asks for it.
+            // Without a link the seat cannot be requested; the next hello requests it.
             return false;
         }
         final boolean isUntold = facts.seat != Seat.COMMAND && !facts.isHolderKnown

@@ -4,13 +4,13 @@ import org.raspilot.up.wire.Hello;
 import org.raspilot.up.wire.SafeText;
 import org.raspilot.up.wire.Seat;
 
-/** Whom a ground device talks to and as what; immutable and valid. */
+/** The peer of a ground device and the role it requests; immutable and valid. */
 public final class GroundSettings {
     /** The ground port of a Ground Station Proxy. */
     public static final int PROXY_PORT = 3004;
     /** The port of an aircraft's own listener. */
     public static final int DIRECT_PORT = 50002;
-    /** The aircraft of a proxy when nobody names one. */
+    /** The default aircraft of a proxy. */
     public static final String DEFAULT_AIRCRAFT = "default";
 
     private static final int LONGEST_HOST = 253;
@@ -22,13 +22,13 @@ public final class GroundSettings {
     private final boolean isDirect;
 
     /**
-     * Makes settings.
+     * Creates settings.
      *
      * @param host a name or address of the proxy or, {@code isDirect}, of the aircraft
      * @param port TCP, 1 to 65535
      * @param aircraft which of the proxy's aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}
-     * @param seat COMMAND or LISTEN: what is asked for when the link comes
-     * @param isDirect say no hello: an aircraft's listener in the same network
+     * @param seat COMMAND or LISTEN: the seat to request when the link opens
+     * @param isDirect send no hello: an aircraft's listener in the same network
      * @throws IllegalArgumentException with the sentence of {@link #fault}
      */
     public GroundSettings(String host, int port, String aircraft, Seat seat, boolean isDirect) {
@@ -46,7 +46,7 @@ public final class GroundSettings {
         this.isDirect = isDirect;
     }
 
-    /** Returns a sentence that says what is wrong with these settings; null: nothing. */
+    /** Returns the error of these settings as a sentence, or null if they are valid. */
     public static String fault(String host, int port, String aircraft) {
         final String name = host == null ? "" : host.trim();
         if (name.isEmpty()) {
@@ -79,12 +79,12 @@ public final class GroundSettings {
         return aircraft;
     }
 
-    /** Returns the seat that is asked for at first, COMMAND or LISTEN. */
+    /** Returns the seat that is requested first, COMMAND or LISTEN. */
     public Seat seat() {
         return seat;
     }
 
-    /** Says whether no hello is said. */
+    /** Returns whether the hello is omitted. */
     public boolean isDirect() {
         return isDirect;
     }
@@ -94,7 +94,7 @@ public final class GroundSettings {
         return host.indexOf(':') >= 0 ? "[" + host + "]:" + port : host + ":" + port;
     }
 
-    /** Returns under which name a {@link TokenStore} keeps the token of this aircraft there. */
+    /** Returns the key of this aircraft's token in a {@link TokenStore}. */
     public String tokenKey() {
         return host + "_" + port + "_" + aircraft;
     }

@@ -17,7 +17,7 @@ import org.raspilot.up.wire.GeneralMessage;
  * 4.5.2, docs/protocols.md 4, 6 and 9.
  */
 public final class GroundSide implements TelemetrySource {
-    /** So often, ms, what time alone changes is looked at. */
+    /** Period of the checks for changes due to time alone, ms. */
     private static final long TICK_MS = 250;
 
     private final Loop loop;
@@ -40,10 +40,10 @@ public final class GroundSide implements TelemetrySource {
     private Cancellable tick;
 
     /**
-     * Makes a ground that is not started.
+     * Creates a ground that is not started.
      *
-     * @param tokens keeps the resume token
-     * @param executor runs the handlers of what the aircraft says, telemetry's too
+     * @param tokens stores the resume token
+     * @param executor runs the handlers of the aircraft's Commands, telemetry included
      * @param random makes ids and varies the waits
      */
     public GroundSide(Loop loop, GroundSettings settings, TokenStore tokens,
@@ -70,7 +70,7 @@ public final class GroundSide implements TelemetrySource {
         });
     }
 
-    /** Begins to connect, and connects again after each loss; started already, without effect. */
+    /** Starts to connect, and reconnects after each loss; no effect when started already. */
     public void start() {
         if (tick == null) {
             judge.forget();
@@ -80,7 +80,7 @@ public final class GroundSide implements TelemetrySource {
         }
     }
 
-    /** Gives the link up; Commands that wait for their answer hear that it is lost. */
+    /** Closes the link; waiting Commands end with a lost link. */
     public void stop() {
         if (tick != null) {
             tick.cancel();
@@ -92,12 +92,12 @@ public final class GroundSide implements TelemetrySource {
         }
     }
 
-    /** Tries at once, as when the phone's network came back. */
+    /** Retries immediately, for example when the phone's network is back. */
     public void reconnectNow() {
         link.reconnectNow();
     }
 
-    /** Returns the status of now. */
+    /** Returns the current status. */
     public GroundStatus status() {
         final long nowMs = loop.nowMs();
         final Telemetry newest = stream.newest();
@@ -121,7 +121,7 @@ public final class GroundSide implements TelemetrySource {
         return stream.newest();
     }
 
-    /** Returns the way that the aircraft has come. */
+    /** Returns the track of the aircraft. */
     public Track track() {
         return track;
     }
@@ -131,7 +131,7 @@ public final class GroundSide implements TelemetrySource {
         return events;
     }
 
-    /** Returns what is wrong. */
+    /** Returns the active alarms. */
     public Alarms alarms() {
         return alarms;
     }
@@ -141,7 +141,7 @@ public final class GroundSide implements TelemetrySource {
         return gains;
     }
 
-    /** Hears that the screen has drawn the frame with that beacon; null: one without. */
+    /** Called when the screen has drawn the frame with that beacon; null: without one. */
     public void seen(Long beacon) {
         beacons.seen(beacon);
     }
@@ -152,10 +152,10 @@ public final class GroundSide implements TelemetrySource {
     }
 
     /**
-     * Sends a Command once, never again by itself, or refuses it with a sentence.
+     * Sends a Command once, without automatic repetition, or refuses it with a sentence.
      *
-     * @param shownBeacon the beacon of the frame that the screen shows; null: none is shown
-     * @param answered hears what became of it, once
+     * @param shownBeacon the beacon of the frame that the screen shows, or null
+     * @param answered receives the outcome, once
      */
     public void send(BaseCommand command, Long shownBeacon, AnswerListener answered) {
         final GainSet set;
@@ -173,7 +173,7 @@ public final class GroundSide implements TelemetrySource {
         tellChanged();
     }
 
-    /** Asks for the seat; a free one is given at once. False: nobody can be asked now. */
+    /** Requests the seat; a free one is granted immediately. Returns false without a link. */
     public boolean requestSeat() {
         return link.requestSeat();
     }
@@ -188,7 +188,7 @@ public final class GroundSide implements TelemetrySource {
         return link.releaseSeat();
     }
 
-    /** Forgets who asked for the seat: the pilot keeps it. */
+    /** Discards the request for the seat: the pilot keeps it. */
     public void dismissSeatAsk() {
         link.dismissAsk();
     }
@@ -244,7 +244,7 @@ public final class GroundSide implements TelemetrySource {
         });
     }
 
-    /** Judges the moment and tells what came of it. */
+    /** Updates the alarms and events and reports the changes. */
     private void look(boolean isStatusDue) {
         judge.onMoment(stream.newest(), status(), loop.nowMs());
         if (isStatusDue) {

@@ -2,9 +2,9 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Seat;
 
-/** How it stands with link, seat and aircraft at a moment. Immutable. */
+/** A snapshot of link, seat and aircraft. Immutable. */
 public final class GroundStatus {
-    /** What a {@link GroundSide} fills in before it makes a status of it. */
+    /** The values that a {@link GroundSide} fills in before it creates a status. */
     static final class Draft {
         LinkFacts link = new LinkFacts();
         boolean isDirect;
@@ -65,7 +65,7 @@ public final class GroundStatus {
         return link;
     }
 
-    /** Says whether messages can go now. */
+    /** Returns whether messages can be sent. */
     public boolean isOpen() {
         return link == LinkState.OPEN;
     }
@@ -85,32 +85,32 @@ public final class GroundStatus {
         return rejection;
     }
 
-    /** Says whether the link goes straight to an aircraft: there are no seats then. */
+    /** Returns whether the link goes directly to an aircraft, without seats. */
     public boolean isDirect() {
         return isDirect;
     }
 
-    /** Returns COMMAND or LISTEN; null: nobody told. */
+    /** Returns COMMAND or LISTEN, or null if unknown. */
     public Seat seat() {
         return seat;
     }
 
-    /** Returns who has the seat. */
+    /** Returns the state of the seat. */
     public SeatStanding standing() {
         return standing;
     }
 
-    /** Returns the number of the ground that commands; null: nobody, or not known. */
+    /** Returns the number of the ground that commands, or null if none or unknown. */
     public Integer holder() {
         return holder;
     }
 
-    /** Returns the listener that asks for the seat that is held here; null: none. */
+    /** Returns the listener that requests the seat held here; null: none. */
     public Integer askedBy() {
         return askedBy;
     }
 
-    /** Says whether the proxy has the aircraft; null: nobody told. */
+    /** Returns whether the aircraft is connected to the proxy, or null if unknown. */
     public Boolean isAircraftOnline() {
         return isAircraftOnline;
     }
@@ -125,27 +125,27 @@ public final class GroundStatus {
         return failures;
     }
 
-    /** Returns how many frames come a second; null: too few, or none any more. */
+    /** Returns the frames per second, or null if too few arrive. */
     public Double rateHz() {
         return rateHz;
     }
 
-    /** Says whether nothing that is shown can be trusted to be of now. */
+    /** Returns whether no displayed value can be trusted to be current. */
     public boolean isSilent() {
         return isSilent;
     }
 
-    /** Says whether telemetry comes, but as late as if there were none. */
+    /** Returns whether telemetry arrives, but so late that it counts as silence. */
     public boolean isLate() {
         return isLate;
     }
 
-    /** Returns what a ground may do at this aircraft, as its telemetry says; null: not known. */
+    /** Returns the role of grounds at this aircraft, as its telemetry reports; null: unknown. */
     public String role() {
         return role;
     }
 
-    /** Says whether gains may be set in flight; null: not known. */
+    /** Returns whether gains may be set in flight, or null if unknown. */
     public Boolean tuneInFlight() {
         return tuneInFlight;
     }
@@ -155,7 +155,7 @@ public final class GroundStatus {
         return home;
     }
 
-    /** Returns what was counted. */
+    /** Returns the counters. */
     public GroundCounters counters() {
         return counters;
     }
@@ -174,7 +174,7 @@ public final class GroundStatus {
         }
     }
 
-    /** Returns who commands for a pilot, without a full stop. */
+    /** Describes for a pilot who commands, without a full stop. */
     public String seatSentence() {
         switch (standing) {
             case OURS:

@@ -1,6 +1,6 @@
 package org.raspilot.up.ground;
 
-/** Where the aircraft's home is, in degrees. Immutable. */
+/** The position of the aircraft's home, in degrees. Immutable. */
 public final class Home {
     private final double latitudeDeg;
     private final double longitudeDeg;

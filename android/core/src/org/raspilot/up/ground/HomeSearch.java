@@ -1,8 +1,8 @@
 package org.raspilot.up.ground;
 
 /**
- * Works out where the aircraft's home is from its place, its distance and its bearing; keeps the
- * first place found, only a home that moved replaces it.
+ * Computes home from the aircraft's position, its distance and its bearing; keeps the first result,
+ * and replaces it only if home moved.
  */
 final class HomeSearch {
     private static final double MOVED_M = 20;
@@ -32,7 +32,7 @@ final class HomeSearch {
         }
     }
 
-    /** Returns the point that far away on the great circle that begins with that bearing. */
+    /** Returns the point at that distance on the great circle with that initial bearing. */
     static Home destination(double latitudeDeg, double longitudeDeg, double bearingDeg,
             double distanceM) {
         final double north = Math.toRadians(latitudeDeg);

@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 import java.util.Arrays;
 
-/** Hears frames and the link, and says each change once in plain words; what flaps, seldom. */
+/** Turns frames and link states into events: each change once, in plain words; flapping rarely. */
 final class Judge {
     private final EventLog events;
     private final Alarms alarms;
@@ -13,13 +13,13 @@ final class Judge {
         this.alarms = alarms;
     }
 
-    /** Begins anew with another start of the link. */
+    /** Resets the state at another start of the link. */
     void forget() {
         settled = new Settled();
         alarms.clear();
     }
 
-    /** Looks at a new frame. */
+    /** Evaluates a new frame. */
     void onFrame(Telemetry telemetry, GroundStatus status, final long nowMs) {
         for (final Fact fact : Facts.ALL) {
             final Object value = fact.read(telemetry);
@@ -38,7 +38,7 @@ final class Judge {
         onMoment(telemetry, status, nowMs);
     }
 
-    /** Looks at the link. */
+    /** Evaluates the link. */
     void onLink(final GroundStatus status, final long nowMs) {
         final Object state = Arrays.<Object>asList(status.isOpen(), status.isAircraftOnline());
         settled.take("link", state, nowMs, new Settled.Teller() {
@@ -57,7 +57,7 @@ final class Judge {
         }
     }
 
-    /** Looks at what time alone has changed. */
+    /** Evaluates changes due to time alone. */
     void onMoment(Telemetry telemetry, GroundStatus status, long nowMs) {
         settled.onMoment(nowMs);
         if (alarms.take(telemetry, status, nowMs)) {

@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Seat;
 
-/** What is known about the link now; written by {@link GroundLink} and its {@link SeatClaim}. */
+/** The current state of the link; written by {@link GroundLink} and its {@link SeatClaim}. */
 final class LinkFacts {
     LinkState state = LinkState.STOPPED;
     long sinceMs;
@@ -11,7 +11,7 @@ final class LinkFacts {
     Seat seat;
     Integer holder;
     boolean isHolderKnown;
-    /** The seat was left; the proxy has yet to say so, and already drops what is sent. */
+    /** The seat was left; the proxy has not confirmed it yet, but already drops our messages. */
     boolean isLeft;
     Integer askedBy;
     Boolean isAircraftOnline;
@@ -21,7 +21,7 @@ final class LinkFacts {
     long malformed;
     long strangeControl;
 
-    /** Forgets what only a connection can know. */
+    /** Clears the state that needs a connection. */
     void become(LinkState now, long nowMs, String why) {
         state = now;
         sinceMs = nowMs;

@@ -2,17 +2,17 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.GeneralMessage;
 
-/** Hears what becomes of a {@link GroundLink} and what comes over it. */
+/** Receives the events and messages of a {@link GroundLink}. */
 interface LinkListener {
     /** Takes a message from the aircraft. */
     void onMessage(GeneralMessage message);
 
-    /** Hears that the link is open: messages can go. */
+    /** Called when the link is open: messages can be sent. */
     void onOpened();
 
-    /** Hears that a link which was open is gone. */
+    /** Called when an open link is lost. */
     void onLost(String reason);
 
-    /** Hears that something of the link's facts has changed. */
+    /** Called when a part of the link's state has changed. */
     void onLink();
 }

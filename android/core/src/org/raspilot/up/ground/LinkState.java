@@ -4,7 +4,7 @@ package org.raspilot.up.ground;
 public enum LinkState {
     /** Not started, or stopped. */
     STOPPED,
-    /** On the way: connecting, or waiting for the answer to the hello. */
+    /** In progress: connecting, or waiting for the answer to the hello. */
     CONNECTING,
     /** Messages can go. */
     OPEN,

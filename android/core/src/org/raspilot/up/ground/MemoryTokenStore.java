@@ -3,7 +3,7 @@ package org.raspilot.up.ground;
 import java.util.HashMap;
 import java.util.Map;
 
-/** Keeps resume tokens as long as the program runs. Only on the loop. */
+/** Stores resume tokens until the program ends. Only on the loop. */
 public final class MemoryTokenStore implements TokenStore {
     private final Map<String, String> tokens = new HashMap<String, String>();
 

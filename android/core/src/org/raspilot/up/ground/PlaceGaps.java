@@ -2,9 +2,9 @@ package org.raspilot.up.ground;
 
 import java.util.Arrays;
 
-/** Says whether nothing was known of the place for a while: no line leads over that. */
+/** Detects gaps in the known positions; the track has no line across a gap. */
 final class PlaceGaps {
-    /** Nothing known for longer, ms, is a silence, unless places come more seldom than that. */
+    /** A longer time without a position, ms, is a gap, unless positions have a longer period. */
     private static final long GAP_MS = 900;
     private static final double PERIODS = 2.5;
     private static final int INTERVALS = 5;
@@ -13,7 +13,7 @@ final class PlaceGaps {
     private int intervals;
     private Long knownMs;
 
-    /** Takes that the place is known now; returns whether a silence ends by that. */
+    /** Takes a known position; returns whether it ends a gap. */
     boolean take(long nowMs) {
         final Long beforeMs = knownMs;
         knownMs = nowMs;
@@ -26,7 +26,7 @@ final class PlaceGaps {
         return nowMs - beforeMs > Math.max(GAP_MS, PERIODS * periodMs);
     }
 
-    /** Returns the time between two places as it was in the middle of the last ones; 0: unknown. */
+    /** Returns the median time between the last positions; 0: unknown. */
     private double periodMs() {
         if (intervals < INTERVALS) {
             return 0;

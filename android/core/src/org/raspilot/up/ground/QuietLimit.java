@@ -1,17 +1,17 @@
 package org.raspilot.up.ground;
 
 /**
- * Says how long a link to a proxy may be without a byte before it is taken for dead.
+ * Sets how long a link to a proxy may stay without a byte before it counts as dead.
  *
- * <p>A proxy sends no heartbeat: what comes is telemetry, so the limit follows its period. A phone
- * that walked out of its network hears nothing of that from the system for minutes.
+ * <p>A proxy sends no heartbeat, so telemetry is the only traffic and the limit follows its period.
+ * When a phone leaves its network, the system may not report it for minutes.
  */
 final class QuietLimit {
-    /** Never less, ms: the proxy tells within 3 s that an aircraft went silent. */
+    /** The minimum, ms: the proxy reports a silent aircraft within 3 s. */
     static final long SHORTEST_MS = 4000;
     /** Longer than telemetry's longest period (10 s). */
     static final long UNKNOWN_MS = 12000;
-    /** Where the aircraft is not there nothing has to come; hellos are cheap. */
+    /** Without the aircraft no traffic is expected; hellos are cheap. */
     static final long OFFLINE_MS = 30000;
 
     private static final int GAPS = 8;
@@ -21,13 +21,13 @@ final class QuietLimit {
     private int count;
     private Long heardMs;
 
-    /** Hears that the telemetry's period may change, or that the link is another one. */
+    /** Called when the telemetry's period may change, or the link is another one. */
     void forget() {
         count = 0;
         heardMs = null;
     }
 
-    /** Hears that a message came. */
+    /** Called when a message arrives. */
     void heard(long nowMs) {
         if (heardMs != null) {
             gapsMs[count % GAPS] = nowMs - heardMs;
@@ -36,7 +36,7 @@ final class QuietLimit {
         heardMs = nowMs;
     }
 
-    /** Returns the limit, ms; {@code isOnline} null: nobody told. */
+    /** Returns the limit, ms; {@code isOnline} is null if unknown. */
     long limitMs(Boolean isOnline) {
         if (Boolean.FALSE.equals(isOnline)) {
             return OFFLINE_MS;

@@ -11,12 +11,12 @@ final class QuietWatch {
     private long heardMs;
     private Cancellable timer;
 
-    /** Whose connection it is. */
+    /** The owner of the connection. */
     interface Owner {
-        /** Returns whether the aircraft is there; null: nobody told. */
+        /** Returns whether the aircraft is connected, or null if unknown. */
         Boolean isAircraftOnline();
 
-        /** Hears that nothing came for so long, ms. */
+        /** Called when nothing was received for that time, ms. */
         void onQuiet(long forMs);
     }
 
@@ -25,31 +25,31 @@ final class QuietWatch {
         this.owner = owner;
     }
 
-    /** Begins with a connection that has just been made. */
+    /** Starts with a new connection. */
     void start() {
         heardMs = loop.nowMs();
         limit.forget();
         look();
     }
 
-    /** Ends. */
+    /** Stops. */
     void stop() {
         if (timer != null) {
             timer.cancel();
         }
     }
 
-    /** Hears that a line came. */
+    /** Called when a line arrives. */
     void heard() {
         heardMs = loop.nowMs();
     }
 
-    /** Hears that the line that came was a message. */
+    /** Called when the received line is a message. */
     void heardMessage() {
         limit.heard(heardMs);
     }
 
-    /** Hears that the period of telemetry may change. */
+    /** Called when the period of telemetry may change. */
     void expectAnotherPeriod() {
         limit.forget();
     }

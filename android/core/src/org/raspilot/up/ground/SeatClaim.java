@@ -6,8 +6,8 @@ import org.raspilot.up.wire.HelloAnswer;
 import org.raspilot.up.wire.Seat;
 
 /**
- * The seat that this ground wants, the token by which it comes back to it, and what the proxy says
- * about both. Source: docs/protocols.md 9.
+ * The seat that this ground requests, the token to resume it, and the proxy's messages about both.
+ * Source: docs/protocols.md 9.
  */
 final class SeatClaim {
     private final GroundSettings settings;
@@ -16,14 +16,14 @@ final class SeatClaim {
     private Seat wanted;
     private String token;
 
-    /** Writes what it hears into {@code facts}. */
+    /** Writes its results into {@code facts}. */
     SeatClaim(GroundSettings settings, TokenStore tokens, LinkFacts facts) {
         this.settings = settings;
         this.tokens = tokens;
         this.facts = facts;
     }
 
-    /** Begins anew with the seat of the settings and the token that is kept. */
+    /** Resets to the seat of the settings and the stored token. */
     void begin() {
         wanted = settings.seat();
         token = null;
@@ -33,23 +33,23 @@ final class SeatClaim {
         }
     }
 
-    /** Wants this seat from now on. */
+    /** Requests this seat from now on. */
     void want(Seat seat) {
         wanted = seat;
     }
 
-    /** Forgets the token: the next hello asks as a stranger. */
+    /** Discards the token: the next hello is that of a new ground. */
     void dropToken() {
         token = null;
         tokens.forget(settings.tokenKey());
     }
 
-    /** Returns the hello that asks for the seat. */
+    /** Returns the hello that requests the seat. */
     Hello hello() {
         return Hello.ofGround(settings.aircraft(), wanted, wanted == Seat.COMMAND ? token : null);
     }
 
-    /** Takes the answer that let this ground in. */
+    /** Takes the answer that accepts this ground. */
     void onAccepted(HelloAnswer answer) {
         facts.seat = answer.seat();
         if (answer.seat() == Seat.COMMAND) {
@@ -57,7 +57,7 @@ final class SeatClaim {
         }
     }
 
-    /** Takes what the proxy says; false: it is what only a ground says. */
+    /** Takes a line of the proxy; returns false for one that only a ground sends. */
     boolean onControl(ControlLine said) {
         switch (said.kind()) {
             case SEAT_COMMAND:

@@ -2,20 +2,20 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Seat;
 
-/** How it stands with the seat that commands. */
+/** The state of the seat that commands. */
 public enum SeatStanding {
-    /** There is no link. */
+    /** No link. */
     UNKNOWN,
-    /** This ground commands; always so on a direct link, which knows no seats. */
+    /** This ground commands; always so on a direct link, which has no seats. */
     OURS,
-    /** Nobody commands; a proxy may keep the seat three seconds for who had it. */
+    /** The seat is free; a proxy may reserve it for its last owner for three seconds. */
     FREE,
     /** Another ground commands. */
     HELD,
-    /** This ground listens and has not heard yet who commands. */
+    /** This ground listens and does not know yet who commands. */
     LATER;
 
-    /** Returns how it stands; a direct link knows no seats, so all may be sent there. */
+    /** Returns the state of the seat; a direct link has no seats, so all may send there. */
     static SeatStanding of(LinkFacts facts, boolean isDirect) {
         if (facts.state != LinkState.OPEN) {
             return UNKNOWN;

@@ -3,11 +3,11 @@ package org.raspilot.up.ground;
 import java.util.ArrayDeque;
 import java.util.Iterator;
 
-/** The beacons that telemetry brought: whether the pilot has seen what flies now. */
+/** The beacons of received telemetry: whether the pilot has seen the current state. */
 final class SeenBeacons {
     /** A beacon that the aircraft sent longer ago, ms, is stale (docs/protocols.md 4)... */
     private static final long FRESH_MS = 2000;
-    /** ...unless the period of telemetry, and this for the way, are longer. */
+    /** ...unless the period of telemetry plus this transit time is longer. */
     private static final long WAY_MS = 1000;
     /** More frames than this while a beacon is fresh come from no aircraft. */
     private static final int KEPT = 512;
@@ -44,7 +44,7 @@ final class SeenBeacons {
         }
     }
 
-    /** Forgets all: what comes over another connection has to be seen anew. */
+    /** Clears all beacons: frames of another connection must be seen again. */
     void onLost() {
         heard.clear();
         seen = null;
@@ -52,7 +52,7 @@ final class SeenBeacons {
         hasBeacons = false;
     }
 
-    /** Hears that the screen has drawn the frame with that beacon; an older one changes nothing. */
+    /** Called when the screen has drawn the frame with that beacon; an older one is ignored. */
     void seen(Long beacon) {
         final Heard found = find(beacon);
         if (found != null && (seen == null || found.sentMs >= seen.sentMs)) {
@@ -65,12 +65,12 @@ final class SeenBeacons {
         return seen == null ? null : Long.valueOf(seen.beacon);
     }
 
-    /** Says whether telemetry comes, and has no beacons, as the thesis's. */
+    /** Returns whether telemetry arrives without beacons, as the thesis's does. */
     boolean areNoneSent() {
         return hasFrames && !hasBeacons;
     }
 
-    /** Says whether the aircraft would take that beacon as fresh. */
+    /** Returns whether the aircraft would accept that beacon as fresh. */
     boolean isFresh(Long beacon, long nowMs) {
         final Heard found = find(beacon);
         return found != null && nowMs - found.sentMs <= limitMs;
@@ -85,7 +85,7 @@ final class SeenBeacons {
         if (beacon == null) {
             return null;
         }
-        // The newest first: a hostile aircraft may tell one beacon twice.
+        // The newest first: a hostile aircraft may repeat a beacon.
         final Iterator<Heard> each = heard.descendingIterator();
         while (each.hasNext()) {
             final Heard found = each.next();

@@ -5,19 +5,19 @@ import java.util.HashMap;
 import java.util.Map;
 
 /**
- * Tells a change at once, the next one of the same key only after a pause that grows.
+ * Reports a change immediately, and the next one of the same key only after a growing pause.
  *
- * <p>What flaps is told with its newest value, twice a minute in the long run. A key's first value
- * is told with null before it.
+ * <p>A flapping value is reported with its newest value, in the long run twice a minute. The first
+ * value of a key is reported with null as the previous value.
  */
 final class Settled {
     private static final long FIRST_HOLD_MS = 3000;
     private static final long LONGEST_HOLD_MS = 30000;
     private static final long QUIET_MS = 60000;
 
-    /** Tells a change. */
+    /** Reports a change. */
     interface Teller {
-        /** Hears the value told before, null for the first, and that of now. */
+        /** Called with the last reported value, null for the first, and the current one. */
         void tell(Object before, Object now);
     }
 
@@ -31,7 +31,7 @@ final class Settled {
 
     private final Map<String, Value> values = new HashMap<String, Value>();
 
-    /** Takes the value of now, not null. */
+    /** Takes the current value, not null. */
     void take(String key, Object value, long nowMs, Teller teller) {
         final Value known = values.get(key);
         if (known == null) {
@@ -49,7 +49,7 @@ final class Settled {
         tellIfDue(known, nowMs);
     }
 
-    /** Tells what had to wait. */
+    /** Reports the delayed changes. */
     void onMoment(long nowMs) {
         for (Value each : new ArrayList<Value>(values.values())) {
             tellIfDue(each, nowMs);

@@ -3,7 +3,7 @@ package org.raspilot.up.ground;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 
-/** Runs when a frame becomes silence: that is told when it begins, not when something happens. */
+/** Runs when silence starts after a frame, so that silence is reported without another event. */
 final class SilenceTimer {
     private final Loop loop;
     private final Runnable onSilent;
@@ -14,7 +14,7 @@ final class SilenceTimer {
         this.onSilent = onSilent;
     }
 
-    /** Waits for the end of this frame's life instead of the one's before. */
+    /** Waits until this frame expires, instead of the previous one. */
     void watch(Telemetry frame, long nowMs) {
         cancel();
         final Long ageMs = frame.ageMs(nowMs);

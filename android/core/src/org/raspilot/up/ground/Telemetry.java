@@ -8,15 +8,15 @@ import java.util.Map;
 import org.raspilot.up.wire.SafeText;
 
 /**
- * One frame of telemetry, read with suspicion: a field of a wrong type is a field not known.
+ * One frame of telemetry, read defensively: a field of a wrong type counts as unknown.
  *
- * <p>Immutable, so that any thread may ask it. Paths are keys joined by dots, as
- * {@code orientation.roll}; units are those of docs/protocols.md 6. Source: thesis 4.1.5.
+ * <p>Immutable and thread-safe. Paths are keys joined by dots, as {@code orientation.roll}; units
+ * are those of docs/protocols.md 6. Source: thesis 4.1.5.
  */
 public final class Telemetry {
     /** The Command that brings it. */
     public static final String NAME = "up.telemetry.update";
-    /** What is known before the first frame came: nothing, and all of it stale. */
+    /** The state before the first frame: empty, and everything stale. */
     public static final Telemetry NOTHING = new Telemetry(
             Collections.<String, Object>emptyMap(), null, 0, Age.unknown());
 
@@ -38,12 +38,12 @@ public final class Telemetry {
     }
 
     /**
-     * Makes a frame.
+     * Creates a frame.
      *
      * @param data the Command's fields as JSON values; copied
      * @param beacon the aircraft's number of the frame, or null
-     * @param receivedMs the loop's clock when it came
-     * @param wayMs how long it was on its way, as far as that is known
+     * @param receivedMs the loop's time of reception
+     * @param wayMs the transit time, as far as it is known
      */
     public static Telemetry of(Map<String, ?> data, Long beacon, long receivedMs, long wayMs) {
         final Map<String, Object> tree = frozen(data);
@@ -61,7 +61,7 @@ public final class Telemetry {
         return new Telemetry(tree, beacon, receivedMs, Age.ofFrame(receivedMs, wayMs, ages));
     }
 
-    /** Returns the same frame with another way. */
+    /** Returns the same frame with another transit time. */
     Telemetry ofWay(long wayMs) {
         return new Telemetry(tree, beacon, receivedMs, age.ofWay(wayMs));
     }
@@ -91,7 +91,7 @@ public final class Telemetry {
         return age;
     }
 
-    /** Returns the age of the frame with its way, ms; null: there was none. */
+    /** Returns the age of the frame including transit, ms; null without a frame. */
     public Long ageMs(long nowMs) {
         return age.frameMs(nowMs);
     }
@@ -101,7 +101,7 @@ public final class Telemetry {
         return age.readingMs(reading, nowMs);
     }
 
-    /** Says whether nothing on the screen can be trusted to be of now. */
+    /** Returns whether no displayed value can be trusted to be current. */
     public boolean isSilent(long nowMs) {
         return age.isSilent(nowMs);
     }
@@ -114,7 +114,7 @@ public final class Telemetry {
         return age.isStale(readingOf(path), nowMs) ? Freshness.STALE : Freshness.LIVE;
     }
 
-    /** Returns which reading's age the value at a path has; its frame's where there is none. */
+    /** Returns which reading's age applies to the value at a path; its frame's if it has none. */
     public static String readingOf(String path) {
         final int dot = path.indexOf('.');
         final String first = dot < 0 ? path : path.substring(0, dot);
@@ -134,7 +134,7 @@ public final class Telemetry {
         return first;
     }
 
-    /** Returns the finite number at a path; null: absent, null or something else. */
+    /** Returns the finite number at a path; null if absent, null or of another type. */
     public Double number(String path) {
         return number(at(path));
     }
@@ -156,7 +156,7 @@ public final class Telemetry {
         return found instanceof String ? SafeText.of((String) found, limit) : null;
     }
 
-    /** Returns the texts of a list, safe to show, at most 32; null: there is no list. */
+    /** Returns the texts of a list, safe to display, at most 32, or null if absent. */
     public List<String> texts(String path) {
         final List<Object> found = list(path);
         if (found == null) {
@@ -171,14 +171,14 @@ public final class Telemetry {
         return Collections.unmodifiableList(texts);
     }
 
-    /** Returns the list at a path as it came, unmodifiable; null: there is none. */
+    /** Returns the list at a path as received, unmodifiable, or null if absent. */
     @SuppressWarnings("unchecked")
     public List<Object> list(String path) {
         final Object found = at(path);
         return found instanceof List ? (List<Object>) found : null;
     }
 
-    /** Returns the object at a path as it came, unmodifiable; null: there is none. */
+    /** Returns the object at a path as received, unmodifiable, or null if absent. */
     @SuppressWarnings("unchecked")
     public Map<String, Object> object(String path) {
         final Object found = at(path);

@@ -17,12 +17,12 @@ public final class TelemetryRow {
         return path;
     }
 
-    /** Returns the value as text, safe to show; {@code --} where it is not known. */
+    /** Returns the value as text, safe to display; {@code --} if unknown. */
     public String value() {
         return value;
     }
 
-    /** Returns the unit, empty where there is none or none is known. */
+    /** Returns the unit, empty if absent or unknown. */
     public String unit() {
         return unit;
     }

@@ -3,10 +3,10 @@ package org.raspilot.up.ground;
 import org.raspilot.up.wire.GeneralMessage;
 
 /**
- * Makes frames of messages, and knows of the frames before: what is missing, how late they come.
+ * Makes frames of messages and tracks the stream: missing frames and delay.
  *
- * <p>How long a frame was on its way is half of the least round trip to the proxy, and by how much
- * it came later than the quickest one by the aircraft's own clock ({@code system.clock_ms}).
+ * <p>The transit time of a frame is half of the shortest round trip to the proxy, plus its delay
+ * relative to the fastest frame by the aircraft's own clock ({@code system.clock_ms}).
  */
 final class TelemetryStream {
     private static final long LARGEST_GAP = 1000;
@@ -67,7 +67,7 @@ final class TelemetryStream {
         }
     }
 
-    /** Forgets the newest frame: the link is started anew. */
+    /** Discards the newest frame: the link is restarted. */
     void forget() {
         newest = Telemetry.NOTHING;
     }
@@ -96,7 +96,7 @@ final class TelemetryStream {
         if (heldMs == null) {
             return roundTripMs / 2;
         }
-        // What queues on the way to the proxy is held time: the least is the way itself.
+        // Queueing on the way to the proxy is delay: the minimum is the transit time itself.
         return (leastTripMs == null ? roundTripMs : leastTripMs) / 2 + heldMs;
     }
 }

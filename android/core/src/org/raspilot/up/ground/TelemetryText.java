@@ -9,9 +9,9 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.up.wire.SafeText;
 
-/** Tells all of a frame as rows for a list, fields of unknown cogs too. */
+/** Returns a whole frame as rows for a list, including fields of unknown cogs. */
 public final class TelemetryText {
-    /** So many rows at most; more come from no aircraft. */
+    /** Maximum number of rows; no aircraft sends more. */
     public static final int MOST_ROWS = 500;
 
     private static final String UNKNOWN = "--";

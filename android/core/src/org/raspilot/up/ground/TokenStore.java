@@ -1,15 +1,15 @@
 package org.raspilot.up.ground;
 
 /**
- * Keeps resume tokens where they outlive the program: a ground that comes back takes its seat at
- * once. Called on the loop; a store that cannot keep anything keeps nothing, a lost token costs
- * three seconds of waiting.
+ * Stores resume tokens beyond the life of the program: a ground that reconnects takes its seat back
+ * immediately. Called on the loop; a store that cannot store anything stays empty, since a lost
+ * token costs only three seconds of waiting.
  */
 public interface TokenStore {
-    /** Returns the token under that key; null: there is none. */
+    /** Returns the token under that key, or null if absent. */
     String load(String key);
 
-    /** Keeps a token. */
+    /** Stores a token. */
     void save(String key, String token);
 
     /** Drops a token: the seat was given up. */

@@ -5,17 +5,16 @@ import java.util.Collections;
 import java.util.List;
 
 /**
- * The way that the aircraft has come, in metres from its home: points at least
- * {@link #NEAREST_M} apart; when there are too many, every second one is left out. Only on the
- * loop.
+ * The track of the aircraft, in metres from its home: points at least {@link #NEAREST_M} apart;
+ * when there are too many, every second one is dropped. Only on the loop.
  */
 public final class Track {
-    /** So many points at most. */
+    /** Maximum number of points. */
     public static final int MOST_POINTS = 4000;
     /** Points are not nearer to each other, m. */
     public static final double NEAREST_M = 2;
 
-    /** The track of a moment. Immutable. */
+    /** A snapshot of the track. Immutable. */
     public static final class Snapshot {
         private final long version;
         private final Home origin;
@@ -37,12 +36,12 @@ public final class Track {
             return version;
         }
 
-        /** Returns where north 0, east 0 lies; null before the first place. */
+        /** Returns the position of north 0, east 0; null before the first position. */
         public Home origin() {
             return origin;
         }
 
-        /** Says whether the origin is the aircraft's home; else it is the first place heard. */
+        /** Returns whether the origin is home; otherwise it is the first known position. */
         public boolean isOriginHome() {
             return isOriginHome;
         }
@@ -55,7 +54,7 @@ public final class Track {
             return points;
         }
 
-        /** Returns where it is, which may be no point of the way yet; null: not known. */
+        /** Returns the aircraft's position, which may not be on the track yet; null: unknown. */
         public TrackPoint newest() {
             return newest;
         }
@@ -95,7 +94,7 @@ public final class Track {
         return version;
     }
 
-    /** Returns the track of now. */
+    /** Returns the current track. */
     public Snapshot snapshot() {
         if (snapshot.version() != version) {
             final Home origin = home == null ? firstPlace : home;
@@ -109,7 +108,7 @@ public final class Track {
         return snapshot;
     }
 
-    /** Forgets the way that was come. */
+    /** Clears the track. */
     public void clear() {
         spots.clear();
         pointsOrigin = null;
@@ -119,7 +118,7 @@ public final class Track {
         version++;
     }
 
-    /** Takes the place of a frame, where it has one that is one; time only goes on. */
+    /** Takes the position of a frame, if it has a valid one; time only increases. */
     void take(Telemetry telemetry, Home known, long nowMs) {
         if (known != null && known != home) {
             home = known;
@@ -152,7 +151,7 @@ public final class Track {
         }
     }
 
-    /** Leaves out every second point; what was told of it, the next one tells. */
+    /** Drops every second point; the information of a dropped point moves to the next one. */
     private void thin() {
         final List<Spot> kept = new ArrayList<Spot>();
         boolean hasGap = false;
@@ -174,7 +173,7 @@ public final class Track {
         return spots.isEmpty() ? null : spots.get(spots.size() - 1);
     }
 
-    /** Returns the points of all spots; each is made once as long as the origin stays. */
+    /** Returns the points of all spots; each is created once while the origin stays. */
     private List<TrackPoint> way(Home origin) {
         if (pointsOrigin != origin) {
             pointsOrigin = origin;

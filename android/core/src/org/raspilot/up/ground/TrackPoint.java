@@ -29,7 +29,7 @@ public final class TrackPoint {
         return altitudeM;
     }
 
-    /** Says whether nothing was known before it for a while: no line leads to it. */
+    /** Returns whether a gap precedes it: no line leads to it. */
     public boolean isAfterSilence() {
         return isAfterSilence;
     }

@@ -2,7 +2,7 @@ package org.raspilot.up.loop;
 
 /** Something that will happen once, unless it is cancelled before. Only on the loop. */
 public interface Cancellable {
-    /** Sees to it that it does not happen any more; afterwards, or twice, without effect. */
+    /** Cancels it; later calls have no effect. */
     void cancel();
 
     /** Returns whether it is still to happen: neither done nor cancelled. */

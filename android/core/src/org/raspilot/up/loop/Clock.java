@@ -1,10 +1,10 @@
 package org.raspilot.up.loop;
 
 /**
- * A monotonic clock. It must count the time for which the device sleeps, too, where it may: what
- * came before the sleep is that much older after it.
+ * A monotonic clock. Where possible it also counts the time for which the device sleeps: data from
+ * before the sleep is that much older afterwards.
  */
 public interface Clock {
-    /** Returns the time in ns from some moment on, never less than before; on any thread. */
+    /** Returns the time in ns from an arbitrary origin, never decreasing; on any thread. */
     long nowNs();
 }

@@ -2,7 +2,7 @@ package org.raspilot.up.loop;
 
 import java.util.concurrent.atomic.AtomicLong;
 
-/** Runs calls so that what one throws is told and counted, and harms no other. */
+/** Runs calls so that an exception is reported and counted, and does not affect others. */
 final class Guard {
     private final FaultListener listener;
     private final AtomicLong faults = new AtomicLong();
@@ -23,7 +23,7 @@ final class Guard {
         }
     }
 
-    /** Counts and tells a fault; an exception of the listener itself is a fault that is counted. */
+    /** Counts and reports a fault; an exception of the listener itself is counted too. */
     void tell(Throwable fault) {
         faults.incrementAndGet();
         try {
@@ -33,7 +33,7 @@ final class Guard {
         }
     }
 
-    /** Returns how many there were; may be asked on any thread. */
+    /** Returns the number of faults; may be called on any thread. */
     long faults() {
         return faults.get();
     }

@@ -9,7 +9,7 @@ final class Inbox {
     private List<Runnable> waiting = new ArrayList<Runnable>();
     private boolean isClosed;
 
-    /** Lets a call wait; returns whether it is the only one, for which the loop is to wake. */
+    /** Queues a call; returns whether it is the only one, for which the loop must wake. */
     synchronized boolean add(Runnable call) {
         if (isClosed) {
             return false;
@@ -32,7 +32,7 @@ final class Inbox {
         return waiting.isEmpty();
     }
 
-    /** Forgets those that wait and all that come. */
+    /** Discards the waiting calls and all later ones. */
     synchronized void close() {
         isClosed = true;
         waiting.clear();

@@ -1,12 +1,12 @@
 package org.raspilot.up.loop;
 
 /**
- * The one thread on which all of the core's state lives: what runs there needs no lock.
+ * The one thread that owns all of the core's state: code on it needs no lock.
  *
- * <p>A call that throws is told to the loop's {@link FaultListener}, counted, and harms no other.
+ * <p>A call's exception is counted, and reported to the {@link FaultListener} only.
  */
 public interface Loop {
-    /** Returns monotonic milliseconds from an arbitrary beginning; may be asked on any thread. */
+    /** Returns monotonic milliseconds from an arbitrary origin; may be called on any thread. */
     long nowMs();
 
     /** Runs {@code call} soon on the loop, calls in their order; may be called on any thread. */

@@ -3,10 +3,10 @@ package org.raspilot.up.loop;
 import java.util.ArrayDeque;
 
 /**
- * A loop whose time stands still until it is told to pass: for tests and for a stepped program.
+ * A loop whose time advances only on request: for tests and for a stepped program.
  *
  * <p>Calls run inside {@link #advance}, on the thread that called it. {@link #post} may be called
- * on any thread, everything else only on the one that advances. The network is handed in; when it
+ * on any thread, everything else only on the one that advances. The network is passed in; when it
  * is a {@link SelectorLoop}, advance on that loop, so that its listeners run there too.
  */
 public final class ManualLoop implements Loop {
@@ -19,10 +19,10 @@ public final class ManualLoop implements Loop {
     private volatile Thread thread = Thread.currentThread();
 
     /**
-     * Makes a loop at 0 ms.
+     * Creates a loop at 0 ms.
      *
-     * @param network what {@link #network} returns; null where none is needed
-     * @param faults hears of exceptions of what runs on the loop
+     * @param network the result of {@link #network}, or null
+     * @param faults receives exceptions of calls on the loop
      */
     public ManualLoop(Network network, FaultListener faults) {
         this.network = network;
@@ -30,8 +30,8 @@ public final class ManualLoop implements Loop {
     }
 
     /**
-     * Lets {@code stepMs} pass, 0 or more: runs what was posted and, in the order of their times,
-     * every timer that falls due, each at its own time.
+     * Advances the time by {@code stepMs}, 0 or more: runs posted calls and, in the order of their
+     * times, every timer that falls due, each at its own time.
      */
     public void advance(long stepMs) {
         if (stepMs < 0) {

@@ -13,10 +13,10 @@ import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
 /**
- * Looks names up on threads of its own, so that a slow name server holds nothing but its asker.
+ * Resolves names on its own threads, so that a slow name server delays only its caller.
  *
- * <p>Whoever asks for a name that is being looked up waits for the same answer. IPv4
- * addresses need no thread. Threads that have nothing to do end after 5 s.
+ * <p>Concurrent requests for the same name share one lookup. IPv4 addresses need no thread. Idle
+ * threads end after 5 s.
  */
 final class NameLookup {
     private static final int MOST_THREADS = 4;
@@ -26,7 +26,7 @@ final class NameLookup {
     private final ThreadPoolExecutor threads;
     private final Map<String, List<Asker>> askers = new HashMap<String, List<Asker>>();
 
-    /** Makes a look-up that answers on {@code loop}. */
+    /** Creates a look-up that answers on {@code loop}. */
     NameLookup(Loop loop, Resolver resolver, final String threadName) {
         this.loop = loop;
         this.resolver = resolver;
@@ -42,7 +42,7 @@ final class NameLookup {
         threads.allowCoreThreadTimeOut(true);
     }
 
-    /** Looks a name or an address up; the asker hears later, never before this call returned. */
+    /** Looks up a name or an address; the caller is answered after this call has returned. */
     void look(final String host, final Asker asker) {
         if (host == null || host.isEmpty()) {
             tell(asker, new Answer(null, "the host is empty"));
@@ -62,8 +62,8 @@ final class NameLookup {
     }
 
     /**
-     * Returns the IPv4 address that four decimal numbers are, without asking anybody; null: it is
-     * something else. The system's own reading asks the name server for what it cannot read.
+     * Parses an IPv4 address of four decimal numbers, without a query; null otherwise. The system's
+     * own parser queries the name server for what it cannot parse.
      */
     static InetAddress numeric(String host) {
         if (!host.matches("[0-9]{1,3}(\\.[0-9]{1,3}){3}")) {
@@ -109,7 +109,7 @@ final class NameLookup {
         }
     }
 
-    /** Told one by one, so that what one asker throws keeps the answer from no other. */
+    /** Posted separately, so that an exception in one caller does not affect the others. */
     private void tellAll(String host, Answer answer) {
         for (Asker asker : askers.remove(host)) {
             tell(asker, answer);
@@ -135,7 +135,7 @@ final class NameLookup {
         } catch (UnknownHostException error) {
             return new Answer(null, "the name " + host + " is not known");
         } catch (RuntimeException error) {
-            // Android throws SecurityException where the app may not use the network.
+            // Android throws SecurityException without the permission to use the network.
             return new Answer(null, "the name " + host + " cannot be looked up: " + error);
         }
     }
@@ -146,12 +146,12 @@ final class NameLookup {
         InetAddress[] resolve(String host) throws UnknownHostException;
     }
 
-    /** Hears of the outcome, on the loop, once. */
+    /** Receives the outcome, on the loop, once. */
     interface Asker {
         /** Takes at least one address. */
         void onAddresses(InetAddress[] addresses);
 
-        /** Hears why there is none. */
+        /** Called when the lookup fails, with the reason. */
         void onUnknown(String reason);
     }
 

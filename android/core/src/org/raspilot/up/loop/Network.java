@@ -5,11 +5,11 @@ import java.io.IOException;
 /** Opens connections whose listeners are called on the loop. Only on the loop. */
 public interface Network {
     /**
-     * Begins to connect to {@code host}, a name or an address; the listener hears of the outcome
-     * later, never before this call returned.
+     * Starts to connect to {@code host}, a name or an address; the listener receives the outcome
+     * after this call has returned.
      *
-     * @param port 1 to 65535; another port is told by {@link TcpListener#onClosed}
-     * @param timeoutMs how long looking up the name and connecting may take together
+     * @param port 1 to 65535; any other port is reported by {@link TcpListener#onClosed}
+     * @param timeoutMs timeout of name lookup and connecting together
      */
     TcpConnection connectTcp(String host, int port, int timeoutMs, TcpListener listener);
 

@@ -10,10 +10,10 @@ import java.util.concurrent.atomic.AtomicLong;
 import java.util.concurrent.locks.LockSupport;
 
 /**
- * A loop on a thread of its own, with real sockets and real, monotonic time.
+ * A loop on its own thread, with real sockets and real, monotonic time.
  *
  * <p>It sleeps in the system until a socket is ready, a timer falls due or a call is posted. A
- * selector that returns again and again without a reason, as some do after a connection broke, is
+ * selector that returns repeatedly without a reason, as some do after a connection broke, is
  * replaced by a new one.
  */
 public final class SelectorLoop implements Loop, Network {
@@ -36,10 +36,10 @@ public final class SelectorLoop implements Loop, Network {
     private final AtomicLong rounds = new AtomicLong();
 
     /**
-     * Makes a loop that is not started yet.
+     * Creates a loop that is not started yet.
      *
-     * @param name what its thread is called
-     * @param faults hears of exceptions of what runs on the loop
+     * @param name of its thread
+     * @param faults receives exceptions of calls on the loop
      */
     public SelectorLoop(String name, FaultListener faults) {
         this(name, faults, new Clock() {
@@ -51,11 +51,11 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     /**
-     * Makes a loop that is not started yet.
+     * Creates a loop that is not started yet.
      *
-     * @param name what its thread is called
-     * @param faults hears of exceptions of what runs on the loop
-     * @param clock by which it lives; on a device that sleeps System.nanoTime() stands still
+     * @param name of its thread
+     * @param faults receives exceptions of calls on the loop
+     * @param clock of the loop; on a sleeping device System.nanoTime() stops
      */
     public SelectorLoop(String name, FaultListener faults, Clock clock) {
         this(name, faults, clock, new SocketSelector(), new SystemResolver());
@@ -94,9 +94,9 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     /**
-     * Closes every socket and ends the thread within 1 s; nothing is told to any listener any more.
-     * May be called on any thread, on the loop too, and twice; elsewhere than on the loop it waits
-     * for the end of the thread, but not longer than that second for a call that does not return.
+     * Closes every socket and ends the thread within 1 s; listeners are not called afterwards. May
+     * be called on any thread, also on the loop, and repeatedly. On another thread it waits for the
+     * end of the loop's thread, but at most that second if a call does not return.
      */
     public void stop() {
         final Thread running;
@@ -116,12 +116,12 @@ public final class SelectorLoop implements Loop, Network {
         }
     }
 
-    /** Returns how many calls threw; may be asked on any thread. */
+    /** Returns the number of calls that threw; may be called on any thread. */
     public long faults() {
         return guard.faults();
     }
 
-    /** Returns how often the loop woke; may be asked on any thread. */
+    /** Returns the number of wake-ups; may be called on any thread. */
     public long rounds() {
         return rounds.get();
     }
@@ -182,12 +182,12 @@ public final class SelectorLoop implements Loop, Network {
         return sockets.register(channel, operations, ready);
     }
 
-    /** Counts and tells a fault that belongs to no call. */
+    /** Counts and reports a fault that belongs to no call. */
     void tell(Throwable fault) {
         guard.tell(fault);
     }
 
-    /** Closes; a socket that cannot even be closed is told as a fault. */
+    /** Closes; a socket that cannot be closed is reported as a fault. */
     void closeQuietly(Closeable channel) {
         try {
             channel.close();
@@ -212,7 +212,7 @@ public final class SelectorLoop implements Loop, Network {
     private void run(Runnable call) {
         if (!isStopped) {
             guard.run(call);
-            // Left standing, the mark would let the selector return at once, again and again.
+            // If the mark stayed set, the selector would return immediately every time.
             Thread.interrupted();
         }
     }
@@ -241,10 +241,10 @@ public final class SelectorLoop implements Loop, Network {
                 handle(key);
             }
         } catch (IOException | RuntimeException error) {
-            // Android's older selectors throw both (a key cancelled meanwhile), and the thread must
-            // outlive that: it flies.
+            // Android's older selectors throw both (a key cancelled during the select). The thread
+            // must survive that in flight.
             tell(error);
-            // Whatever ails the system, asking it again at once would only heat the phone.
+            // Whatever the system's fault is, an immediate retry would only heat the phone.
             LockSupport.parkNanos(TimeUnit.MILLISECONDS.toNanos(10));
         }
     }
@@ -253,7 +253,7 @@ public final class SelectorLoop implements Loop, Network {
         run(new Runnable() {
             @Override
             public void run() {
-                // An earlier one's call may have closed it.
+                // A previous call may have closed it.
                 if (key.isValid()) {
                     ((Ready) key.attachment()).onReady(key);
                 }
@@ -261,7 +261,7 @@ public final class SelectorLoop implements Loop, Network {
         });
     }
 
-    /** Returns how long nothing is to be done, rounded up; 0: not at all, -1: for ever. */
+    /** Returns the maximum wait, rounded up; 0: none, -1: no limit. */
     private long waitMs(long nowNs) {
         if (isStopped || !posted.isEmpty()) {
             return 0;

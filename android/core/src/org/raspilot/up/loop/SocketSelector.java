@@ -23,7 +23,7 @@ class SocketSelector {
         selector = openSelector();
     }
 
-    /** Lets the sleeper, or the next one, return at once. */
+    /** Makes the current or next wait return immediately. */
     void wakeup() {
         final Selector sleeping = selector;
         if (sleeping != null) {
@@ -36,15 +36,15 @@ class SocketSelector {
         return channel.register(selector, operations, ready);
     }
 
-    /** Hears that there was a reason to wake: a call or a timer. */
+    /** Notes that the wakeup had a reason: a call or a timer. */
     void hadReason() {
         emptyRounds = 0;
     }
 
     /**
-     * Waits until a socket is ready and returns the keys that are.
+     * Waits until a socket is ready and returns the ready keys.
      *
-     * @param waitMs the longest wait; 0: none, -1: for ever
+     * @param waitMs the maximum wait; 0: none, -1: no limit
      */
     List<SelectionKey> await(long waitMs) throws IOException {
         final boolean isReplaced = emptyRounds > MOST_EMPTY_ROUNDS;
@@ -54,7 +54,7 @@ class SocketSelector {
         // Before the wait, so that a selector which only throws is replaced as well.
         emptyRounds++;
         if (waitMs == 0 || isReplaced) {
-            // A wakeup of the old selector does not wake the new one: the loop looks for calls first.
+            // The old selector's wakeups do not reach the new one: the loop checks for calls first.
             selector.selectNow();
         } else {
             selector.select(waitMs < 0 ? 0 : waitMs);
@@ -67,7 +67,7 @@ class SocketSelector {
         return ready;
     }
 
-    /** Returns whom the keys belong to. */
+    /** Returns the owners of the keys. */
     List<Ready> registered() {
         final List<Ready> all = new ArrayList<Ready>();
         for (SelectionKey key : selector.keys()) {
@@ -76,7 +76,7 @@ class SocketSelector {
         return all;
     }
 
-    /** Closes it; a wakeup has no effect any more. */
+    /** Closes it; later wakeups have no effect. */
     void close() throws IOException {
         selector.close();
     }

@@ -6,7 +6,7 @@ import java.net.UnknownHostException;
 import java.util.ArrayList;
 import java.util.List;
 
-/** Asks the system for a name's addresses: those of IPv4 first, on which the peers listen. */
+/** Queries the system for a name's addresses: IPv4 first, on which the peers listen. */
 final class SystemResolver implements NameLookup.Resolver {
     @Override
     public InetAddress[] resolve(String host) throws UnknownHostException {

@@ -11,8 +11,8 @@ import java.nio.channels.SocketChannel;
 /** One TCP connection of a {@link SelectorLoop}: looks up, connects, reads, writes. */
 final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
     /**
-     * Small, so that a link that stalls holds little that is old by the time it goes on. Linux
-     * doubles it and counts its own overhead against it.
+     * Small, so that a stalled link holds little old data when it recovers. Linux doubles it and
+     * counts its own overhead against it.
      */
     static final int SEND_BUFFER_BYTES = 8192;
     private static final int LAST_READS = 8;
@@ -41,7 +41,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         endMs = loop.nowMs() + timeoutMs;
     }
 
-    /** Begins. */
+    /** Starts. */
     void open(NameLookup names, String host) {
         if (port < 1 || port > 65535) {
             onUnknown("no port: " + port);
@@ -144,7 +144,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
             connectNext(refused(error));
             return;
         } catch (RuntimeException error) {
-            // Android throws SecurityException where the app may not use the network.
+            // Android throws SecurityException without the permission to use the network.
             connectNext(refused(error));
             return;
         }
@@ -161,7 +161,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
             final Socket socket = channel.socket();
             // Some systems do not know the local address yet: it may be null.
             if (socket.getRemoteSocketAddress().equals(socket.getLocalSocketAddress())) {
-                // On loopback a port that nobody listens on may by chance be met by itself.
+                // On loopback a connection to an unused port may by chance connect to itself.
                 connectNext("no connection to " + peer + ": nobody listens");
                 return;
             }
@@ -197,7 +197,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         return length > 0;
     }
 
-    /** What the peer said before it hung up was received before the write failed: hand it on. */
+    /** Data that the peer sent before it hung up arrived before the write failed: deliver it. */
     private void readTheRest(String reason) {
         int reads = 0;
         while (state == State.BROKEN && reads < LAST_READS && read()) {

@@ -1,14 +1,14 @@
 package org.raspilot.up.loop;
 
-/** One TCP connection, begun or made. Only on the loop. */
+/** One TCP connection, open or in progress. Only on the loop. */
 public interface TcpConnection {
     /**
-     * Gives bytes to the system and returns how many it took, 0 to {@code length}; nothing is kept
-     * here. When it took less, {@link TcpListener#onWritable} comes later. A connection that is not
-     * made yet, or has ended, takes 0.
+     * Writes bytes to the system and returns how many it accepted, 0 to {@code length}; nothing is
+     * buffered here. If it accepted less, {@link TcpListener#onWritable} follows later. A
+     * connection that is not open accepts 0.
      */
     int write(byte[] bytes, int offset, int length);
 
-    /** Ends the connection at once; the listener is not called any more. Twice without effect. */
+    /** Closes immediately; the listener is not called afterwards. Idempotent. */
     void close();
 }

@@ -3,7 +3,7 @@ package org.raspilot.up.loop;
 import java.util.Comparator;
 import java.util.PriorityQueue;
 
-/** Timers in the order in which they fall due; those of equal time in the order of asking. */
+/** Timers in the order of their due times; those of equal time in the order of scheduling. */
 final class TimerQueue {
     private final PriorityQueue<Timer> timers = new PriorityQueue<Timer>(16, new Sooner());
     private long asked;
@@ -21,8 +21,8 @@ final class TimerQueue {
     }
 
     /**
-     * Removes and returns the first timer that is due at {@code now} and was added before
-     * {@code mark}; null: none. So a timer that adds another of no delay starves nobody.
+     * Removes and returns the first timer that is due at {@code now} and was added before {@code
+     * mark}, or null. A timer that adds another without delay cannot starve others.
      */
     Timer take(long now, long mark) {
         final Timer first = timers.peek();
@@ -61,7 +61,7 @@ final class TimerQueue {
             return time;
         }
 
-        /** Returns what is called then. */
+        /** Returns the timer's callback. */
         Runnable call() {
             return call;
         }

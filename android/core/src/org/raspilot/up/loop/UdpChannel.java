@@ -12,7 +12,7 @@ import java.util.Map;
 /** One UDP socket of a {@link SelectorLoop}. */
 final class UdpChannel implements UdpPort, Ready {
     private static final long NAME_LIFE_MS = 60000;
-    /** A name that nobody knows now is asked for again by then, not at each datagram. */
+    /** An unknown name is looked up again after this time, not for each datagram. */
     private static final long NEXT_LOOK_MS = 2000;
     private static final int MOST_NAMES = 64;
     private static final int READS_A_ROUND = 16;
@@ -58,11 +58,11 @@ final class UdpChannel implements UdpPort, Ready {
                 open();
             }
             final ByteBuffer buffer = ByteBuffer.wrap(datagram);
-            // 0: the system has no room now. The next datagram is newer anyhow.
+            // 0: the system has no room now. The next datagram will be newer.
             return channel.send(buffer, new InetSocketAddress(address, port)) > 0
                     || datagram.length == 0;
         } catch (IOException error) {
-            return false; // No network now, as on a phone that changes it: the caller is told.
+            return false; // No network, as when a phone changes it: reported to the caller.
         } catch (SecurityException error) {
             return false;
         }
@@ -94,7 +94,7 @@ final class UdpChannel implements UdpPort, Ready {
         try {
             source = (InetSocketAddress) channel.receive(buffer);
         } catch (IOException error) {
-            // A socket that cannot be read would be reported ready for ever; sending opens another.
+            // A socket with a read error would stay ready for ever; the next send opens another.
             closeChannel();
             loop.tell(error);
             return false;
@@ -107,7 +107,7 @@ final class UdpChannel implements UdpPort, Ready {
         return true;
     }
 
-    /** Returns a host's address; null: not known yet, or not known to anybody. */
+    /** Returns a host's address, or null if unknown so far. */
     private InetAddress address(final String host) {
         Name name = known.get(host);
         if (name == null) {
@@ -133,7 +133,7 @@ final class UdpChannel implements UdpPort, Ready {
         }
     }
 
-    /** What is known of one name. */
+    /** The state of one name. */
     private final class Name implements NameLookup.Asker {
         private InetAddress address;
         private long nextLookMs;

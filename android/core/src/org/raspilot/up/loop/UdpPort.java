@@ -3,12 +3,12 @@ package org.raspilot.up.loop;
 /** One UDP socket. Only on the loop. */
 public interface UdpPort {
     /**
-     * Sends a datagram to {@code host}, a name or an address, and returns whether the system took
-     * it. An IPv4 address is used at once. A name is looked up at the first datagram, which is lost
-     * like every one before the answer; it is looked up again once a minute.
+     * Sends a datagram to {@code host}, a name or an address, and returns whether the system
+     * accepted it. An IPv4 address is used immediately. A name is looked up at the first datagram;
+     * datagrams are lost until the lookup succeeds. The lookup is repeated once a minute.
      */
     boolean send(byte[] datagram, String host, int port);
 
-    /** Closes the socket; its listener is not called any more. Twice without effect. */
+    /** Closes the socket; its listener is not called afterwards. Later calls have no effect. */
     void close();
 }

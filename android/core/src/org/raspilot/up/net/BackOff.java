@@ -18,14 +18,15 @@ final class BackOff {
         nextMs = firstMs;
     }
 
-    /** Begins anew with the shortest wait. */
+    /** Resets to the shortest wait. */
     void reset() {
         nextMs = firstMs;
     }
 
     /**
-     * Returns how long to wait after an attempt that took {@code tookMs}: the time it took is part
-     * of the wait, save a rest of the shortest one, as whoever lies in a black hole waited already.
+     * Returns the wait after an attempt that took {@code tookMs}. The duration of the attempt
+     * counts as part of the wait, except for a remainder of the shortest wait, because an attempt
+     * that timed out has waited already.
      */
     long nextWaitMs(long tookMs) {
         final double factor = 1 - JITTER + 2 * JITTER * random.nextDouble();

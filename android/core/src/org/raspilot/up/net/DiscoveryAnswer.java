@@ -10,8 +10,8 @@ final class DiscoveryAnswer {
     }
 
     /**
-     * Returns the address in an answer; of an empty answer the address that it came from; null when
-     * it is no answer.
+     * Returns the address in an answer; for an empty answer the sender's address; null if it is not
+     * an answer.
      */
     static String read(byte[] bytes, int length, String source) {
         if (length > LONGEST) {

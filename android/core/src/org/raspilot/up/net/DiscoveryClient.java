@@ -28,12 +28,12 @@ public final class DiscoveryClient implements PlaceFinder {
     private long foreignAnswers;
 
     /**
-     * Makes a client.
+     * Creates a client.
      *
-     * @param addresses whom to ask
+     * @param addresses where requests go
      * @param port Discovery's, {@link #PORT} unless configured
      * @param generalPort where the found host listens for General Messages
-     * @param orientationPort where it listens for orientation; 0: nowhere
+     * @param orientationPort where it listens for orientation; 0: not at all
      */
     public DiscoveryClient(Loop loop, BroadcastAddresses addresses, int port, int generalPort,
             int orientationPort) {

@@ -1,12 +1,12 @@
 package org.raspilot.up.net;
 
-/** Hears where a peer listens. Called on the loop, one of the two, once. */
+/** Receives the result of a search for a peer. Called on the loop, one of the two, once. */
 public interface FindListener {
     /** Takes the place. */
     void onFound(Place place);
 
     /**
-     * Hears that it cannot be found now.
+     * Called when the search fails.
      *
      * @param reason a sentence without a full stop
      */

@@ -2,11 +2,11 @@ package org.raspilot.up.net;
 
 import org.raspilot.up.loop.Cancellable;
 
-/** A place that is configured: found at once, always. */
+/** A configured place: always found, immediately. */
 public final class FixedPlace implements PlaceFinder {
     private final Place place;
 
-    /** Makes a finder of {@code place}. */
+    /** Creates a finder of {@code place}. */
     public FixedPlace(Place place) {
         this.place = place;
     }

@@ -4,10 +4,10 @@ import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 
 /**
- * Tells once that nothing has touched it for a time. A touch is free: it moves no timer.
+ * Fires once when it was not touched for a time. A touch is cheap: it does not reschedule.
  *
- * <p>A phone that slept finds the time over before it has read what came meanwhile: the loop reads
- * between two timers, so the decision falls at a second look.
+ * <p>After a phone has slept, the timer is due before the data received during the sleep is read.
+ * The loop reads between two timers, so the decision is made at a second check.
  */
 final class IdleTimer {
     private final Loop loop;
@@ -29,7 +29,7 @@ final class IdleTimer {
         this.onIdle = onIdle;
     }
 
-    /** Begins anew; a limit of 0 is none. */
+    /** Restarts the timer; a limit of 0 disables it. */
     void start() {
         stop();
         touch();
@@ -38,14 +38,14 @@ final class IdleTimer {
         }
     }
 
-    /** Ends; it may be started again. */
+    /** Stops; it may be started again. */
     void stop() {
         if (timer != null) {
             timer.cancel();
         }
     }
 
-    /** Takes that what is waited for has happened now. */
+    /** Notes that the awaited event has happened now. */
     void touch() {
         touchedMs = loop.nowMs();
     }

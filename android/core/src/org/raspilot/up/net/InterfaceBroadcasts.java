@@ -11,7 +11,7 @@ import java.util.List;
 public final class InterfaceBroadcasts implements BroadcastAddresses {
     private static final String EVERYBODY = "255.255.255.255";
 
-    /** Returns them; where the system tells none, the address of everybody near. */
+    /** Returns them; if the system reports none, the limited broadcast address. */
     @Override
     public List<String> current() {
         final List<String> found = new ArrayList<String>();
@@ -21,7 +21,7 @@ public final class InterfaceBroadcasts implements BroadcastAddresses {
                 addOf(all.nextElement(), found);
             }
         } catch (SocketException error) {
-            // An interface went away while it was asked: those of before it are good.
+            // An interface disappeared during the query: the addresses found so far are valid.
             return orEverybody(found);
         }
         return orEverybody(found);

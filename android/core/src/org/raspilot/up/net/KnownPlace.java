@@ -3,29 +3,29 @@ package org.raspilot.up.net;
 import org.raspilot.up.loop.Cancellable;
 
 /**
- * Remembers what another finder found last, so that the orientation goes where the General Message
- * link was found, without asking again.
+ * Stores the last result of another finder, so that orientation goes to the host of the General
+ * Message link without another search.
  */
 public final class KnownPlace implements PlaceFinder {
     private final PlaceFinder finder;
     private Place place;
 
-    /** Makes a finder that asks {@code finder} and knows nothing yet. */
+    /** Creates a finder that delegates to {@code finder} and knows no place yet. */
     public KnownPlace(PlaceFinder finder) {
         this.finder = finder;
     }
 
-    /** Returns the place found last; null: none yet. */
+    /** Returns the last place found; null: none so far. */
     public Place place() {
         return place;
     }
 
-    /** Forgets the place. */
+    /** Clears the place. */
     public void forget() {
         place = null;
     }
 
-    /** Asks the other finder and remembers its answer. */
+    /** Searches with the other finder and stores its result. */
     @Override
     public Cancellable find(final FindListener listener) {
         return finder.find(new FindListener() {
@@ -42,7 +42,7 @@ public final class KnownPlace implements PlaceFinder {
         });
     }
 
-    /** Returns a finder that asks nobody: it finds what is remembered, or says that nothing is. */
+    /** Returns a finder without network traffic: it finds the stored place, or fails. */
     public PlaceFinder follower() {
         return new PlaceFinder() {
             @Override

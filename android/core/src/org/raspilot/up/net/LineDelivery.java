@@ -5,8 +5,8 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.LineSplitter;
 
 /**
- * Makes lines of what comes over one connection after the other and hands them on, each once; what
- * the receiver throws at one line keeps the others from nobody.
+ * Splits the data of successive connections into lines and delivers each line once; an exception of
+ * the receiver for one line does not affect the other lines.
  */
 final class LineDelivery {
     private final Loop loop;
@@ -25,18 +25,18 @@ final class LineDelivery {
         this.receiver = receiver;
     }
 
-    /** Begins a connection: half a line of the one before is forgotten. */
+    /** Starts a connection: a partial line of the previous one is discarded. */
     void begin(Object begun) {
         connection = begun;
         splitter.reset();
     }
 
-    /** Ends the connection: what came over it and is not handed on yet never is. */
+    /** Ends the connection: its data that is not delivered yet is discarded. */
     void end() {
         connection = null;
     }
 
-    /** Takes what came over the connection. */
+    /** Takes data of the connection. */
     void feed(byte[] bytes, int length) {
         deliver(connection, splitter.feed(bytes, length).iterator());
     }

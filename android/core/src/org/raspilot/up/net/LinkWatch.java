@@ -3,8 +3,8 @@ package org.raspilot.up.net;
 import org.raspilot.up.loop.Loop;
 
 /**
- * Watches one connection: asks for a heartbeat after own silence, and gives the connection up when
- * the peer says nothing, or takes nothing of what waits, for too long.
+ * Watches one connection: requests a heartbeat after own silence, and closes the connection when
+ * for too long the peer sends nothing, or accepts none of the waiting data.
  */
 final class LinkWatch {
     private final IdleTimer beat;
@@ -23,26 +23,26 @@ final class LinkWatch {
         stall = givingUp(loop, settings.stallLimitMs(), "took nothing", owner);
     }
 
-    /** Begins with a new connection. */
+    /** Starts with a new connection. */
     void start() {
         stop();
         beat.start();
         silence.start();
     }
 
-    /** Ends with the connection. */
+    /** Stops with the connection. */
     void stop() {
         beat.stop();
         silence.stop();
         stall.stop();
     }
 
-    /** Hears that bytes came. */
+    /** Called when bytes arrive. */
     void heard() {
         silence.touch();
     }
 
-    /** Hears that something was given to the connection: how much it took, what still waits. */
+    /** Called after a write: how much the connection accepted, and how much still waits. */
     void wrote(long bytes, boolean isWaiting) {
         if (bytes > 0) {
             beat.touch();
@@ -71,7 +71,7 @@ final class LinkWatch {
         /** Sends a heartbeat. */
         void onBeat();
 
-        /** Ends the connection; {@code what} the peer did, without its name. */
+        /** Closes the connection; {@code what} the peer did, without its name. */
         void onGivenUp(String what);
     }
 }

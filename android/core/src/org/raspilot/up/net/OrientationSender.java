@@ -7,8 +7,8 @@ import org.raspilot.up.loop.UdpListener;
 import org.raspilot.up.loop.UdpPort;
 
 /**
- * Sends orientation frames (protocols 3) over TCP or UDP; a frame that waits is replaced by the
- * next. It goes where the General Message link was found, at once when that changes. Only on the
+ * Sends orientation frames (protocols 3) over TCP or UDP; a waiting frame is replaced by the next.
+ * Its destination is the place of the General Message link and follows it immediately. Only on the
  * loop.
  */
 public final class OrientationSender {
@@ -34,9 +34,9 @@ public final class OrientationSender {
     private long dropped;
 
     /**
-     * Makes a sender that is not started.
+     * Creates a sender that is not started.
      *
-     * @param known where the General Message link was found; frames go to its orientation port
+     * @param known the place of the General Message link; frames go to its orientation port
      * @param random seeded: the waits between attempts vary by it
      */
     public OrientationSender(Loop loop, KnownPlace known, Transport transport, Random random) {
@@ -46,7 +46,7 @@ public final class OrientationSender {
                 new Silent(), UpSocketSettings.raw(), random);
     }
 
-    /** Begins to connect, or opens the socket; started already, without effect. */
+    /** Starts to connect, or opens the socket; no effect when started already. */
     public void start() {
         if (!isStarted) {
             isStarted = true;
@@ -69,7 +69,7 @@ public final class OrientationSender {
         }
     }
 
-    /** Tries to connect at once instead of after the wait; on UDP opens the socket anew. */
+    /** Connects immediately instead of after the wait; on UDP reopens the socket. */
     public void reconnectNow() {
         if (!isStarted) {
             return;
@@ -83,8 +83,8 @@ public final class OrientationSender {
     }
 
     /**
-     * Makes a connection that stands anew at once, as after a gap in the network in which it may
-     * have died unnoticed; without one, as {@link #reconnectNow}.
+     * Reconnects an open connection immediately, as after a gap in the network in which it may have
+     * died unnoticed; without one, like {@link #reconnectNow}.
      */
     public void replaceConnection(String reason) {
         if (isStarted && socket != null && socket.isConnected()) {
@@ -116,7 +116,7 @@ public final class OrientationSender {
         return socket != null ? socket.isConnected() : udp != null && hasPort();
     }
 
-    /** Returns a sentence without a full stop: whereto frames go, or why they do not. */
+    /** Returns a sentence without a full stop: the destination of frames, or why none are sent. */
     public String sentence() {
         if (socket != null) {
             return socket.status().sentence();
@@ -184,7 +184,7 @@ public final class OrientationSender {
         }
     }
 
-    /** A connection to where the Raspberry Pi was is of no use, nor is the wait for the next. */
+    /** A connection to the Raspberry Pi's old address is useless, and so is waiting to retry it. */
     private void follow() {
         final Place place = known.place();
         if (socket != null && place != null && !place.equals(followed)) {
@@ -197,7 +197,7 @@ public final class OrientationSender {
         }
     }
 
-    /** Nobody answers on this link. */
+    /** This link has no answers. */
     private static final class Deaf implements UdpListener {
         @Override
         public void onDatagram(byte[] bytes, int length, String host, int port) {
@@ -205,7 +205,7 @@ public final class OrientationSender {
         }
     }
 
-    /** Its status is asked for, never told. */
+    /** Its status is polled, not reported. */
     private static final class Silent implements UpSocketListener {
         @Override
         public void onConnected(UpSocket socket) {

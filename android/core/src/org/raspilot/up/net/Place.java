@@ -1,18 +1,18 @@
 package org.raspilot.up.net;
 
-/** Where a peer listens: a host, its General Message port and its orientation port. */
+/** The address of a peer: a host, its General Message port and its orientation port. */
 public final class Place {
     private final String host;
     private final int generalPort;
     private final int orientationPort;
 
     /**
-     * Makes a place.
+     * Creates a place.
      *
      * @param host a name or an address
      * @param generalPort TCP, 1 to 65535
-     * @param orientationPort TCP and UDP, 1 to 65535; 0: there is none
-     * @throws IllegalArgumentException with a sentence when the host is empty or a port is none
+     * @param orientationPort TCP and UDP, 1 to 65535; 0: absent
+     * @throws IllegalArgumentException with a sentence when the host is empty or a port is invalid
      */
     public Place(String host, int generalPort, int orientationPort) {
         if (host == null || host.isEmpty()) {
@@ -39,7 +39,7 @@ public final class Place {
         return generalPort;
     }
 
-    /** Returns the orientation port; 0: there is none. */
+    /** Returns the orientation port; 0: absent. */
     public int orientationPort() {
         return orientationPort;
     }

@@ -5,7 +5,7 @@ import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
 import org.raspilot.up.wire.SafeText;
 
-/** A runner's answer that says where an instance runs (protocols 8). */
+/** A runner's answer with the address of an instance (protocols 8). */
 public final class RunnerAnswer {
     private static final int LONGEST_WORDS = 200;
 
@@ -28,10 +28,10 @@ public final class RunnerAnswer {
     }
 
     /**
-     * Reads an answer's line.
+     * Parses a line of an answer.
      *
      * @param host the runner's host, where the instance listens
-     * @throws RefusedException with a sentence when nothing runs or the line is no answer
+     * @throws RefusedException with a sentence when no instance runs or the line is not an answer
      */
     static RunnerAnswer read(String line, String host) throws RefusedException {
         final Object value;
@@ -66,12 +66,12 @@ public final class RunnerAnswer {
                 object(answer, "proxy"));
     }
 
-    /** Returns the runner's words; null: none. */
+    /** Returns the runner's message; null: none. */
     public String message() {
         return message;
     }
 
-    /** Returns what is wrong although an instance runs; null: nothing. */
+    /** Returns a warning about the running instance, or null. */
     public String error() {
         return error;
     }
@@ -81,22 +81,22 @@ public final class RunnerAnswer {
         return isSpawned;
     }
 
-    /** Returns the instance's name; null: not told. */
+    /** Returns the instance's name; null: absent. */
     public String instance() {
         return instance;
     }
 
-    /** Returns where the instance listens. */
+    /** Returns the address of the instance. */
     public Place place() {
         return place;
     }
 
-    /** Returns the proxy's host for grounds of this aircraft; null: not told. */
+    /** Returns the proxy's host for grounds of this aircraft; null: absent. */
     public String proxyHost() {
         return proxyHost;
     }
 
-    /** Returns the proxy's port for grounds; 0: not told. */
+    /** Returns the proxy's port for grounds; 0: absent. */
     public int proxyGroundPort() {
         return proxyGroundPort;
     }
@@ -106,7 +106,7 @@ public final class RunnerAnswer {
         return value instanceof Map ? (Map<?, ?>) value : null;
     }
 
-    /** Returns a text, harmless for the screen; null: there is none. */
+    /** Returns a text, safe to display, or null if absent. */
     private static String text(Map<?, ?> from, String key) {
         final Object value = from.get(key);
         if (!(value instanceof String) || ((String) value).isEmpty()) {
@@ -115,7 +115,7 @@ public final class RunnerAnswer {
         return SafeText.of((String) value, LONGEST_WORDS);
     }
 
-    /** Returns 1 to 65535; 0: there is none. */
+    /** Returns 1 to 65535; 0: absent. */
     private static int port(Map<?, ?> from, String key) {
         final Object value = from.get(key);
         if (!(value instanceof Long)) {

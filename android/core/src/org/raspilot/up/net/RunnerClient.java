@@ -7,7 +7,7 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.loop.TcpListener;
 
-/** Asks a runner for an instance and finds where it listens (protocols 8). Only on the loop. */
+/** Requests an instance from a runner and finds its address (protocols 8). Only on the loop. */
 public final class RunnerClient implements PlaceFinder {
     /** The TCP port of a runner. */
     public static final int PORT = 3002;
@@ -25,7 +25,7 @@ public final class RunnerClient implements PlaceFinder {
     private RunnerAnswer lastAnswer;
 
     /**
-     * Makes a client.
+     * Creates a client.
      *
      * @param host the runner's name or address
      * @param port its port, {@link #PORT} unless configured
@@ -44,7 +44,7 @@ public final class RunnerClient implements PlaceFinder {
         return asked;
     }
 
-    /** Returns the newest answer that named a place; null: none yet. */
+    /** Returns the newest answer with an address; null: none so far. */
     public RunnerAnswer lastAnswer() {
         return lastAnswer;
     }

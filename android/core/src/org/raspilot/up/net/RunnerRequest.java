@@ -6,7 +6,7 @@ import java.util.Map;
 import org.raspilot.up.wire.Hello;
 import org.raspilot.up.wire.Json;
 
-/** What a runner is asked for (protocols 8): an aircraft, by a profile, with a configuration. */
+/** A request to a runner (protocols 8): an aircraft, a profile, a configuration. */
 public final class RunnerRequest {
     /** Bytes of the longest request with its LF. */
     public static final int LONGEST_LINE = 65536;
@@ -14,12 +14,12 @@ public final class RunnerRequest {
     private final byte[] line;
 
     /**
-     * Makes a request.
+     * Creates a request.
      *
      * @param aircraft 1 to 32 of {@code A-Z a-z 0-9 _ . -}, not beginning with a dot
-     * @param profile name of a ready-made configuration on the runner's host; null: none
-     * @param configuration files and their keys; null: none
-     * @throws IllegalArgumentException with a sentence when the aircraft's name is none, the
+     * @param profile name of a ready-made configuration on the runner's host, or null
+     * @param configuration files and their keys, or null
+     * @throws IllegalArgumentException with a sentence when the aircraft's name is invalid, the
      *     configuration cannot be written as JSON, or the request is longer than 64 KiB
      */
     public RunnerRequest(String aircraft, String profile, Map<String, ?> configuration) {

@@ -8,8 +8,8 @@ import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.wire.LineSplitter;
 
 /**
- * What waits until the system takes it: first the rest of what was begun, then what goes in order,
- * then the newest of each key.
+ * Data that waits until the system accepts it: first the rest of a partial write, then ordered
+ * messages, then the newest message of each key.
  */
 final class SendQueue {
     private static final int MOST_BYTES = UpSocketSettings.LONGEST_QUEUE_BYTES;
@@ -26,12 +26,12 @@ final class SendQueue {
     private long replaced;
     private long bytesOut;
 
-    /** Makes a queue of frames as they are, or of lines, of at most 64 KiB in order or newest. */
+    /** Creates a queue of raw frames, or of lines, of at most 64 KiB in order or newest. */
     SendQueue(boolean isRaw) {
         this.isRaw = isRaw;
     }
 
-    /** Lets a copy wait in order; false: there is no room, or it is too long. */
+    /** Queues a copy in order; returns false when the queue is full or the message is too long. */
     boolean add(byte[] given) {
         final byte[] bytes = whole(given);
         if (!isSendable(bytes) || orderedBytes + bytes.length > MOST_BYTES) {
@@ -42,7 +42,7 @@ final class SendQueue {
         return true;
     }
 
-    /** Lets a copy wait in place of what has the same key; false: as for {@link #add}. */
+    /** Queues a copy, replacing the one with the same key; returns false as {@link #add} does. */
     boolean replace(Object key, byte[] given) {
         final byte[] bytes = whole(given);
         final byte[] older = newest.get(key);
@@ -51,7 +51,7 @@ final class SendQueue {
             return false;
         }
         newestBytes = grownBytes;
-        // An older one's place in the row stays, so that no key waits for ever.
+        // The older message's position is kept, so that no key starves.
         newest.put(key, bytes);
         if (older != null) {
             replaced++;
@@ -59,9 +59,7 @@ final class SendQueue {
         return true;
     }
 
-    /**
-     * Writes what the connection takes now. What was not begun stays replaceable by a newer one.
-     */
+    /** Writes what the connection accepts now. Unstarted messages stay replaceable. */
     void flush(TcpConnection connection) {
         if (begun != null && !writeRest(connection)) {
             return;
@@ -93,7 +91,7 @@ final class SendQueue {
         }
     }
 
-    /** Forgets everything: the connection is gone. Returns how many lines or frames died. */
+    /** Clears the queue: the connection is gone. Returns the number of dropped lines or frames. */
     int clear() {
         final int count = ordered.size() + newest.size() + (begun != null ? 1 : 0);
         ordered.clear();
@@ -125,7 +123,7 @@ final class SendQueue {
         return bytesOut;
     }
 
-    /** Counts bytes that went past the queue. */
+    /** Counts bytes that bypassed the queue. */
     void wrote(int bytes) {
         bytesOut += bytes;
     }
@@ -157,7 +155,7 @@ final class SendQueue {
         return taken;
     }
 
-    /** Counts bytes that are gone, or keeps the rest to be finished before all others. */
+    /** Counts sent bytes, or keeps the rest to be finished before all others. */
     private boolean isWhole(byte[] bytes, int gone) {
         if (gone == bytes.length) {
             sent++;

@@ -7,11 +7,10 @@ import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.loop.TcpListener;
 
 /**
- * Keeps one connection to a peer for ever: finds it, connects, and after a loss does so again.
+ * Keeps one connection to a peer: finds it, connects, and reconnects after a loss.
  *
- * <p>Nothing is kept from one connection for the next: neither what waits to be sent nor half a
- * line that came. Only on the loop; the listener may call every method. Source: docs/protocols.md
- * 3, 4 and 9.
+ * <p>Nothing is carried over to the next connection: neither queued messages nor a partial received
+ * line. Only on the loop; the listener may call every method. Source: docs/protocols.md 3, 4 and 9.
  */
 public final class UpSocket {
     private static final byte LF = '\n';
@@ -37,9 +36,9 @@ public final class UpSocket {
     private long bytesIn;
 
     /**
-     * Makes a socket that is not started.
+     * Creates a socket that is not started.
      *
-     * @param random seeded by whoever makes the socket: the waits vary by it
+     * @param random a seeded source: the waits vary by it
      */
     public UpSocket(Loop loop, PlaceFinder finder, UpSocketListener listener,
             UpSocketSettings settings, Random random) {
@@ -68,7 +67,7 @@ public final class UpSocket {
         });
     }
 
-    /** Begins to connect; started already, without effect. */
+    /** Starts to connect; no effect when started already. */
     public void start() {
         if (status.state() == UpSocketStatus.State.STOPPED) {
             backOff.reset();
@@ -76,7 +75,7 @@ public final class UpSocket {
         }
     }
 
-    /** Closes for good, or until {@link #start}: {@code onLost} is told when it was connected. */
+    /** Closes until the next {@link #start}; {@code onLost} is called if it was connected. */
     public void stop() {
         if (status.state() != UpSocketStatus.State.STOPPED) {
             final boolean wasConnected = end();
@@ -88,8 +87,8 @@ public final class UpSocket {
     }
 
     /**
-     * Tries at once instead of after the wait, as when the phone's network came back; an attempt
-     * that has lasted longer than the shortest wait begins anew. Connected, without effect.
+     * Retries immediately instead of after the wait, as when the phone's network is back; an
+     * attempt older than the shortest wait is restarted. No effect while connected.
      */
     public void reconnectNow() {
         final UpSocketStatus.State state = status.state();
@@ -102,7 +101,7 @@ public final class UpSocket {
         }
     }
 
-    /** Ends this connection, or attempt, for {@code reason} and tries again after the wait. */
+    /** Ends this connection, or attempt, for {@code reason} and retries after the wait. */
     public void drop(String reason) {
         if (current == null) {
             return;
@@ -113,7 +112,7 @@ public final class UpSocket {
             lost++;
             tookMs = 0;
             if (nowMs - current.connectedMs >= settings.lastRetryMs()) {
-                // A peer that hangs up at once, each time, is asked more and more seldom.
+                // Not earlier: the wait must grow for a peer that always hangs up immediately.
                 backOff.reset();
             }
         } else {
@@ -163,12 +162,12 @@ public final class UpSocket {
         return queue.waitingBytes();
     }
 
-    /** Returns where the socket stands. */
+    /** Returns the socket's state. */
     public UpSocketStatus status() {
         return status;
     }
 
-    /** Returns what was counted. */
+    /** Returns the counters. */
     public UpSocketCounters counters() {
         return new UpSocketCounters(connects, failedAttempts, lost, queue.sent(), dropped,
                 queue.replaced(), received, lines.tooLong(), bytesIn, queue.bytesOut());
@@ -184,13 +183,13 @@ public final class UpSocket {
             isBegun = true;
         } finally {
             if (!isBegun && current == attempt) {
-                // Even a finder that throws is asked again.
+                // A finder that throws is called again too.
                 drop("the search failed");
             }
         }
     }
 
-    /** Ends whatever is under way; returns whether it was a connection. */
+    /** Ends the current attempt or connection; returns whether it was a connection. */
     private boolean end() {
         final boolean wasConnected = isConnected();
         if (retry != null) {
@@ -209,7 +208,7 @@ public final class UpSocket {
 
     private void become(UpSocketStatus.State state, String sentence) {
         status = new UpSocketStatus(state, place, sentence);
-        // Posted, as whoever listens may throw, and may stop this in the middle of a change.
+        // Posted, because a listener may throw, and may stop this in the middle of a change.
         loop.post(new Runnable() {
             @Override
             public void run() {
@@ -247,7 +246,7 @@ public final class UpSocket {
         }
     }
 
-    /** One attempt and, when it succeeds, its connection; deaf as soon as it is not the current. */
+    /** One attempt and, if it succeeds, its connection; ignores events once replaced. */
     private final class Attempt implements FindListener, TcpListener {
         private final long beganMs = loop.nowMs();
         private long connectedMs;

@@ -1,8 +1,8 @@
 package org.raspilot.up.net;
 
-/** Hears what comes over an {@link UpSocket}. Called on the loop. */
+/** Receives the data and events of an {@link UpSocket}. Called on the loop. */
 public interface UpSocketListener {
-    /** Hears that a connection is there: what is sent now is sent first on it. */
+    /** Called when a connection is open: a message sent now is the first on it. */
     void onConnected(UpSocket socket);
 
     /**
@@ -13,13 +13,12 @@ public interface UpSocketListener {
     void onReceived(UpSocket socket, byte[] bytes, int length);
 
     /**
-     * Hears that a connection which was there is lost; another is tried unless the socket was
-     * stopped.
+     * Called when an open connection is lost; a new attempt follows unless the socket was stopped.
      *
      * @param reason a sentence without a full stop
      */
     void onLost(UpSocket socket, String reason);
 
-    /** Hears, a little later, that {@link UpSocket#status} changed: for a screen. */
+    /** Called shortly after {@link UpSocket#status} has changed: for a screen. */
     void onStatus(UpSocket socket);
 }

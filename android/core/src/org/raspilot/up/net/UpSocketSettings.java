@@ -35,12 +35,12 @@ public final class UpSocketSettings {
         return new UpSocketSettings(false, 2000, 0, 0, 3000, 500, 2000);
     }
 
-    /** Returns raw frames to the orientation port; else as {@link #lines}. */
+    /** Returns raw frames to the orientation port; otherwise as {@link #lines}. */
     public static UpSocketSettings raw() {
         return new UpSocketSettings(true, 2000, 0, 0, 3000, 500, 2000);
     }
 
-    /** Returns these with a time-out of each attempt, including the name's look-up. */
+    /** Returns these settings with a timeout of each attempt, including name lookup. */
     public UpSocketSettings withConnectTimeoutMs(int timeoutMs) {
         return new UpSocketSettings(isRaw, timeoutMs, heartbeatMs, silenceLimitMs, stallLimitMs,
                 firstRetryMs, lastRetryMs);
@@ -52,7 +52,7 @@ public final class UpSocketSettings {
                 stallLimitMs, firstRetryMs, lastRetryMs);
     }
 
-    /** Returns these with the end of a connection on which no byte came for so long; 0: never. */
+    /** Returns these settings with a timeout of connections without received bytes; 0: none. */
     public UpSocketSettings withSilenceLimitMs(int limitMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, limitMs, stallLimitMs,
                 firstRetryMs, lastRetryMs);
@@ -90,7 +90,7 @@ public final class UpSocketSettings {
         return silenceLimitMs;
     }
 
-    /** Returns how long the peer may take nothing of what waits; 0: for ever. */
+    /** Returns how long the peer may accept none of the waiting data; 0: no limit. */
     public int stallLimitMs() {
         return stallLimitMs;
     }

@@ -1,12 +1,12 @@
 package org.raspilot.up.net;
 
-/** Where an {@link UpSocket} stands: what it does, with which place, why it is not connected. */
+/** The state of an {@link UpSocket}: its activity, its place, why it is not connected. */
 public final class UpSocketStatus {
     /** What a socket does. */
     public enum State {
         /** It was not started, or it was stopped. */
         STOPPED,
-        /** It asks its finder. */
+        /** Its finder is searching. */
         FINDING,
         /** It connects. */
         CONNECTING,
@@ -36,12 +36,12 @@ public final class UpSocketStatus {
         return state == State.CONNECTED;
     }
 
-    /** Returns the place found last; null: none yet. */
+    /** Returns the last place found; null: none so far. */
     public Place place() {
         return place;
     }
 
-    /** Returns a sentence without a full stop: whereto it is connected, or why it is not. */
+    /** Returns a sentence without a full stop: the peer's address, or why it is not connected. */
     public String sentence() {
         return sentence;
     }

@@ -8,8 +8,8 @@ import org.raspilot.up.wire.GeneralMessage;
 /**
  * Sends the altitude by the barometer: {@code up.altitude.change}.
  *
- * <p>It is over where the air has the reference pressure: over the sea when that is the QNH, over
- * the field after {@link #zeroHere}. It is not smoothed, for that would delay it.
+ * <p>It is relative to the reference pressure: above sea level if that is the QNH, above the field
+ * after {@link #zeroHere}. It is not smoothed, to avoid delay.
  */
 public final class AltitudeProvider extends SensorProvider<Pressure> {
     /** The name under which it is registered. */
@@ -47,7 +47,7 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
     }
 
     /**
-     * Lets the altitude be zero where the device is; returns the reference pressure, hPa.
+     * Sets the altitude at the device's position to zero; returns the reference pressure, hPa.
      *
      * @throws IllegalStateException without a reading of the barometer (a sentence)
      */

@@ -1,21 +1,21 @@
 package org.raspilot.up.providers;
 
 /**
- * How the aircraft lies in the world, in degrees (aerospace convention, as the firmware's).
+ * The aircraft's attitude, in degrees (aerospace convention, as the firmware's).
  *
  * <p>Roll: right wing down is positive, -180 to 180. Pitch: nose up is positive, -90 to 90. Yaw:
  * clockwise from north, 0 to 360 (360 excluded). With the nose straight up or down roll and yaw are
- * one turn; it is all told as yaw, and roll is 0.
+ * one rotation; it is all assigned to yaw, and roll is 0.
  */
 public final class Attitude {
-    /** Below this cosine of the pitch roll and yaw cannot be told apart. */
+    /** Below this cosine of the pitch, roll and yaw cannot be distinguished. */
     private static final double GIMBAL_LOCK = 1e-7;
 
     private final double rollDeg;
     private final double pitchDeg;
     private final double yawDeg;
 
-    /** Keeps roll and pitch as they are, and the yaw as 0 to 360. */
+    /** Stores roll and pitch unchanged, and the yaw as 0 to 360. */
     public Attitude(double rollDeg, double pitchDeg, double yawDeg) {
         this.rollDeg = rollDeg;
         this.pitchDeg = pitchDeg;

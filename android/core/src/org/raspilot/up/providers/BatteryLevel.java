@@ -4,7 +4,7 @@ package org.raspilot.up.providers;
 public final class BatteryLevel {
     private final double percent;
 
-    /** Keeps the value as it is; {@link BatteryProvider} judges it. */
+    /** Stores the value unchanged; {@link BatteryProvider} validates it. */
     public BatteryLevel(double percent) {
         this.percent = percent;
     }

@@ -1,8 +1,8 @@
 package org.raspilot.up.providers;
 
-/** How often a provider sends, and how long its readings are worth sending; times in ms. */
+/** How often a provider sends, and the maximum age of its readings; times in ms. */
 public final class Cadence {
-    /** A reading that is older than so many periods is not sent any more. */
+    /** A reading older than this number of periods is not sent. */
     private static final int WORTH_PERIODS = 2;
 
     /** How much of a period a message may leave sooner or later than it is due. */
@@ -24,10 +24,10 @@ public final class Cadence {
     }
 
     /**
-     * Returns the cadence of what changes all the time: each reading is sent once, while it is
-     * fresh, at most one in a period.
+     * Returns the cadence of a value that changes continuously: each reading is sent once, while it
+     * is fresh, at most one in a period.
      *
-     * @param silenceLimitMs how long the sensor may say nothing before it counts as silent
+     * @param silenceLimitMs time without a reading after which the sensor counts as silent
      */
     public static Cadence stream(double periodMs, long silenceLimitMs) {
         return new Cadence(
@@ -35,11 +35,11 @@ public final class Cadence {
     }
 
     /**
-     * Returns the cadence of what holds until it changes, as a battery's level: sent when it
-     * changes and again and again, for the sensor speaks of changes only.
+     * Returns the cadence of a value that holds until it changes, such as a battery's level: sent
+     * on each change and repeated, because the sensor reports only changes.
      *
      * @param leastMs the shortest time between two messages
-     * @param repeatMs after so long the same is sent again
+     * @param repeatMs the period of repetition
      * @param silenceLimitMs how long the first reading may take before the sensor counts as silent
      */
     public static Cadence level(double leastMs, long repeatMs, long silenceLimitMs) {
@@ -71,7 +71,7 @@ public final class Cadence {
         return worthMs;
     }
 
-    /** Returns how long the sensor may say nothing. */
+    /** Returns the time without a reading after which the sensor counts as silent. */
     long silenceLimitMs() {
         return silenceLimitMs;
     }

@@ -1,6 +1,6 @@
 package org.raspilot.up.providers;
 
-/** Where the device is, by its GPS; what the receiver does not know is null. */
+/** The device's position by its GPS; values unknown to the receiver are null. */
 public final class Fix {
     private final double latitudeDeg;
     private final double longitudeDeg;
@@ -9,7 +9,7 @@ public final class Fix {
     private final Double speedMS;
     private final Double bearingDeg;
 
-    /** Keeps the values as they are; {@link LocationProvider} judges them. */
+    /** Stores the values unchanged; {@link LocationProvider} validates them. */
     public Fix(
             double latitudeDeg,
             double longitudeDeg,

@@ -3,7 +3,7 @@ package org.raspilot.up.providers;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.HeadingCommand;
 
-/** Sends where the aircraft's nose points, by the compass: {@code up.heading.change}. */
+/** Sends the heading of the aircraft's nose by the compass: {@code up.heading.change}. */
 public final class HeadingProvider extends SensorProvider<Rotation> {
     /** The name under which it is registered. */
     public static final String NAME = "heading";

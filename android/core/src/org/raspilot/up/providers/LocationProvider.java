@@ -3,13 +3,13 @@ package org.raspilot.up.providers;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.LocationCommand;
 
-/** Sends where the device is, as GPS says it: {@code up.location.update}. */
+/** Sends the GPS position of the device: {@code up.location.update}. */
 public final class LocationProvider extends SensorProvider<Fix> {
     /** The name under which it is registered. */
     public static final String NAME = "location";
 
     private static final long SILENCE_MS = 10000;
-    /** A fix of the mobile network, or a blurred one: home and the way back would be elsewhere. */
+    /** A fix of the mobile network, or an approximate one: home and the way back would be wrong. */
     private static final double WORST_ACCURACY_M = 50;
 
     /** Takes the GPS, and how often a fix leaves at most, ms. */
@@ -32,7 +32,7 @@ public final class LocationProvider extends SensorProvider<Fix> {
                 isKnown(fix.bearingDeg()) ? Rounded.direction(fix.bearingDeg()) : null);
     }
 
-    /** What GPS does not know must not keep the place from being told. */
+    /** A value unknown to GPS must not prevent sending the position. */
     private static Double rounded(int decimals, Double value) {
         return isKnown(value) ? Rounded.to(decimals, value) : null;
     }

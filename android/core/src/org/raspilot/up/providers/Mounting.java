@@ -3,8 +3,8 @@ package org.raspilot.up.providers;
 import org.raspilot.up.wire.SafeText;
 
 /**
- * How the device lies in the aeroplane: the rotation from aircraft axes (nose, right wing, down) to
- * device axes (right edge, top edge, out of the screen). Any orientation will do.
+ * The device's mounting in the aeroplane: the rotation from aircraft axes (nose, right wing, down)
+ * to device axes (right edge, top edge, out of the screen). Any orientation is allowed.
  */
 public final class Mounting {
     private static final int LONGEST_SHOWN = 80;
@@ -20,7 +20,7 @@ public final class Mounting {
 
     private final Quaternion bodyToDevice;
 
-    /** Takes any rotation; raises IllegalArgumentException for a quaternion that is none. */
+    /** Takes any rotation; throws IllegalArgumentException for an invalid quaternion. */
     public Mounting(Quaternion bodyToDevice) {
         this.bodyToDevice = bodyToDevice.unit();
     }
@@ -41,8 +41,8 @@ public final class Mounting {
     }
 
     /**
-     * Returns the mounting for which this rotation is level: roll and pitch are zero, and the nose
-     * is where the named side of the device points.
+     * Returns the mounting for which this rotation is level: roll and pitch are zero, and the named
+     * side of the device points to the nose.
      *
      * @throws IllegalArgumentException when that side points up or down (a sentence)
      */
@@ -100,7 +100,7 @@ public final class Mounting {
     /**
      * Returns the mounting of {@link #toText}.
      *
-     * @throws IllegalArgumentException with a sentence when the text is none
+     * @throws IllegalArgumentException with a sentence when the text is not a mounting
      */
     public static Mounting fromText(String text) {
         String[] parts = text.trim().split("\\s+");

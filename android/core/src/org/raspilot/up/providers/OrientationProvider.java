@@ -19,7 +19,7 @@ public final class OrientationProvider extends UpProvider {
 
     private static final long SILENCE_MS = 500;
     private static final long RATE_WORTH_MS = 100;
-    /** Times are told in ms: over less the differences would be noise. */
+    /** Times are in ms: over shorter intervals the differences would be noise. */
     private static final long LEAST_DIFFERENCE_MS = 20;
 
     private final SensorSource<Rotation> rotations;

@@ -3,14 +3,14 @@ package org.raspilot.up.providers;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.wire.OrientationFrame;
 
-/** Where a provider's data goes: the links to the Raspberry Pi. */
+/** The destination of a provider's data: the links to the Raspberry Pi. */
 public interface Outlet {
     /**
-     * Sends a Command; one that still waits for a slow link under the same key is replaced.
+     * Sends a Command; it replaces one under the same key that still waits for a slow link.
      *
-     * @param key whose Command it is: the provider's name
-     * @return whether the link took it; false: it is not connected, and nothing is kept
-     * @throws IllegalArgumentException for what is no message: NaN, or more than 16 KiB
+     * @param key the provider's name
+     * @return whether the link accepted it; false: not connected, and nothing is kept
+     * @throws IllegalArgumentException for invalid data: NaN, or more than 16 KiB
      */
     boolean sendNewest(String key, BaseCommand command);
 

@@ -4,28 +4,29 @@ import java.util.ArrayList;
 import java.util.List;
 
 /**
- * What the Raspberry Pi asks for in Panic Mode: no stream quicker than one message in its delay.
+ * The Raspberry Pi's limit in Panic Mode: each stream sends at most one message per delay.
  *
- * <p>Every sender keeps to it, orientation too, in each mode; the Raspberry Pi does not ask a phone
- * that its controller flies by (thesis 3.2.5). It ends by {@code panic: false} or with the link.
+ * <p>Every sender obeys it, orientation included, in each mode; the Raspberry Pi does not send it
+ * to a phone that its controller flies by (thesis 3.2.5). It ends by {@code panic: false} or with
+ * the link.
  */
 public final class Panic {
-    /** The longest delay that may be asked for, ms. */
+    /** The maximum delay of a request, ms. */
     public static final long LONGEST_DELAY_MS = 10000;
 
     private final List<Listener> listeners = new ArrayList<Listener>();
     private long delayMs;
 
-    /** Is told when it begins, changes or ends. */
+    /** Called when it starts, changes or ends. */
     public interface Listener {
-        /** Tells that {@link Panic#delayMs} is another one now. */
+        /** Called when {@link Panic#delayMs} has changed. */
         void onPanic(Panic panic);
     }
 
     /**
-     * Begins, or takes another delay.
+     * Starts, or changes the delay.
      *
-     * @param wantedMs 0 to 10000; a fraction counts as the next whole one
+     * @param wantedMs 0 to 10000; a fraction is rounded up
      * @throws IllegalArgumentException when it is out of range (a sentence)
      */
     public void follow(double wantedMs) {
@@ -35,12 +36,12 @@ public final class Panic {
         become((long) Math.ceil(wantedMs));
     }
 
-    /** Ends: calm came back, or the link that asked for it is gone. */
+    /** Ends: by {@code panic: false}, or because the link that requested it is lost. */
     public void forget() {
         become(0);
     }
 
-    /** Returns whether it holds. */
+    /** Returns whether it is active. */
     public boolean isOn() {
         return delayMs > 0;
     }
@@ -50,17 +51,17 @@ public final class Panic {
         return delayMs;
     }
 
-    /** Returns the period that a stream of this own period keeps now, ms. */
+    /** Returns the current period of a stream with that normal period, ms. */
     public long periodMs(long ownPeriodMs) {
         return Math.max(ownPeriodMs, delayMs);
     }
 
-    /** Tells this one of changes, in the order of their coming, until it is removed. */
+    /** Adds a listener of changes, called in the order of registration. */
     public void addListener(Listener listener) {
         listeners.add(listener);
     }
 
-    /** Tells this one no more. */
+    /** Removes a listener. */
     public void removeListener(Listener listener) {
         listeners.remove(listener);
     }

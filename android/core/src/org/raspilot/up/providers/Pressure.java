@@ -1,10 +1,10 @@
 package org.raspilot.up.providers;
 
-/** The air's pressure where the device is, by its barometer. */
+/** The air pressure at the device, by its barometer. */
 public final class Pressure {
     private final double hPa;
 
-    /** Keeps the value as it is; {@link AltitudeProvider} judges it. */
+    /** Stores the value unchanged; {@link AltitudeProvider} validates it. */
     public Pressure(double hPa) {
         this.hPa = hPa;
     }

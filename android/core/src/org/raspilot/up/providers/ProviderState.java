@@ -6,10 +6,10 @@ public enum ProviderState {
     ABSENT,
     /** It was not started, or it was stopped. */
     STOPPED,
-    /** It has no reading yet, or there is no link to send it on. */
+    /** No reading yet, or no link to send it on. */
     WAITING,
     /** Its readings leave. */
     SENDING,
-    /** The sensor is there and has said nothing for longer than it may. */
+    /** The sensor is present and has been silent for longer than allowed. */
     SILENT
 }

@@ -11,7 +11,7 @@ public final class ProviderStatus {
     private final String problem;
     private final long sent;
 
-    /** Keeps the values. */
+    /** Stores the values. */
     public ProviderStatus(
             String name,
             String sensor,
@@ -51,7 +51,7 @@ public final class ProviderStatus {
         return rateHz;
     }
 
-    /** Returns how old its newest reading is, ms; -1: none came yet. */
+    /** Returns the age of its newest reading, ms; -1: none so far. */
     public long ageMs() {
         return ageMs;
     }
@@ -61,7 +61,7 @@ public final class ProviderStatus {
         return lastText;
     }
 
-    /** Returns what is wrong in one sentence; empty: nothing. */
+    /** Returns the problem in one sentence, or an empty text. */
     public String problem() {
         return problem;
     }

@@ -7,7 +7,7 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.up.loop.Loop;
 
-/** Keeps the providers: registers, starts and stops them (thesis 4.5.2). Only on the loop. */
+/** Manages the providers: registers, starts and stops them (thesis 4.5.2). Only on the loop. */
 public final class ProvidersController {
     private final Loop loop;
     private final Panic panic = new Panic();
@@ -33,16 +33,16 @@ public final class ProvidersController {
         return panic;
     }
 
-    /** Tells this one of the providers' problems. */
+    /** Sets the listener of the providers' problems. */
     public void addListener(ProvidersListener listener) {
         listeners.add(listener);
     }
 
     /**
-     * Registers a provider; while the others run it is started at once.
+     * Registers a provider; if the others run, it is started immediately.
      *
      * @throws IllegalArgumentException when one of that name is registered
-     * @throws IllegalStateException when this very one was registered before
+     * @throws IllegalStateException when this provider was registered before
      */
     public void register(UpProvider provider) {
         if (providers.containsKey(provider.name())) {
@@ -56,7 +56,7 @@ public final class ProvidersController {
         }
     }
 
-    /** Stops and forgets a provider; returns whether there was one of that name. */
+    /** Stops and removes a provider; returns whether there was one of that name. */
     public boolean unregister(String name) {
         UpProvider provider = providers.remove(name);
         if (provider != null) {
@@ -88,7 +88,7 @@ public final class ProvidersController {
         }
     }
 
-    /** Starts one anew, as after a permission was given; returns whether there is one running. */
+    /** Restarts one, as after a permission was granted; returns whether it is running. */
     public boolean restart(String name) {
         UpProvider provider = providers.get(name);
         if (provider == null || outlet == null) {
@@ -99,14 +99,14 @@ public final class ProvidersController {
         return true;
     }
 
-    /** Takes that a new link is there: each provider sends at once what is known and fresh. */
+    /** Notes a new link: each provider immediately sends its known and fresh values. */
     public void linkOpened() {
         for (UpProvider provider : all()) {
             provider.linkOpened();
         }
     }
 
-    /** Takes that the link is gone: what it asked for is forgotten. */
+    /** Notes that the link is lost: its requests are discarded. */
     public void linkClosed() {
         panic.forget();
     }

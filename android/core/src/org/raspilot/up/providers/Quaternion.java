@@ -12,7 +12,7 @@ public final class Quaternion {
     private final double y;
     private final double z;
 
-    /** Keeps the four parts as they are. */
+    /** Stores the four parts unchanged. */
     public Quaternion(double w, double x, double y, double z) {
         this.w = w;
         this.x = x;
@@ -29,7 +29,7 @@ public final class Quaternion {
     /**
      * Returns the rotation that turns the three axes into these.
      *
-     * @param a where the first axis goes, of length one; b and c are square to it and each other
+     * @param a image of the first axis, of length one; b and c are orthogonal to it and each other
      */
     static Quaternion ofAxes(double[] a, double[] b, double[] c) {
         // The greatest of the four is at least one: the rest is taken from it (Shepperd, 1978).
@@ -64,7 +64,7 @@ public final class Quaternion {
                 w * that.z + x * that.y - y * that.x + z * that.w);
     }
 
-    /** Returns the way back: for a rotation its inverse. */
+    /** Returns the conjugate: for a rotation its inverse. */
     public Quaternion conjugate() {
         return new Quaternion(w, -x, -y, -z);
     }

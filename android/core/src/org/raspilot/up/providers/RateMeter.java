@@ -1,6 +1,6 @@
 package org.raspilot.up.providers;
 
-/** Counts how often something happened in the last second. */
+/** Counts the events of the last second. */
 final class RateMeter {
     private static final int MOST = 1024;
     private static final long WINDOW_MS = 1000;
@@ -9,7 +9,7 @@ final class RateMeter {
     private int oldest;
     private int count;
 
-    /** Takes that it happened; times do not go back. */
+    /** Counts an event; times do not decrease. */
     void happened(long nowMs) {
         forget(nowMs);
         if (count == MOST) {
@@ -20,7 +20,7 @@ final class RateMeter {
         count++;
     }
 
-    /** Returns how often it happened within the second that ends now, Hz. */
+    /** Returns the rate over the second that ends now, Hz. */
     double hz(long nowMs) {
         forget(nowMs);
         return count;

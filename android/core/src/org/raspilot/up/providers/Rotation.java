@@ -1,7 +1,7 @@
 package org.raspilot.up.providers;
 
 /**
- * How the device lies in the world: Android's rotation vector as a quaternion.
+ * The device's orientation in the world: Android's rotation vector as a quaternion.
  *
  * <p>It turns a vector of the device (x to the right edge, y to the top edge, z out of the screen)
  * into east, north, up. Source: Android's documentation of {@code TYPE_ROTATION_VECTOR}.
@@ -10,12 +10,14 @@ public final class Rotation {
     private final Quaternion deviceToWorld;
     private final long timeMs;
 
-    /** Keeps w, x, y, z at length one; raises IllegalArgumentException for no rotation. */
+    /**
+     * Normalizes w, x, y, z to length one; throws IllegalArgumentException if that is impossible.
+     */
     public Rotation(double w, double x, double y, double z, long timeMs) {
         this(new Quaternion(w, x, y, z), timeMs);
     }
 
-    /** Keeps the quaternion at length one; raises IllegalArgumentException for no rotation. */
+    /** Normalizes the quaternion to length one; throws IllegalArgumentException if impossible. */
     public Rotation(Quaternion deviceToWorld, long timeMs) {
         this.deviceToWorld = deviceToWorld.unit();
         this.timeMs = timeMs;
@@ -24,9 +26,9 @@ public final class Rotation {
     /**
      * Returns the rotation of the values of an Android rotation vector event.
      *
-     * @param values x, y, z (each axis times the sine of half the angle) and, where there is a
-     *     fourth, w; older systems leave it out
-     * @throws IllegalArgumentException when they are no rotation
+     * @param values x, y, z (each axis times the sine of half the angle) and, optionally, w; older
+     *     systems leave it out
+     * @throws IllegalArgumentException when they are not a rotation
      */
     public static Rotation ofVector(float[] values, long timeMs) {
         double x = values[0];

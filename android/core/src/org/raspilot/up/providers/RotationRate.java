@@ -7,7 +7,7 @@ public final class RotationRate {
     private final double zRadS;
     private final long timeMs;
 
-    /** Keeps the values as they are. */
+    /** Stores the values unchanged. */
     public RotationRate(double xRadS, double yRadS, double zRadS, long timeMs) {
         this.xRadS = xRadS;
         this.yRadS = yRadS;
@@ -27,7 +27,7 @@ public final class RotationRate {
         }
         Quaternion turn = earlier.deviceToWorld().conjugate().times(later.deviceToWorld());
         double sine = Math.sqrt(turn.x() * turn.x() + turn.y() * turn.y() + turn.z() * turn.z());
-        // A quaternion and its negative are one rotation: the shorter way is meant.
+        // A quaternion and its negative are one rotation: the shorter one is meant.
         double angleRad = 2 * Math.atan2(sine, Math.abs(turn.w()));
         double scale = sine == 0 ? 0 : Math.copySign(angleRad / sine / seconds, turn.w());
         return new RotationRate(

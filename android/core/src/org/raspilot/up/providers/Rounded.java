@@ -1,10 +1,10 @@
 package org.raspilot.up.providers;
 
-/** Numbers with as many decimals as they are worth: what is sent is short to write and to read. */
+/** Rounds numbers to their useful precision, to keep messages short. */
 final class Rounded {
     private Rounded() {}
 
-    /** Returns the value with so many decimals; what is not finite stays so. */
+    /** Returns the value with that number of decimals; a value that is not finite is unchanged. */
     static double to(int decimals, double value) {
         double scale = Math.pow(10, decimals);
         return Double.isNaN(value) || Double.isInfinite(value)

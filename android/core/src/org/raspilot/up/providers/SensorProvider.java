@@ -4,9 +4,10 @@ import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
 
 /**
- * A provider that makes of each reading of one sensor one Command: extend it for your own sensor.
+ * A provider that converts each reading of one sensor to one Command: extend it for your own
+ * sensor.
  *
- * @param <R> what one reading is
+ * @param <R> the type of one reading
  */
 public abstract class SensorProvider<R> extends UpProvider {
     private final SensorSource<R> source;
@@ -23,7 +24,7 @@ public abstract class SensorProvider<R> extends UpProvider {
     }
 
     /**
-     * Returns the Command of a reading, or null when there is nothing to tell.
+     * Returns the Command of a reading, or null to send none.
      *
      * @throws IllegalArgumentException when the reading cannot be used (a sentence for the user)
      */
@@ -89,7 +90,7 @@ public abstract class SensorProvider<R> extends UpProvider {
         try {
             command = read(reading);
         } catch (RuntimeException fault) {
-            // A reading that is no good must not end the sensor's own thread or the others.
+            // An invalid reading must not end the sensor's own thread or affect the others.
             refuse("its reading cannot be used: " + sentence(fault));
             return;
         }

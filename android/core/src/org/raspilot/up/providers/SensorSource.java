@@ -16,13 +16,13 @@ public interface SensorSource<R> {
     String name();
 
     /**
-     * Begins to measure and to hand readings to the listener.
+     * Starts to measure and to deliver readings to the listener.
      *
-     * @param periodMs how often a reading is wanted, ms; the sensor may be quicker or slower
-     * @param listener who takes the readings; one at a time
+     * @param periodMs the wanted period, ms; the sensor may be faster or slower
+     * @param listener receives the readings; one at a time
      */
     void subscribe(long periodMs, SensorListener<R> listener);
 
-    /** Ends what {@link #subscribe} began; without a subscription nothing happens. */
+    /** Ends the subscription of {@link #subscribe}; no effect without one. */
     void unsubscribe();
 }

@@ -4,9 +4,9 @@ import java.util.ArrayList;
 import java.util.List;
 
 /**
- * Lets several providers read one sensor: each takes a branch, the quickest decides the period.
+ * Shares one sensor between several providers: each takes a branch, the fastest sets the period.
  *
- * @param <R> what one reading is
+ * @param <R> the type of one reading
  */
 public final class SharedSource<R> {
     private final SensorSource<R> source;
@@ -26,7 +26,7 @@ public final class SharedSource<R> {
         this.source = source;
     }
 
-    /** Returns a source of the same readings, with a subscription of its own. */
+    /** Returns a source of the same readings, with its own subscription. */
     public SensorSource<R> branch() {
         return new Branch();
     }

@@ -1,6 +1,6 @@
 package org.raspilot.up.providers;
 
-/** A side of the device, seen by someone who looks at its screen held upright. */
+/** A side of the device, seen by a viewer of its screen held upright. */
 public enum Side {
     /** The top edge. */
     TOP(0, 1, 0),

@@ -22,7 +22,7 @@ public final class StandardAtmosphere {
 
     private StandardAtmosphere() {}
 
-    /** Returns metres above where the pressure is the reference's; both in hPa, above 0. */
+    /** Returns metres above the level of the reference pressure; both in hPa, above 0. */
     public static double altitudeM(double pressureHPa, double referenceHPa) {
         double share = pressureHPa / referenceHPa;
         if (share < TROPOPAUSE_SHARE) {

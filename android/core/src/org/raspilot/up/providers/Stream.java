@@ -48,7 +48,7 @@ final class Stream implements Panic.Listener {
         this.sender = sender;
     }
 
-    /** Begins without a reading. */
+    /** Starts without a reading. */
     void begin() {
         isRunning = true;
         isFirst = true;
@@ -57,21 +57,21 @@ final class Stream implements Panic.Listener {
         panic.addListener(this);
     }
 
-    /** Ends; nothing leaves any more. */
+    /** Stops; nothing is sent afterwards. */
     void end() {
         isRunning = false;
         cancel();
         panic.removeListener(this);
     }
 
-    /** Takes that a reading came just now; it leaves if it is news. */
+    /** Takes a new reading; it is sent if it is news. */
     void offer(boolean isNews) {
         newestMs = loop.nowMs();
         isUnsent |= isNews;
         pump(true);
     }
 
-    /** Takes that a new link is there: what is known and still true leaves at once. */
+    /** Notes a new link: known values that still hold are sent immediately. */
     void reopen() {
         isFirst = true;
         isUnsent = newestMs >= 0;
@@ -98,7 +98,7 @@ final class Stream implements Panic.Listener {
         return rate.hz(loop.nowMs());
     }
 
-    /** Sends what may leave; what came just now may a little early. */
+    /** Sends a due value; a reading that arrived just now may be sent slightly early. */
     private void pump(boolean isPrompt) {
         cancel();
         long nowMs = loop.nowMs();
@@ -126,14 +126,14 @@ final class Stream implements Panic.Listener {
         return cadence.isLevel() ? lastMs + panic.periodMs(cadence.repeatMs()) : NEVER;
     }
 
-    /** Returns from when on a reading that comes is sent at once. */
+    /** Returns the time from which a new reading is sent immediately. */
     private double promptMs(double wantedMs) {
         return isUnsent && !isFirst
                 ? Math.max(dueMs - cadence.slackMs(), calmMs())
                 : wantedMs;
     }
 
-    /** Returns before when Panic lets nothing leave. */
+    /** Returns the earliest time that Panic permits. */
     private double calmMs() {
         return panic.isOn() ? lastMs + panic.delayMs() : 0;
     }

@@ -3,10 +3,10 @@ package org.raspilot.up.providers;
 import org.raspilot.up.loop.Loop;
 
 /**
- * Reads a sensor, makes of its readings what the Raspberry Pi wants, and sends it (thesis 3.5.2).
+ * Reads a sensor, converts its readings for the Raspberry Pi, and sends them (thesis 3.5.2).
  *
- * <p>A provider of one sensor and one Command is best a {@link SensorProvider}. What a hook throws
- * is told as the provider's problem and harms no other provider. Only on the loop.
+ * <p>For a provider of one sensor and one Command extend {@link SensorProvider}. An exception of a
+ * hook is reported as the provider's problem and does not affect other providers. Only on the loop.
  */
 public abstract class UpProvider {
     private final String name;
@@ -30,13 +30,13 @@ public abstract class UpProvider {
     /** Returns whether this device has the sensor. */
     protected abstract boolean isPresent();
 
-    /** Returns what the sensor calls itself; asked at each start, together with isPresent. */
+    /** Returns the sensor's own name; called at each start, together with isPresent. */
     protected abstract String sensorName();
 
-    /** Begins to read the sensor, as often as periodMs says; each reading leads to offer. */
+    /** Starts to read the sensor with the period of periodMs; each reading leads to offer. */
     protected abstract void subscribe(long periodMs);
 
-    /** Ends what subscribe began. */
+    /** Ends the subscription. */
     protected abstract void unsubscribe();
 
     /** Sends the newest reading; returns whether the link took it. */
@@ -50,7 +50,7 @@ public abstract class UpProvider {
         return to.isOpen();
     }
 
-    /** Takes that a reading came and is kept; it is sent when the cadence allows, if it is news. */
+    /** Notes a new, stored reading; it is sent when the cadence allows, if it is news. */
     protected final void offer(boolean isNews) {
         if (isStarted) {
             trouble("");
@@ -58,7 +58,7 @@ public abstract class UpProvider {
         }
     }
 
-    /** Takes that a reading cannot be used, and why; it counts as no reading. */
+    /** Notes an unusable reading with its reason; it does not count as a reading. */
     protected final void refuse(String sentence) {
         trouble(sentence);
     }
@@ -89,7 +89,7 @@ public abstract class UpProvider {
         look();
     }
 
-    /** Begins to read the sensor and to send; one that is absent is told by its name. */
+    /** Starts to read the sensor and to send; an absent sensor is reported by its name. */
     final void start(Outlet to) {
         if (isStarted) {
             return;
@@ -112,7 +112,7 @@ public abstract class UpProvider {
         }
     }
 
-    /** Ends what start began. */
+    /** Stops. */
     final void stop() {
         if (!isStarted) {
             return;
@@ -127,7 +127,7 @@ public abstract class UpProvider {
         }
     }
 
-    /** Takes that a new link is there. */
+    /** Notes a new link. */
     final void linkOpened() {
         if (isStarted) {
             stream.reopen();
@@ -175,12 +175,12 @@ public abstract class UpProvider {
         isThere = false;
         try {
             boolean isFound = isPresent();
-            // Kept, as asking may take the system long.
+            // Cached, because the query may be slow.
             String said = sensorName();
             sensorName = said == null ? "" : said;
             isThere = isFound;
         } catch (RuntimeException fault) {
-            // As above; a sensor that cannot be asked for is not there.
+            // As above; a sensor whose query fails is absent.
             trouble("the sensor cannot be looked for: " + sentence(fault));
         }
     }
@@ -189,7 +189,7 @@ public abstract class UpProvider {
         try {
             return transmit(outlet);
         } catch (RuntimeException fault) {
-            // One provider that fails harms no other one.
+            // A failure in one provider does not affect the others.
             trouble("its reading cannot be sent: " + sentence(fault));
             return false;
         }
@@ -204,7 +204,7 @@ public abstract class UpProvider {
         }
     }
 
-    /** Returns what an exception says, or its kind when it says nothing. */
+    /** Returns the message of an exception, or its class name without one. */
     static String sentence(RuntimeException fault) {
         return fault.getMessage() == null ? fault.getClass().getSimpleName() : fault.getMessage();
     }

@@ -2,16 +2,16 @@ package org.raspilot.up.wire;
 
 /**
  * A line between proxy and ground that is not relayed: who commands, and whether the aircraft is
- * there.
+ * connected.
  *
  * <p>Source: docs/protocols.md 9.
  */
 public final class ControlLine {
-    /** What a control line says. */
+    /** The kinds of control lines. */
     public enum Kind {
-        /** Ground to proxy: asks for the seat that commands. */
+        /** Ground to proxy: requests the seat that commands. */
         SEAT_REQUEST,
-        /** Proxy to holder: listener {@link #number} asks for the seat. */
+        /** Proxy to holder: listener {@link #number} requests the seat. */
         SEAT_ASKED,
         /** Holder to proxy: hands the seat to listener {@link #number}. */
         SEAT_GIVE,
@@ -21,7 +21,7 @@ public final class ControlLine {
         SEAT_COMMAND,
         /** Proxy to ground: you listen now. */
         SEAT_LISTEN,
-        /** Proxy to all: ground {@link #number} commands; null: nobody. */
+        /** Proxy to all: ground {@link #number} commands; null: none. */
         SEAT_HOLDER,
         /** Proxy to all: the airborne side came. */
         AIRCRAFT_ONLINE,
@@ -40,7 +40,7 @@ public final class ControlLine {
     }
 
     /**
-     * Makes a line that needs neither a number nor a token; SEAT_HOLDER: nobody commands.
+     * Creates a line that needs neither a number nor a token; for SEAT_HOLDER: none commands.
      *
      * @throws IllegalArgumentException for a kind that needs one
      */
@@ -65,9 +65,9 @@ public final class ControlLine {
     }
 
     /**
-     * Makes SEAT_COMMAND with the token that resumes the seat.
+     * Creates SEAT_COMMAND with the token that resumes the seat.
      *
-     * @throws IllegalArgumentException when it has not the form of a token
+     * @throws IllegalArgumentException when the token is malformed
      */
     public static ControlLine seatCommand(String token) {
         if (!Hello.isToken(token)) {
@@ -76,7 +76,7 @@ public final class ControlLine {
         return new ControlLine(Kind.SEAT_COMMAND, null, token);
     }
 
-    /** Returns what it says. */
+    /** Returns its kind. */
     public Kind kind() {
         return kind;
     }
@@ -86,20 +86,17 @@ public final class ControlLine {
         return number;
     }
 
-    /** Returns the token of SEAT_COMMAND, else null. */
+    /** Returns the token of SEAT_COMMAND, otherwise null. */
     public String token() {
         return token;
     }
 
-    /** Says whether a line begins as those that are never relayed do: it is no General Message. */
+    /** Returns whether a line starts as those that are never relayed: not a General Message. */
     public static boolean isControlLine(byte[] line, int length) {
         return length >= 4 && line[0] == 'U' && line[1] == 'P' && line[2] == '1' && line[3] == ' ';
     }
 
-    /**
-     * Returns what a line without line end says; null: nothing that is known. Unknown words are
-     * ignored.
-     */
+    /** Parses a line without line end; null if unknown. Unknown words are ignored. */
     public static ControlLine read(byte[] line, int length) {
         String text = Utf8.printableAscii(line, length);
         if (text == null) {

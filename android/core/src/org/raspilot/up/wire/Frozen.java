@@ -7,7 +7,7 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 
-/** Copies of JSON values that nobody can change, to their depth. */
+/** Deeply immutable copies of JSON values. */
 final class Frozen {
     private Frozen() {
     }

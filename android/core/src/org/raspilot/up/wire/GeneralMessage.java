@@ -5,7 +5,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 
 /**
- * One General Message: which Command, its fields, and what asks for an answer or tells freshness.
+ * One General Message: its Command, its fields, and optionally an id for an answer and a beacon.
  *
  * <p>Source: docs/protocols.md 4, thesis 3.1.4.
  */
@@ -20,13 +20,13 @@ public final class GeneralMessage {
     private final String id;
     private final Long beacon;
 
-    /** Makes a message that wants no answer and carries no beacon. */
+    /** Creates a message without an id or a beacon. */
     public GeneralMessage(String name, Map<String, ?> data) {
         this(name, data, null, null);
     }
 
     /**
-     * Makes a message; {@code data} null is an empty object, {@code id} null wants no answer,
+     * Creates a message; {@code data} null is an empty object, {@code id} null requests no answer,
      * {@code beacon} null is left out.
      */
     public GeneralMessage(String name, Map<String, ?> data, String id, Long beacon) {
@@ -56,7 +56,7 @@ public final class GeneralMessage {
         return data;
     }
 
-    /** Returns the id under which an answer is asked for, or null. */
+    /** Returns the id for the requested answer, or null. */
     public String id() {
         return id;
     }
@@ -67,10 +67,10 @@ public final class GeneralMessage {
     }
 
     /**
-     * Reads one line, with or without its line end.
+     * Parses one line, with or without its line end.
      *
-     * @throws MalformedException when it is no General Message; a beacon beyond 64 bits makes it
-     *     none here
+     * @throws MalformedException when it is not a General Message; a beacon beyond 64 bits is
+     *     malformed here
      */
     public static GeneralMessage read(byte[] line, int length) throws MalformedException {
         if (length > LineSplitter.LONGEST_LINE) {
@@ -134,7 +134,7 @@ public final class GeneralMessage {
         return new GeneralMessage((String) name, (Map<String, Object>) data, id, (Long) beacon);
     }
 
-    /** Says whether a text has 1 to {@code longest} characters. */
+    /** Returns whether a text has 1 to {@code longest} characters. */
     static boolean hasLength(String text, int longest) {
         int length = text.codePointCount(0, text.length());
         return length >= 1 && length <= longest;

@@ -37,18 +37,18 @@ public final class Hello {
     }
 
     /**
-     * Makes an aircraft's hello; {@code token} null: none yet.
+     * Creates an aircraft's hello; {@code token} null: none yet.
      *
-     * @throws IllegalArgumentException when the name or the token has not the form of one
+     * @throws IllegalArgumentException when the name or the token is malformed
      */
     public static Hello ofAircraft(String aircraft, String token) {
         return new Hello(aircraft, null, token);
     }
 
     /**
-     * Makes a ground's hello; {@code seat} is COMMAND or LISTEN, {@code token} null: none yet.
+     * Creates a ground's hello; {@code seat} is COMMAND or LISTEN, {@code token} null: none yet.
      *
-     * @throws IllegalArgumentException when one of them has not the form of one
+     * @throws IllegalArgumentException when one of them is malformed
      */
     public static Hello ofGround(String aircraft, Seat seat, String token) {
         if (seat != Seat.COMMAND && seat != Seat.LISTEN) {
@@ -62,7 +62,7 @@ public final class Hello {
         return aircraft;
     }
 
-    /** Returns the seat that a ground asks for; null: an aircraft's hello. */
+    /** Returns the seat that a ground requests; null: an aircraft's hello. */
     public Seat seat() {
         return seat;
     }
@@ -72,21 +72,21 @@ public final class Hello {
         return token;
     }
 
-    /** Says whether a text can be the name of an aircraft, for a proxy and for a runner. */
+    /** Returns whether a text is a valid name of an aircraft, for a proxy and for a runner. */
     public static boolean isAircraftName(String text) {
         return text != null && NAME.matcher(text).matches();
     }
 
-    /** Says whether a text has the form of a resume token. */
+    /** Returns whether a text has the form of a resume token. */
     public static boolean isToken(String text) {
         return text != null && TOKEN.matcher(text).matches();
     }
 
     /**
-     * Reads the hello of an aircraft ({@code isGround} false) or of a ground, its line end may be
-     * absent; a ground that names no seat asks to command, unknown words are ignored.
+     * Parses the hello of an aircraft ({@code isGround} false) or of a ground, with or without its
+     * line end; a ground that names no seat requests to command, unknown words are ignored.
      *
-     * @throws MalformedException when it is none
+     * @throws MalformedException when it is not a hello
      */
     public static Hello read(byte[] line, int length, boolean isGround) throws MalformedException {
         if (length > LONGEST_LINE) {

@@ -26,22 +26,22 @@ public final class HelloAnswer {
         this.reason = reason;
     }
 
-    /** Makes the answer that takes somebody in. */
+    /** Creates the answer that accepts a peer. */
     public static HelloAnswer accepted(String aircraft, Seat seat, String token) {
         return new HelloAnswer(aircraft, seat, token, null, null);
     }
 
-    /** Makes the answer that refuses, with one of the codes of the protocol and a sentence. */
+    /** Creates the answer that refuses, with one of the codes of the protocol and a sentence. */
     public static HelloAnswer refused(String code, String reason) {
         return new HelloAnswer(null, null, null, code, reason);
     }
 
-    /** Says whether the hello was accepted. */
+    /** Returns whether the hello was accepted. */
     public boolean isAccepted() {
         return code == null;
     }
 
-    /** Returns the aircraft's name, or null when refused or not said. */
+    /** Returns the aircraft's name, or null when refused or absent. */
     public String aircraft() {
         return aircraft;
     }
@@ -67,8 +67,8 @@ public final class HelloAnswer {
     }
 
     /**
-     * Returns what a line without line end answers; null: it is no answer to a hello. Unknown
-     * words are ignored.
+     * Parses a line without line end; null if it is not an answer to a hello. Unknown words are
+     * ignored.
      */
     public static HelloAnswer read(byte[] line, int length) {
         String text = Utf8.printableAscii(line, length);

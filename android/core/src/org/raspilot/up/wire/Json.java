@@ -8,7 +8,7 @@ package org.raspilot.up.wire;
  * other number a Double, and further Boolean and null. Source: docs/protocols.md 4.
  */
 public final class Json {
-    /** How deep objects and lists may be nested; the outermost counts as one. */
+    /** Maximum nesting of objects and lists; the outermost counts as one. */
     public static final int DEEPEST_NESTING = 32;
     /** Keys of one object; it bounds the work per message. */
     public static final int MAX_KEYS = 512;
@@ -30,8 +30,8 @@ public final class Json {
     /**
      * Returns a value as ASCII text with the separators {@code ", "} and {@code ": "}.
      *
-     * @throws IllegalArgumentException for NaN, infinity, a lone surrogate, what JSON cannot hold
-     *     and what is nested deeper than 32, naming its place
+     * @throws IllegalArgumentException, naming the place, for NaN, infinity, a lone surrogate,
+     *     other values that JSON lacks, and nesting deeper than 32
      */
     public static String write(Object value) {
         return new JsonWriter().write(value);
@@ -51,7 +51,7 @@ public final class Json {
         return -1;
     }
 
-    /** Says whether it is one half of a character; Android 4.1 has no Character.isSurrogate. */
+    /** Returns whether it is a surrogate; Android 4.1 has no Character.isSurrogate. */
     static boolean isSurrogate(char c) {
         return c >= Character.MIN_SURROGATE && c <= Character.MAX_SURROGATE;
     }

@@ -17,14 +17,14 @@ final class JsonNumberReader {
         at = start;
     }
 
-    /** Returns where the number ended. */
+    /** Returns the end of the number. */
     int end() {
         return at;
     }
 
     /**
-     * Returns a Long, a BigInteger or a Double; where it is not strict a Double may be infinite
-     * and a whole number that is longer than an id is null.
+     * Returns a Long, a BigInteger or a Double; when not strict a Double may be infinite, and a
+     * whole number longer than an id is null.
      */
     Object read(boolean isStrict) throws MalformedException {
         skip('-');
@@ -60,7 +60,7 @@ final class JsonNumberReader {
         return real;
     }
 
-    /** Takes a fraction; a point without digits is left where it is, as any other character. */
+    /** Takes a fraction; a point without digits is not consumed. */
     private boolean skipFraction() {
         int before = at;
         if (skip('.') && skipDigits() > 0) {

@@ -96,7 +96,7 @@ final class JsonReader {
         }
         leave();
         if (isIdRepeated) {
-            // There is no telling which one was meant.
+            // It is ambiguous which one was meant.
             fields.remove("id");
         }
         return fields;
@@ -179,7 +179,7 @@ final class JsonReader {
         at++;
     }
 
-    /** Returns the next character; 0, which begins nothing, at the end. */
+    /** Returns the next character, or 0 at the end, which starts no value. */
     private char peek() {
         return at < text.length() ? text.charAt(at) : 0;
     }

@@ -1,6 +1,6 @@
 package org.raspilot.up.wire;
 
-/** Reads one text of a JSON text: what stands between two double quotes. */
+/** Reads one string of a JSON text: the characters between two double quotes. */
 final class JsonTextReader {
     private static final String ESCAPED = "\"\\/bfnrt";
     private static final String MEANT = "\"\\/\b\f\n\r\t";
@@ -9,7 +9,7 @@ final class JsonTextReader {
     private int at;
     private boolean hasSurrogateEscape;
 
-    /** Begins behind the opening quote. */
+    /** Starts after the opening quote. */
     JsonTextReader(String source, int start) {
         this.source = source;
         at = start;
@@ -46,12 +46,12 @@ final class JsonTextReader {
         }
     }
 
-    /** Returns where the text ended: behind its closing quote. */
+    /** Returns the end of the text, after its closing quote. */
     int end() {
         return at;
     }
 
-    /** Says whether a surrogate was escaped; unescaped ones are no UTF-8. */
+    /** Returns whether a surrogate was escaped; unescaped ones are invalid UTF-8. */
     boolean hasSurrogateEscape() {
         return hasSurrogateEscape;
     }

@@ -4,7 +4,7 @@ import java.math.BigInteger;
 import java.util.Collection;
 import java.util.Map;
 
-/** Writes one JSON text; knows where it is, to name the place of what cannot be written. */
+/** Writes one JSON text; tracks its position, to name the place of an invalid value. */
 final class JsonWriter {
     private static final String ESCAPED = "\"\\\b\f\n\r\t";
     private static final String ESCAPES = "\"\\bfnrt";

@@ -5,10 +5,10 @@ import java.util.Arrays;
 import java.util.List;
 
 /**
- * Cuts a stream of bytes into lines at LF and takes a CR before it away.
+ * Splits a stream of bytes into lines at LF and removes a CR before it.
  *
- * <p>A line that is too long is dropped up to its LF and counted; what is held never grows beyond
- * the bound. Empty lines are heartbeats and are left out. Source: docs/protocols.md 4.
+ * <p>A line that is too long is dropped up to its LF and counted; the buffer never exceeds the
+ * bound. Empty lines are heartbeats and are left out. Source: docs/protocols.md 4.
  */
 public final class LineSplitter {
     /** Bytes of a General Message line with its LF. */
@@ -20,12 +20,12 @@ public final class LineSplitter {
     private boolean isSkipping;
     private long droppedTooLong;
 
-    /** Makes a splitter for lines of General Messages. */
+    /** Creates a splitter for lines of General Messages. */
     public LineSplitter() {
         this(LONGEST_LINE);
     }
 
-    /** Makes a splitter for lines of at most {@code longestBytes}, LF included. */
+    /** Creates a splitter for lines of at most {@code longestBytes}, LF included. */
     public LineSplitter(int longestBytes) {
         longestContent = longestBytes - 1;
     }
@@ -45,7 +45,7 @@ public final class LineSplitter {
         return lines;
     }
 
-    /** Forgets an unfinished line: the next byte is another connection's. */
+    /** Discards an unfinished line: the next byte is another connection's. */
     public void reset() {
         heldLength = 0;
         isSkipping = false;

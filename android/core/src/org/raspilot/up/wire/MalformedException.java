@@ -1,7 +1,7 @@
 package org.raspilot.up.wire;
 
 /**
- * Bytes that are no message; the text is one short clause that says why.
+ * Bytes that are not a valid message; the text is one short clause with the reason.
  *
  * <p>Source: docs/protocols.md 4 (the code {@code malformed}).
  */
@@ -10,23 +10,23 @@ public final class MalformedException extends Exception {
 
     private final String id;
 
-    /** Says why, where no id could be read. */
+    /** Creates it with the reason, without an id. */
     public MalformedException(String reason) {
         this(reason, null);
     }
 
-    /** Says why, and the id under which it can be refused; null where none could be read. */
+    /** Creates it with the reason and the id to refuse it under; null if the id is unreadable. */
     public MalformedException(String reason, String id) {
         super(reason);
         this.id = id;
     }
 
-    /** Returns why it is no message. */
+    /** Returns why it is not a message. */
     public String reason() {
         return getMessage();
     }
 
-    /** Returns the id that the message had where it could still be read, else null. */
+    /** Returns the id of the message if it was readable, otherwise null. */
     public String id() {
         return id;
     }

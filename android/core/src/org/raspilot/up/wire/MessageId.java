@@ -8,7 +8,7 @@ final class MessageId {
     private MessageId() {
     }
 
-    /** Returns the id that a field holds, or null for none; raises when it can be no id. */
+    /** Returns the id of a field, or null if absent; throws for an invalid id. */
     static String read(Object value) throws MalformedException {
         if (value == null) {
             return null;
@@ -35,7 +35,7 @@ final class MessageId {
             String id = fields instanceof Map ? read(((Map<?, ?>) fields).get("id")) : null;
             return id == null || Json.loneSurrogate(id) >= 0 ? null : id;
         } catch (MalformedException noJson) {
-            // What it is instead was said already; it merely has no id.
+            // The error is already reported; the message merely has no id.
             return null;
         }
     }

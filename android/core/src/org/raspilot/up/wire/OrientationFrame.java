@@ -23,7 +23,7 @@ public final class OrientationFrame {
     private final float pitchRateDegS;
     private final float yawRateDegS;
 
-    /** Makes a frame of any values; see {@link #isInRange}. */
+    /** Creates a frame of any values; see {@link #isInRange}. */
     public OrientationFrame(float rollDeg, float pitchDeg, float yawDeg, float rollRateDegS,
             float pitchRateDegS, float yawRateDegS) {
         this.rollDeg = rollDeg;
@@ -64,7 +64,7 @@ public final class OrientationFrame {
         return yawRateDegS;
     }
 
-    /** Says whether a receiver takes it: all six finite and within their limits. */
+    /** Returns whether a receiver accepts it: all six finite and within their limits. */
     public boolean isInRange() {
         return isWithin(rollDeg, LARGEST_ANGLE_DEG)
                 && isWithin(pitchDeg, LARGEST_ANGLE_DEG)

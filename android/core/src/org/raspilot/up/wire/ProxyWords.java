@@ -12,7 +12,7 @@ final class ProxyWords {
         words = line.split(" ", -1);
     }
 
-    /** Returns a word; an empty text where there is none or the line is not the proxy's. */
+    /** Returns a word; an empty text if absent or if the line is not the proxy's. */
     String word(int index) {
         return words[0].equals("UP1") && index < words.length ? words[index] : "";
     }

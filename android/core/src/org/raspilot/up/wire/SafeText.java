@@ -1,6 +1,6 @@
 package org.raspilot.up.wire;
 
-/** Makes texts from the air harmless for a screen. */
+/** Makes received texts safe to display. */
 public final class SafeText {
     private static final int MOST_MARKS = 2;
     private static final char CUT = '\u2026';
@@ -11,8 +11,8 @@ public final class SafeText {
     /**
      * Returns a text of at most {@code limit} characters, at least 1, in one line.
      *
-     * <p>Control characters, those that change the direction of writing or are not seen, lone
-     * surrogates and heaps of marks over one letter are left out; a text that is cut ends in "…".
+     * <p>Control characters, direction overrides, invisible characters, lone surrogates and
+     * excessive combining marks are left out; a truncated text ends in "…".
      */
     public static String of(String text, int limit) {
         final StringBuilder shown = new StringBuilder();

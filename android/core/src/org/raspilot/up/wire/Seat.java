@@ -6,7 +6,7 @@ public enum Seat {
     COMMAND("command"),
     /** A ground that only listens. */
     LISTEN("listen"),
-    /** The aircraft itself; said by the proxy alone, never asked for. */
+    /** The aircraft itself; sent only by the proxy, never requested. */
     AIR("air");
 
     private final String word;
@@ -15,12 +15,12 @@ public enum Seat {
         this.word = word;
     }
 
-    /** Returns the word that stands on the wire. */
+    /** Returns the word on the wire. */
     public String word() {
         return word;
     }
 
-    /** Returns the seat of a word, or null when it is none. */
+    /** Returns the seat with that name, or null if unknown. */
     public static Seat ofWord(String word) {
         for (Seat seat : values()) {
             if (seat.word.equals(word)) {

@@ -47,7 +47,7 @@ final class ShortestNumber {
         return best.stripTrailingZeros();
     }
 
-    /** Returns how many digits Double.toString takes: a good place to begin the search. */
+    /** Returns the number of digits of Double.toString: a good start for the search. */
     private static int digitsOf(double number) {
         int digits = 0;
         String text = Double.toString(number);
@@ -57,7 +57,7 @@ final class ShortestNumber {
         return digits;
     }
 
-    /** Returns the nearest decimal of so many digits that reads back as the number, or null. */
+    /** Returns the nearest decimal of that many digits that parses back to the number, or null. */
     private static BigDecimal nearest(BigDecimal exact, int digits, double number) {
         BigDecimal half = exact.round(new MathContext(digits, RoundingMode.HALF_EVEN));
         if (readsAs(half, number)) {

@@ -12,7 +12,7 @@ final class Utf8 {
     private Utf8() {
     }
 
-    /** Returns the text of the first {@code length} bytes; raises for what is no UTF-8. */
+    /** Returns the text of the first {@code length} bytes; throws for invalid UTF-8. */
     static String decode(byte[] bytes, int length) throws MalformedException {
         try {
             return UTF_8.newDecoder()
@@ -25,7 +25,7 @@ final class Utf8 {
         }
     }
 
-    /** Returns printable ASCII, or null when a byte is something else. */
+    /** Returns printable ASCII, or null if there are other bytes. */
     static String printableAscii(byte[] bytes, int length) {
         StringBuilder text = new StringBuilder(length);
         for (int i = 0; i < length; i++) {

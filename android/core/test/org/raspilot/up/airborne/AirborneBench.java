@@ -17,7 +17,7 @@ import org.raspilot.up.providers.SensorSource;
 import org.raspilot.up.providers.Sensors;
 import org.raspilot.up.providers.TestSource;
 
-/** A phone on board whose sensors, network and time a test has in its hands. */
+/** A phone on board whose sensors, network and time a test controls. */
 final class AirborneBench implements Sensors, Speaker, AirborneListener {
     static final Fix HERE = new Fix(48.1, 17.1, 150.0, null, null, null);
     static final Rotation LEVEL = new Rotation(1, 0, 0, 0, 0);
@@ -47,7 +47,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
         return fixed().mode(AirborneMode.BLACK_BOX);
     }
 
-    /** Makes the phone and starts it. */
+    /** Creates the phone and starts it. */
     Airborne start(AirborneSettings settings) {
         airborne = new Airborne(loop, settings, this, this, this, new Random(1));
         airborne.start();
@@ -62,7 +62,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
         return airborne;
     }
 
-    /** Lets the newest connection to a port be made. */
+    /** Opens the newest connection to a port. */
     ScriptedNetwork.Connection accept(int port) {
         ScriptedNetwork.Connection connection = to(port);
         connection.room = ROOM;
@@ -85,13 +85,13 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
         return to(50001);
     }
 
-    /** Lets a line come from the Raspberry Pi. */
+    /** Delivers a line from the Raspberry Pi. */
     void hear(String line) {
         general().say(line + "\n");
         loop.advance(0);
     }
 
-    /** Returns how many orientation frames the system took since it was asked last. */
+    /** Returns the number of orientation frames that the system accepted since the last call. */
     int frames() {
         ScriptedNetwork.Connection connection = to(50000);
         int bytes = ROOM - connection.room;
@@ -111,7 +111,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
         return sent;
     }
 
-    /** Returns the lines that left since it was asked last, their ids left out. */
+    /** Returns the sent lines since the last call, without their ids. */
     List<String> lines() {
         String written = general().written();
         if (written.isEmpty()) {
@@ -136,7 +136,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
         return count;
     }
 
-    /** Lets every sensor speak each periodMs for so many ms. */
+    /** Makes every sensor deliver a reading each periodMs for that many ms. */
     void fly(long periodMs, long forMs) {
         for (long passed = 0; passed < forMs; passed += periodMs) {
             loop.advance(periodMs);

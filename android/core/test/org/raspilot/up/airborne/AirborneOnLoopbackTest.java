@@ -108,13 +108,13 @@ public final class AirborneOnLoopbackTest {
             }
         });
         while (fresh.readLine() != null) {
-            // Until the end of what had left before the stop.
+            // Until everything sent before the stop has arrived.
         }
         again.close();
         frames.close();
     }
 
-    /** Lets the sensors speak on the loop, once there is a link for what they say. */
+    /** Makes the sensors deliver on the loop, once there is a link for their readings. */
     private void give(final Airborne airborne, final Mounting mounting, final double rollDeg) {
         running.await("the link for Commands", new Callable<Boolean>() {
             @Override

@@ -76,7 +76,7 @@ public final class AirborneOrientationTest {
     public void afterAGapItsConnectionIsMadeAnewTogetherWithTheOther() {
         bench.connected(AirborneBench.blackBox().build());
         ScriptedNetwork.Connection first = bench.accept(50000);
-        // A black hole that still has room: it takes frames which nobody will ever get.
+        // A black hole that still has room: it accepts frames that never arrive.
         bench.fly(20, 1000);
         bench.general().end("gone");
         bench.loop.advance(1000);

@@ -12,7 +12,7 @@ import org.raspilot.up.providers.Cadence;
 import org.raspilot.up.providers.SensorProvider;
 import org.raspilot.up.providers.TestSource;
 
-/** Panic Mode holds for every sender, and ends with calm or with the link. */
+/** Panic Mode applies to every sender, and ends by request or with the link. */
 public final class AirbornePanicTest {
     private final AirborneBench bench = new AirborneBench();
 

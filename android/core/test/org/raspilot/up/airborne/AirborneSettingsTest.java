@@ -9,7 +9,7 @@ import java.util.Arrays;
 import java.util.List;
 import org.junit.Test;
 
-/** Defaults, what is refused and by which sentence, and who is asked for the Raspberry Pi. */
+/** Defaults, rejected values with their messages, and the addresses of Discovery requests. */
 public final class AirborneSettingsTest {
 
     @Test

@@ -67,7 +67,7 @@ public final class AnswerWatchTest {
         bench.connected(AirborneBench.fixed().build());
         answerTheId();
         bench.loop.advance(60000);
-        // The battery's level is repeated each ten seconds, and asks.
+        // The battery's level is repeated each ten seconds, with an id.
         assertFalse(bench.airborne.status().isConnected());
         AirborneBench quiet = new AirborneBench();
         quiet.connected(AirborneBench.fixed().build());

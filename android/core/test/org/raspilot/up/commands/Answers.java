@@ -19,7 +19,7 @@ final class Answers implements AnswerSink {
         }
     }
 
-    /** Returns what was heard since the last time. */
+    /** Returns the messages since the last call. */
     List<String> heard() {
         List<String> all = new ArrayList<String>(heard);
         heard.clear();

@@ -3,7 +3,7 @@ package org.raspilot.up.commands;
 import java.util.ArrayList;
 import java.util.List;
 
-/** Keeps what handlers threw. */
+/** Records exceptions of handlers. */
 final class HandlerFaults implements HandlerFaultListener {
     final List<Throwable> faults = new ArrayList<Throwable>();
 

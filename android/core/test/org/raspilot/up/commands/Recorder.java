@@ -3,7 +3,7 @@ package org.raspilot.up.commands;
 import java.util.ArrayList;
 import java.util.List;
 
-/** A handler that keeps what it was asked, and throws what it is told to. */
+/** A handler that records its Commands and throws on request. */
 final class Recorder extends BaseCommandHandler {
     final List<BaseCommand> commands = new ArrayList<BaseCommand>();
     CommandRefusedException refusal;

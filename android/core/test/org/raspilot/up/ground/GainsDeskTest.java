@@ -21,7 +21,7 @@ import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.Seat;
 
-/** Gains: asked for, held, set whole, undone. */
+/** Gains: requested, stored, set whole, undone. */
 public final class GainsDeskTest {
     @Rule
     public final GroundBench bench = new GroundBench();

@@ -19,7 +19,7 @@ import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
 import org.raspilot.up.wire.Seat;
 
-/** A ground in standing time whose proxy the test plays; keeps all that it tells. */
+/** A ground on a stopped clock whose proxy is the test; records all its reports. */
 final class GroundBench extends ExternalResource implements GroundListener {
     static final String TOKEN = "0123456789abcdef0123456789abcdef";
     static final String OTHER_TOKEN = "ffffffffffffffffffffffffffffffff";
@@ -53,7 +53,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         faults.mustBeNone();
     }
 
-    /** Makes the ground with these settings and starts it. */
+    /** Creates the ground with these settings and starts it. */
     GroundBench start(GroundSettings with) {
         settings = with;
         ground = new GroundSide(loop, settings, tokens, executor, this, new Random(7));
@@ -62,7 +62,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return this;
     }
 
-    /** Starts, lets the proxy accept, and gives that seat. */
+    /** Starts, accepts as the proxy, and grants that seat. */
     GroundBench open(Seat seat) {
         start(settings(seat, false));
         accept(seat);
@@ -71,7 +71,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return this;
     }
 
-    /** Lets the proxy accept the newest connection and answer the hello. */
+    /** Accepts the newest connection as the proxy and answers the hello. */
     void accept(Seat seat) {
         peer().accept();
         say("UP1 ok aircraft=glider seat=" + seat.word() + " token=" + TOKEN);
@@ -81,7 +81,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return network.newest();
     }
 
-    /** The peer says a line. */
+    /** The peer sends a line. */
     void say(String line) {
         peer().say(line + "\n");
         loop.advance(0);
@@ -94,7 +94,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return frames.get(frames.size() - 1);
     }
 
-    /** Frames come each 100 ms for so long; the last one comes now. */
+    /** Frames arrive each 100 ms for that time; the last one arrives now. */
     long fly(long firstBeacon, int count) {
         for (int each = 0; each < count; each++) {
             loop.advance(100);
@@ -103,7 +103,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return firstBeacon + count - 1;
     }
 
-    /** Returns the messages that were sent since it was asked last. */
+    /** Returns the messages sent since the last call. */
     List<GeneralMessage> sent() {
         final List<GeneralMessage> messages = new ArrayList<GeneralMessage>();
         for (String line : peer().written().split("\n")) {
@@ -119,7 +119,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return messages;
     }
 
-    /** Returns the one Command of that name that was sent since it was asked last. */
+    /** Returns the one Command of that name sent since the last call. */
     GeneralMessage sent(String name) {
         GeneralMessage found = null;
         for (GeneralMessage each : sent()) {
@@ -136,7 +136,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return found;
     }
 
-    /** The aircraft refuses the question for its gains that the ground asks by itself. */
+    /** The aircraft refuses the ground's automatic request for its gains. */
     void skipGains() {
         for (GeneralMessage each : sent()) {
             if (each.name().equals("arduino.pids.tunings")) {
@@ -154,7 +154,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
                 + "\", \"reason\": \"" + reason + "\"}}");
     }
 
-    /** Keeps answers. */
+    /** Records answers. */
     AnswerListener keeping() {
         return new AnswerListener() {
             @Override
@@ -164,7 +164,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
         };
     }
 
-    /** Returns the one answer since it was asked last. */
+    /** Returns the one answer since the last call. */
     Answer answer() {
         if (answers.size() != 1) {
             throw new AssertionError("not one answer: " + answers);

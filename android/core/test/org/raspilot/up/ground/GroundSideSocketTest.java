@@ -91,7 +91,7 @@ public final class GroundSideSocketTest implements GroundListener {
         proxy.getOutputStream().flush();
     }
 
-    /** Returns the next line that is no heartbeat and not the question for the gains. */
+    /** Returns the next line that is neither a heartbeat nor the request for the gains. */
     private String line() throws IOException {
         String line = lines.readLine();
         while (line != null && (line.isEmpty() || line.contains("\"request\": true"))) {

@@ -13,7 +13,7 @@ import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.wire.Seat;
 
-/** Frames as a ground hears them: their ages, their gaps, their silence, their handlers. */
+/** Frames that a ground receives: their ages, their gaps, their silence, their handlers. */
 public final class GroundTelemetryTest {
     @Rule
     public final GroundBench bench = new GroundBench();

@@ -10,7 +10,7 @@ import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.wire.Seat;
 
-/** What happened in plain words, and what is wrong now. */
+/** Events in plain words, and active alarms. */
 public final class JudgeTest {
     @Rule
     public final GroundBench bench = new GroundBench();

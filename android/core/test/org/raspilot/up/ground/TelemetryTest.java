@@ -15,7 +15,7 @@ import java.util.Map;
 import java.util.Random;
 import org.junit.Test;
 
-/** What is read from a frame, whatever it says, and how old that is. */
+/** Values read from a frame with any content, and their age. */
 public final class TelemetryTest {
     private static final String FRAME = "{\"orientation\": {\"roll\": 3.5, \"pitch\": null},"
             + " \"altitude\": 12, \"armed\": false, \"flight_mode\": \"FBW\","

@@ -12,7 +12,7 @@ import java.util.List;
 import java.util.Random;
 import org.junit.Test;
 
-/** The way that the aircraft has come. */
+/** The track of the aircraft. */
 public final class TrackTest {
     private static final double DEGREE_M = 111195;
 
@@ -26,7 +26,7 @@ public final class TrackTest {
                 + (15 + eastM / DEGREE_M / 0.5) + ", \"altitude\": 30}}", nowMs), home, nowMs);
     }
 
-    /** Returns the way and, where it is not in it, the place where it is. */
+    /** Returns the track and the aircraft's position, if it is not in the track. */
     private List<TrackPoint> points() {
         final Track.Snapshot now = track.snapshot();
         final List<TrackPoint> all = new ArrayList<TrackPoint>(now.points());

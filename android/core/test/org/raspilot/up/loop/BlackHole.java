@@ -9,7 +9,7 @@ import java.nio.channels.SocketChannel;
 import java.util.ArrayList;
 import java.util.List;
 
-/** A port on loopback that answers no further connection: its queue is full, nobody accepts. */
+/** A port on loopback that accepts no further connection: its accept queue is full. */
 public final class BlackHole implements Closeable {
     private final ServerSocket server;
     private final List<SocketChannel> queued = new ArrayList<SocketChannel>();

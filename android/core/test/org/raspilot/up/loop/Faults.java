@@ -4,7 +4,7 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 
-/** Keeps the faults that a loop told, for a test to look at. */
+/** Records the faults of a loop for a test. */
 public final class Faults implements FaultListener {
     private final List<Throwable> all = Collections.synchronizedList(new ArrayList<Throwable>());
 
@@ -18,7 +18,7 @@ public final class Faults implements FaultListener {
         return new ArrayList<Throwable>(all);
     }
 
-    /** Returns those until now and forgets them: they were meant. */
+    /** Returns and clears the faults so far: they were intended. */
     public List<Throwable> takeAll() {
         final List<Throwable> taken = all();
         all.clear();

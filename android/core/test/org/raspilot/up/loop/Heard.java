@@ -5,7 +5,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.Callable;
 
-/** Keeps what a TCP connection told; to be looked at on the loop. */
+/** Records the events of a TCP connection; to be read on the loop. */
 class Heard implements TcpListener {
     final List<String> told = new ArrayList<String>();
     final ByteArrayOutputStream bytes = new ByteArrayOutputStream();
@@ -30,7 +30,7 @@ class Heard implements TcpListener {
         told.add(reason);
     }
 
-    /** Returns whether something was told that begins so. */
+    /** Returns whether an event with that prefix was recorded. */
     Callable<Boolean> has(final String beginning) {
         return new Callable<Boolean>() {
             @Override
@@ -45,7 +45,7 @@ class Heard implements TcpListener {
         };
     }
 
-    /** Returns whether so many bytes came. */
+    /** Returns whether that many bytes arrived. */
     Callable<Boolean> hasBytes(final int count) {
         return new Callable<Boolean>() {
             @Override

@@ -58,7 +58,7 @@ public final class RunningLoop extends ExternalResource {
         }
     }
 
-    /** Waits until a condition holds, asked on the loop; fails when it does not. */
+    /** Waits until a condition, evaluated on the loop, holds; fails after a timeout. */
     public void await(final String what, final Callable<Boolean> condition) {
         final CountDownLatch latch = new CountDownLatch(1);
         loop.post(new Runnable() {
@@ -78,7 +78,7 @@ public final class RunningLoop extends ExternalResource {
         wait(latch, "never came: " + what);
     }
 
-    /** The device sleeps for so long: its clock goes on, nothing else. */
+    /** The device sleeps for that time: only its clock advances. */
     public void sleep(long forMs) {
         sleptNs.addAndGet(TimeUnit.MILLISECONDS.toNanos(forMs));
     }

@@ -6,7 +6,7 @@ import java.nio.charset.Charset;
 import java.util.ArrayList;
 import java.util.List;
 
-/** A network of a test: every connection waits for what the test lets happen to it. */
+/** The network of a test: the test triggers every event of its connections. */
 public final class ScriptedNetwork implements Network {
     public static final Charset UTF_8 = Charset.forName("UTF-8");
     public final List<Connection> connections = new ArrayList<Connection>();
@@ -75,13 +75,13 @@ public final class ScriptedNetwork implements Network {
             listener.onConnected();
         }
 
-        /** The peer says something. */
+        /** The peer sends data. */
         public void say(String text) {
             final byte[] bytes = text.getBytes(UTF_8);
             listener.onBytes(bytes, bytes.length);
         }
 
-        /** The connection ends, or cannot be made. */
+        /** The connection ends, or fails to open. */
         public void end(String reason) {
             if (isClosed) {
                 throw new AssertionError("ended by the other side already");
@@ -89,7 +89,7 @@ public final class ScriptedNetwork implements Network {
             listener.onClosed(reason);
         }
 
-        /** The system takes so many more bytes. */
+        /** The system accepts that many more bytes. */
         public void makeRoom(int bytes) {
             room = bytes;
             if (isFull && room > 0) {
@@ -98,7 +98,7 @@ public final class ScriptedNetwork implements Network {
             }
         }
 
-        /** Returns what was written since it was asked last. */
+        /** Returns the bytes written since the last call. */
         public String written() {
             final String text = new String(written.toByteArray(), UTF_8);
             written.reset();

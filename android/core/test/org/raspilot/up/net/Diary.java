@@ -4,7 +4,7 @@ import java.nio.charset.Charset;
 import java.util.ArrayList;
 import java.util.List;
 
-/** Keeps what an {@link UpSocket} told; a line is kept with {@code < } before it. */
+/** Records the events of an {@link UpSocket}; a line is recorded with {@code < } before it. */
 class Diary implements UpSocketListener {
     final List<String> told = new ArrayList<String>();
     final List<UpSocketStatus.State> states = new ArrayList<UpSocketStatus.State>();

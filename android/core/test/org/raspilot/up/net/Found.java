@@ -3,7 +3,7 @@ package org.raspilot.up.net;
 import java.util.ArrayList;
 import java.util.List;
 
-/** Keeps what a finder told. */
+/** Records the result of a finder. */
 final class Found implements FindListener {
     final List<String> told = new ArrayList<String>();
 

@@ -14,7 +14,7 @@ import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
 
-/** What an UpSocket sends and hears, and what it never carries from one connection to the next. */
+/** Data that an UpSocket sends and receives, and that it never carries over to a new connection. */
 public final class UpSocketSendTest {
     private final Faults faults = new Faults();
     private final ScriptedNetwork network = new ScriptedNetwork();

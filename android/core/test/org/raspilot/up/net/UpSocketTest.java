@@ -276,7 +276,7 @@ public final class UpSocketTest {
         assertEquals(2, network.connections.size());
     }
 
-    /** Ends the newest attempt or connection and returns how long the next one lets wait. */
+    /** Ends the newest attempt or connection and returns the wait before the next one. */
     private long msToNextAttempt(String reason) {
         final int count = network.connections.size();
         network.newest().end(reason);
@@ -293,7 +293,7 @@ public final class UpSocketTest {
         return new UpSocket(loop, finder, listener, UpSocketSettings.lines(), new Random(6));
     }
 
-    /** A finder that answers when the test lets it. */
+    /** A finder that answers on the test's request. */
     private static final class Finder implements PlaceFinder, Cancellable {
         private FindListener listener;
         private int asked;

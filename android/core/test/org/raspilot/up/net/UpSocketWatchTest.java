@@ -50,7 +50,7 @@ public final class UpSocketWatchTest {
         network.newest().room = 2;
         socket.send(new byte[] {'a', 'b', 'c'});
         loop.advance(5000);
-        // There is room already, but the loop has not come to say so.
+        // There is room already, but the loop has not reported it yet.
         network.newest().room = 100;
         loop.advance(1000);
         network.newest().makeRoom(100);

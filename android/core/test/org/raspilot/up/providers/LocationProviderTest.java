@@ -5,7 +5,7 @@ import static org.junit.Assert.assertTrue;
 
 import org.junit.Test;
 
-/** What leaves of a fix, when, and what the screen says about it. */
+/** The sent values of a fix, their times, and their display. */
 public final class LocationProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
     private final TestSource<Fix> gps = new TestSource<Fix>("GPS");

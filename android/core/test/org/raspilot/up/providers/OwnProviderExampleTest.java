@@ -8,11 +8,11 @@ import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.RecordCommand;
 
 /**
- * How to add a sensor of your own: one class and one registration.
+ * How to add your own sensor: one class and one registration.
  *
- * <p>The light on the aeroplane, say, shall be in the flight log. The provider says which sensor it
- * reads, how often it sends, and which Command a reading becomes; that the sensor may be absent,
- * Panic Mode, lost links, rates for the screen and faults are not its concern.
+ * <p>In this example the flight log records the light on the aeroplane. The provider defines which
+ * sensor it reads, how often it sends, and which Command a reading becomes; an absent sensor, Panic
+ * Mode, lost links, rates for the screen and faults are not its concern.
  */
 public final class OwnProviderExampleTest {
 

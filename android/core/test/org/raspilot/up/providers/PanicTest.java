@@ -7,7 +7,7 @@ import static org.junit.Assert.fail;
 
 import org.junit.Test;
 
-/** Panic Mode: what it takes, and that every stream keeps to it. */
+/** Panic Mode: its input, and that every stream obeys it. */
 public final class PanicTest {
     private static final Fix HERE = new Fix(48.1, 17.1, null, null, null, null);
     private static final Rotation LEVEL = new Rotation(1, 0, 0, 0, 0);

@@ -33,7 +33,7 @@ final class ProvidersBench {
         return controller.statuses().get(0);
     }
 
-    /** Gives a reading each periodMs for so many ms; the first after one period. */
+    /** Delivers a reading each periodMs for that many ms; the first after one period. */
     <R> void feed(TestSource<R> source, R reading, long periodMs, long forMs) {
         for (long passed = 0; passed < forMs; passed += periodMs) {
             loop.advance(periodMs);

@@ -10,7 +10,7 @@ import java.util.List;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
 
-/** Registering, starting and stopping, and that one provider's fault stays its own. */
+/** Registering, starting and stopping, and the isolation of a provider's fault. */
 public final class ProvidersControllerTest {
     private final ProvidersBench bench = new ProvidersBench();
     private final List<String> calls = new ArrayList<String>();

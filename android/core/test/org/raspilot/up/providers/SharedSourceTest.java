@@ -7,7 +7,7 @@ import java.util.ArrayList;
 import java.util.List;
 import org.junit.Test;
 
-/** One sensor for several readers: the quickest decides, each comes and goes on its own. */
+/** One sensor for several readers: the fastest sets the rate, each subscribes independently. */
 public final class SharedSourceTest {
     private final TestSource<String> sensor = new TestSource<String>("sensor");
     private final SharedSource<String> shared = new SharedSource<String>(sensor);

@@ -6,7 +6,7 @@ import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.OrientationFrame;
 
-/** A link that keeps what was sent on it, and when. */
+/** A link that records messages with their times. */
 public final class TestOutlet implements Outlet {
     public final List<BaseCommand> commands = new ArrayList<BaseCommand>();
     public final List<OrientationFrame> frames = new ArrayList<OrientationFrame>();

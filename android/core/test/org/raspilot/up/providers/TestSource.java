@@ -3,7 +3,7 @@ package org.raspilot.up.providers;
 import java.util.ArrayList;
 import java.util.List;
 
-/** A sensor whose readings a test gives. */
+/** A sensor with the test's readings. */
 public final class TestSource<R> implements SensorSource<R> {
     public String name;
     public int namesAsked;
@@ -44,7 +44,7 @@ public final class TestSource<R> implements SensorSource<R> {
         listener = null;
     }
 
-    /** Gives a reading to whoever reads. */
+    /** Delivers a reading to the subscriber. */
     public void give(R reading) {
         if (listener != null) {
             listener.onReading(reading);

@@ -10,12 +10,12 @@ import org.raspilot.up.commands.CommandRegistry;
 import org.raspilot.up.commands.InvalidCommandException;
 
 /**
- * Says what the core makes of lines, for {@code tests/android/test_json_agrees.py}.
+ * Prints how the core parses lines, for {@code tests/android/test_json_agrees.py}.
  *
  * <p>Each line of stdin is the bytes of a General Message line in hex. Each line of stdout is an
- * object: {@code line}, the message written again (null: it would be too long), and
- * {@code invalid}, what is wrong with the Command (null: nothing); or {@code malformed}, why it is
- * no message, and {@code id}.
+ * object: {@code line}, the message written again (null: it would be too long), and {@code
+ * invalid}, the error of the Command (null: valid); or {@code malformed}, why it is not a message,
+ * and {@code id}.
  */
 public final class JsonEcho {
     private JsonEcho() {

@@ -9,7 +9,7 @@ public final class OrientationDecoder {
     private int heldLength;
     private long dropped;
 
-    /** Makes a decoder for one connection. */
+    /** Creates a decoder for one connection. */
     public OrientationDecoder() {
     }
 
@@ -35,7 +35,7 @@ public final class OrientationDecoder {
         return frames;
     }
 
-    /** Forgets an unfinished frame: the next byte is another connection's. */
+    /** Discards an unfinished frame: the next byte is another connection's. */
     public void reset() {
         heldLength = 0;
     }

@@ -50,7 +50,7 @@ final class RandomJson {
         return fields;
     }
 
-    /** Returns a text of at most so many characters. */
+    /** Returns a text of at most that many characters. */
     static String text(Random random, int longest) {
         StringBuilder text = new StringBuilder();
         for (int i = random.nextInt(longest + 1); i > 0; i--) {

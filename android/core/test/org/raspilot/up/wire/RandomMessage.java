@@ -3,7 +3,7 @@ package org.raspilot.up.wire;
 import java.util.Arrays;
 import java.util.Random;
 
-/** Messages, and lines that were damaged on their way, by chance. */
+/** Random messages, and lines damaged in transit. */
 final class RandomMessage {
     private static final String[] PIECES = {
         "{", "}", "[", "]", "\"", ",", ":", "\\", "\\u", "d83d", "NaN", "-Infinity", "1e999", "-",

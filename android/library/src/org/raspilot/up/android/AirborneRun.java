@@ -19,15 +19,15 @@ import org.raspilot.up.providers.Mounting;
 
 /**
  * One run of the airborne side, from start to stop: its loop, the sensors' thread, the locks that
- * keep the phone awake. Made, begun and ended on the main thread; an ended one is not begun again.
+ * keep the phone awake. Created, started and ended on the main thread; it is not restarted.
  */
 final class AirborneRun {
-    /** Hears of a run until its end; on the main thread, but {@link #onUp}. */
+    /** Receives the events of a run until its end; on the main thread, except {@link #onUp}. */
     interface Host {
-        /** Registers handlers and providers; on the loop, before anything begins. */
+        /** Registers handlers and providers; on the loop, before the start. */
         void onUp(Up up);
 
-        /** Takes the status of now. */
+        /** Takes the current status. */
         void onStatus(AirborneStatus status);
 
         /** Takes a line of the log. */
@@ -52,7 +52,7 @@ final class AirborneRun {
     private boolean isEnded;
 
     /**
-     * Looks which sensors there are and begins to read and to connect.
+     * Finds the available sensors and starts to read and to connect.
      *
      * @throws IllegalStateException when this process has another Up: nothing runs then
      */
@@ -110,7 +110,7 @@ final class AirborneRun {
         network.begin();
     }
 
-    /** Lets the application set up what is its own; what fails there keeps nothing else down. */
+    /** Runs the application's own setup; a failure there does not stop the rest. */
     private void setUp() {
         try {
             host.onUp(airborne.up());
@@ -120,7 +120,7 @@ final class AirborneRun {
         }
     }
 
-    /** Ends everything; nothing is told any more. */
+    /** Ends everything; nothing is reported afterwards. */
     void end() {
         isEnded = true;
         Up.setInstance(null);
@@ -141,7 +141,7 @@ final class AirborneRun {
         locks.release();
     }
 
-    /** Reads the location anew, as after a permission was given or taken. */
+    /** Restarts the location, as after a permission was granted or revoked. */
     void restart(final String provider) {
         loop.post(new Runnable() {
             @Override
@@ -161,7 +161,7 @@ final class AirborneRun {
         });
     }
 
-    /** Lets the altitude be zero where the phone is. */
+    /** Sets the altitude at the phone's position to zero. */
     void zeroAltitudeHere() {
         loop.post(new Runnable() {
             @Override
@@ -219,7 +219,7 @@ final class AirborneRun {
         tellStatus(status);
     }
 
-    /** Says whether another way is open now. */
+    /** Returns whether the network path has changed. */
     private boolean lookAtWay(AirborneStatus status) {
         return way.look(loop.nowMs(), status.isConnected() ? status.place().host() : null);
     }
@@ -267,7 +267,7 @@ final class AirborneRun {
         });
     }
 
-    /** Hears of the airborne side on the loop. */
+    /** Receives the events of the airborne side on the loop. */
     private final class Listener implements AirborneListener {
         @Override
         public void onConnected(Place place) {

@@ -25,11 +25,11 @@ public final class AndroidSources implements Sensors {
     private final SensorSource<BatteryLevel> battery;
 
     /**
-     * Looks which sensors there are.
+     * Finds the available sensors.
      *
      * @param context of the application or of anything in it
      * @param looper whose thread the system calls on
-     * @param fixes hears of each fix besides its provider
+     * @param fixes receives each fix in addition to its provider
      */
     public AndroidSources(Context context, Looper looper, final Loop loop, SourceTexts texts,
             ProblemListener problems, FixListener fixes) {
@@ -48,7 +48,7 @@ public final class AndroidSources implements Sensors {
         battery = new BatterySource(lasting, new Handler(looper), posting, texts);
     }
 
-    /** Returns the best of what a phone has; its own fusion knows north and its gyroscope. */
+    /** Returns the best source of a phone; its own fusion includes north and its gyroscope. */
     static SensorSource<Rotation> rotation(SensorDesk desk, Executor loop, SourceTexts texts,
             ProblemListener problems) {
         SensorSource<Rotation> vector = new VectorSource(desk, loop, texts, problems);

@@ -9,7 +9,7 @@ import java.util.HashMap;
 import java.util.List;
 import org.raspilot.up.airborne.Speaker;
 
-/** Says texts by the phone's own text to speech; what comes before it is ready waits for it. */
+/** Speaks texts by the phone's own text to speech; texts wait until it is ready. */
 final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
     private static final int MOST_WAITING = 5;
 
@@ -21,7 +21,7 @@ final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
     private boolean isReady;
     private boolean isEnded;
 
-    /** Begins to look for something that speaks; on the main thread. */
+    /** Starts to initialize text to speech; on the main thread. */
     AndroidSpeaker(Context context, SourceTexts texts, ProblemListener problems) {
         this.problems = problems;
         absence = texts.of(Lack.SPEECH);

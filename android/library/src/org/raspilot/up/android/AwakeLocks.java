@@ -24,7 +24,7 @@ final class AwakeLocks {
         }
     }
 
-    /** Takes both; as long as the aeroplane flies, so without a time-out. */
+    /** Acquires both; without a timeout, because a flight has none. */
     void acquire() {
         processor.acquire();
         if (wifi != null) {

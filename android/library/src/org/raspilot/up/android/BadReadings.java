@@ -1,18 +1,18 @@
 package org.raspilot.up.android;
 
-/** Tells of a sensor's readings that cannot be read: of the first one, since many may follow. */
+/** Reports the unreadable readings of a sensor: only the first one, since many may follow. */
 final class BadReadings {
     private final ProblemListener problems;
     private final String refusal;
     private boolean isTold;
 
-    /** Takes what is told, without the sensor's name. */
+    /** Takes the receiver of the problems, which do not name the sensor. */
     BadReadings(ProblemListener problems, String refusal) {
         this.problems = problems;
         this.refusal = refusal;
     }
 
-    /** Takes what was wrong with a reading, which is dropped; on any thread. */
+    /** Takes the problem of a reading that is dropped; on any thread. */
     void add(String sensor, RuntimeException fault) {
         synchronized (this) {
             if (isTold) {

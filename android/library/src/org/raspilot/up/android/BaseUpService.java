@@ -18,12 +18,12 @@ import org.raspilot.up.providers.LocationProvider;
 import org.raspilot.up.providers.Mounting;
 
 /**
- * Reads the sensors and sends them while nobody looks (thesis 4.5.2): a started service in the
- * foreground that goes on when the screen is off and when the application is swept away.
+ * Reads the sensors and sends them without a visible activity (thesis 4.5.2): a started foreground
+ * service that continues when the screen is off and when the application is swept away.
  *
- * <p>An application extends it and names its subclass in its manifest. All its own state is on
- * the main thread; the airborne side runs on a loop of its own ({@link AirborneRun}). Whoever
- * wants to look binds to it without creating it.
+ * <p>An application extends it and names its subclass in its manifest. All its own state is on the
+ * main thread; the airborne side runs on its own loop ({@link AirborneRun}). Watchers bind to it
+ * without creating it.
  */
 public abstract class BaseUpService extends Service {
     /** Stops the service. */
@@ -45,35 +45,35 @@ public abstract class BaseUpService extends Service {
         }
     }
 
-    /** Stops it; without effect where it does not run. */
+    /** Stops it; no effect while it does not run. */
     public static void stop(Context context, Class<? extends BaseUpService> service) {
         context.stopService(new Intent(context, service));
     }
 
     /**
-     * Returns the settings of now; asked at each start, also when the system brings the service
-     * back.
+     * Returns the current settings; called at each start, also when the system restarts the
+     * service.
      *
      * @throws IllegalArgumentException with a sentence for the user: the service stops then
      */
     protected abstract AirborneSettings readSettings();
 
     /**
-     * Returns whether sockets stay on a Wi-Fi in whose network the other end lies, from Android 6
-     * on; it is searched for there, too.
+     * Returns whether sockets stay on a Wi-Fi whose network contains the peer, from Android 6 on;
+     * the search for the peer uses it too.
      */
     protected abstract boolean isOnWifi();
 
-    /** Returns the words for what the phone lacks. */
+    /** Returns the texts for missing parts of the phone. */
     protected abstract SourceTexts sourceTexts();
 
-    /** Returns the words and pictures of the notification. */
+    /** Returns the texts and icons of the notification. */
     protected abstract NoticeTexts noticeTexts();
 
     /** Returns the notification's line for a status; null: nothing is known yet. */
     protected abstract String noticeText(AirborneStatus status);
 
-    /** Takes what is worth a line of the log; on the main thread. */
+    /** Takes a message for the log; on the main thread. */
     protected abstract void onEvent(String sentence);
 
     /** Takes the pressure by which the altitude is zero here, hPa, to keep it in the settings. */
@@ -83,14 +83,14 @@ public abstract class BaseUpService extends Service {
     protected void onUp(Up up) {
     }
 
-    /** Takes another mounting at once; without effect where nothing runs. */
+    /** Replaces the mounting immediately; no effect while the service does not run. */
     protected final void setMounting(Mounting mounting) {
         if (run != null) {
             run.setMounting(mounting);
         }
     }
 
-    /** Takes the pressure at altitude zero, hPa, at once; without effect where nothing runs. */
+    /** Sets the pressure at altitude zero, hPa, immediately; no effect while not running. */
     protected final void setReferencePressureHPa(double hPa) {
         if (run != null) {
             run.setReferencePressureHPa(hPa);
@@ -181,7 +181,7 @@ public abstract class BaseUpService extends Service {
 
     /** What a screen reaches of the service that it is bound to. On the main thread. */
     public final class Airside extends Binder {
-        /** Adds a watcher, who hears at once what is known. */
+        /** Adds a watcher, which immediately receives the current state. */
         public void add(UpWatcher watcher) {
             if (!watchers.contains(watcher)) {
                 watchers.add(watcher);
@@ -196,7 +196,7 @@ public abstract class BaseUpService extends Service {
             watchers.remove(watcher);
         }
 
-        /** Looks at the permissions anew: what was not permitted may be read now. */
+        /** Checks the permissions again: sensors that were not permitted may be readable now. */
         public void permissionsChanged() {
             if (run != null) {
                 notice.begin(noticeText(newest), usesLocation());
@@ -204,7 +204,7 @@ public abstract class BaseUpService extends Service {
             }
         }
 
-        /** Lets the altitude be zero here; {@link BaseUpService#onReferencePressure} hears it. */
+        /** Sets the altitude here to zero, then calls {@link BaseUpService#onReferencePressure}. */
         public void zeroAltitudeHere() {
             if (run != null) {
                 run.zeroAltitudeHere();

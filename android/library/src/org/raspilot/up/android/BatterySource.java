@@ -11,7 +11,7 @@ import org.raspilot.up.providers.BatteryLevel;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
-/** How full the battery is, as the system tells it: once at first, then on each change. */
+/** The battery level that the system reports: once at first, then on each change. */
 final class BatterySource extends BroadcastReceiver implements SensorSource<BatteryLevel> {
     private final Context context;
     private final Handler handler;
@@ -73,7 +73,7 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
         return new IntentFilter(Intent.ACTION_BATTERY_CHANGED);
     }
 
-    /** Returns the level of the system's message, or null where it tells none. */
+    /** Returns the level of the system's message, or null if absent. */
     static BatteryLevel level(Intent intent) {
         if (intent == null) {
             return null;

@@ -3,7 +3,7 @@ package org.raspilot.up.android;
 import android.hardware.GeomagneticField;
 import org.raspilot.up.providers.Fix;
 
-/** Tells how far magnetic north is from true north, by the model that Android has, as one flies. */
+/** Reports the magnetic declination along the flight, by Android's model. */
 final class Declination implements FixListener {
     /** Takes the angle. */
     interface Listener {

@@ -11,9 +11,9 @@ import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
 /**
- * How the phone lies, by gravity and the earth's magnetic field: for phones without a fusion of
- * their own. In turns the aeroplane's own acceleration passes for gravity: good for a heading and
- * for the ground, poor for flying by.
+ * The orientation of the phone by gravity and the earth's magnetic field: for phones without their
+ * own sensor fusion. In turns the aeroplane's own acceleration is taken for gravity: good for a
+ * heading and on the ground, poor in flight.
  */
 final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
     private static final double SMOOTH_MS = 200;
@@ -73,7 +73,7 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
         try {
             take(event);
         } catch (RuntimeException wrong) {
-            // Whatever a sensor says: thrown on the system's thread it would end the flight.
+            // Catches every exception: on the system's thread it would end the flight.
             bad.add(event.sensor.getName(), wrong);
         }
     }

@@ -1,11 +1,11 @@
 package org.raspilot.up.android;
 
 /**
- * Keeps fixes back that say where the phone was: systems hand out at once the last one that they
- * know, and a busy one hands out late. The first place that the Raspberry Pi hears of is home.
+ * Drops outdated fixes: systems immediately deliver the last known one, and a busy system delivers
+ * late. The first position that the Raspberry Pi receives becomes home.
  */
 final class FixFilter {
-    /** A fix older than this, ms, is none to fly by. */
+    /** A fix older than this, ms, is not usable in flight. */
     static final long OLDEST_MS = 2000;
 
     private long knownBeforeMs = Long.MIN_VALUE;
@@ -15,15 +15,15 @@ final class FixFilter {
         knownBeforeMs = newestKnownMs;
     }
 
-    /** Forgets it: the system knew none. */
+    /** Resets it: the system had no fix. */
     void begin() {
         begin(Long.MIN_VALUE);
     }
 
     /**
-     * Says whether a fix tells where the phone is.
+     * Returns whether a fix is current.
      *
-     * @param ageMs by the phone's clock; 0 where the system does not tell it
+     * @param ageMs by the phone's clock; 0 where the system does not report it
      * @param timeMs the fix's own time, UTC
      */
     boolean takes(long ageMs, long timeMs) {

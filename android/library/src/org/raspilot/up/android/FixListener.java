@@ -2,8 +2,8 @@ package org.raspilot.up.android;
 
 import org.raspilot.up.providers.Fix;
 
-/** Hears where the phone is besides the provider that sends it. Called on any thread. */
+/** Receives the fixes in addition to the provider that sends them. Called on any thread. */
 public interface FixListener {
-    /** Takes a fix, perhaps an old one of before the start. */
+    /** Takes a fix, possibly an old one from before the start. */
     void onFix(Fix fix);
 }

@@ -22,13 +22,14 @@ import org.raspilot.up.ground.TelemetrySource;
 import org.raspilot.up.loop.SelectorLoop;
 
 /**
- * One run of the ground side on a loop of its own. Made, used and ended on the main thread, which
- * hears of it; what the loop says quicker than the main thread draws is told once, by its newest.
+ * One run of the ground side on its own loop. Created, used and ended on the main thread, which
+ * receives its changes; when the loop is faster than the main thread, only the newest state is
+ * delivered.
  */
 final class GroundRun implements GroundListener, HandlerFaultListener {
     /** Registers an application's own handlers. */
     interface Setup {
-        /** Takes what handlers are registered in; on the loop, before anything begins. */
+        /** Takes the registry for handlers; on the loop, before the start. */
         void onUp(Up up, TelemetrySource telemetry);
     }
 
@@ -50,7 +51,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     private final Up up;
     private volatile boolean isEnded;
 
-    /** Begins to connect; the view is told. */
+    /** Starts to connect; the view receives the changes. */
     GroundRun(Context context, GroundSettings settings, boolean isOnWifi, GroundView view,
             final Setup setup) throws IOException {
         this.view = view;
@@ -79,7 +80,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         network.begin();
     }
 
-    /** Lets the application set up what is its own; what fails there keeps nothing else down. */
+    /** Runs the application's own setup; a failure there does not stop the rest. */
     private void setUp(Setup setup) {
         try {
             setup.onUp(up, side);
@@ -88,7 +89,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         }
     }
 
-    /** Ends everything; answers that are still due say that the link is lost. */
+    /** Ends everything; outstanding answers report a lost link. */
     void end() {
         isEnded = true;
         network.end();
@@ -166,7 +167,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         Log.e(TAG, handler.getClass().getName() + " failed at " + command.name(), fault);
     }
 
-    /** Says whether another way is open now. */
+    /** Returns whether the network path has changed. */
     private boolean lookAtWay(GroundStatus status) {
         return way.look(loop.nowMs(), status.link() == LinkState.OPEN ? host : null);
     }

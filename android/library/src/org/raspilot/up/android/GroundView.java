@@ -12,8 +12,8 @@ import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.Track;
 
 /**
- * The newest of all that the ground side knows, and the watchers on the main thread. Taken from
- * the loop; a watcher that is slower than the aircraft is told of the newest only.
+ * The newest state of the ground side, and the watchers on the main thread. Taken from the loop; a
+ * watcher that is slower than the aircraft receives only the newest state.
  */
 final class GroundView implements Runnable {
     private final Handler main = new Handler(Looper.getMainLooper());
@@ -70,7 +70,7 @@ final class GroundView implements Runnable {
         }
     }
 
-    /** Forgets everything, as before another link; the watchers hear that nothing is known. */
+    /** Clears everything, as before another link; the watchers are notified. */
     void forget() {
         synchronized (lock) {
             telemetry = Telemetry.NOTHING;

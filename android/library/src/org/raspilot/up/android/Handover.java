@@ -19,7 +19,7 @@ final class Handover<R> implements Runnable {
         this.loop = loop;
     }
 
-    /** Names who takes the readings from now on; null: nobody. Only on the loop. */
+    /** Sets the receiver of the readings; null: none. Only on the loop. */
     void to(SensorListener<R> taker) {
         listener = taker;
         waiting.set(null);

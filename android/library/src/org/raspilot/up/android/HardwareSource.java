@@ -22,7 +22,7 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
     private final String refusal;
     private final BadReadings bad;
 
-    /** Takes the type of {@link Sensor} and why there is nothing where the phone has none. */
+    /** Takes the type of {@link Sensor} and the reason to report if the phone has none. */
     HardwareSource(SensorDesk desk, int type, Executor loop, SourceTexts texts, Lack lack,
             ProblemListener problems) {
         this.desk = desk;
@@ -78,7 +78,7 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
                 handover.give(reading);
             }
         } catch (RuntimeException wrong) {
-            // Whatever a sensor says: thrown on the system's thread it would end the flight.
+            // Catches every exception: on the system's thread it would end the flight.
             bad.add(event.sensor == null ? "" : event.sensor.getName(), wrong);
         }
     }

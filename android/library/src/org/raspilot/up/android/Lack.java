@@ -8,13 +8,13 @@ public enum Lack {
     LOCATION,
     /** The location is there and permitted, but switched off in the phone's settings. */
     LOCATION_OFF,
-    /** There is nothing by which the phone knows how it lies. */
+    /** No sensor for the phone's orientation. */
     ROTATION,
-    /** There is no gyroscope. */
+    /** No gyroscope. */
     GYROSCOPE,
-    /** There is no barometer. */
+    /** No barometer. */
     BAROMETER,
-    /** The system does not tell the battery's level. */
+    /** The system does not report the battery's level. */
     BATTERY,
     /** The system refused to read a sensor that is there. */
     REFUSED,

@@ -15,13 +15,14 @@ import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
 /**
- * Where the phone is, by its GPS alone: what the network knows may stand where an access point once
- * was, and would be home. Permission and hardware are looked at anew at each question: both change.
+ * The position of the phone by GPS alone: the network's position may be that of a moved access
+ * point, and would become home. Permission and hardware are checked at each call, because both
+ * change.
  */
 final class LocationSource implements SensorSource<Fix>, LocationListener {
     private static final String GPS = LocationManager.GPS_PROVIDER;
 
-    /** Near enough for what is told besides, such as where north is. */
+    /** Precise enough for other uses, such as the magnetic declination. */
     private static final String ROUGH = LocationManager.NETWORK_PROVIDER;
 
     private final Context context;
@@ -82,7 +83,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
             }
             besides.onFix(fix);
         } catch (RuntimeException wrong) {
-            // Whatever a receiver says: thrown on the system's thread it would end the flight.
+            // Catches every exception: on the system's thread it would end the flight.
             bad.add(GPS, wrong);
         }
     }
@@ -119,7 +120,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         if (!has(GPS)) {
             return Lack.LOCATION;
         }
-        // The approximate location alone is blurred by kilometres: none to fly by.
+        // The approximate location alone is blurred by kilometres: not usable in flight.
         boolean isPermitted = Permissions.has(context, Manifest.permission.ACCESS_FINE_LOCATION);
         return isPermitted ? null : Lack.LOCATION_PERMISSION;
     }
@@ -128,7 +129,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         return manager != null && manager.getAllProviders().contains(provider);
     }
 
-    /** Tells besides where the phone was last by the network, perhaps long ago. */
+    /** Also reports the phone's last network position, possibly very old. */
     private void tellRough() {
         try {
             Location known = has(ROUGH) ? manager.getLastKnownLocation(ROUGH) : null;
@@ -136,7 +137,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
                 besides.onFix(fix(known));
             }
         } catch (RuntimeException refusal) {
-            // Not permitted, or no fix at all: the GPS will tell it.
+            // Not permitted, or no fix at all: the GPS will report it.
             bad.add(ROUGH, refusal);
         }
     }

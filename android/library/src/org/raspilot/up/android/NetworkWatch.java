@@ -8,20 +8,20 @@ import android.net.ConnectivityManager;
 import android.os.Build;
 import org.raspilot.up.android.api23.NetworkCalls;
 
-/** Tells when the phone's networks change, so that nobody waits for the next attempt. */
+/** Reports changes of the phone's networks, so that a retry need not wait. */
 final class NetworkWatch extends BroadcastReceiver {
     private final Context context;
     private final Runnable came;
     private Runnable end;
     private boolean isReceiving;
 
-    /** Takes whom to tell, on any thread. */
+    /** Takes the callback, which runs on any thread. */
     NetworkWatch(Context context, Runnable came) {
         this.context = context.getApplicationContext();
         this.came = came;
     }
 
-    /** Begins to watch; on the main thread. */
+    /** Starts to watch; on the main thread. */
     void begin() {
         if (Build.VERSION.SDK_INT >= 23) {
             end = NetworkCalls.begin(context, came);
@@ -32,7 +32,7 @@ final class NetworkWatch extends BroadcastReceiver {
         }
     }
 
-    /** Ends it; on the main thread, twice without effect. */
+    /** Stops it; on the main thread, later calls have no effect. */
     void end() {
         if (end != null) {
             end.run();

@@ -2,7 +2,7 @@ package org.raspilot.up.android;
 
 import android.app.Activity;
 
-/** What the application says in the notification of its service. */
+/** The texts of the notification of the application's service. */
 public interface NoticeTexts {
     /** Returns a drawable: white on transparent. */
     int icon();
@@ -19,7 +19,7 @@ public interface NoticeTexts {
     /** Returns the headline. */
     String title();
 
-    /** Returns the words on the button that stops. */
+    /** Returns the label of the stop button. */
     String stop();
 
     /** Returns the screen that a touch opens. */

@@ -4,7 +4,7 @@ import android.content.Context;
 import android.content.SharedPreferences;
 import org.raspilot.up.ground.TokenStore;
 
-/** Keeps resume tokens in a private file of the application. */
+/** Stores resume tokens in a private file of the application. */
 final class PreferencesTokenStore implements TokenStore {
     private static final String FILE = "up_tokens";
 

@@ -1,6 +1,6 @@
 package org.raspilot.up.android;
 
-/** Hears of what goes wrong with the phone's own parts. Called on any thread. */
+/** Receives the problems of the phone's own parts. Called on any thread. */
 public interface ProblemListener {
     /** Takes a sentence without a full stop. */
     void onProblem(String sentence);

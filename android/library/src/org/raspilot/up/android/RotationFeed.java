@@ -8,11 +8,13 @@ import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
-/** Shows a screen how the phone lies, whether or not it is sent. All on the main thread. */
+/**
+ * Delivers the phone's orientation to a screen, whether or not it is sent. All on the main thread.
+ */
 public final class RotationFeed {
     private final SensorSource<Rotation> source;
 
-    /** Looks what there is to know it by. */
+    /** Finds the available source of orientation. */
     public RotationFeed(Context context, SourceTexts texts, ProblemListener problems) {
         final Handler main = new Handler(Looper.getMainLooper());
         SensorDesk desk = new SensorDesk(context.getApplicationContext(),
@@ -25,24 +27,24 @@ public final class RotationFeed {
         }, texts, problems);
     }
 
-    /** Says whether this phone knows how it lies. */
+    /** Returns whether this phone has an orientation source. */
     public boolean isPresent() {
         return source.isPresent();
     }
 
-    /** Returns what it knows it by, or a sentence why it does not. */
+    /** Returns the name of its source, or a sentence why there is none. */
     public String name() {
         return source.name();
     }
 
-    /** Begins to tell it; where it is not known nothing is told. */
+    /** Starts to report it; without a source nothing is reported. */
     public void begin(long periodMs, SensorListener<Rotation> listener) {
         if (source.isPresent()) {
             source.subscribe(periodMs, listener);
         }
     }
 
-    /** Ends it. */
+    /** Stops it. */
     public void end() {
         source.unsubscribe();
     }

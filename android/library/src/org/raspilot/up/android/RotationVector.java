@@ -3,7 +3,7 @@ package org.raspilot.up.android;
 import java.util.Arrays;
 import org.raspilot.up.providers.Rotation;
 
-/** The values of the system's rotation vector, with which some phones begin by four zeros. */
+/** The values of the system's rotation vector; on some phones the first event has four zeros. */
 final class RotationVector {
     private static final int AXES = 3;
 
@@ -16,7 +16,7 @@ final class RotationVector {
     private RotationVector() {
     }
 
-    /** Returns the rotation of an event's values in a version of Android; null: they are none. */
+    /** Returns the rotation of an event's values in a version of Android; null: invalid. */
     static Rotation read(float[] values, long timeMs, int version) {
         if (values.length < AXES) {
             return null;
@@ -28,7 +28,7 @@ final class RotationVector {
             square += (double) value * value;
         }
         boolean isFinite = !Double.isNaN(square) && !Double.isInfinite(square);
-        // Without the fourth three zeros are the phone that lies flat with its top to the north.
+        // Without the fourth value three zeros mean: flat, with the top to the north.
         boolean isLong = !hasFourth || square >= SHORTEST * SHORTEST;
         return isFinite && isLong ? Rotation.ofVector(known, timeMs) : null;
     }

@@ -11,7 +11,7 @@ import org.raspilot.up.android.api23.SensorRates;
 
 /** The phone's built-in sensors: finds them and listens to them, at 200 Hz at most. */
 final class SensorDesk {
-    /** Android 12 wants a permission of its own for shorter periods. */
+    /** Android 12 requires a separate permission for shorter periods. */
     static final int LEAST_PERIOD_US = 5000;
 
     private static final int LONGEST_PERIOD_US = 10000000;
@@ -31,7 +31,7 @@ final class SensorDesk {
         return sensors == null ? null : sensors.getDefaultSensor(type);
     }
 
-    /** Begins to listen; returns whether the system agreed. */
+    /** Starts to listen; returns whether the system accepted. */
     boolean listen(SensorEventListener listener, Sensor sensor, long periodMs) {
         int periodUs = periodUs(periodMs);
         if (Build.VERSION.SDK_INT >= 23) {
@@ -40,7 +40,7 @@ final class SensorDesk {
         return sensors.registerListener(listener, sensor, periodUs, handler);
     }
 
-    /** Ends listening, to all sensors. */
+    /** Stops listening, to all sensors. */
     void forget(SensorEventListener listener) {
         if (sensors != null) {
             sensors.unregisterListener(listener);

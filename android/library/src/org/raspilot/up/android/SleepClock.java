@@ -3,7 +3,7 @@ package org.raspilot.up.android;
 import android.os.SystemClock;
 import org.raspilot.up.loop.Clock;
 
-/** The phone's clock, which goes on while the phone sleeps: System.nanoTime() stands still then. */
+/** The phone's clock that includes sleep: System.nanoTime() stops then. */
 final class SleepClock implements Clock {
     private static final long NS_IN_MS = 1000000;
 

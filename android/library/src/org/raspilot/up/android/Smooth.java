@@ -11,7 +11,7 @@ final class Smooth {
         this.timeConstantMs = timeConstantMs;
     }
 
-    /** Takes the next three values; what is not a number is left out. */
+    /** Takes the next three values; values that are not numbers are ignored. */
     void take(float[] next, long nowMs) {
         for (int axis = 0; axis < values.length; axis++) {
             if (Float.isNaN(next[axis]) || Float.isInfinite(next[axis])) {

@@ -27,7 +27,7 @@ final class SpawnRequest {
         this.profile = profile;
     }
 
-    /** Asks on the loop and waits for what comes of it; not on the loop's own thread. */
+    /** Sends the request on the loop and waits for the result; not on the loop's thread. */
     SpawnResult run(final Loop loop) {
         final BlockingQueue<SpawnResult> results = new ArrayBlockingQueue<SpawnResult>(1);
         loop.post(new Runnable() {

@@ -2,7 +2,7 @@ package org.raspilot.up.android;
 
 import android.os.Bundle;
 
-/** What became of a spawn request, as it travels in a message. Immutable. */
+/** The result of a spawn request, in the form of a message. Immutable. */
 public final class SpawnResult {
     private static final String IS_RUNNING = "running";
     private static final String IS_SPAWNED = "spawned";
@@ -47,32 +47,32 @@ public final class SpawnResult {
         return new Bundle(values);
     }
 
-    /** Says whether an instance runs. */
+    /** Returns whether an instance runs. */
     public boolean isRunning() {
         return values.getBoolean(IS_RUNNING);
     }
 
-    /** Says whether this request started it. */
+    /** Returns whether this request started it. */
     public boolean isSpawned() {
         return values.getBoolean(IS_SPAWNED);
     }
 
-    /** Returns the runner's words, or why there are none, without a full stop. */
+    /** Returns the runner's message, or why there is none, without a full stop. */
     public String sentence() {
         return values.getString(SENTENCE);
     }
 
-    /** Returns where the instance listens, {@code host:general:orientation}; null: nowhere. */
+    /** Returns the address of the instance, {@code host:general:orientation}, or null. */
     public String place() {
         return values.getString(PLACE);
     }
 
-    /** Returns the proxy's host for the ground; null: not told. */
+    /** Returns the proxy's host for the ground; null: absent. */
     public String proxyHost() {
         return values.getString(PROXY_HOST);
     }
 
-    /** Returns the proxy's port for the ground; 0: not told. */
+    /** Returns the proxy's port for the ground; 0: absent. */
     public int proxyPort() {
         return values.getInt(PROXY_PORT);
     }

@@ -11,9 +11,9 @@ import java.io.IOException;
 import org.raspilot.up.loop.SelectorLoop;
 
 /**
- * Asks a runner for an instance and ends (thesis 3.5.1, "Intent Service"): one request after the
- * other on a thread of its own. Where an instance runs, the messenger hears it, and the
- * application starts its {@link BaseUpService}, which connects where the runner says.
+ * Requests an instance from a runner and ends (thesis 3.5.1, "Intent Service"): requests run one
+ * after the other on its own thread. When an instance runs, the messenger receives the result, and
+ * the application starts its {@link BaseUpService}, which connects to the address from the runner.
  */
 public final class SpawnService extends IntentService {
     private static final String TAG = "Up";
@@ -31,11 +31,11 @@ public final class SpawnService extends IntentService {
     }
 
     /**
-     * Asks.
+     * Sends a request.
      *
      * @param aircraft the aircraft's name
      * @param profile a ready-made configuration of the runner; empty: none
-     * @param answer hears one message with {@link #result}
+     * @param answer receives one message with {@link #result}
      */
     public static void ask(Context context, String host, int port, String aircraft,
             String profile, Messenger answer) {
@@ -47,7 +47,7 @@ public final class SpawnService extends IntentService {
                 .putExtra(ANSWER, answer));
     }
 
-    /** Returns what a message to the messenger says. */
+    /** Returns the result in a message to the messenger. */
     public static SpawnResult result(Message message) {
         return SpawnResult.of(message.getData());
     }

@@ -23,8 +23,8 @@ import org.raspilot.up.ground.TelemetrySource;
 import org.raspilot.up.ground.Track;
 
 /**
- * Receives telemetry and sends Commands for as long as somebody looks (thesis 4.5.2): a bound
- * service. An application extends it and names its subclass in its manifest.
+ * Receives telemetry and sends Commands while a client is bound (thesis 4.5.2): a bound service. An
+ * application extends it and names its subclass in its manifest.
  */
 public abstract class TelemetryService extends Service {
     private final GroundView view = new GroundView();
@@ -33,15 +33,15 @@ public abstract class TelemetryService extends Service {
     private String fault = "";
 
     /**
-     * Returns the settings of now; asked when the service begins and at {@link Ground#reload}.
+     * Returns the current settings; called at the service's start and at {@link Ground#reload}.
      *
      * @throws IllegalArgumentException with a sentence for the user: there is no link then
      */
     protected abstract GroundSettings readSettings();
 
     /**
-     * Returns whether sockets stay on a Wi-Fi in whose network the other end lies, from Android 6
-     * on, as for an aircraft's own access point without internet.
+     * Returns whether sockets stay on a Wi-Fi whose network contains the peer, from Android 6 on,
+     * as for an aircraft's own access point without internet.
      */
     protected boolean isOnWifi() {
         return false;
@@ -97,7 +97,7 @@ public abstract class TelemetryService extends Service {
 
     /** What a screen reaches of the service that it is bound to. On the main thread. */
     public final class Ground extends Binder {
-        /** Adds a watcher: it is told of what comes from now on. */
+        /** Adds a watcher, which receives all further changes. */
         public void add(GroundWatcher watcher) {
             view.add(watcher);
         }
@@ -107,44 +107,44 @@ public abstract class TelemetryService extends Service {
             view.remove(watcher);
         }
 
-        /** Returns what is wrong with the settings, in a sentence; empty: nothing. */
+        /** Returns the error of the settings as a sentence; empty if they are valid. */
         public String fault() {
             return fault;
         }
 
-        /** Ends the link and begins anew with the settings of now. */
+        /** Closes the link and restarts it with the current settings. */
         public void reload() {
             end();
             view.forget();
             begin();
         }
 
-        /** Returns the clock by which ages are asked, ms. */
+        /** Returns the time to compute ages with, ms. */
         public long nowMs() {
             return run == null ? SystemClock.elapsedRealtime() : run.nowMs();
         }
 
-        /** Returns the newest frame; {@link Telemetry#NOTHING}: none yet. */
+        /** Returns the newest frame; {@link Telemetry#NOTHING} before the first. */
         public Telemetry telemetry() {
             return view.telemetry();
         }
 
-        /** Returns the newest status; null: none yet. */
+        /** Returns the newest status; null before the first. */
         public GroundStatus status() {
             return view.status();
         }
 
-        /** Returns the newest track; null: none yet. */
+        /** Returns the newest track; null before the first. */
         public Track.Snapshot track() {
             return view.track();
         }
 
-        /** Returns what happened; null: nothing is known yet. */
+        /** Returns the events; null: nothing is known yet. */
         public EventLog.Snapshot events() {
             return view.events();
         }
 
-        /** Returns what is wrong with the flight; null: nothing is known yet. */
+        /** Returns the active alarms, or null if nothing is known yet. */
         public Alarms.Snapshot alarms() {
             return view.alarms();
         }
@@ -165,7 +165,7 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Asks which gains fly. */
+        /** Requests the active gains. */
         public void askGains(AnswerListener listener) {
             ask(PidTuningsCommand.NAME, listener, new Asking() {
                 @Override
@@ -196,7 +196,7 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Asks for the seat that commands. */
+        /** Requests the seat that commands. */
         public void requestSeat() {
             post(new GroundRun.Call() {
                 @Override
@@ -206,7 +206,7 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Hears that the user keeps the seat that another ground asked for. */
+        /** Called when the user keeps the seat that another ground requested. */
         public void dismissSeatAsk() {
             post(new GroundRun.Call() {
                 @Override
@@ -257,9 +257,9 @@ public abstract class TelemetryService extends Service {
         }
     }
 
-    /** Something that is asked of the aircraft, on the loop. */
+    /** A request to the aircraft, on the loop. */
     private interface Asking {
-        /** Asks it. */
+        /** Sends it. */
         void ask(GroundSide side, AnswerListener answers);
     }
 }

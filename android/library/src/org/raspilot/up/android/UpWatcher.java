@@ -4,6 +4,6 @@ import org.raspilot.up.airborne.AirborneStatus;
 
 /** Sees what the airborne side does. Called on the main thread. */
 public interface UpWatcher {
-    /** Takes the status of now: twice a second, and soon after a change of the link. */
+    /** Takes the current status: twice a second, and soon after a change of the link. */
     void onStatus(AirborneStatus status);
 }

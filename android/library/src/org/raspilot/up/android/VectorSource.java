@@ -6,8 +6,8 @@ import java.util.concurrent.Executor;
 import org.raspilot.up.providers.Rotation;
 
 /**
- * How the phone lies and where north is, by its own fusion of its sensors. (The one that is called
- * the game's knows no north: its yaw would be sent as a heading.)
+ * The phone's orientation relative to north, by its own sensor fusion. (The game rotation vector
+ * has no north: its yaw would be sent as a heading.)
  */
 final class VectorSource extends HardwareSource<Rotation> {
     VectorSource(SensorDesk desk, Executor loop, SourceTexts texts, ProblemListener problems) {

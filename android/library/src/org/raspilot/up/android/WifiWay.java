@@ -3,16 +3,16 @@ package org.raspilot.up.android;
 import java.util.regex.Pattern;
 
 /**
- * Decides when the process's sockets are bound to a Wi-Fi. A system prefers its mobile network to
- * a Wi-Fi without internet, on which an aeroplane's own access point would never be reached; but
- * a socket that is bound to a Wi-Fi no longer reaches what is tethered by USB.
+ * Decides when the process's sockets are bound to a Wi-Fi. A system prefers its mobile network to a
+ * Wi-Fi without internet, and then never reaches an aeroplane's own access point; but a socket
+ * bound to a Wi-Fi cannot reach a device tethered by USB.
  *
- * <p>So they are bound only while the other end lies in that Wi-Fi's own network. Where it is not
- * known yet (Discovery, a name), the way changes each {@link #TURN_MS} until there is a link,
- * beginning with the unbound one. All on one thread.
+ * <p>So they are bound only while the peer lies in that Wi-Fi's own network. Where the peer's
+ * address is unknown (Discovery, a name), the path alternates each {@link #TURN_MS} until there is
+ * a link, starting unbound. All on one thread.
  */
 final class WifiWay {
-    /** So long one way is tried, ms: enough to ask by Discovery and to connect. */
+    /** Duration of one attempt by one path, ms: enough for Discovery and connecting. */
     static final long TURN_MS = 5000;
 
     private static final Pattern NUMBERS =
@@ -21,8 +21,8 @@ final class WifiWay {
     /** The system's part. */
     interface Wifi {
         /**
-         * Binds the sockets that are made from now on to the Wi-Fi in whose network an address
-         * lies; null: to any. Returns whether there is one.
+         * Binds future sockets to the Wi-Fi whose network contains an address; null: to any.
+         * Returns whether there is one.
          */
         boolean bind(String address);
 
@@ -40,10 +40,10 @@ final class WifiWay {
     private long turnMs;
 
     /**
-     * Begins unbound.
+     * Starts unbound.
      *
      * @param isWanted false: it is never bound
-     * @param host the other end as the settings name it; empty: found by Discovery
+     * @param host the peer in the settings; empty: found by Discovery
      */
     WifiWay(Wifi wifi, boolean isWanted, String host) {
         this.wifi = wifi;
@@ -51,16 +51,16 @@ final class WifiWay {
         fixed = address(host);
     }
 
-    /** Hears that a network came, went, or has other addresses. */
+    /** Called when a network appeared, disappeared, or changed its addresses. */
     void networksChanged() {
         isChanged = true;
     }
 
     /**
-     * Looks at the link, a few times a second.
+     * Checks the link, a few times a second.
      *
-     * @param place where the link goes; null: there is none
-     * @return whether another way is open now, so that an attempt is due at once
+     * @param place the peer of the link; null if unknown
+     * @return whether the path has changed, so that a new attempt is due immediately
      */
     boolean look(long nowMs, String place) {
         if (!isWanted) {
@@ -97,7 +97,7 @@ final class WifiWay {
         release();
     }
 
-    /** Binds where that is possible; returns whether it is another way than before. */
+    /** Binds if possible; returns whether the path has changed. */
     private boolean keepTo(String address) {
         if (!wifi.bind(address)) {
             return release();
@@ -116,7 +116,7 @@ final class WifiWay {
         return wasBound;
     }
 
-    /** Returns an address in numbers; null for a name, which lies nowhere before it is asked. */
+    /** Returns a numeric address; null for a name, which is in no network before its look-up. */
     private static String address(String host) {
         return NUMBERS.matcher(host).matches() ? host : null;
     }

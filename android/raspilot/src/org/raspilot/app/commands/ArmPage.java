@@ -32,7 +32,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
     private final TextView disarmWhy;
     private final TextView note;
 
-    /** Makes the page; a form that the catalogue does not have is null. */
+    /** Creates the page; a form that the catalogue lacks is null. */
     ArmPage(CommandForm arm, CommandForm disarm, Desk desk) {
         this.arm = arm;
         this.disarm = disarm;

@@ -18,7 +18,7 @@ final class CatalogueAsset {
     /**
      * Returns the catalogue.
      *
-     * @throws IOException when the app's package cannot be read or holds no catalogue
+     * @throws IOException when the app's package cannot be read or lacks a catalogue
      */
     static CommandCatalogue read(Context context) throws IOException {
         InputStream input = context.getAssets().open(NAME);

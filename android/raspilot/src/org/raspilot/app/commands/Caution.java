@@ -8,8 +8,8 @@ final class Caution {
     }
 
     /**
-     * Says whether a Command is confirmed first: all that changes how it flies, and all that nobody
-     * here knows. What only asks, speaks, marks or sets a period is not.
+     * Returns whether a Command needs a confirmation: every Command that changes the flight, and
+     * every unknown one. Requests, speech, marks and telemetry periods need none.
      */
     static boolean isConfirmed(String name, Map<String, ?> data) {
         if (Permission.isOnlyRequest(name, data)) {

@@ -17,7 +17,7 @@ import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.CommandForm;
 
-/** A Command whose one field is a choice among few: a button for each, asked about once more. */
+/** A Command whose one field is a choice of few values: a button for each, with a confirmation. */
 final class ChoicePage implements Page {
     private static final int MOST = 6;
 
@@ -28,7 +28,7 @@ final class ChoicePage implements Page {
     private final TextView now;
     private final List<Button> buttons = new ArrayList<Button>();
 
-    /** Says whether a form is of that kind. */
+    /** Returns whether a form is of that kind. */
     static boolean fits(CommandForm form) {
         if (form.fields().size() != 1) {
             return false;
@@ -37,7 +37,7 @@ final class ChoicePage implements Page {
         return field.isRequired() && field.choices() != null && field.choices().size() <= MOST;
     }
 
-    /** Makes the page. */
+    /** Creates the page. */
     ChoicePage(CommandForm form, Desk desk) {
         this.form = form;
         this.desk = desk;

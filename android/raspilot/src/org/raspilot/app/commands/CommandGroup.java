@@ -4,15 +4,15 @@ import java.util.Locale;
 
 /** What belongs together in the list of Commands. */
 enum CommandGroup {
-    /** How and where it flies. */
+    /** Flight and navigation. */
     FLIGHT,
     /** The flight controller's board. */
     BOARD,
-    /** What is told and written. */
+    /** Messages and log entries. */
     DATA,
     /** The airborne phone. */
     PHONE,
-    /** Commands of modules that nobody here knows. */
+    /** Commands of unknown modules. */
     OTHER;
 
     /** Returns the group of a Command by its name. */
@@ -29,7 +29,7 @@ enum CommandGroup {
         return name.startsWith("android.") ? PHONE : OTHER;
     }
 
-    /** Says whether each of the words stands in one of the texts, whatever its case. */
+    /** Returns whether each of the words occurs in one of the texts, ignoring case. */
     static boolean matches(String words, String... texts) {
         for (String word : words.trim().toLowerCase(Locale.ROOT).split("\\s+")) {
             boolean isFound = false;

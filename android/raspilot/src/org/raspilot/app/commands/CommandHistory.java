@@ -5,12 +5,12 @@ import java.util.Collections;
 import java.util.LinkedList;
 import java.util.List;
 
-/** What was sent, and what became of it; the newest first. Main thread only. */
+/** The sent Commands with their outcomes, newest first. Main thread only. */
 final class CommandHistory {
-    /** So many are remembered. */
+    /** Maximum number of entries. */
     static final int KEPT = 50;
 
-    /** What became of a Command. */
+    /** The outcome of a Command. */
     enum Outcome {
         /** The answer is waited for. */
         WAITING,
@@ -20,7 +20,7 @@ final class CommandHistory {
         REFUSED,
         /** It was not sent. */
         UNSENT,
-        /** Nobody knows whether it was carried out. */
+        /** It may or may not have been executed. */
         UNKNOWN
     }
 
@@ -28,15 +28,15 @@ final class CommandHistory {
     static final class Entry {
         /** Counts up from 1. */
         final int number;
-        /** What was asked for, in words. */
+        /** The request in words. */
         final String words;
         /** When, by a monotonic clock, ms. */
         final long atMs;
-        /** What became of it. */
+        /** The outcome. */
         final Outcome outcome;
-        /** Why, without a full stop; empty where there is nothing to say. */
+        /** The reason, without a full stop, or an empty text. */
         final String reason;
-        /** How long the answer took, ms; null: there was none, or nobody knows. */
+        /** Time until the answer, ms; null if there was none or it is unknown. */
         final Long roundTripMs;
 
         private Entry(int number, String words, long atMs, Outcome outcome, String reason,
@@ -53,7 +53,7 @@ final class CommandHistory {
     private final LinkedList<Entry> entries = new LinkedList<Entry>();
     private int numbers;
 
-    /** Notes that something is sent; returns the number under which its answer is told. */
+    /** Adds a sent Command; returns the number to report its outcome with. */
     int sent(String words, long nowMs) {
         numbers++;
         entries.addFirst(new Entry(numbers, words, nowMs, Outcome.WAITING, "", null));
@@ -63,7 +63,7 @@ final class CommandHistory {
         return numbers;
     }
 
-    /** Notes what became of it; one that is forgotten already stays so. */
+    /** Sets the outcome of an entry; ignored if the entry was dropped. */
     void answered(int number, Outcome outcome, String reason, Long roundTripMs) {
         for (int place = 0; place < entries.size(); place++) {
             Entry entry = entries.get(place);

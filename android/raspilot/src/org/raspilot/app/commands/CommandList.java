@@ -15,7 +15,7 @@ import org.raspilot.app.view.Inks;
 import org.raspilot.app.view.Texts;
 import org.raspilot.up.commands.CommandForm;
 
-/** Every Command of the catalogue in groups; those that the searched words name. */
+/** Every Command of the catalogue in groups, filtered by the searched words. */
 final class CommandList extends BaseAdapter {
     private static final int HEADING = 0;
     private static final int COMMAND = 1;
@@ -29,7 +29,7 @@ final class CommandList extends BaseAdapter {
     private final List<Object> lines = new ArrayList<Object>();
     private BitSet offered = new BitSet();
 
-    /** Makes a list of all forms. */
+    /** Creates a list of all forms. */
     CommandList(Desk desk, List<CommandForm> forms) {
         this.desk = desk;
         this.forms = forms;
@@ -39,7 +39,7 @@ final class CommandList extends BaseAdapter {
         search("");
     }
 
-    /** Shows the Commands in whose title, name or text each of the words stands. */
+    /** Shows the Commands whose title, name or text contains each of the words. */
     void search(String wanted) {
         lines.clear();
         for (CommandGroup group : CommandGroup.values()) {
@@ -57,7 +57,7 @@ final class CommandList extends BaseAdapter {
         notifyDataSetChanged();
     }
 
-    /** Looks at what is offered now; a list that stays as it is is left alone under a finger. */
+    /** Updates the list of offered Commands; an unchanged list stays as it was under a finger. */
     void refresh() {
         BitSet now = new BitSet();
         for (int place = 0; place < lines.size(); place++) {
@@ -70,7 +70,7 @@ final class CommandList extends BaseAdapter {
         }
     }
 
-    /** Returns the form at a place; null: a heading stands there. */
+    /** Returns the form at a place; null for a heading. */
     CommandForm form(int place) {
         Object line = lines.get(place);
         return line instanceof CommandForm ? (CommandForm) line : null;
@@ -124,7 +124,7 @@ final class CommandList extends BaseAdapter {
         TextView title = (TextView) row.findViewById(R.id.command_title);
         title.setText(CommandWords.title(words, form.name()));
         ((TextView) row.findViewById(R.id.command_name)).setText(form.name());
-        // It opens all the same: its page says why it is not offered.
+        // It opens nevertheless: its page states why it is not offered.
         Texts.colour(title, isOffered(form) ? inks.ink : inks.dim);
         return row;
     }

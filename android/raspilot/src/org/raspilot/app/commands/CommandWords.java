@@ -6,12 +6,12 @@ import org.raspilot.app.R;
 import org.raspilot.app.ground.Picture;
 import org.raspilot.up.ground.Freshness;
 
-/** The English of the Commands: titles, groups, objections, and what they ask for. */
+/** The English texts of the Commands: titles, groups, objections, and requests. */
 final class CommandWords {
     private CommandWords() {
     }
 
-    /** Returns what a Command is called on the screen; its name where nobody here knows it. */
+    /** Returns the displayed title of a Command; its name if it has no title. */
     static String title(Resources words, String name) {
         int title = titleOf(name);
         return title == 0 ? name : words.getString(title);
@@ -43,7 +43,7 @@ final class CommandWords {
         return all.toString();
     }
 
-    /** Returns an objection as a sentence; empty: there is none. */
+    /** Returns an objection as a sentence, or an empty text. */
     static String objection(Resources words, Objection objection, Picture picture) {
         switch (objection) {
             case NONE:
@@ -72,7 +72,7 @@ final class CommandWords {
         }
     }
 
-    /** Returns what is to be known of now beside the form of a Command; empty: nothing. */
+    /** Returns the current notes for the form of a Command, or an empty text. */
     static String now(Resources words, String name, Picture picture) {
         if (name.equals("up.flight_mode.set")) {
             return words.getString(R.string.commands_now, mode(words, picture));

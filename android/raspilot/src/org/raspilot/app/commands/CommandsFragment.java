@@ -15,7 +15,7 @@ import org.raspilot.up.commands.CommandForm;
 /**
  * The commands screen: every Command with its form, its answer and the history (thesis 4.5.3).
  *
- * <p>What was typed and sent outlives a rotation in {@link CommandsMemory}. Main thread only.
+ * <p>{@link CommandsMemory} preserves typed and sent data across a rotation. Main thread only.
  */
 public final class CommandsFragment extends WatchingFragment implements CommandsMemory.Listener {
     private CommandsMemory memory;
@@ -53,7 +53,7 @@ public final class CommandsFragment extends WatchingFragment implements Commands
         super.onStop();
         memory.setListener(null);
         if (screen != null) {
-            // Nobody says yes to a question that they do not see.
+            // A dialog that is not visible must not be confirmed.
             screen.dismiss();
         }
     }

@@ -11,10 +11,10 @@ import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.AnswerListener;
 
 /**
- * What the commands screen knows beyond its views: what was typed, what was sent, what is open.
+ * The state of the commands screen beyond its views: typed text, sent Commands, the open page.
  *
- * <p>A retained fragment without views: a rotation makes a new screen, and an answer that comes
- * meanwhile finds its place all the same. Main thread only.
+ * <p>A retained fragment without views: a rotation makes a new screen, and an answer that arrives
+ * during it is still stored. Main thread only.
  */
 public final class CommandsMemory extends Fragment {
     private static final String TAG = "commands.memory";
@@ -22,9 +22,9 @@ public final class CommandsMemory extends Fragment {
     private static final String OPEN = "commands.open";
     private static final String SEARCH = "commands.search";
 
-    /** Hears that an answer came; main thread. */
+    /** Called when an answer arrives; main thread. */
     interface Listener {
-        /** Looks at the history anew. */
+        /** Refreshes the history. */
         void onHistory();
     }
 
@@ -36,7 +36,7 @@ public final class CommandsMemory extends Fragment {
     private String open = "";
     private String search = "";
 
-    /** Returns the memory of an activity's fragments; makes it where there is none. */
+    /** Returns the memory of an activity's fragments; creates it if necessary. */
     static CommandsMemory of(FragmentManager manager) {
         Fragment kept = manager.findFragmentByTag(TAG);
         if (kept instanceof CommandsMemory) {
@@ -74,7 +74,7 @@ public final class CommandsMemory extends Fragment {
         state.putString(SEARCH, search);
     }
 
-    /** Returns what was typed into the form of a Command, by field; written to by its form. */
+    /** Returns the typed text of a Command's form, by field; its form writes to it. */
     Map<String, String> draft(String name) {
         Map<String, String> draft = drafts.get(name);
         if (draft == null) {
@@ -84,7 +84,7 @@ public final class CommandsMemory extends Fragment {
         return draft;
     }
 
-    /** Returns what was sent. */
+    /** Returns the sent Commands. */
     CommandHistory history() {
         return history;
     }
@@ -94,35 +94,35 @@ public final class CommandsMemory extends Fragment {
         return gains;
     }
 
-    /** Returns the name of the Command whose form is open; empty: none is. */
+    /** Returns the name of the Command whose form is open, or an empty text. */
     String open() {
         return open;
     }
 
-    /** Says whose form is open; empty: none is. */
+    /** Sets the Command whose form is open; empty: none. */
     void setOpen(String name) {
         open = name;
     }
 
-    /** Returns the words that are looked for. */
+    /** Returns the words of the search. */
     String search() {
         return search;
     }
 
-    /** Says which words are looked for. */
+    /** Sets the words of the search. */
     void setSearch(String words) {
         search = words;
     }
 
-    /** Tells this screen of answers from now on; null: none. */
+    /** Sets the screen that is notified of answers; null: none. */
     void setListener(Listener newListener) {
         listener = newListener;
     }
 
     /**
-     * Notes that something is sent and returns who takes its answer.
+     * Adds a sent Command and returns the listener for its answer.
      *
-     * @param words what is asked for
+     * @param words the request in words
      */
     AnswerListener sent(String words) {
         final int number = history.sent(words, SystemClock.elapsedRealtime());

@@ -42,14 +42,14 @@ final class CommandsScreen
     private TelemetryService.Ground ground;
     private Page page;
 
-    /** Finds all views and opens what was open; {@code fault}: why there is no catalogue. */
+    /** Finds all views and restores the open page; {@code fault}: why there is no catalogue. */
     CommandsScreen(Activity activity, View root, CommandsMemory memory, List<CommandForm> forms,
             String fault) {
         this.activity = activity;
         this.memory = memory;
         this.forms = forms;
         frame = new FrameLine((FrameText) root.findViewById(R.id.ground_frame));
-        // Where the ground screen stands beside this one, the seat is there.
+        // If the ground screen is visible beside this one, the seat is there.
         seat = root.findViewById(R.id.seat_line) == null ? null : new SeatPanel(root);
         history = new HistoryPanel(root, memory.history());
         confirmation = new Confirmation(activity);
@@ -72,7 +72,7 @@ final class CommandsScreen
         open(memory.open());
     }
 
-    /** Asks this ground from now on; null: none. What another one's screen showed is not seen. */
+    /** Sets the ground; null: none. Frames seen of another ground do not count. */
     void setGround(TelemetryService.Ground newGround) {
         ground = newGround;
         frame.forget();
@@ -86,7 +86,7 @@ final class CommandsScreen
         frame.update(picture());
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     void show() {
         showFrame();
         if (seat != null) {
@@ -101,12 +101,12 @@ final class CommandsScreen
         history.update();
     }
 
-    /** Takes a question back that is asked. */
+    /** Closes an open confirmation. */
     void dismiss() {
         confirmation.dismiss();
     }
 
-    /** Lets go of the views. */
+    /** Releases the views. */
     void close() {
         dismiss();
         setGround(null);
@@ -226,7 +226,7 @@ final class CommandsScreen
         }
     }
 
-    /** Says whether there is a service to send by; where there is none, the history says so. */
+    /** Returns whether there is a service to send with; if not, the history reports it. */
     private boolean isThere(String words) {
         if (ground == null) {
             memory.unsent(words, activity.getString(R.string.commands_no_service));

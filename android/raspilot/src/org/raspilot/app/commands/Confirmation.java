@@ -16,7 +16,7 @@ final class Confirmation {
         this.context = context;
     }
 
-    /** Asks; {@code then} runs when the answer is yes, and not otherwise. */
+    /** Shows the dialog; {@code then} runs only when the user confirms. */
     void ask(String title, String text, String yes, final Runnable then) {
         dismiss();
         dialog = new AlertDialog.Builder(context)

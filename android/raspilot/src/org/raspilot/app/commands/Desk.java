@@ -8,12 +8,12 @@ import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.ground.GainsDesk;
 
-/** What the page of a Command asks of the screen that it is on. Main thread only. */
+/** The services that a Command's page needs from its screen. Main thread only. */
 interface Desk {
-    /** Returns where views and words come from. */
+    /** Returns the source of views and texts. */
     Context context();
 
-    /** Returns what is known now. */
+    /** Returns the current state. */
     Picture picture();
 
     /** Returns the gains that are known now; null: none. */
@@ -28,10 +28,10 @@ interface Desk {
     /** Returns the same as a sentence; empty: it is offered. */
     String objectionText(CommandForm form, Map<String, ?> data);
 
-    /** Sends a Command at once, with the beacon of the frame that was drawn last. */
+    /** Sends a Command immediately, with the beacon of the frame that was drawn last. */
     void send(BaseCommand command, String words);
 
-    /** Asks the aircraft which gains fly. */
+    /** Requests the active gains from the aircraft. */
     void askGains();
 
     /** Sends a set of gains. */
@@ -40,6 +40,6 @@ interface Desk {
     /** Sends the set of gains before. */
     void undoGains();
 
-    /** Asks whether to go on; does nothing when the answer is no or the screen goes away. */
+    /** Shows a confirmation; does nothing when the user declines or the screen is closed. */
     void confirm(String title, String text, String yes, Runnable then);
 }

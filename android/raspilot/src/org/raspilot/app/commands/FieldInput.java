@@ -20,14 +20,14 @@ import org.raspilot.app.R;
 import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.FieldType;
 
-/** Where a person says the value of a field: a text, a choice or a switch. */
+/** The input of a field's value: a text, a choice or a switch. */
 abstract class FieldInput {
     private static final int LONGEST = 4096;
     private static final String DIGITS = "0123456789.,-";
 
-    /** Hears that something was typed or chosen. */
+    /** Called when text was typed or a choice made. */
     interface ChangeListener {
-        /** Looks at the text anew. */
+        /** Validates the text again. */
         void onChange();
     }
 
@@ -47,7 +47,7 @@ abstract class FieldInput {
     /** Returns the view. */
     abstract View view();
 
-    /** Returns what is written or chosen; empty: nothing. */
+    /** Returns the typed or chosen value, or an empty text. */
     abstract String text();
 
     /** Writes or chooses; what cannot be chosen chooses nothing. */
@@ -66,7 +66,7 @@ abstract class FieldInput {
                 view.setKeyListener(DigitsKeyListener.getInstance(DIGITS));
                 view.setRawInputType(inputType(field));
             }
-            // The aircraft counts characters, this counts halves of some: never cut in between.
+            // The aircraft counts characters, this counts UTF-16 units: never split a pair.
             view.setFilters(new InputFilter[] {new InputFilter.LengthFilter(LONGEST)});
             view.addTextChangedListener(this);
         }

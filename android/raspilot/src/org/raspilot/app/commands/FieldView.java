@@ -13,7 +13,7 @@ import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.FieldType;
 import org.raspilot.up.commands.InvalidCommandException;
 
-/** One field of a form: what it is, where its value is said, what it must be, what is wrong. */
+/** One field of a form: its label, its input, its rule, its error. */
 final class FieldView implements FieldInput.ChangeListener {
     private final CommandField field;
     private final Map<String, String> draft;
@@ -22,7 +22,7 @@ final class FieldView implements FieldInput.ChangeListener {
     private final TextView problem;
     private boolean isReady;
 
-    /** Adds the field at the end of a form; {@code draft} keeps what is said. */
+    /** Adds the field at the end of a form; {@code draft} stores its value. */
     FieldView(ViewGroup form, CommandField field, Map<String, String> draft) {
         this.field = field;
         this.draft = draft;
@@ -42,7 +42,7 @@ final class FieldView implements FieldInput.ChangeListener {
             input.setText(kept);
         }
         if (!input.text().isEmpty()) {
-            // A switch says something from the beginning.
+            // A switch has a value from the start.
             draft.put(field.name(), input.text());
         }
         isReady = true;
@@ -53,12 +53,12 @@ final class FieldView implements FieldInput.ChangeListener {
         input.setText(text);
     }
 
-    /** Says whether anything can be said here now. */
+    /** Returns whether the field accepts input now. */
     void setEnabled(boolean isEnabled) {
         input.view().setEnabled(isEnabled);
     }
 
-    /** Says what is wrong with what stands there; true: nothing. */
+    /** Shows the error of the value; returns whether it is valid. */
     boolean judge() {
         String sentence = sentence(input.text());
         show(sentence);
@@ -75,7 +75,7 @@ final class FieldView implements FieldInput.ChangeListener {
         String text = input.text();
         draft.put(field.name(), text);
         if (isReady) {
-            // Nothing is wrong yet with what nobody has begun to write.
+            // An empty, untouched field shows no error.
             show(text.trim().isEmpty() ? "" : sentence(text));
         }
     }

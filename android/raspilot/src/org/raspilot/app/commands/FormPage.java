@@ -33,7 +33,7 @@ final class FormPage implements Page, View.OnClickListener {
     private final TextView problem;
     private final Button send;
 
-    /** Makes the form; what was typed before stands in it. */
+    /** Creates the form and restores its typed text. */
     FormPage(CommandForm form, Desk desk) {
         this.form = form;
         this.desk = desk;

@@ -18,10 +18,10 @@ import org.raspilot.up.ground.GainsDesk;
 import org.raspilot.up.ground.GainsForm;
 
 /**
- * What is being written into the gains, beside what flies.
+ * The edits of the gains, beside the active gains.
  *
- * <p>A cell that was written remembers the flying value that its writer saw. When another value
- * flies from then on, the cell keeps what was written and the two are a conflict. Main thread only.
+ * <p>An edited cell remembers the active value at the time of the edit. If the active value changes
+ * afterwards, the cell keeps the edit and the two are a conflict. Main thread only.
  */
 final class GainsEditor {
     private static final class Edit {
@@ -37,16 +37,16 @@ final class GainsEditor {
     private final Map<GainKey, Edit> edits = new LinkedHashMap<GainKey, Edit>();
     private GainSet flying;
 
-    /** Returns what flies; null: not known. */
+    /** Returns the active gains, or null if unknown. */
     GainSet flying() {
         return flying;
     }
 
-    /** Takes what flies now; a value that was written and flies now is no edit any more. */
+    /** Takes the active gains; an edit that equals its active value is dropped. */
     void takeFlying(GainSet set) {
         flying = set;
         if (set == null) {
-            // Asked anew: what is being written waits for the answer.
+            // During a new request, edits wait for the answer.
             return;
         }
         for (GainKey key : new ArrayList<GainKey>(edits.keySet())) {
@@ -56,7 +56,7 @@ final class GainsEditor {
         }
     }
 
-    /** Writes a cell; what flies already, or the empty text of a gain without one, is no edit. */
+    /** Edits a cell; the active value, or the empty text of a gain without one, is not an edit. */
     void write(GainKey key, String written) {
         Edit before = edits.get(key);
         if (isAsFlying(key, written)) {
@@ -71,30 +71,30 @@ final class GainsEditor {
         edits.clear();
     }
 
-    /** Says that conflicts have been seen: what flies now is what the writer starts from. */
+    /** Marks conflicts as seen: edits are now relative to the active gains. */
     void accept() {
         for (Map.Entry<GainKey, Edit> each : edits.entrySet()) {
             each.setValue(new Edit(each.getValue().written, each.getKey().of(flying)));
         }
     }
 
-    /** Says whether anything is written that does not fly. */
+    /** Returns whether any edit differs from the active gains. */
     boolean hasEdits() {
         return !edits.isEmpty();
     }
 
-    /** Says whether a cell holds something else than what flies. */
+    /** Returns whether a cell differs from its active value. */
     boolean isEdited(GainKey key) {
         return edits.containsKey(key);
     }
 
-    /** Returns what stands in a cell. */
+    /** Returns the text of a cell. */
     String textOf(GainKey key) {
         Edit edit = edits.get(key);
         return edit == null ? text(key.of(flying)) : edit.written;
     }
 
-    /** Says whether what is written in a cell is no gain. */
+    /** Returns whether the edit of a cell is not a valid gain. */
     boolean isWrong(GainKey key) {
         Edit edit = edits.get(key);
         return edit != null && !edit.written.trim().isEmpty() && GainsForm.number(edit.written) == null;
@@ -119,7 +119,7 @@ final class GainsEditor {
     }
 
     /**
-     * Returns the whole set to send. What was not touched goes back exactly as it came.
+     * Returns the whole set to send. Unedited values are returned exactly as received.
      *
      * @throws InvalidCommandException with one sentence that names the gain
      */
@@ -131,7 +131,7 @@ final class GainsEditor {
             cells.put(key.path(), edit != null ? edit.written.trim() : now == null ? ""
                     : new BigDecimal(now).setScale(6, RoundingMode.HALF_EVEN).toPlainString());
         }
-        // The form judges the set as a person would write it; what was not touched is not rounded.
+        // The form validates the set as typed text; unedited values are not rounded.
         GainSet written = GainsForm.read(cells);
         return new GainSet(exact(0, written), exact(1, written), exact(2, written));
     }
@@ -149,7 +149,7 @@ final class GainsEditor {
         return axes[0] == null ? null : new LoopGains(axes[0], axes[1], axes[2]);
     }
 
-    /** Returns what sending would change; empty while a cell holds no gain. */
+    /** Returns what sending would change; empty while a cell has no valid gain. */
     List<GainChange> changes() {
         try {
             return GainsDesk.difference(flying, wanted());
@@ -159,7 +159,7 @@ final class GainsEditor {
         }
     }
 
-    /** Returns a gain with six figures at most; empty: there is none. */
+    /** Returns a gain with at most six significant digits, or an empty text. */
     static String text(Double gain) {
         if (gain == null) {
             return "";

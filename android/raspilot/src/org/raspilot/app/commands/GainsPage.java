@@ -22,7 +22,7 @@ import org.raspilot.up.ground.GainKey;
 import org.raspilot.up.ground.GainsDesk;
 import org.raspilot.up.ground.GainsEntry;
 
-/** The gains of every axis: what flies, what is being written, what that changes, and undo. */
+/** The gains of every axis: active values, edits, their differences, and undo. */
 final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeListener {
     private static final Map<String, Object> SET = Collections.emptyMap();
     private static final Map<String, Object> REQUEST =
@@ -44,7 +44,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
     private final Button send;
     private GainsDesk.Snapshot shown;
 
-    /** Makes the page; what was written before stands in it. */
+    /** Creates the page and restores its edits. */
     GainsPage(CommandForm form, Desk desk) {
         this.form = form;
         this.desk = desk;

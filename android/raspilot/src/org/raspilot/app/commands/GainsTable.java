@@ -26,9 +26,9 @@ final class GainsTable {
     private static final int[] CELLS = {R.id.gain_p, R.id.gain_i, R.id.gain_d};
     private static final int[] FLYING = {R.id.flying_p, R.id.flying_i, R.id.flying_d};
 
-    /** Hears that something was written. */
+    /** Called when a cell was edited. */
     interface ChangeListener {
-        /** Looks at the editor anew. */
+        /** Refreshes from the editor. */
         void onWritten();
     }
 
@@ -38,7 +38,7 @@ final class GainsTable {
     private final List<Cell> cells = new ArrayList<Cell>();
     private boolean isFilling;
 
-    /** Makes the cells in the list that the page has for them. */
+    /** Creates the cells in the list that the page has for them. */
     GainsTable(View page, GainsEditor editor, ChangeListener listener) {
         this.editor = editor;
         this.listener = listener;
@@ -58,7 +58,7 @@ final class GainsTable {
         refill();
     }
 
-    /** Writes what the editor holds into every cell. */
+    /** Copies the editor's texts into every cell. */
     void refill() {
         isFilling = true;
         try {
@@ -73,7 +73,7 @@ final class GainsTable {
         }
     }
 
-    /** Shows which cells differ from what flies, and whether anything may be written. */
+    /** Shows which cells differ from the active gains, and whether editing is possible. */
     void update(boolean isOffered) {
         for (Cell cell : cells) {
             if (cell.input.isEnabled() != isOffered) {
@@ -97,7 +97,7 @@ final class GainsTable {
             EditText input = (EditText) row.findViewById(CELLS[term]);
             input.setContentDescription(key.words());
             input.setHint(key.term().toUpperCase(Locale.ROOT));
-            // Each row has the same ids: what stands here is kept by the editor alone.
+            // Each row has the same ids, so only the editor stores the texts.
             input.setSaveEnabled(false);
             Cell cell = new Cell(key, input, (TextView) row.findViewById(FLYING[term]));
             input.addTextChangedListener(cell);

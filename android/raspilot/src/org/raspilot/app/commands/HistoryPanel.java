@@ -9,7 +9,7 @@ import org.raspilot.app.R;
 import org.raspilot.app.view.Inks;
 import org.raspilot.app.view.Texts;
 
-/** The newest answer, and on a touch of it all that was sent with what became of it. */
+/** The newest answer; a tap on it opens all sent Commands with their outcomes. */
 final class HistoryPanel implements View.OnClickListener {
     private final CommandHistory history;
     private final TextView newest;
@@ -27,7 +27,7 @@ final class HistoryPanel implements View.OnClickListener {
         newest.setOnClickListener(this);
     }
 
-    /** Says whether all is open. */
+    /** Returns whether the whole history is open. */
     boolean isOpen() {
         return box.getVisibility() == View.VISIBLE;
     }
@@ -43,7 +43,7 @@ final class HistoryPanel implements View.OnClickListener {
         setOpen(!isOpen());
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     void update() {
         Resources words = newest.getResources();
         CommandHistory.Entry entry = history.newest();

@@ -4,19 +4,19 @@ package org.raspilot.app.commands;
 enum Objection {
     /** It is offered. */
     NONE,
-    /** There is no link to send it over. */
+    /** No link to send it over. */
     NO_LINK,
     /** The proxy does not have the aircraft. */
     NO_AIRCRAFT,
-    /** Nobody commands: control must be asked for. */
+    /** No ground commands: control must be requested. */
     SEAT_FREE,
     /** Another ground commands. */
     SEAT_HELD,
-    /** This ground listens, and nobody has told who commands. */
+    /** This ground listens, and it is unknown who commands. */
     LISTENING,
     /** The aircraft's link does not allow it to a ground. */
     ROLE,
-    /** Nobody commands what they do not see. */
+    /** The pilot must see the aircraft's state to command. */
     SILENT,
     /** Gains are refused in flight. */
     ARMED,

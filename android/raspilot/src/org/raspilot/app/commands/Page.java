@@ -7,6 +7,6 @@ interface Page {
     /** Returns its view. */
     View element();
 
-    /** Shows the moment: what is offered, what flies now. */
+    /** Shows the current state: offered Commands, active gains. */
     void update();
 }

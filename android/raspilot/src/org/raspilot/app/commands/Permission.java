@@ -11,9 +11,9 @@ import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
 
 /**
- * Decides whether a Command may be offered, as far as that is known before it is tried.
+ * Decides whether a Command may be offered, as far as that is known before it is sent.
  *
- * <p>What is not known is no objection: the aircraft decides in the end (docs/protocols.md 4).
+ * <p>An unknown condition is not an objection: the aircraft decides (docs/protocols.md 4).
  */
 final class Permission {
     private static final String PROFILE = "arduino.profile.request";
@@ -26,16 +26,16 @@ final class Permission {
     private Permission() {
     }
 
-    /** Says whether a Command with such data only asks for something. */
+    /** Returns whether a Command with such data is only a request. */
     static boolean isOnlyRequest(String name, Map<String, ?> data) {
         return name.equals(PROFILE) || name.equals(PidTuningsCommand.NAME)
                 && Boolean.TRUE.equals(data.get("request"));
     }
 
     /**
-     * Returns the least role that a Command needs.
+     * Returns the minimum role that a Command needs.
      *
-     * @param told what the catalogue says; {@code depends}: a field decides
+     * @param told by the catalogue; {@code depends}: a field decides
      */
     static String neededRole(String name, String told, Map<String, ?> data) {
         if (ROLES.contains(told)) {
@@ -47,7 +47,7 @@ final class Permission {
         return name.equals(PidTuningsCommand.NAME) ? PILOT : OPERATOR;
     }
 
-    /** Says whether a role allows what another one is needed for; one not known is no objection. */
+    /** Returns whether a role includes the required one; an unknown role is no reason to object. */
     static boolean allows(String role, String needed) {
         return !ROLES.contains(role) || ROLES.indexOf(role) >= ROLES.indexOf(needed);
     }
@@ -56,7 +56,7 @@ final class Permission {
      * Returns why a Command is not offered.
      *
      * @param name of the Command
-     * @param told the role that the catalogue says
+     * @param told the role that the catalogue states
      * @param data as far as it is known already
      * @param status null: there is no service yet
      */
@@ -72,7 +72,7 @@ final class Permission {
         return ofAircraft(name, data, status.tuneInFlight(), telemetry, nowMs);
     }
 
-    /** Returns what stands against a Command in what the aircraft says, or in its silence. */
+    /** Returns the objection from the aircraft's telemetry, or from its silence. */
     static Objection ofAircraft(String name, Map<String, ?> data, Boolean tuneInFlight,
             Telemetry telemetry, long nowMs) {
         if (isOnlyRequest(name, data)) {
@@ -110,7 +110,7 @@ final class Permission {
         }
     }
 
-    /** Returns what stands against a Command while armed, gains: in flight; null: not known. */
+    /** Returns the objection while armed (for gains: in flight); {@code isArmed} null: unknown. */
     static Objection ofMotor(String name, Boolean isArmed, Boolean tuneInFlight) {
         if (isArmed == null) {
             return Objection.NONE;

@@ -7,18 +7,18 @@ import java.util.Map;
 import java.util.Set;
 
 /**
- * Decides when alarms sound: at once, again and again while their cause lasts, not when silenced.
+ * Decides when alarms sound: immediately, and repeatedly while their cause lasts, unless silenced.
  *
- * <p>Silencing is for what is on at that moment: another alarm sounds, and so does the same one
- * when it comes back or turns from a warning into an alarm.
+ * <p>Silencing applies to the alarms of that moment: a new alarm sounds, and so does the same one
+ * when it returns or escalates from a warning to an alarm.
  */
 final class AlarmBell {
-    /** An alarm is repeated so often. */
+    /** Repetition period of an alarm. */
     static final long ALARM_EACH_MS = 2000;
-    /** A warning is repeated so often. */
+    /** Repetition period of a warning. */
     static final long WARNING_EACH_MS = 10000;
 
-    /** What is to be heard. */
+    /** The sound to play. */
     enum Ring {
         /** Nothing. */
         NONE,
@@ -34,7 +34,7 @@ final class AlarmBell {
     private long rangMs;
     private boolean hasRung;
 
-    /** Takes what is wrong now and loud, by its kind. */
+    /** Takes the current audible alarms, by their kind. */
     void take(Map<String, Ring> wrong) {
         loud = new HashMap<String, Ring>(wrong);
         Set<String> words = words();
@@ -42,12 +42,12 @@ final class AlarmBell {
         heard.retainAll(words);
     }
 
-    /** Silences what is wrong now. */
+    /** Silences the current alarms. */
     void silence() {
         silenced.addAll(words());
     }
 
-    /** Returns what is silenced, for {@link #restore} of another bell. */
+    /** Returns the silenced alarms, for {@link #restore} of another bell. */
     String[] silenced() {
         return silenced.toArray(new String[0]);
     }
@@ -57,17 +57,17 @@ final class AlarmBell {
         silenced.addAll(Arrays.asList(words));
     }
 
-    /** Says whether something is wrong that was silenced. */
+    /** Returns whether a silenced alarm is active. */
     boolean isSilenced() {
         return !silenced.isEmpty();
     }
 
-    /** Says whether something is wrong that sounds. */
+    /** Returns whether an audible alarm is active. */
     boolean isRinging() {
         return worst() != Ring.NONE;
     }
 
-    /** Returns what is to be heard at this moment. */
+    /** Returns the sound to play at this moment. */
     Ring look(long nowMs) {
         Ring worst = worst();
         if (worst == Ring.NONE) {
@@ -78,7 +78,7 @@ final class AlarmBell {
         sounding.removeAll(silenced);
         boolean isNew = !heard.containsAll(sounding);
         long sinceMs = nowMs - rangMs;
-        // Another service has another clock: what lies ahead of now is no moment to wait for.
+        // Another service has another clock: a time in the future is invalid.
         if (hasRung && !isNew && sinceMs >= 0 && sinceMs < eachMs) {
             return Ring.NONE;
         }

@@ -12,7 +12,7 @@ import org.raspilot.app.view.Texts;
 import org.raspilot.up.ground.Alarm;
 import org.raspilot.up.ground.EventLevel;
 
-/** What is wrong now, in words, and the button that silences it. Gone while nothing is wrong. */
+/** The active alarms in words, and the button that silences them. Hidden without alarms. */
 final class AlarmPanel implements View.OnClickListener {
     private final View element;
     private final TextView text;
@@ -21,7 +21,7 @@ final class AlarmPanel implements View.OnClickListener {
     private final AlarmBell bell;
     private final Sounder sounder;
 
-    /** Finds its views; the bell is kept by who makes this. */
+    /** Finds its views; the caller owns the bell. */
     AlarmPanel(View root, AlarmBell bell, Sounder sounder) {
         this.bell = bell;
         this.sounder = sounder;
@@ -32,18 +32,18 @@ final class AlarmPanel implements View.OnClickListener {
         silence.setOnClickListener(this);
     }
 
-    /** Shows the moment, and sounds what has to be heard. */
+    /** Shows the current state, and sounds the due alarms. */
     void update(Picture picture) {
         List<Alarm> active = picture.alarms == null
                 ? java.util.Collections.<Alarm>emptyList() : picture.alarms.active();
         if (picture.alarms != null) {
-            // What is not known leaves what was silenced as it is.
+            // While the alarms are unknown, silenced ones stay silenced.
             bell.take(loud(active));
             sounder.ring(bell.look(picture.nowMs));
         }
         element.setVisibility(active.isEmpty() ? View.GONE : View.VISIBLE);
         String words = words(active);
-        // A live region: a screen reader says it when it changes.
+        // A live region: a screen reader speaks its changes.
         Texts.show(text, words);
         Texts.colour(text, hasAlarm(active) ? inks.alarm : inks.warning);
         silence.setVisibility(bell.isRinging() ? View.VISIBLE : View.GONE);

@@ -19,7 +19,7 @@ final class EventPanel {
         view = (TextView) root.findViewById(R.id.ground_events);
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     void update(Picture picture) {
         if (!view.isShown()) {
             return;
@@ -41,7 +41,7 @@ final class EventPanel {
         Texts.show(view, text);
     }
 
-    /** Whole seconds: a hundredth that runs says nothing here. */
+    /** Whole seconds: running hundredths are useless here. */
     private static String ago(long agoMs) {
         return agoMs < 100000 ? agoMs / 1000 + " s" : Age.text(agoMs);
     }

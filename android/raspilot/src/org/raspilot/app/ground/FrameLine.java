@@ -11,8 +11,8 @@ import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
 
 /**
- * The line at the top of a screen: mode, motor, age of the newest frame; or for how long nothing
- * came. It knows which frame was drawn, and so seen.
+ * The line at the top of a screen: mode, motor, age of the newest frame or duration of the silence.
+ * It records which frame was drawn, and so seen.
  */
 public final class FrameLine implements FrameText.DrawnListener {
     private final FrameText view;
@@ -26,7 +26,7 @@ public final class FrameLine implements FrameText.DrawnListener {
         view.setDrawnListener(this);
     }
 
-    /** Lets go of the view: nothing is seen any more. */
+    /** Releases the view: no frame is visible afterwards. */
     public void close() {
         view.setDrawnListener(null);
         shownBeacon = null;
@@ -37,7 +37,7 @@ public final class FrameLine implements FrameText.DrawnListener {
         return shownBeacon;
     }
 
-    /** Forgets what was seen: another link, another aircraft. */
+    /** Resets the seen frames: another link, another aircraft. */
     public void forget() {
         shownBeacon = null;
     }
@@ -47,7 +47,7 @@ public final class FrameLine implements FrameText.DrawnListener {
         shownBeacon = beacon;
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     public void update(Picture picture) {
         Telemetry telemetry = picture.telemetry;
         Resources words = view.getResources();

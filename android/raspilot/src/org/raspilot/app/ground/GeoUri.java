@@ -12,7 +12,7 @@ final class GeoUri {
      *
      * @param latitudeDeg -90 to 90 degrees
      * @param longitudeDeg -180 to 180 degrees
-     * @param label what stands at the pin: encoded already, as by Uri.encode
+     * @param label the text at the pin, already encoded as by Uri.encode
      */
     static String of(double latitudeDeg, double longitudeDeg, String label) {
         // Not the user's language: a decimal comma would be another place.

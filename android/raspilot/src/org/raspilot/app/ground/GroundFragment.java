@@ -38,7 +38,7 @@ public final class GroundFragment extends WatchingFragment {
     @Override
     public View onCreateView(LayoutInflater inflater, ViewGroup container, Bundle saved) {
         View root = inflater.inflate(R.layout.fragment_ground, container, false);
-        // Only as long as it is to be seen: the window forgets it with the view.
+        // Only while it is visible: the window resets it with the view.
         root.setKeepScreenOn(true);
         screen = new GroundScreen(getActivity(), root, panel, speed,
                 new AlarmPanel(root, bell, sounder));

@@ -19,7 +19,7 @@ final class GroundScreen {
     private final ValuesPanel values;
     private final PanelSwitch panels;
 
-    /** Finds all views; {@code panel} is which panel is to be seen where one only fits. */
+    /** Finds all views; {@code panel} is the visible one if only one fits. */
     GroundScreen(Activity activity, View root, int panel, GroundSpeed speed, AlarmPanel alarms) {
         this.alarms = alarms;
         frame = new FrameLine((FrameText) root.findViewById(R.id.ground_frame));
@@ -32,13 +32,13 @@ final class GroundScreen {
         panels = new PanelSwitch(root, panel);
     }
 
-    /** Asks this ground from now on; null: none. */
+    /** Sets the ground; null: none. */
     void setGround(TelemetryService.Ground ground) {
         frame.forget();
         seat.setGround(ground);
     }
 
-    /** Returns which panel is to be seen; {@code otherwise} where all are. */
+    /** Returns the visible panel; {@code otherwise} if all are. */
     int panel(int otherwise) {
         return panels.chosen(otherwise);
     }
@@ -60,7 +60,7 @@ final class GroundScreen {
         values.update(picture);
     }
 
-    /** Lets go of the views. */
+    /** Releases the views. */
     void close() {
         seat.setGround(null);
         frame.close();

@@ -3,7 +3,7 @@ package org.raspilot.app.ground;
 import org.raspilot.up.ground.Earth;
 
 /**
- * Ground speed worked out from the places that telemetry tells: it carries none itself.
+ * Ground speed computed from telemetry's positions: telemetry has no ground speed.
  *
  * <p>Main thread only.
  */
@@ -21,11 +21,11 @@ final class GroundSpeed {
     private int count;
 
     /**
-     * Takes a place; the same fix is told in many frames and counts once.
+     * Takes a position; a fix repeated in many frames counts once.
      *
      * @param latitudeDeg -90 to 90 degrees
      * @param longitudeDeg -180 to 180 degrees
-     * @param measuredMs when it was measured, by one monotonic clock
+     * @param measuredMs time of measurement, by one monotonic clock
      */
     void take(double latitudeDeg, double longitudeDeg, long measuredMs) {
         if (count > 0) {
@@ -51,7 +51,7 @@ final class GroundSpeed {
         count++;
     }
 
-    /** Forgets every place. */
+    /** Clears all positions. */
     void clear() {
         count = 0;
     }

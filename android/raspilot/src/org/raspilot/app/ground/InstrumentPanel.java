@@ -27,7 +27,7 @@ final class InstrumentPanel {
     private final BarsView servos;
     private final GroundSpeed groundSpeed;
 
-    /** Finds its views; the speed's past is kept by who makes this. */
+    /** Finds its views; the caller owns the history of the speed. */
     InstrumentPanel(View root, GroundSpeed groundSpeed) {
         this.groundSpeed = groundSpeed;
         attitude = (AttitudeView) root.findViewById(R.id.ground_attitude);
@@ -40,7 +40,7 @@ final class InstrumentPanel {
         servos.setTitle(root.getResources().getString(R.string.ground_servos), SERVOS);
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     void update(Picture picture) {
         Telemetry telemetry = picture.telemetry;
         Double roll = telemetry.number("orientation.roll");
@@ -97,7 +97,7 @@ final class InstrumentPanel {
         instrument.setFreshness(freshness, ageText(picture, path));
     }
 
-    /** Returns how old what stands at a path is: the reading's age, else its frame's. */
+    /** Returns the age of the value at a path: the reading's age, otherwise its frame's. */
     static String ageText(Picture picture, String path) {
         Telemetry telemetry = picture.telemetry;
         Long ageMs = telemetry.readingAgeMs(Telemetry.readingOf(path), picture.nowMs);

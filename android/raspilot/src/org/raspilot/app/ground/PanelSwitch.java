@@ -7,8 +7,8 @@ import android.widget.RadioGroup;
 import org.raspilot.app.R;
 
 /**
- * Shows one of track, state and values where there is room for one only; a layout with room for
- * all has no buttons, and everything stays visible.
+ * Shows one of track, state and values if only one fits; a layout with room for all has no buttons,
+ * and everything stays visible.
  */
 final class PanelSwitch implements RadioGroup.OnCheckedChangeListener {
     private static final String CHOSEN = "ground.panel";
@@ -33,7 +33,7 @@ final class PanelSwitch implements RadioGroup.OnCheckedChangeListener {
         }
     }
 
-    /** Returns which panel is to be seen; {@code otherwise} where all are. */
+    /** Returns the visible panel; {@code otherwise} if all are. */
     int chosen(int otherwise) {
         if (buttons == null) {
             return otherwise;
@@ -52,7 +52,7 @@ final class PanelSwitch implements RadioGroup.OnCheckedChangeListener {
         return kept < 0 || kept >= BUTTONS.length ? 0 : kept;
     }
 
-    /** Keeps which panel is to be seen. */
+    /** Stores the visible panel. */
     static void keep(Bundle state, int chosen) {
         state.putInt(CHOSEN, chosen);
     }

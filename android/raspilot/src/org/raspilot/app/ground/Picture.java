@@ -7,11 +7,11 @@ import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.Track;
 
-/** What is known at a moment, for the parts of a screen. Immutable. */
+/** The known state at a moment, for the parts of a screen. Immutable. */
 public final class Picture {
-    /** The newest frame; {@link Telemetry#NOTHING} while there is none. */
+    /** The newest frame; {@link Telemetry#NOTHING} before the first. */
     public final Telemetry telemetry;
-    /** The status; null: there is no service yet. */
+    /** The status; null before the service is connected. */
     public final GroundStatus status;
     /** The track; null: not known yet. */
     public final Track.Snapshot track;
@@ -32,7 +32,7 @@ public final class Picture {
         nowMs = isThere ? ground.nowMs() : 0;
     }
 
-    /** Returns what a ground knows now; null: there is none, nothing is known. */
+    /** Returns the current state of a ground; null: no ground, nothing is known. */
     public static Picture of(TelemetryService.Ground ground) {
         return new Picture(ground);
     }

@@ -12,15 +12,15 @@ import org.raspilot.app.view.Instrument;
 import org.raspilot.app.view.Texts;
 import org.raspilot.up.ground.Freshness;
 
-/** A line with a word and a value that looks old when it is old. */
+/** A label and a value that is greyed out when stale. */
 final class Row {
-    /** How a value looks while it is of now. */
+    /** The colour of a current value. */
     enum Look {
         /** As any other. */
         PLAIN,
-        /** As it should be. */
+        /** Normal. */
         GOOD,
-        /** It needs a look. */
+        /** It needs attention. */
         WARNING,
         /** It needs a hand now. */
         ALARM
@@ -42,7 +42,7 @@ final class Row {
         value = (TextView) element.findViewById(R.id.row_value);
     }
 
-    /** Makes a row at the end of a list of rows. */
+    /** Creates a row at the end of a list of rows. */
     static Row in(ViewGroup list, int labelText, Inks inks) {
         LayoutInflater inflater = LayoutInflater.from(list.getContext());
         View element = inflater.inflate(R.layout.row_ground, list, false);
@@ -52,7 +52,7 @@ final class Row {
         return row;
     }
 
-    /** Says what the value is. */
+    /** Sets the value. */
     void label(String text) {
         Texts.show(label, text);
     }
@@ -60,9 +60,9 @@ final class Row {
     /**
      * Shows a value.
      *
-     * @param text what it is; ignored where it is not known
+     * @param text of the value; ignored if it is unknown
      * @param freshness LIVE, STALE (grey, hatched, with its age) or NONE
-     * @param age how old, in words
+     * @param age in words
      */
     void show(String text, Freshness freshness, String age, Look look) {
         boolean isStale = freshness == Freshness.STALE;

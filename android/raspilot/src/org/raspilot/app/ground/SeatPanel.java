@@ -10,7 +10,7 @@ import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.SeatStanding;
 
-/** Who commands and how the link is, with the button that asks for the seat or leaves it. */
+/** Who commands and the state of the link, with the button that requests or leaves the seat. */
 public final class SeatPanel implements View.OnClickListener {
     private final TextView link;
     private final TextView seat;
@@ -30,12 +30,12 @@ public final class SeatPanel implements View.OnClickListener {
         give.setOnClickListener(this);
     }
 
-    /** Asks this ground from now on; null: none. */
+    /** Sets the ground; null: none. */
     public void setGround(TelemetryService.Ground newGround) {
         ground = newGround;
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     public void update(Picture picture) {
         GroundStatus status = picture.status;
         if (status == null) {
@@ -89,7 +89,7 @@ public final class SeatPanel implements View.OnClickListener {
                 + link.getResources().getString(R.string.seat_way, Math.round(wayMs)));
     }
 
-    /** Returns words as a sentence: with a capital and a full stop. */
+    /** Converts a text to a sentence: with a capital and a full stop. */
     public static String sentence(String words) {
         if (words == null || words.isEmpty()) {
             return "";

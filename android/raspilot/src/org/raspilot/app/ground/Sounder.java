@@ -18,12 +18,12 @@ final class Sounder {
     private final Context context;
     private ToneGenerator tones;
 
-    /** Makes a sounder that has taken nothing of the system yet. */
+    /** Creates a sounder that holds no resources of the system yet. */
     Sounder(Context context) {
         this.context = context.getApplicationContext();
     }
 
-    /** Makes a ring be heard and felt. */
+    /** Plays the sound and vibration of a ring. */
     void ring(AlarmBell.Ring ring) {
         if (ring == AlarmBell.Ring.NONE) {
             return;
@@ -53,7 +53,7 @@ final class Sounder {
         }
     }
 
-    /** Stops what sounds and gives back what was taken. */
+    /** Stops the sound and releases its resources. */
     void release() {
         if (tones != null) {
             hush();
@@ -66,7 +66,7 @@ final class Sounder {
         try {
             return new ToneGenerator(AudioManager.STREAM_ALARM, VOLUME);
         } catch (RuntimeException none) {
-            // That is what it throws where the system has no audio track left: vibration remains.
+            // The system throws this when it has no audio track left: vibration remains.
             Log.w(TAG, "no tone can be sounded", none);
             return null;
         }

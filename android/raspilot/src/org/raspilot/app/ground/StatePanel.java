@@ -15,7 +15,7 @@ import org.raspilot.up.ground.Busy;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
 
-/** Who flies, how, what forbids it, and how it stands with board, phones and load. */
+/** Control, mode, vetoes, and the state of board, phones and load. */
 final class StatePanel {
     private static final double LOW_PERCENT = 20;
     private static final long BATTERY_EACH_MS = 5000;
@@ -69,7 +69,7 @@ final class StatePanel {
         blackBox = Row.in(list, R.string.state_black_box, inks);
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     void update(Picture picture) {
         Telemetry telemetry = picture.telemetry;
         text(mode, picture, "flight_mode");
@@ -100,7 +100,7 @@ final class StatePanel {
         boolean isFree = all != null && all.isEmpty();
         String text = all == null ? "" : isFree ? words.getString(R.string.state_none)
                 : joined(all);
-        // In the air a veto is no warning: it tells what would have to be so to arm once more.
+        // In the air a veto is not a warning: it only states what blocks arming again.
         boolean isWarning = !isFree && !Boolean.TRUE.equals(isArmed);
         show(vetoes, picture, "vetoes", all == null ? null : text,
                 isWarning ? Row.Look.WARNING : Row.Look.PLAIN);

@@ -16,7 +16,7 @@ import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.Track;
 import org.raspilot.up.ground.TrackPoint;
 
-/** The track, where the aircraft is, and the way to the system's own map. */
+/** The track, the aircraft's position, and a link to the system's own map. */
 final class TrackPanel implements View.OnClickListener {
     private final Activity activity;
     private final TrackView view;
@@ -38,10 +38,10 @@ final class TrackPanel implements View.OnClickListener {
         root.findViewById(R.id.ground_smaller).setOnClickListener(this);
     }
 
-    /** Shows the moment. */
+    /** Shows the current state. */
     void update(Picture picture) {
         Track.Snapshot track = picture.track;
-        // Most frames add no point: the way is long, and copied only when it grew.
+        // Most frames add no point: the track is long, and copied only when it grew.
         if (isNew(track)) {
             showTrack(track);
         }
@@ -59,7 +59,7 @@ final class TrackPanel implements View.OnClickListener {
         if (!hasTrack) {
             freshness = Freshness.NONE;
         } else if (!isThere) {
-            // Where it flew stays known when nobody tells any more where it is.
+            // The flown track stays known when positions stop.
             freshness = Freshness.STALE;
         }
         String age = InstrumentPanel.ageText(picture, "location.latitude");

@@ -18,7 +18,7 @@ import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.TelemetryRow;
 import org.raspilot.up.ground.TelemetryText;
 
-/** Every value of the newest frame, those of modules that nobody here knows too. */
+/** Every value of the newest frame, including those of unknown modules. */
 final class ValuesPanel extends BaseAdapter implements TextWatcher {
     private final View element;
     private final EditText filter;
@@ -41,7 +41,7 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
         list.setAdapter(this);
     }
 
-    /** Shows the moment, while anybody can see it. */
+    /** Shows the current state, while it is visible. */
     void update(Picture now) {
         if (!element.isShown()) {
             return;
@@ -58,7 +58,7 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
                 return;
             }
         }
-        // Rows that stay where they are change in place: nothing is laid out under a finger.
+        // Unmoved rows are updated in place: nothing moves under a finger.
         for (int child = 0; child < list.getChildCount(); child++) {
             int position = list.getFirstVisiblePosition() + child;
             if (position < rows.size()) {
@@ -67,7 +67,7 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
         }
     }
 
-    /** Returns the rows in whose path each of the words stands, whatever its case. */
+    /** Returns the rows whose path contains each of the words, ignoring case. */
     private static List<TelemetryRow> chosen(List<TelemetryRow> all, String words) {
         List<TelemetryRow> found = new ArrayList<TelemetryRow>();
         String[] each = words.trim().toLowerCase(Locale.ROOT).split("\\s+");

@@ -20,7 +20,7 @@ public final class AttitudeView extends Instrument {
     private float rollDeg;
     private float pitchDeg;
 
-    /** Makes the view as a layout asks for it. */
+    /** Creates the view from a layout. */
     public AttitudeView(Context context, AttributeSet attributes) {
         super(context, attributes);
         labels = new String[geometry.rungCount()];
@@ -94,7 +94,7 @@ public final class AttitudeView extends Instrument {
         float y = geometry.rungY(rung);
         float half = geometry.rungHalfWidth(rung);
         canvas.drawLine(-half, y, half, y, line(inks.horizonInk, 1.5f));
-        // Beside the aircraft's own mark there is no room for a number.
+        // Next to the aircraft's own symbol there is not enough room for a number.
         boolean isBesideWings = Math.abs(y + geometry.ballShift()) < dp(12);
         if (geometry.isLabelled(rung) && !isBesideWings) {
             before(canvas, labels[rung], -half - dp(4), y, 11, inks.horizonInk);

@@ -1,6 +1,6 @@
 package org.raspilot.app.view;
 
-/** Where pulses of servos and sticks stand, from microseconds (docs/protocols.md, 6). */
+/** Positions of servo and stick pulses, from microseconds (docs/protocols.md, 6). */
 public final class BarsGeometry {
     private static final float MIDDLE_US = 1500;
     private static final float HALF_US = 500;
@@ -10,7 +10,7 @@ public final class BarsGeometry {
     }
 
     /**
-     * Returns where a pulse stands.
+     * Returns the position of a pulse.
      *
      * @param pulseUs microseconds
      * @return -1 at 1000 us, 0 at 1500 us, 1 at 2000 us, and never beyond 1.1
@@ -19,7 +19,7 @@ public final class BarsGeometry {
         return Math.max(-MOST, Math.min(MOST, (float) (pulseUs - MIDDLE_US) / HALF_US));
     }
 
-    /** Says whether a pulse lies outside of the scale of 1000 to 2000 us. */
+    /** Returns whether a pulse lies outside the scale of 1000 to 2000 us. */
     public static boolean isBeyond(double pulseUs) {
         return Math.abs(pulseUs - MIDDLE_US) > HALF_US;
     }

@@ -22,7 +22,7 @@ public final class BarsView extends Instrument {
     private int shown = CHANNELS;
     private String title = "";
 
-    /** Makes the view as a layout asks for it; its content description is the title. */
+    /** Creates the view from a layout; its content description is the title. */
     public BarsView(Context context, AttributeSet attributes) {
         super(context, attributes);
         names = getResources().getStringArray(R.array.view_channels);
@@ -31,7 +31,7 @@ public final class BarsView extends Instrument {
     }
 
     /**
-     * Says what the bars are of.
+     * Sets the labels of the bars.
      *
      * @param text above them
      * @param channels how many there are, 1 to 6: ailerons, elevator, throttle, rudder, aux 1 and 2

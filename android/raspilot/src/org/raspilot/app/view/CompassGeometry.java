@@ -14,7 +14,7 @@ public final class CompassGeometry {
         return positive >= 360 ? 0 : positive;
     }
 
-    /** Returns how far it is from one direction to another the short way, -180 to 180. */
+    /** Returns the shorter turn from one direction to another, -180 to 180. */
     public static float turn(float fromDeg, float toDeg) {
         float turn = wrapped(toDeg - fromDeg);
         return turn > 180 ? turn - 360 : turn;
@@ -27,10 +27,10 @@ public final class CompassGeometry {
     }
 
     /**
-     * Returns what stands at a mark of the scale.
+     * Returns the label of a mark of the scale.
      *
      * @param directionDeg a multiple of 15; any turn
-     * @return N, NE and so on each 45 degrees, tens of degrees each other 30, else empty
+     * @return N, NE and so on each 45 degrees, tens of degrees each other 30, otherwise empty
      */
     public static String label(int directionDeg) {
         int whole = ((directionDeg % 360) + 360) % 360;

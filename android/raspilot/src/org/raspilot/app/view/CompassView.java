@@ -7,7 +7,7 @@ import android.util.AttributeSet;
 
 import org.raspilot.app.R;
 
-/** The heading on a lying tape, with the way home. */
+/** The heading on a horizontal tape, with the direction of home. */
 public final class CompassView extends Instrument {
     private static final int STEP_DEG = 5;
     private static final int LABEL_EACH = 3;
@@ -21,7 +21,7 @@ public final class CompassView extends Instrument {
     private String figures = UNKNOWN;
     private final String homeLetter;
 
-    /** Makes the view as a layout asks for it. */
+    /** Creates the view from a layout. */
     public CompassView(Context context, AttributeSet attributes) {
         super(context, attributes);
         for (int each = 0; each < names.length; each++) {
@@ -33,8 +33,8 @@ public final class CompassView extends Instrument {
     /**
      * Takes directions, degrees clockwise from north.
      *
-     * @param heading where the nose points
-     * @param home where home lies; null: not known
+     * @param heading of the nose
+     * @param home direction of home; null: unknown
      */
     public void setHeading(double heading, Double home) {
         float homeNow = home == null ? Float.NaN : home.floatValue();
@@ -114,7 +114,7 @@ public final class CompassView extends Instrument {
         }
     }
 
-    /** Where a direction is; one that lies beyond the picture stays at its edge. */
+    /** Returns the position of a direction; one beyond the picture stays at its edge. */
     private float xOf(float directionDeg) {
         float most = getWidth() / 2f - dp(8);
         float turn = CompassGeometry.turn(headingDeg, directionDeg);

@@ -6,13 +6,13 @@ import android.util.AttributeSet;
 import android.widget.TextView;
 
 /**
- * Tells a frame of telemetry in a line, and tells when that line has really been drawn.
+ * Shows a frame of telemetry in a line, and reports when that line was really drawn.
  *
- * <p>A Command echoes the beacon of the newest frame that its sender has seen; a screen that is
- * hidden or hangs draws nothing, and so sees nothing.
+ * <p>A Command echoes the beacon of the newest frame that its sender has seen; a hidden or hanging
+ * screen draws nothing, and so sees nothing.
  */
 public final class FrameText extends TextView {
-    /** Hears that a frame was drawn; main thread, while drawing: it must not change views. */
+    /** Called when a frame was drawn; main thread, while drawing: it must not change views. */
     public interface DrawnListener {
         /** Takes the beacon of the frame that was drawn. */
         void onDrawn(Long beacon);
@@ -21,12 +21,12 @@ public final class FrameText extends TextView {
     private DrawnListener listener;
     private Long waiting;
 
-    /** Makes the view as a layout asks for it. */
+    /** Creates the view from a layout. */
     public FrameText(Context context, AttributeSet attributes) {
         super(context, attributes);
     }
 
-    /** Tells from now on this one only; null: nobody. */
+    /** Sets the only listener; null: none. */
     public void setDrawnListener(DrawnListener newListener) {
         listener = newListener;
     }
@@ -34,8 +34,8 @@ public final class FrameText extends TextView {
     /**
      * Takes a frame.
      *
-     * @param text what is shown
-     * @param beacon of the frame that the text tells; null: it tells none
+     * @param text to show
+     * @param beacon of the frame that the text shows, or null if it shows none
      */
     public void setFrame(CharSequence text, Long beacon) {
         if (!text.toString().contentEquals(getText())) {
@@ -43,7 +43,7 @@ public final class FrameText extends TextView {
         }
         waiting = beacon;
         if (beacon != null) {
-            // The same words of another frame are another drawing.
+            // The same text of another frame is another drawing.
             invalidate();
         }
     }

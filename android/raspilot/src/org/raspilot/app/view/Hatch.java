@@ -8,7 +8,7 @@ import android.graphics.PixelFormat;
 import android.graphics.Rect;
 import android.graphics.drawable.Drawable;
 
-/** A background of slanted lines: what stands on it is old. Draws nothing until it is active. */
+/** A background of slanted lines behind stale values. Draws nothing until it is active. */
 public final class Hatch extends Drawable {
     private static final float STEP_DP = 9;
 
@@ -16,7 +16,7 @@ public final class Hatch extends Drawable {
     private final float step;
     private boolean isActive;
 
-    /** Makes a hatch of a colour, ARGB. */
+    /** Creates a hatch of a colour, ARGB. */
     public Hatch(Context context, int colour) {
         float density = context.getResources().getDisplayMetrics().density;
         step = STEP_DP * density;
@@ -24,7 +24,7 @@ public final class Hatch extends Drawable {
         pen.setStrokeWidth(1.5f * density);
     }
 
-    /** Says whether it is to be seen. */
+    /** Returns whether it is visible. */
     public void setActive(boolean isNowActive) {
         if (isActive != isNowActive) {
             isActive = isNowActive;

@@ -1,15 +1,15 @@
 package org.raspilot.app.view;
 
 /**
- * A press that does something only when it is held: idle, pressed, then done or void.
+ * A press that fires only when it is held: idle, pressed, then done or void.
  *
- * <p>Nothing leads back to idle but letting go, so one press fires once, and a press that became
- * void stays void however long it is still held. Times are milliseconds of one monotonic clock.
+ * <p>Only a release leads back to idle, so one press fires once, and a void press stays void
+ * however long it is still held. Times are milliseconds of one monotonic clock.
  */
 public final class HeldPress {
     /** How long a press must last. */
     public static final long HOLD_MS = 1000;
-    /** Between two looks at the clock: a screen that hung must not fire when it wakes. */
+    /** Maximum time between two checks: a screen that hung must not fire when it resumes. */
     public static final long LONGEST_LOOK_MS = 400;
 
     /** What a press is. */
@@ -20,7 +20,7 @@ public final class HeldPress {
         PRESSED,
         /** It has lasted and has fired; it is still held. */
         DONE,
-        /** It counts no more; it may still be held. */
+        /** It is void; it may still be held. */
         VOID
     }
 
@@ -33,7 +33,7 @@ public final class HeldPress {
         return state;
     }
 
-    /** Begins a press; one that is under way or void is not begun again. */
+    /** Starts a press; no effect while one is in progress or void. */
     public void press(long nowMs) {
         if (state == State.IDLE) {
             state = State.PRESSED;
@@ -42,12 +42,12 @@ public final class HeldPress {
         }
     }
 
-    /** Ends a press: what had not lasted long enough has done nothing. */
+    /** Ends a press; one that was too short has no effect. */
     public void release() {
         state = State.IDLE;
     }
 
-    /** Makes a press under way count no more until it is let go. */
+    /** Makes a press in progress void until it is released. */
     public void cancel() {
         if (state == State.PRESSED) {
             state = State.VOID;
@@ -55,9 +55,9 @@ public final class HeldPress {
     }
 
     /**
-     * Looks at the clock.
+     * Checks the time.
      *
-     * @return true once, when the press has lasted
+     * @return true once, when the press was held long enough
      */
     public boolean look(long nowMs) {
         if (state != State.PRESSED) {

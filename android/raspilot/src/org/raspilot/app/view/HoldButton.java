@@ -13,17 +13,17 @@ import android.view.View;
 import android.widget.Button;
 
 /**
- * A button that does something only when it is held for a second, and fills a ring meanwhile.
+ * A button that fires only after it is held for a second, and fills a ring during that time.
  *
- * <p>Letting go, sliding away, a second finger, a window or focus that goes elsewhere: nothing
- * happens. A click that comes without a finger (a screen reader, a switch) fires nothing either,
- * it asks the listener to ask for a confirmation.
+ * <p>Letting go, sliding away, a second finger, or a window or focus change cancels the press. A
+ * click without a finger (a screen reader, a switch) does not fire either; the listener is called
+ * to show a confirmation.
  */
 public final class HoldButton extends Button {
     private static final float SLOP_DP = 24;
     private static final float RING_DP = 15;
 
-    /** Hears what became of a press; main thread. */
+    /** Receives the result of a press; main thread. */
     public interface HoldListener {
         /** Takes a press that has lasted. */
         void onHeld(View button);
@@ -31,7 +31,7 @@ public final class HoldButton extends Button {
         /** Takes a click without a press: to be confirmed before anything is done. */
         void onClickedOnly(View button);
 
-        /** Takes a press that ended too early, to say that it must be held. */
+        /** Called when a press ended too early, to show that it must be held. */
         void onTooShort(View button);
     }
 
@@ -52,7 +52,7 @@ public final class HoldButton extends Button {
     private float downX;
     private float downY;
 
-    /** Makes the view as a layout asks for it. */
+    /** Creates the view from a layout. */
     public HoldButton(Context context, AttributeSet attributes) {
         super(context, attributes);
         density = getResources().getDisplayMetrics().density;
@@ -64,14 +64,14 @@ public final class HoldButton extends Button {
         setClickable(true);
         setLongClickable(false);
         setFocusable(true);
-        // What lies over it must not borrow a finger.
+        // A touch through a window on top of it must not count.
         setFilterTouchesWhenObscured(true);
         int room = Math.round((2 * RING_DP + 12) * density);
         setPadding(getPaddingLeft() + room, getPaddingTop(), getPaddingRight(),
                 getPaddingBottom());
     }
 
-    /** Tells from now on this one only; null: nobody, and a press under way counts no more. */
+    /** Sets the only listener; null: none, and a press in progress is cancelled. */
     public void setHoldListener(HoldListener newListener) {
         listener = newListener;
         cancel();
@@ -229,7 +229,7 @@ public final class HoldButton extends Button {
         }
     }
 
-    /** Makes a press under way count no more; a key that the focus left is never let go here. */
+    /** Makes a press in progress void; after a focus change a key's release never arrives here. */
     private void cancel() {
         // Button's constructor calls setEnabled() and the like before the fields are there.
         if (press == null) {

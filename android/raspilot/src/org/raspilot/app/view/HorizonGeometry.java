@@ -1,14 +1,14 @@
 package org.raspilot.app.view;
 
 /**
- * Where everything of an artificial horizon is drawn, in pixels around the middle of the picture.
+ * Positions of the parts of an artificial horizon, in pixels around the middle of the picture.
  *
  * <p>Right wing down turns the ball to the left, nose up moves it down (thesis 4.5.3; angles as in
  * docs/protocols.md: degrees, roll positive right wing down, pitch positive nose up). Nothing is
  * allocated after construction.
  */
 public final class HorizonGeometry {
-    /** Pitch of each rung of the ladder, degrees; the horizon itself is no rung. */
+    /** Pitch of each rung of the ladder, degrees; the horizon itself is not a rung. */
     private static final float[] RUNGS_DEG = rungs();
     private static final float[] ROLL_MARKS_DEG = {
         -60, -45, -30, -20, -10, 10, 20, 30, 45, 60
@@ -37,7 +37,7 @@ public final class HorizonGeometry {
      * Takes an attitude.
      *
      * @param roll degrees, right wing down positive
-     * @param pitch degrees, nose up positive; beyond the zenith and nadir it stays there
+     * @param pitch degrees, nose up positive; limited to zenith and nadir
      */
     public void turn(float roll, float pitch) {
         rollDeg = roll;
@@ -69,7 +69,7 @@ public final class HorizonGeometry {
         return RUNGS_DEG[rung];
     }
 
-    /** Returns where a rung is on the ball, pixels below the horizon. */
+    /** Returns the position of a rung on the ball, pixels below the horizon. */
     public float rungY(int rung) {
         return -RUNGS_DEG[rung] * unitsPerDeg;
     }
@@ -82,12 +82,12 @@ public final class HorizonGeometry {
         return RUNGS_DEG[rung] % 5 == 0 ? radius * 0.18f : radius * 0.09f;
     }
 
-    /** Says whether a rung carries its number. */
+    /** Returns whether a rung has a number. */
     public boolean isLabelled(int rung) {
         return RUNGS_DEG[rung] % 10 == 0;
     }
 
-    /** Says whether a rung is drawn now: near the middle, within the roll scale. */
+    /** Returns whether a rung is drawn now: near the middle, within the roll scale. */
     public boolean isRungVisible(int rung) {
         return Math.abs(rungY(rung) + ballShift()) < radius * 0.86f;
     }

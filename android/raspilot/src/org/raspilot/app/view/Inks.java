@@ -21,15 +21,15 @@ public final class Inks {
     public final int earth;
     /** The ladder upon sky and earth. */
     public final int horizonInk;
-    /** What is asked for. */
+    /** Requested values. */
     public final int accent;
-    /** What is as it should be. */
+    /** Normal values. */
     public final int good;
-    /** What is old or needs a look. */
+    /** Stale values, or values that need attention. */
     public final int warning;
     /** What needs a hand now. */
     public final int alarm;
-    /** Laid over what is old. */
+    /** Drawn over stale values. */
     public final int hatch;
 
     private Inks(TypedArray has) {
@@ -73,7 +73,7 @@ public final class Inks {
         }
     }
 
-    /** Returns the colours in which the same thing is drawn when it is old: greys. */
+    /** Returns the colours of stale values: greys. */
     public Inks stale() {
         return new Inks(this);
     }

@@ -13,13 +13,13 @@ import org.raspilot.app.R;
 import org.raspilot.up.ground.Freshness;
 
 /**
- * Something that shows readings of the aircraft, and never shows an old one as if it were of now.
+ * Shows readings of the aircraft, and never shows a stale one as current.
  *
- * <p>What is stale is grey and hatched with its age upon it; what is not known is dashes. Drawing
- * allocates nothing: texts are made when what they say changes. Main thread only.
+ * <p>A stale reading is grey and hatched with its age on top; an unknown one is dashes. Drawing
+ * allocates nothing: texts are created when their values change. Main thread only.
  */
 public abstract class Instrument extends View {
-    /** What stands where nothing is known. */
+    /** The text of an unknown value. */
     public static final String UNKNOWN = "--";
     private static final float HATCH_STEP_DP = 9;
 
@@ -36,7 +36,7 @@ public abstract class Instrument extends View {
     private String age = "";
     private float[] hatching = new float[0];
 
-    /** Makes the view as a layout asks for it. */
+    /** Creates the view from a layout. */
     protected Instrument(Context context, AttributeSet attributes) {
         super(context, attributes);
         density = getResources().getDisplayMetrics().density;
@@ -50,10 +50,10 @@ public abstract class Instrument extends View {
     }
 
     /**
-     * Takes how old the readings are.
+     * Takes the age of the readings.
      *
      * @param now LIVE, STALE or NONE
-     * @param ageText how old, in words; said where the reading is stale
+     * @param ageText in words; shown if the reading is stale
      */
     public final void setFreshness(Freshness now, String ageText) {
         String shown = now == Freshness.STALE ? ageText : "";
@@ -64,7 +64,7 @@ public abstract class Instrument extends View {
         }
     }
 
-    /** Returns how fresh what stands here is. */
+    /** Returns the freshness of the displayed readings. */
     public final Freshness freshness() {
         return freshness;
     }
@@ -72,25 +72,25 @@ public abstract class Instrument extends View {
     /** Draws the readings; called only while something is known. */
     protected abstract void drawReadings(Canvas canvas);
 
-    /** Draws what stands there without readings: the frame of the instrument. */
+    /** Draws the parts without readings: the frame of the instrument. */
     protected void drawEmpty(Canvas canvas) {
         centred(canvas, UNKNOWN, getWidth() / 2f, getHeight() / 2f, 24, inks().dim);
     }
 
-    /** Returns the readings in words for who cannot see them, without their age. */
+    /** Returns the readings in words for screen readers, without their age. */
     protected abstract String describe();
 
-    /** Returns the colours of now: greys where the reading is stale. */
+    /** Returns the current colours: greys where the reading is stale. */
     protected final Inks inks() {
         return freshness == Freshness.LIVE ? liveInks : staleInks;
     }
 
-    /** Returns so many density-independent pixels as pixels. */
+    /** Converts density-independent pixels to pixels. */
     protected final float dp(float count) {
         return count * density;
     }
 
-    /** Returns so many pixels of letters as pixels. */
+    /** Converts scaled text pixels to pixels. */
     protected final float sp(float count) {
         return count * scaledDensity;
     }
@@ -152,12 +152,12 @@ public abstract class Instrument extends View {
         event.getText().add(getContentDescription());
     }
 
-    /** Returns where the age stands, as a share of the width, where readings leave room. */
+    /** Returns the position of the age, as a share of the width, clear of the readings. */
     protected float ageAcross() {
         return 0.5f;
     }
 
-    /** Says whether the age stands at the upper edge, not at the lower one. */
+    /** Returns whether the age is at the upper edge instead of the lower one. */
     protected boolean isAgeAbove() {
         return false;
     }
@@ -169,7 +169,7 @@ public abstract class Instrument extends View {
         written(canvas, text, x, y, sizeSp, colour);
     }
 
-    /** Draws letters that begin at a point, their middle at its height; the size in sp. */
+    /** Draws text that starts at a point, vertically centred on it; the size in sp. */
     protected final void after(Canvas canvas, String text, float x, float y, float sizeSp,
             int colour) {
         letters.setTextAlign(Paint.Align.LEFT);

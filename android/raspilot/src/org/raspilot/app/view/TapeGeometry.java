@@ -3,9 +3,9 @@ package org.raspilot.app.view;
 /**
  * A scale that moves past a pointer in the middle: which marks are drawn, and where.
  *
- * <p>For an upright scale greater values are above, for a lying one to the right. Only
- * {@link #firstMark()} says which labels stand there, and it stays the same until the value has
- * moved by a whole step; in between only {@link #shift()} moves. Lengths are pixels.
+ * <p>A vertical scale has greater values above, a horizontal one to the right. Only {@link
+ * #firstMark()} determines the labels, and it changes only when the value has moved by a whole
+ * step; in between only {@link #shift()} changes. Lengths are pixels.
  */
 public final class TapeGeometry {
     private final float step;
@@ -15,9 +15,9 @@ public final class TapeGeometry {
     private float shift;
 
     /**
-     * Makes a scale.
+     * Creates a scale.
      *
-     * @param step what lies between two marks, in the unit of the value; above 0
+     * @param step distance between two marks, in the unit of the value; above 0
      */
     public TapeGeometry(float step) {
         if (!(step > 0)) {
@@ -38,7 +38,7 @@ public final class TapeGeometry {
         count = 2 * half + 1;
     }
 
-    /** Takes the value that stands at the pointer. */
+    /** Takes the value at the pointer. */
     public void show(float value) {
         float steps = value / step;
         middle = Math.round((double) steps);
@@ -60,7 +60,7 @@ public final class TapeGeometry {
         return (firstMark() + place) * step;
     }
 
-    /** Returns how far marks are moved from where they stand for a whole step. */
+    /** Returns the offset of the marks from their positions at a whole step. */
     public float shift() {
         return shift;
     }
@@ -80,7 +80,7 @@ public final class TapeGeometry {
         return (value - atPointer) / step * pixelsPerStep;
     }
 
-    /** Says whether each so-manieth mark, counted from zero, is this one. */
+    /** Returns whether the index of this mark, counted from zero, is a multiple of {@code each}. */
     public boolean isEach(int place, int each) {
         return (firstMark() + place) % each == 0;
     }

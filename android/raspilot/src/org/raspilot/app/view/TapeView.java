@@ -26,7 +26,7 @@ public final class TapeView extends Instrument {
     private float value;
     private String valueText = UNKNOWN;
 
-    /** Makes the view as a layout asks for it, with the attributes of TapeView. */
+    /** Creates the view from a layout, with the attributes of TapeView. */
     public TapeView(Context context, AttributeSet attributes) {
         super(context, attributes);
         TypedArray has = context.obtainStyledAttributes(attributes, R.styleable.TapeView);
@@ -109,7 +109,7 @@ public final class TapeView extends Instrument {
             return;
         }
         float y = geometry.y(place);
-        // Whole or not at all: the caps at both ends cut no number in two.
+        // Whole or not at all: the caps at both ends must not cut a number in two.
         boolean isWhole = Math.abs(y) < getHeight() / 2f - capHeight() - sp(6);
         boolean isLabelled = labels[place].length() > 0 && isWhole;
         float length = dp(isLabelled ? 8 : 4);
@@ -143,7 +143,7 @@ public final class TapeView extends Instrument {
         return sp(11) * 1.5f;
     }
 
-    /** Makes the labels anew when the tape has moved by a whole mark. */
+    /** Rebuilds the labels when the tape has moved by a whole mark. */
     private void label() {
         geometry.show(value);
         if (geometry.firstMark() == labelledFrom) {

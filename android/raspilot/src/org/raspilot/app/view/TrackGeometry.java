@@ -1,15 +1,16 @@
 package org.raspilot.app.view;
 
 /**
- * How metres north and east of home become pixels of a picture with north up.
+ * Converts metres north and east of home to pixels of a picture with north up.
  *
- * <p>While nobody has moved it by hand it shows everything: home, the track and the aircraft. Not a
- * map: a plane around home, which is right to a metre in a field and to a percent in 100 km.
+ * <p>Until the user moves it, it shows everything: home, the track and the aircraft. It uses a
+ * plane around home instead of a map projection; the error is a metre in a field and a percent in
+ * 100 km.
  */
 public final class TrackGeometry {
     private static final double LEAST_PIXELS_PER_M = 1e-4;
     private static final double MOST_PIXELS_PER_M = 40;
-    /** Nothing nearer than this is worth filling the picture with. */
+    /** The minimum span of the picture, m. */
     private static final double LEAST_SPAN_M = 40;
     private static final double MARGIN = 0.12;
 
@@ -26,23 +27,23 @@ public final class TrackGeometry {
         height = Math.max(1, newHeight);
     }
 
-    /** Says whether the picture chooses its own part of the world. */
+    /** Returns whether the picture chooses its section automatically. */
     public boolean isAutomatic() {
         return isAutomatic;
     }
 
-    /** Leaves the choice to the picture again. */
+    /** Makes the picture choose its section automatically again. */
     public void follow() {
         isAutomatic = true;
     }
 
     /**
-     * Shows all of a rectangle, unless somebody has moved the picture by hand.
+     * Shows all of a rectangle, unless the user has moved the picture.
      *
-     * @param southM of home, as metres north: the least
-     * @param mostNorthM metres north of home: the greatest
-     * @param westM metres east of home: the least
-     * @param mostEastM metres east of home: the greatest
+     * @param southM of home, as metres north: the minimum
+     * @param mostNorthM metres north of home: the maximum
+     * @param westM metres east of home: the minimum
+     * @param mostEastM metres east of home: the maximum
      */
     public void fit(double southM, double mostNorthM, double westM, double mostEastM) {
         if (!isAutomatic) {
@@ -56,7 +57,7 @@ public final class TrackGeometry {
         scaleTo(Math.min(height * room / spanNorthM, width * room / spanEastM));
     }
 
-    /** Moves the picture by a finger's way, pixels. */
+    /** Moves the picture by a finger's movement, pixels. */
     public void drag(float rightPx, float downPx) {
         isAutomatic = false;
         eastM -= rightPx / pixelsPerM;
@@ -64,9 +65,9 @@ public final class TrackGeometry {
     }
 
     /**
-     * Makes the picture larger around a point that stays where it is.
+     * Enlarges the picture around a fixed point.
      *
-     * @param factor above 1 enlarges; not above 0 or no number: nothing happens
+     * @param factor above 1 enlarges; no effect if not above 0 or not a number
      * @param x of the point, pixels
      * @param y of the point, pixels
      */
@@ -82,7 +83,7 @@ public final class TrackGeometry {
         northM = atNorthM + (y - height / 2) / pixelsPerM;
     }
 
-    /** Puts the picture where it was kept: see the getters. */
+    /** Restores a stored section: see the getters. */
     public void restore(double middleNorthM, double middleEastM, double scalePixelsPerM) {
         isAutomatic = false;
         northM = middleNorthM;
@@ -105,22 +106,22 @@ public final class TrackGeometry {
         return pixelsPerM;
     }
 
-    /** Returns where a place is drawn, pixels from the left. */
+    /** Returns the horizontal position of a place, pixels from the left. */
     public float x(double placeEastM) {
         return (float) (width / 2 + (placeEastM - eastM) * pixelsPerM);
     }
 
-    /** Returns where a place is drawn, pixels from above. */
+    /** Returns the vertical position of a place, pixels from the top. */
     public float y(double placeNorthM) {
         return (float) (height / 2 - (placeNorthM - northM) * pixelsPerM);
     }
 
-    /** Returns metres east of home at so many pixels from the left. */
+    /** Returns metres east of home for a distance in pixels from the left. */
     public double eastAt(float x) {
         return eastM + (x - width / 2) / pixelsPerM;
     }
 
-    /** Returns metres north of home at so many pixels from above. */
+    /** Returns metres north of home for a distance in pixels from the top. */
     public double northAt(float y) {
         return northM - (y - height / 2) / pixelsPerM;
     }
@@ -143,7 +144,7 @@ public final class TrackGeometry {
         return Math.ceil(leastM / stepM) * stepM;
     }
 
-    /** Returns a distance in words: {@code 250 m}, {@code 2.5 km}. */
+    /** Formats a distance: {@code 250 m}, {@code 2.5 km}. */
     public static String distanceText(double metres) {
         double away = Math.abs(metres);
         if (away < 999.5) {

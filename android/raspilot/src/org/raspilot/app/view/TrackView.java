@@ -13,10 +13,10 @@ import android.view.ScaleGestureDetector;
 import org.raspilot.app.R;
 
 /**
- * Where the aircraft flew, without a map: north up, home in the middle of a metric grid.
+ * The track of the aircraft without a map: north up, home in the middle of a metric grid.
  *
- * <p>It shows everything until somebody drags or pinches; a double tap or {@link #follow()} brings
- * that back. Metres are north and east of the origin: home, or the first place that was heard.
+ * <p>It shows everything until the user drags or pinches; a double tap or {@link #follow()}
+ * restores that. Metres are north and east of the origin: home, or the first known position.
  */
 public final class TrackView extends Instrument {
     private static final float GRID_DP = 56;
@@ -44,7 +44,7 @@ public final class TrackView extends Instrument {
     private double stepM;
     private String stepText = "";
 
-    /** Makes the view as a layout asks for it. */
+    /** Creates the view from a layout. */
     public TrackView(Context context, AttributeSet attributes) {
         super(context, attributes);
         pinch = new ScaleGestureDetector(context, new Pinch());
@@ -58,12 +58,12 @@ public final class TrackView extends Instrument {
     }
 
     /**
-     * Takes where it flew, the oldest first; the arrays are kept and not changed.
+     * Takes the track, the oldest point first; the arrays are kept and not changed.
      *
      * @param north metres of each point
      * @param east metres of each point
-     * @param hasGapBefore true: nothing was known before the point, no line leads to it
-     * @param isHome whether 0 north, 0 east is home; else it is the first place heard
+     * @param hasGapBefore true: a gap precedes the point, no line leads to it
+     * @param isHome whether 0 north, 0 east is home; otherwise it is the first known position
      */
     public void setTrack(float[] north, float[] east, boolean[] hasGapBefore, boolean isHome) {
         isOriginHome = isHome;
@@ -78,11 +78,11 @@ public final class TrackView extends Instrument {
     }
 
     /**
-     * Takes where the aircraft is.
+     * Takes the aircraft's position.
      *
-     * @param north metres; null: not known
-     * @param east metres; null: not known
-     * @param heading degrees clockwise from north; null: not known, a ring is drawn
+     * @param north metres; null: unknown
+     * @param east metres; null: unknown
+     * @param heading degrees clockwise from north; null: unknown, a ring is drawn
      */
     public void setAircraft(Double north, Double east, Double heading) {
         aircraftNorthM = north == null || east == null ? Double.NaN : north;
@@ -97,7 +97,7 @@ public final class TrackView extends Instrument {
         refit();
     }
 
-    /** Says whether the picture was moved by hand. */
+    /** Returns whether the user has moved the picture. */
     public boolean isMoved() {
         return !geometry.isAutomatic();
     }
@@ -193,7 +193,7 @@ public final class TrackView extends Instrument {
         refit();
     }
 
-    /** Chooses the part of the world, makes the texts that belong to it, and draws soon. */
+    /** Chooses the section of the world, creates its texts, and draws soon. */
     private void refit() {
         boolean isThere = !Double.isNaN(aircraftNorthM);
         double south = isThere ? Math.min(0, aircraftNorthM) : 0;

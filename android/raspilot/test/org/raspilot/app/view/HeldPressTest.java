@@ -9,7 +9,7 @@ import org.junit.Test;
 public final class HeldPressTest {
     private final HeldPress press = new HeldPress();
 
-    /** Looks each 20 ms until then; says whether it fired. */
+    /** Checks each 20 ms until then; returns whether it fired. */
     private boolean look(long fromMs, long toMs) {
         boolean hasFired = false;
         for (long now = fromMs; now <= toMs; now += 20) {

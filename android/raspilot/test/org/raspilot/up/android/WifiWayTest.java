@@ -40,7 +40,7 @@ public final class WifiWayTest {
         way.networksChanged();
         look(way, CABLE);
         assertFalse(wifi.isBound);
-        // The cable comes out: its attempts are the unbound ones, for as long as it takes.
+        // The cable is unplugged: its attempts are the unbound ones, until there is a link.
         pass(way, 60000, null);
         assertFalse(wifi.isBound);
     }

@@ -5,7 +5,7 @@ import java.util.Map;
 import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
 
-/** One line that a program was told. */
+/** One line of input. */
 final class InputLine {
     /** Its keys and values. */
     final Map<?, ?> fields;
@@ -27,7 +27,7 @@ final class InputLine {
         throw new OptionException("a line is no JSON object");
     }
 
-    /** Returns the time of a stepped line, ms; raises OptionException where there is none. */
+    /** Returns the time of a stepped line, ms; throws OptionException if it is missing. */
     long timeMs() throws OptionException {
         Object value = fields.get("t");
         if (!(value instanceof Long)) {
@@ -36,7 +36,7 @@ final class InputLine {
         return (Long) value;
     }
 
-    /** Returns what the network brought; null: nothing. Raises OptionException. */
+    /** Returns the events of the network, or null. Throws OptionException. */
     List<?> network() throws OptionException {
         Object value = fields.get("net");
         if (value != null && !(value instanceof List)) {

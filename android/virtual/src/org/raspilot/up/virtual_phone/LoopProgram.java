@@ -11,9 +11,9 @@ import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.SelectorLoop;
 
-/** A program in real time with sockets of its own: it lives as long as its standard input. */
+/** A program in real time with its own sockets: it runs until its standard input ends. */
 final class LoopProgram implements FaultListener {
-    /** Whoever closes standard input may give the JVM some other file in its place. */
+    /** A process that closes standard input may give the JVM some other file in its place. */
     private static final int MOST_WRONG = 100;
 
     private final Words words;
@@ -21,27 +21,27 @@ final class LoopProgram implements FaultListener {
 
     /** What it consists of; all calls come on the loop. */
     interface Part {
-        /** Begins on this loop. */
+        /** Starts on this loop. */
         void start(Loop loop);
 
         /**
          * Takes a line.
          *
-         * @throws OptionException when it is not understood (a sentence, which is said)
+         * @throws OptionException when it is invalid (a sentence, which is printed)
          */
         void take(Map<?, ?> line) throws OptionException;
 
-        /** Ends. */
+        /** Stops. */
         void stop();
     }
 
-    /** Makes a loop of that name. */
+    /** Creates a loop of that name. */
     LoopProgram(String name, Words words) {
         this.words = words;
         loop = new SelectorLoop(name, this);
     }
 
-    /** Runs a part until there are no more lines, or a hundred in a row are none of its own. */
+    /** Runs a part until input ends, or a hundred lines in a row are invalid. */
     void run(InputStream input, final Part part) throws IOException {
         loop.start();
         loop.post(new Runnable() {

@@ -1,6 +1,6 @@
 package org.raspilot.up.virtual_phone;
 
-/** A program was asked for something that it does not know: one sentence for the user. */
+/** Invalid input of a program: one sentence for the user. */
 final class OptionException extends Exception {
     private static final long serialVersionUID = 1;
 

@@ -6,7 +6,7 @@ final class OptionWords {
 
     private OptionWords() {}
 
-    /** Splits at the last colons: what is before them may have some of its own. */
+    /** Splits at the last colons: the part before them may contain colons too. */
     static String[] parts(String name, String value, int count, String form)
             throws OptionException {
         String[] found = new String[count];
@@ -41,7 +41,7 @@ final class OptionWords {
         throw outOfRange(what, value, least, most);
     }
 
-    /** Returns what to raise for an option that nobody knows, or that has no value. */
+    /** Returns the exception for an unknown option, or one without a value. */
     static OptionException unknown(String name, boolean isLast) {
         String why = isLast ? ": no such option, or its value is missing" : ": no such option";
         return new OptionException(name + why + "; --help tells them");

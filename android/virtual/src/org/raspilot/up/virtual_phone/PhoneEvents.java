@@ -7,11 +7,11 @@ import org.raspilot.up.airborne.Speaker;
 import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.net.Place;
 
-/** Says as lines what becomes of the airborne side. */
+/** Prints the events of the airborne side as lines. */
 final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
     private final Words words;
 
-    /** Says it by {@code words}. */
+    /** Prints events through {@code words}. */
     PhoneEvents(Words words) {
         this.words = words;
     }
@@ -49,7 +49,7 @@ final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
         words.notice(Words.faultText(fault));
     }
 
-    /** Says the last line. */
+    /** Prints the last line. */
     void counters(AirborneStatus status) {
         Map<String, Object> event = Words.event("counters", "connections", status.connections());
         event.put("telemetry", status.telemetry());

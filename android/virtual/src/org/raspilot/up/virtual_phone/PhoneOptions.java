@@ -7,7 +7,7 @@ import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.OrientationTransport;
 import org.raspilot.up.providers.Mounting;
 
-/** What the user of the virtual phone asks for. */
+/** The command line options of the virtual phone. */
 final class PhoneOptions {
     /** What {@code --help} prints. */
     static final String HELP = ""
@@ -41,13 +41,13 @@ final class PhoneOptions {
 
     /** How the airborne side is to be. */
     final AirborneSettings settings;
-    /** Of what is drawn at random. */
+    /** The seed of random numbers. */
     final long seed;
     /** Whether time and network are the simulator's. */
     final boolean isStepped;
     /** Whether there is something that the black box is to write. */
     final boolean isRecording;
-    /** Whether the user only wants to read. */
+    /** Whether to print only the help. */
     final boolean wantsHelp;
 
     private PhoneOptions(Reader reader) throws OptionException {
@@ -86,7 +86,7 @@ final class PhoneOptions {
             settings.orientation(OrientationTransport.OFF);
         }
 
-        /** Takes an option and returns how many words after it belong to it. */
+        /** Takes an option and returns the number of its arguments. */
         int take(String name, String value) throws OptionException {
             if ("--stepped".equals(name)) {
                 isStepped = true;

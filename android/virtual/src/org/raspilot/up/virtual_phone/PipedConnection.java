@@ -3,7 +3,7 @@ package org.raspilot.up.virtual_phone;
 import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.loop.TcpListener;
 
-/** A TCP connection that a simulator keeps. */
+/** A TCP connection of a simulator. */
 final class PipedConnection implements TcpConnection {
     /** How many bytes it takes before some have left: as a small send buffer. */
     static final int ROOM_BYTES = 8192;
@@ -16,9 +16,9 @@ final class PipedConnection implements TcpConnection {
     private boolean isClosed;
     private boolean isFull;
 
-    /** One thing that happens to a connection. */
+    /** One event of a connection. */
     interface Event {
-        /** Lets it happen. */
+        /** Runs it. */
         void happen(PipedConnection connection);
     }
 
@@ -32,8 +32,8 @@ final class PipedConnection implements TcpConnection {
     /**
      * Returns the event of that kind.
      *
-     * @param detail what stands third in its line
-     * @throws OptionException when there is no such kind (a sentence)
+     * @param detail the third element of its line
+     * @throws OptionException for an unknown kind (a sentence)
      */
     static Event event(String kind, final Object detail) throws OptionException {
         if ("connected".equals(kind)) {

@@ -13,7 +13,7 @@ import org.raspilot.up.loop.TcpListener;
 import org.raspilot.up.loop.UdpListener;
 import org.raspilot.up.loop.UdpPort;
 
-/** A network that lies behind a pipe: a simulator opens, writes and closes for it. */
+/** A network behind a pipe: a simulator opens, writes and closes for it. */
 final class PipedNetwork implements Network {
     /** How bytes become text: each byte one character. */
     static final Charset BYTES = Charset.forName("ISO-8859-1");
@@ -39,18 +39,18 @@ final class PipedNetwork implements Network {
         return port;
     }
 
-    /** Asks the simulator for something. */
+    /** Sends a request to the simulator. */
     void ask(Object... words) {
         toDo.add(Arrays.asList(words));
     }
 
-    /** Forgets a connection or a socket. */
+    /** Discards a connection or a socket. */
     void forget(long id) {
         connections.remove(id);
         ports.remove(id);
     }
 
-    /** Returns what the simulator is to do, and forgets it. */
+    /** Returns and clears the requests to the simulator. */
     List<Object> takeToDo() {
         List<Object> taken = toDo;
         toDo = new ArrayList<Object>();
@@ -58,9 +58,9 @@ final class PipedNetwork implements Network {
     }
 
     /**
-     * Lets every event happen on the loop, each guarded by itself.
+     * Posts every event to the loop, each as its own guarded call.
      *
-     * @throws OptionException when one is not understood (a sentence); those before it happen
+     * @throws OptionException when one is invalid (a sentence); those before it are run
      */
     void deliver(Loop loop, List<?> events) throws OptionException {
         for (Object each : events) {
@@ -97,7 +97,7 @@ final class PipedNetwork implements Network {
             @Override
             public void run() {
                 PipedConnection connection = connections.get(id);
-                // What was closed meanwhile hears nothing any more.
+                // Connections closed before the event are not called.
                 if (connection != null) {
                     event.happen(connection);
                 }

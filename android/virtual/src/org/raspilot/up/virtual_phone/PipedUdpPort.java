@@ -3,7 +3,7 @@ package org.raspilot.up.virtual_phone;
 import org.raspilot.up.loop.UdpListener;
 import org.raspilot.up.loop.UdpPort;
 
-/** An UDP socket that a simulator keeps. */
+/** A UDP socket of a simulator. */
 final class PipedUdpPort implements UdpPort {
     private final PipedNetwork network;
     private final long id;

@@ -15,7 +15,7 @@ final class RecordProvider extends SensorProvider<Map<?, ?>> {
 
     private static final int SILENCE_MS = 3000;
 
-    /** Takes what is fed as {@code "record"}: topic and content. */
+    /** Takes the {@code "record"} of an input line: topic and content. */
     RecordProvider(SensorSource<Map<?, ?>> source) {
         super("record", source, Cadence.stream(PERIOD_MS, SILENCE_MS));
     }

@@ -34,7 +34,7 @@ final class SimulatedSensors implements Sensors {
      * Takes the readings of a line, on the loop; the gyroscope's before the rotation's, which is
      * sent with it.
      *
-     * @throws OptionException when one is no reading (a sentence)
+     * @throws OptionException when one is not a reading (a sentence)
      */
     void take(Map<?, ?> line) throws OptionException {
         long nowMs = loop.nowMs();

@@ -5,9 +5,9 @@ import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
 /**
- * A sensor whose readings come from a simulator, which is told how often they are wanted.
+ * A sensor whose readings come from a simulator, which receives the wanted period.
  *
- * @param <R> what one reading is
+ * @param <R> the type of one reading
  */
 final class SimulatedSource<R> implements SensorSource<R> {
     private final String key;
@@ -44,7 +44,7 @@ final class SimulatedSource<R> implements SensorSource<R> {
         }
     }
 
-    /** Hands a reading to whoever wants it; on the loop. */
+    /** Delivers a reading to the subscriber; on the loop. */
     void take(R reading) {
         if (listener != null) {
             listener.onReading(reading);

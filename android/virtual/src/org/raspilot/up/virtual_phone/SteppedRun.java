@@ -31,7 +31,7 @@ final class SteppedRun {
         });
     }
 
-    /** Answers every line until there are no more. */
+    /** Answers every line until the input ends. */
     void run(InputStream input) throws IOException {
         BufferedReader lines =
                 new BufferedReader(new InputStreamReader(input, Charset.forName("UTF-8")));

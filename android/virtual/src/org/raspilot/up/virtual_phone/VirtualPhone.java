@@ -5,10 +5,10 @@ import java.io.IOException;
 /**
  * The airborne phone without a phone: the Up Library's core on the JVM, with simulated sensors.
  *
- * <p>It is a child of whoever simulates an aircraft and ends with its standard input. Both ways go
- * JSON objects, one a line, UTF-8. It logs nothing: what is worth a word is an event.
+ * <p>It is a child process of the simulator and ends with its standard input. Both directions carry
+ * JSON objects, one a line, UTF-8. It writes no log, only events.
  *
- * <p><b>Lines in.</b> Every key is optional; several may stand in one line.
+ * <p><b>Lines in.</b> Every key is optional; one line may have several.
  *
  * <pre>
  * "fix": {"latitude", "longitude", "altitude"?, "accuracy"?, "speed"?, "bearing"?}   deg, m, m/s
@@ -16,42 +16,42 @@ import java.io.IOException;
  * "rotation": [w, x, y, z]        the device's axes to east, north, up
  * "rate": [x, y, z]               rad/s about the device's axes
  * "battery": 87                   percent
- * "record": {"topic", "content"}  goes out as black_box.record, slowed by Panic Mode as the
+ * "record": {"topic", "content"}  sent as black_box.record, slowed by Panic Mode as the
  *                                 rest; with --record only
- * "level": "TOP"                  calibrate: so it lies level, that Side to the nose
+ * "level": "TOP"                  calibrate: level now, with that Side to the nose
  * </pre>
  *
  * <p><b>Lines out.</b>
  *
  * <pre>
- * {"event": "wants", "sensor": "fix", "period_ms": 500}    feed it so often, the first at once; 0:
- *                          no more. The sensors are called as the keys above; "record" is wanted
- *                          while there is a link
+ * {"event": "wants", "sensor": "fix", "period_ms": 500}    send it at this period, the first
+ *                          immediately; 0: stop. The sensors are named as the keys above;
+ *                          "record" is wanted while there is a link
  * {"event": "connected", "host", "general", "orientation"}
- * {"event": "lost", "reason"}                    the link for Commands is gone, or cannot be made
+ * {"event": "lost", "reason"}                    the link for Commands is lost, or failed
  * {"event": "says", "text"}                      android.speak
  * {"event": "panic", "delay_ms"}                 0: it is over
- * {"event": "notice", "text"}                    what else is worth a word, in a sentence
+ * {"event": "notice", "text"}                    anything else to report, in a sentence
  * {"event": "counters", "connections", ...}      the last line
  * </pre>
  *
  * <p><b>Stepped</b> ({@code --stepped}): time and network are the simulator's. Every line in has
- * {@code "t"}, ms, never less than before; the first one starts the phone. It lets the time pass
- * until then, takes the readings, then the events of the network, and answers: events as above, and
- * at last one line {@code {"due": ms or null, "net": [...]}}. Nothing changes before {@code due}
- * unless readings or events come, so nobody needs to step more often. What the network brought is
- * {@code "net"} of a line in, what it is to do {@code "net"} of an answer: lists, in their order.
- * Bytes are texts of ISO 8859-1; an id is a number that is never used again.
+ * {@code "t"}, ms, never decreasing; the first one starts the phone. The phone advances its time to
+ * it, takes the readings, then the events of the network, and answers: events as above, and finally
+ * one line {@code {"due": ms or null, "net": [...]}}. Nothing changes before {@code due} without
+ * readings or events, so no step is needed before it. {@code "net"} of a line in lists the events
+ * of the network, {@code "net"} of an answer the requests to it, both in order. Bytes are texts of
+ * ISO 8859-1; an id is a number that is never reused.
  *
  * <pre>
- * to do: ["connect", id, host, port, timeout_ms]  ["write", id, bytes]  ["full", id]  ["close", id]
- *        ["open", id]  ["send", id, bytes, host, port]  ["shut", id]
- * brought: ["connected", id]  ["bytes", id, bytes]  ["room", id, count]  ["closed", id, reason]
+ * requests: ["connect", id, host, port, timeout_ms]  ["write", id, bytes]  ["full", id]
+ *        ["close", id]  ["open", id]  ["send", id, bytes, host, port]  ["shut", id]
+ * events: ["connected", id]  ["bytes", id, bytes]  ["room", id, count]  ["closed", id, reason]
  *        ["datagram", id, bytes, host, port]
  * </pre>
  *
- * <p>A connection has room for {@link PipedConnection#ROOM_BYTES}; {@code room} gives back what has
- * left. It may wait for any other line, but for a connection that said {@code full}.
+ * <p>A connection has room for {@link PipedConnection#ROOM_BYTES}; {@code room} returns the room of
+ * sent bytes. It may wait for the next line, except for a connection that reported {@code full}.
  */
 public final class VirtualPhone {
     private static final int WRONG_INPUT = 2;

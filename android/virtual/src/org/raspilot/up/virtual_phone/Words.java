@@ -8,7 +8,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.wire.Json;
 
-/** What a program says: JSON objects, one a line; may be used on any thread. */
+/** The output of a program: JSON objects, one a line; may be used on any thread. */
 final class Words {
     private static final Charset ASCII = Charset.forName("US-ASCII");
 
@@ -16,22 +16,22 @@ final class Words {
     private final boolean isPrompt;
 
     /**
-     * Says everything to {@code out}, which nobody else writes to.
+     * Prints everything to {@code out}, which has no other writer.
      *
-     * @param isPrompt whether each line is to be heard at once
+     * @param isPrompt whether each line is flushed immediately
      */
     Words(OutputStream out, boolean isPrompt) {
         this.out = new BufferedOutputStream(out, 16384);
         this.isPrompt = isPrompt;
     }
 
-    /** Returns what is said of an exception that nobody expected. */
+    /** Returns the text for an unexpected exception. */
     static String faultText(Throwable fault) {
         StackTraceElement[] trace = fault.getStackTrace();
         return "a fault: " + fault + (trace.length > 0 ? " at " + trace[0] : "");
     }
 
-    /** Begins an event of that name; more fields may be put into it. */
+    /** Starts an event of that name; more fields may be put into it. */
     static Map<String, Object> event(String name) {
         Map<String, Object> fields = new LinkedHashMap<String, Object>();
         fields.put("event", name);
@@ -45,7 +45,7 @@ final class Words {
         return fields;
     }
 
-    /** Says it; who listens may hear of it only after {@link #flush}. */
+    /** Prints it; the reader may receive it only after {@link #flush}. */
     synchronized void say(Map<String, Object> fields) {
         try {
             out.write(Json.write(fields).getBytes(ASCII));
@@ -54,17 +54,17 @@ final class Words {
                 out.flush();
             }
         } catch (IOException error) {
-            // Nobody listens any more: standard input ends, and so does the program.
+            // The reader is gone: standard input ends, and so does the program.
             return;
         }
     }
 
-    /** Says a sentence. */
+    /** Prints a sentence. */
     void notice(String sentence) {
         say(event("notice", "text", sentence));
     }
 
-    /** Lets everything that was said be heard. */
+    /** Flushes the output. */
     synchronized void flush() {
         try {
             out.flush();

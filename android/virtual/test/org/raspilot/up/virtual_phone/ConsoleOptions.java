@@ -7,7 +7,7 @@ import java.util.List;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.wire.Seat;
 
-/** What the user of the ground console asks for. */
+/** The command line options of the ground console. */
 final class ConsoleOptions {
     /** What {@code --help} prints. */
     static final String HELP = ""
@@ -30,11 +30,11 @@ final class ConsoleOptions {
             + "The lines are described in GroundConsole.java.\n"
             + "Exit status: 0 when its input has ended, 2 for wrong options.\n";
 
-    /** Whom to talk to; null with {@link #wantsHelp}. */
+    /** The peer; null with {@link #wantsHelp}. */
     final GroundSettings settings;
     /** What to print of telemetry. */
     final List<String> values;
-    /** Whether the user only wants to read. */
+    /** Whether to print only the help. */
     final boolean wantsHelp;
 
     private ConsoleOptions(GroundSettings settings, List<String> values, boolean wantsHelp) {

@@ -156,7 +156,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         return value == null ? null : Long.valueOf(value);
     }
 
-    /** Says an answer with its question's tag. */
+    /** Prints an answer with the tag of its request. */
     private final class Answers implements AnswerListener {
         private final Object tag;
 

@@ -9,14 +9,14 @@ import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.loop.Loop;
 
-/** Says the wanted values of every frame, by the library's own handler of telemetry. */
+/** Prints the wanted values of every frame, by the library's own handler of telemetry. */
 final class ConsoleTelemetry extends BaseTelemetryHandler<Map<String, Object>> {
     private final GroundSide ground;
     private final List<String> paths;
     private final Loop loop;
     private final Words words;
 
-    /** Takes what is wanted, as paths. */
+    /** Takes the wanted values, as paths. */
     ConsoleTelemetry(GroundSide ground, List<String> paths, Loop loop, Words words) {
         super(ground);
         this.ground = ground;

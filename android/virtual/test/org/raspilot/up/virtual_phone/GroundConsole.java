@@ -5,7 +5,7 @@ import java.io.IOException;
 /**
  * A ground station without a screen: the Up Library's ground side on the JVM, for programs.
  *
- * <p>It ends with its standard input. Both ways go JSON objects, one a line, UTF-8.
+ * <p>It ends with its standard input. Both directions carry JSON objects, one a line, UTF-8.
  *
  * <p><b>Lines in.</b>
  *

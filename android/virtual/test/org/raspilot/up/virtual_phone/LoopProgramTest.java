@@ -13,7 +13,7 @@ import java.util.Map;
 import org.junit.Test;
 import org.raspilot.up.loop.Loop;
 
-/** A program in real time lives as long as what it is told. */
+/** A program in real time runs until its input ends. */
 public final class LoopProgramTest {
     private static final int LONG_MS = 20000;
 

@@ -4,22 +4,22 @@ import android.app.Activity;
 import android.content.Context;
 import android.os.PowerManager;
 
-/** Permissions that are asked for at run time, and the system's battery optimisation (API 23). */
+/** Run-time permissions, and the system's battery optimisation (API 23). */
 public final class Asking {
     private Asking() {
     }
 
-    /** Shows the system's question; the activity's onRequestPermissionsResult hears the answer. */
+    /** Shows the system's dialog; the activity's onRequestPermissionsResult receives the answer. */
     public static void forPermissions(Activity activity, String[] permissions, int request) {
         activity.requestPermissions(permissions, request);
     }
 
-    /** Says whether the user refused once, so that a reason is due before the next question. */
+    /** Returns whether the user refused before, so that a reason must precede the next request. */
     public static boolean isReasonDue(Activity activity, String permission) {
         return activity.shouldShowRequestPermissionRationale(permission);
     }
 
-    /** Says whether the system spares this application when it saves battery. */
+    /** Returns whether the system exempts this application from battery optimizations. */
     public static boolean isSpared(Context context) {
         PowerManager power = (PowerManager) context.getSystemService(Context.POWER_SERVICE);
         return power == null || power.isIgnoringBatteryOptimizations(context.getPackageName());

@@ -9,7 +9,7 @@ public final class FixTime {
     private FixTime() {
     }
 
-    /** Returns how old a fix is, ms; 0 where the system does not say when it was taken. */
+    /** Returns the age of a fix, ms; 0 if the system does not report its time. */
     public static long ageMs(Location location) {
         long takenNs = location.getElapsedRealtimeNanos();
         return takenNs <= 0 ? 0

@@ -10,16 +10,17 @@ import android.net.NetworkRequest;
 import java.net.InetAddress;
 import java.net.UnknownHostException;
 
-/** Hears of networks, and binds the process's sockets to one (API 21 and 23). */
+/** Monitors networks, and binds the process's sockets to one (API 21 and 23). */
 public final class NetworkCalls {
     private NetworkCalls() {
     }
 
     /**
-     * Begins to hear.
+     * Starts to monitor.
      *
-     * @param changed called on a thread of the system for each network that came, changed or went
-     * @return what ends it, on any thread; null: the system knows no networks
+     * @param changed called on a thread of the system for each network that appeared, changed or
+     *     disappeared
+     * @return stops it, on any thread; null: the system knows no networks
      */
     public static Runnable begin(Context context, Runnable changed) {
         final ConnectivityManager manager = manager(context);
@@ -39,9 +40,9 @@ public final class NetworkCalls {
     }
 
     /**
-     * Binds the process's sockets that are made from now on to a Wi-Fi.
+     * Binds the process's future sockets to a Wi-Fi.
      *
-     * @param address in whose network it must be, written in numbers; null: any Wi-Fi
+     * @param address numeric, the Wi-Fi's network must contain it; null: any Wi-Fi
      * @return whether there is such a Wi-Fi
      */
     public static boolean bindToWifi(Context context, String address) {
@@ -86,7 +87,7 @@ public final class NetworkCalls {
             }
             return false;
         } catch (UnknownHostException none) {
-            // Numbers that are no address lie in no network.
+            // A text that is not a numeric address lies in no network.
             return false;
         }
     }

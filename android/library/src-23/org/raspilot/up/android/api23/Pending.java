@@ -7,7 +7,7 @@ public final class Pending {
     private Pending() {
     }
 
-    /** Returns the flag by which nobody else fills in an intent. */
+    /** Returns the flag that prevents other applications from filling in an intent. */
     public static int immutable() {
         return PendingIntent.FLAG_IMMUTABLE;
     }

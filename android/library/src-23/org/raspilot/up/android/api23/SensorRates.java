@@ -5,12 +5,12 @@ import android.hardware.SensorEventListener;
 import android.hardware.SensorManager;
 import android.os.Handler;
 
-/** Sensors whose readings are not collected first (API 19, reached from 23 on). */
+/** Sensors whose readings are not batched (API 19, reached from 23 on). */
 public final class SensorRates {
     private SensorRates() {
     }
 
-    /** Begins to listen; each reading is handed over at once. Returns whether the system agreed. */
+    /** Starts to listen, without batching; returns whether the system accepted. */
     public static boolean listen(SensorManager sensors, SensorEventListener listener,
             Sensor sensor, int periodUs, Handler handler) {
         return sensors.registerListener(listener, sensor, periodUs, 0, handler);

@@ -8,9 +8,9 @@ public final class Subnet {
     }
 
     /**
-     * Says whether the other one lies in the network of which one is.
+     * Returns whether both addresses lie in the same network.
      *
-     * @param prefixBits how many of the first bits name the network
+     * @param prefixBits length of the network prefix
      */
     public static boolean holds(byte[] one, int prefixBits, byte[] other) {
         if (one.length != other.length || prefixBits <= 0 || prefixBits > one.length * BITS) {

@@ -16,7 +16,7 @@ public final class Foreground {
         context.startForegroundService(service);
     }
 
-    /** Makes the channel, or renames it, silent and without a badge, and a builder for it. */
+    /** Creates or renames the channel, silent and without a badge, and a builder for it. */
     public static Notification.Builder builder(Context context, String channel, String name) {
         NotificationManager manager = (NotificationManager)
                 context.getSystemService(Context.NOTIFICATION_SERVICE);

@@ -4,7 +4,7 @@ import android.app.Notification;
 import android.app.Service;
 import android.content.pm.ServiceInfo;
 
-/** A service in the foreground that says that it uses the location (API 29). */
+/** A foreground service that declares its use of the location (API 29). */
 public final class TypedForeground {
     private TypedForeground() {
     }
