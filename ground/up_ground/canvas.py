@@ -1,4 +1,4 @@
-"""A grid of characters with styles: what is drawn outside it is cut off."""
+"""A grid of styled characters; drawing outside the grid is clipped."""
 
 from __future__ import annotations
 

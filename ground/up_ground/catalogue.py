@@ -22,7 +22,7 @@ _GROUND_ROLES = (Role.OBSERVER, Role.OPERATOR, Role.PILOT, Role.ADMIN)
 
 
 class Catalogue:
-    """Commands by name, with their fields; ``problems`` are sentences about what is left out."""
+    """Commands by name, with their fields; ``problems`` lists the omitted ones, a sentence each."""
 
     def __init__(self, classes: Iterable[type[BaseCommand]], problems: Iterable[str] = ()) -> None:
         self.problems = list(problems)
@@ -98,7 +98,7 @@ def wire_name(field: dataclasses.Field[Any]) -> str:
 
 
 def fault_of(cls: type[BaseCommand], data: Mapping[str, Any]) -> str:
-    """Return why these data are none of that Command, one sentence; empty: they are."""
+    """Return why the data do not fit the Command, one sentence; empty if they do."""
     known = {wire_name(field) for field in dataclasses.fields(cls)}
     strange = [key for key in data if key not in known]
     if strange:

@@ -53,7 +53,7 @@ class SeatAsked:
 
 @dataclass(frozen=True, slots=True)
 class SeatHolder:
-    """Who commands; None: nobody does."""
+    """The ground that commands; None: the seat is free."""
 
     number: int | None
 

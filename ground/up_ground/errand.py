@@ -42,7 +42,7 @@ class Errand:
             self.finished.callback(status)
 
     async def stop(self) -> None:
-        """Leave what was opened; returns when it is closed."""
+        """Close all that was opened; returns when it is closed."""
         await self.link.stop()
 
     def say(self, text: str) -> None:

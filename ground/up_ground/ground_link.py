@@ -92,12 +92,12 @@ class GroundLink:
         self._tokens.close()
 
     def send(self, line: bytes) -> bool:
-        """Send an encoded message; False: there is no connection."""
+        """Send an encoded message; return False without a connection."""
         connection = self._connection
         return self.status.is_open and connection is not None and connection.send(line)
 
     def request_seat(self) -> bool:
-        """Ask for the seat; a free one is given at once. False: there is nobody to ask."""
+        """Request the seat; a free one is granted immediately. Return False if not sent."""
         self._wanted = Seat.COMMAND
         self._tokens.hold()
         return not self._settings.direct and self.send(control_line.SEAT_REQUEST)
@@ -111,7 +111,7 @@ class GroundLink:
         return self.status.seat is Seat.COMMAND and self.send(control_line.SEAT_RELEASE)
 
     def reconnect(self, seat: Seat) -> None:
-        """Say hello anew for another seat: an aircraft's own listener gives it only so."""
+        """Repeat the hello for another seat: an aircraft's own listener grants it only that way."""
         self._wanted = seat
         if seat is Seat.COMMAND:
             self._tokens.hold()
@@ -128,7 +128,7 @@ class GroundLink:
             self.status.round_trip_ms = self._connection.round_trip_ms()
 
     def on_made(self, connection: GroundProtocol) -> None:
-        """Wait for the hello's answer, or begin at once where there is no hello."""
+        """Wait for the answer to the hello; without a hello start immediately."""
         self._connection = connection
         self._is_greeted = self._settings.direct
         if self._settings.direct:

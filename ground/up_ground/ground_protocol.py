@@ -22,7 +22,7 @@ _TCPI_RTT_OFFSET = 68
 
 
 class ConnectionOwner(Interface):
-    """Who hears of the connection."""
+    """Receiver of the connection's events."""
 
     def on_line(self, connection: GroundProtocol, line: bytes) -> None:
         """Take a line that was relayed from the aircraft, without its end."""
@@ -38,11 +38,11 @@ class ConnectionOwner(Interface):
 
 
 class GroundProtocol(Protocol):
-    """Cuts the stream into lines and keeps the connection alive; make a new one for each.
+    """Splits the stream into lines and keeps the connection alive; one instance per connection.
 
-    With a ``hello`` it is sent first, must be answered within ``HELLO_TIMEOUT_S``
-    (``accept`` says that it was), and an empty line goes out after each second of own silence.
-    Without one nothing is sent but what `send` is given: a thesis peer knows no heartbeat.
+    A ``hello`` is sent first and must be answered within ``HELLO_TIMEOUT_S`` (``accept`` reports
+    the answer); then an empty line follows each second without output.
+    Without a hello only the input of `send` goes out: a thesis peer knows no heartbeat.
     """
 
     transport: Any

@@ -1,4 +1,4 @@
-"""What is known about the link to the aircraft."""
+"""State of the link to the aircraft."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ class LinkState(Enum):
 
 @dataclass(slots=True)
 class LinkStatus:
-    """The link as it stands now; times are the clock's seconds.
+    """The present state of the link; times are in seconds of the clock.
 
-    ``seat`` and ``is_aircraft_online`` are None while nobody told: before the hello's answer, and
-    always on a direct link. ``holder`` is the number of the ground that commands.
+    ``seat`` and ``is_aircraft_online`` stay None while unknown: before the answer to the hello,
+    and always on a direct link. ``holder`` is the number of the ground that commands.
     """
 
     state: LinkState = LinkState.CONNECTING

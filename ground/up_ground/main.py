@@ -59,7 +59,7 @@ def watch(options: argparse.Namespace) -> int:
 
 
 def send(options: argparse.Namespace) -> int:
-    """Check a Command as far as it is known here, and send it."""
+    """Check a Command against the catalogue, where it is listed, and send it."""
     catalogue = Catalogue.installed()
     cls = catalogue.get(options.name)
     try:

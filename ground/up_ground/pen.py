@@ -11,9 +11,9 @@ from up_ground.wording import age_text
 
 @dataclass(frozen=True, slots=True)
 class Pen:
-    """Canvas, telemetry and moment in one hand.
+    """Canvas, telemetry and time for the drawing functions.
 
-    A reading is one that has an age in telemetry; ``""`` is what is as old as its frame.
+    A reading has its own age in telemetry; ``""`` stands for a value as old as its frame.
     """
 
     canvas: Canvas

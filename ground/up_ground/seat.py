@@ -48,7 +48,7 @@ class SeatErrand(Errand):
             self.on_standing(standing(status, False))
 
     def on_standing(self, seat: Standing) -> None:
-        """Hear who has the seat."""
+        """Receive the owner of the seat."""
         raise NotImplementedError
 
     def on_limit(self) -> None:
@@ -69,7 +69,7 @@ class RequestSeat(SeatErrand):
         self.LIMIT_S = wait_s
 
     def on_standing(self, seat: Standing) -> None:
-        """Take it, or ask and say whom."""
+        """Take the seat, or request it and name its owner."""
         if seat is Standing.OURS:
             self.say("this ground commands now")
             self.finish(EXIT_DONE)
@@ -91,14 +91,14 @@ class RequestSeat(SeatErrand):
 
 
 class LeaveSeat(SeatErrand):
-    """Hands the seat to the listener ``to``, or leaves it free when that is None."""
+    """Hands the seat to the listener ``to``; releases it if ``to`` is None."""
 
     def __init__(self, *args: Any, to: int | None, **more: Any) -> None:
         super().__init__(*args, **more)
         self._to = to
 
     def on_standing(self, seat: Standing) -> None:
-        """Leave it when it is ours, and wait until the proxy says so."""
+        """Release our seat and wait for the proxy's confirmation."""
         holder = self.link.status.holder
         if self._is_asked:
             if seat is not Standing.OURS and self._to in (None, holder):

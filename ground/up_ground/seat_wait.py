@@ -24,9 +24,9 @@ class Standing(Enum):
 
 
 def standing(status: LinkStatus, is_direct: bool) -> Standing:
-    """Return who has the seat; a direct link knows no seats, so all may be sent there.
+    """Return who owns the seat; a direct link has no seats, so every peer may send there.
 
-    FREE is what the proxy says of a seat that nobody holds, which it may keep for a token yet.
+    FREE: the proxy reports no owner; it may still reserve the seat for a token.
     """
     if not status.is_open:
         return Standing.UNKNOWN

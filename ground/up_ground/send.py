@@ -96,7 +96,7 @@ class Send(Errand):
                 EXIT_REFUSED,
             )
         elif seat is Standing.FREE:
-            # Kept for somebody's token for a moment; then it is given to who asks.
+            # Reserved for a token for a moment; then the first request gets it.
             self.after(self._reactor, "connect", KEPT_S, self._on_no_seat)
             self._ask()
         elif seat is Standing.OURS:

@@ -107,7 +107,7 @@ class Telemetry:
         return received_s is not None and now_s - received_s <= SILENT_S < self.way_s
 
     def is_silent(self, now_s: float) -> bool:
-        """Say whether nothing on the screen can be trusted to be of now."""
+        """Return whether every value on the screen may be stale."""
         age_s = self.age_s(now_s)
         return age_s is None or age_s > SILENT_S
 

@@ -1,4 +1,4 @@
-"""``up-ground watch``: what runs while somebody looks."""
+"""``up-ground watch``: the displays of one aircraft."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ KEYS = "q quit  c ask for the seat  g give it  r release it"
 
 
 class Watch(Errand):
-    """Follows one aircraft; subclasses show it. It goes on until somebody ends it.
+    """Follows one aircraft until the user ends it; subclasses show it.
 
-    Paints by the clock, not by telemetry: ages go on when nothing comes.
+    Painted by the clock, not by telemetry, so that ages advance without new frames.
     """
 
     PERIOD_S = LINE_S
@@ -76,14 +76,14 @@ class Watch(Errand):
         """Hear of a telemetry frame."""
 
     def on_tick(self, now_s: float) -> None:
-        """Show what is known."""
+        """Show the present state."""
 
     def on_time_over(self) -> None:
         """End when the time that was asked for is over."""
         self.finish(EXIT_DONE)
 
     def shown_one(self) -> None:
-        """Count what was shown and end after the last."""
+        """Count a shown message and end after the last."""
         if self._left is not None:
             self._left -= 1
             if self._left <= 0:
@@ -116,7 +116,7 @@ class PlainWatch(Watch):
 
 
 class JSONWatch(Watch):
-    """The telemetry messages themselves, one a line; what goes wrong is told on stderr."""
+    """The telemetry messages themselves, one per line; errors go to stderr."""
 
     _told = ""
 
@@ -152,7 +152,7 @@ class OnceWatch(Watch):
         self.finish(EXIT_DONE)
 
     def on_time_over(self) -> None:
-        """Say why there is no picture."""
+        """Print the reason for the missing telemetry."""
         status = self.link.status
         reason = status.reason
         if status.is_aircraft_online is False:

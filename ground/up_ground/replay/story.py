@@ -40,7 +40,7 @@ class Story:
         self._gains = gains_of(log)
         self._profiles = profile_of(log)
         self._now_s = 0.0
-        # Whoever stands still at a moment wants to see what was wrong then.
+        # A user who stops at a moment wants to see the alarms of that moment.
         self._judge = Judge(aircraft, self._take, over_s=0.0)
         self._read(log)
 
@@ -67,7 +67,7 @@ class Story:
         ]
 
     def alarms_at(self, time_s: float) -> dict[str, Any]:
-        """Return what was wrong at a moment."""
+        """Return the alarms at a moment."""
         place = bisect_right(self._alarm_times_s, time_s)
         if not place:
             return {"type": "alarms", "aircraft": self.aircraft, "active": []}
@@ -79,7 +79,7 @@ class Story:
         return self._frame_times_s[place - 1] if place else None
 
     def gains_at(self, time_s: float) -> Told | None:
-        """Return the gains that flew as far as anybody had told; None: nobody had."""
+        """Return the last reported gains; None if there was no report."""
         return told_at(self._gains, time_s)
 
     def profile_at(self, time_s: float) -> Told | None:
@@ -145,5 +145,5 @@ def _link(is_silent: bool) -> LinkFacts:
 
 
 def past(events: Iterable[dict[str, Any]]) -> Iterable[dict[str, Any]]:
-    """Return events as those are told that were before."""
+    """Return events in the form for past ones."""
     return ({**each, "is_past": True} for each in events)

@@ -26,9 +26,9 @@ class Access:
     is_watch_only: bool = False
 
     def permits_host(self, host: str | None) -> bool:
-        """Say whether a request's Host names this machine by an address or one of its names.
+        """Return whether a request's Host names this machine by an address or one of its names.
 
-        A page of somebody else that lets its own name point here (DNS rebinding) names another.
+        A foreign page whose name resolves to this machine (DNS rebinding) sends another Host.
         """
         return names_this_machine(host, self.names)
 
@@ -52,7 +52,7 @@ class Access:
 
 
 def machine_names(more: Iterable[str] = ()) -> frozenset[str]:
-    """Return what this machine is called on its own network, and the names besides."""
+    """Return this machine's host names on its network, and the additional names."""
     own = socket.gethostname().casefold().rstrip(".")
     short = own.partition(".")[0]
     found = {"localhost", own, short, f"{short}.local", *(name.casefold() for name in more)}

@@ -1,4 +1,4 @@
-"""What is wrong now, as far as somebody must know at once."""
+"""The present alarms: faults that need immediate attention."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class LinkFacts:
 
 
 class Alarms:
-    """The alarms that are on. One begins at once and ends ``over_s`` after its cause."""
+    """The active alarms. One begins immediately and ends ``over_s`` after its cause."""
 
     def __init__(self, over_s: float = OVER_S) -> None:
         self._over_s = over_s
@@ -48,7 +48,7 @@ class Alarms:
         self._known: dict[str, Alarm] = {}
 
     def take(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> bool:
-        """Look at the moment; True: what is wrong has changed."""
+        """Update to this moment; return whether the alarms changed."""
         self._had_board = self._had_board or board_state(telemetry) is True
         wrong = _wrong(telemetry, link, "battery" in self._known, self._had_board)
         found = {each.kind: each for each in wrong}
@@ -63,7 +63,7 @@ class Alarms:
         return has_changed
 
     def message(self, aircraft: str) -> dict[str, Any]:
-        """Return what pages are told."""
+        """Return the message for the pages."""
         return {
             "type": "alarms",
             "aircraft": aircraft,

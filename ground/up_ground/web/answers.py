@@ -1,4 +1,4 @@
-"""Commands that were sent, and what became of them."""
+"""Sent Commands and their outcomes."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ CONTENT_OF = {
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What became of a Command.
+    """Outcome of a Command.
 
-    ``outcome``: ack, nack, timeout (sent, and nothing is known), unsent, refused (here).
+    ``outcome``: ack, nack, timeout (sent, result unknown), unsent, refused (here).
     """
 
     outcome: str
@@ -57,7 +57,7 @@ class Answers:
         return len(self._sent)
 
     def expect(self, name: str, data: dict[str, Any], tell: Tell) -> str:
-        """Return the id with which to send a Command; ``tell`` hears what becomes of it."""
+        """Return the id with which to send a Command; ``tell`` gets its outcome."""
         id_ = secrets.token_hex(8)
         is_asking = name != "arduino.pids.tunings" or data.get("request") is True
         awaited = CONTENT_OF.get(name, "") if is_asking else ""
@@ -80,12 +80,12 @@ class Answers:
                     self.end(id_, Answer("ack", round_trip_ms=sent.acked_ms, data=sent.data))
 
     def lost(self) -> None:
-        """Hear that the link is gone: what was sent may or may not have arrived."""
+        """Handle the loss of the link: Commands in flight may or may not have arrived."""
         for id_, sent in list(self._sent.items()):
             self.end(id_, _timed_out(sent, "the link was lost before an answer came"))
 
     def stop(self) -> None:
-        """Wait for nothing any more."""
+        """Stop waiting for all answers."""
         for sent in self._sent.values():
             sent.timer.cancel()
         self._sent.clear()

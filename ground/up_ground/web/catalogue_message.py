@@ -1,4 +1,4 @@
-"""What a page is told of the Commands: enough to offer a form for each of them."""
+"""The Commands as pages receive them: enough to offer a form for each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What became of a Command, in the words of an event."""
+"""Outcomes of Commands as event texts."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ class SeatLink(Protocol):
 
     @property
     def standing(self) -> Standing:
-        """Return who has it."""
+        """Return the owner."""
 
     @property
     def holder(self) -> int | None:
@@ -67,7 +67,7 @@ class Control:
         self._asking: Timer | None = None
 
     def stop(self) -> None:
-        """Forget everybody and leave the seat."""
+        """Forget all pages and release the seat."""
         for timer in (self._asking, self._ground_timer, *self._askers.values()):
             _cancel(timer)
         self._askers.clear()
@@ -76,7 +76,7 @@ class Control:
             self._seat.release()
 
     def request(self, page: Page) -> None:
-        """Let a page have control, or ask for it whoever has it."""
+        """Give a page control, or request it from the present owner."""
         if not page.may_control:
             raise PageFault(f"this page may only watch: {page.why_not}")
         if page in (self.holder, self._wanting):
@@ -91,7 +91,7 @@ class Control:
         self._on_change()
 
     def give(self, page: Page, to: Page | None) -> None:
-        """Hand control to ``to``, or to whoever asks first."""
+        """Hand control to ``to``, or to the first page that requested it."""
         self._must_hold(page)
         if to is None and not self._askers:
             if self._ground is None:
@@ -106,7 +106,7 @@ class Control:
             self._grant(to)
 
     def deny(self, page: Page) -> None:
-        """Keep control; whoever asks first is told."""
+        """Keep control; the first page that requested it is notified."""
         self._must_hold(page)
         if self._askers:
             asker = next(iter(self._askers))
@@ -120,7 +120,7 @@ class Control:
         self._on_change()
 
     def release(self, page: Page) -> None:
-        """Leave control to whoever asks, or free; or ask no more."""
+        """Release control, to the first request or free; or withdraw the own request."""
         if page is self.holder:
             self._free()
         elif page is self._wanting:
@@ -149,7 +149,7 @@ class Control:
             if standing is Standing.OURS:
                 self._grant(self._wanting)
         elif standing is Standing.OURS and self.holder is None:
-            # It came too late, or by its token: nobody here wants it any more.
+            # Granted too late, or by its token: no page here wants it now.
             self._seat.release()
         elif self.holder is not None and standing is Standing.HELD:
             self._tell(f"ground {self._seat.holder} commands, {self.holder.name} has lost control")
@@ -160,7 +160,7 @@ class Control:
         self._hear_ground()
 
     def describe(self, page: Page) -> dict[str, Any]:
-        """Return the part of a status that tells ``page`` who has control."""
+        """Return the control part of the status of ``page``."""
         holder, holder_name = "unknown", ""
         standing = self._seat.standing
         if self.holder is not None:
@@ -183,7 +183,7 @@ class Control:
         }
 
     def _pursue(self) -> None:
-        """Ask for the seat until it is there or the one who wants it has waited long enough."""
+        """Request the seat until it is granted or the request times out."""
         _cancel(self._asking)
         standing = self._seat.standing
         if standing is Standing.OURS:
@@ -248,7 +248,7 @@ class Control:
             self._seat.release()
 
     def _request_next(self) -> None:
-        """Let the first who asks want the seat."""
+        """Request the seat for the first page in the queue."""
         page = next(iter(self._askers))
         _cancel(self._askers.pop(page))
         self.request(page)

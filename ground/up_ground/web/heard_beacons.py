@@ -1,4 +1,4 @@
-"""The beacons that an aircraft's telemetry brought: whether a page has seen what flies now."""
+"""The beacons of an aircraft's recent telemetry: proof that a page has seen fresh data."""
 
 from __future__ import annotations
 

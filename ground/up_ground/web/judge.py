@@ -1,4 +1,4 @@
-"""What happens to an aircraft, in plain words: events, and what is wrong now."""
+"""Events and alarms of an aircraft, in plain words."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Event:
     text: str
 
     def message(self, aircraft: str, now_s: float, is_past: bool) -> dict[str, Any]:
-        """Return what pages are told."""
+        """Return the message for the pages."""
         fields: dict[str, Any] = {
             "type": "event",
             "aircraft": aircraft,
@@ -43,7 +43,7 @@ class Event:
 
 
 class Judge:
-    """Hears frames and the link, and says each change once; what flaps is said seldom.
+    """Takes frames and link states, reports each change once and debounces values that flap.
 
     ``tell`` gets the messages for the pages. An alarm ends ``over_s`` after its cause.
     """
@@ -98,7 +98,7 @@ class Judge:
             self._tell(self._alarms.message(self._aircraft))
 
     def past(self, now_s: float) -> Iterator[dict[str, Any]]:
-        """Yield what a page is told that comes later."""
+        """Yield the messages for a page that joins later."""
         for event in self._events:
             yield event.message(self._aircraft, now_s, is_past=True)
         yield self._alarms.message(self._aircraft)

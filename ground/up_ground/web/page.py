@@ -24,7 +24,7 @@ class PageConnection(Interface):
         """Close it; ``code`` is 4000 to 4999, as RFC 6455 leaves them to us."""
 
     def is_alive(self, within_s: float, tell: Any) -> None:
-        """Ask for a sign of life; ``tell`` hears whether one came in time."""
+        """Ping the page; ``tell`` gets whether the answer came in time."""
 
 
 @dataclass(slots=True)
@@ -36,9 +36,9 @@ class Ask:
 
 
 class Page:
-    """A page with its name and what it may do; ``link`` is None while it is away.
+    """A page with its name and its rights; ``link`` is None while it is disconnected.
 
-    ``asks`` holds the Commands of its present link by the numbers that it gave them.
+    ``asks`` holds the Commands of its present link by the page's numbers.
     """
 
     def __init__(self, number: int, name: str, token: str, why_not: str) -> None:

@@ -23,7 +23,7 @@ TOO_LONG = 4008
 
 
 class LinkOwner(Interface):
-    """Who hears of the pages' links."""
+    """Receiver of the events of the pages' links."""
 
     def on_opened(self, link: PageLink) -> None:
         """Hear of a new one."""

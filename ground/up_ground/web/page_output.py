@@ -11,11 +11,10 @@ PENDING_LIMIT = 1 << 20
 
 
 class PageOutput(BaseOutput):
-    """The output of a WebSocket.
+    """The send buffer of a WebSocket.
 
-    News (a frame, a status) is put into bytes when it leaves, not when it comes, so that the age
-    in it is true. ``on_overrun`` hears that ``PENDING_LIMIT`` is passed; nothing is sent from then
-    on.
+    A frame or a status is encoded when it is sent, not when it arrives, so that its age is right.
+    ``on_overrun`` is called when ``PENDING_LIMIT`` is exceeded; after that nothing is sent.
     """
 
     def __init__(self, on_overrun: Callable[[], object]) -> None:

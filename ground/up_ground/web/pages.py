@@ -46,7 +46,7 @@ class _Visit:
 
 
 class Pages:
-    """Knows who is there, gives each page what it watches, and hands on what it says."""
+    """Knows the connected pages, sends each the data it watches and dispatches its messages."""
 
     def __init__(
         self,
@@ -120,7 +120,7 @@ class Pages:
     # What a page's link tells.
 
     def on_opened(self, link: PageConnection) -> None:
-        """Wait for the page's hello, which says whether it has a right to a place."""
+        """Wait for the page's hello, which shows whether it has a reserved place."""
         greeting = [each for each, visit in self._visits.items() if visit.page is None]
         if len(greeting) >= GREETING_LIMIT:
             silent = (each for each in greeting if not self._visits[each].is_greeting)
@@ -129,7 +129,7 @@ class Pages:
         self._visits[link] = _Visit(self._clock, timer)
 
     def on_said(self, link: PageConnection, payload: bytes) -> None:
-        """Do what a page says; nonsense is told to it, and after too much of it the page goes."""
+        """Handle a message of a page; bad ones get an error, and too many close the link."""
         visit = self._visits.get(link)
         if visit is None or self._all_closed is not None:
             return
@@ -274,7 +274,7 @@ class Pages:
         self._forget(page)
 
     def _turn_away(self, link: PageConnection, reason: str) -> None:
-        """Close a link that is nobody's any more."""
+        """Close a link without a page."""
         visit = self._visits.pop(link)
         if visit.timer.active():
             visit.timer.cancel()
@@ -292,7 +292,7 @@ class Pages:
     def _welcome(self, link: PageConnection, page: Page) -> None:
         link.admit()
         page.link = link
-        # A page that was loaded anew begins to count anew; its old numbers mean nothing.
+        # A reloaded page restarts its numbers at one; its old numbers are void.
         page.asks = {}
         self._visits[link].page = page
         page.tell(

@@ -21,7 +21,7 @@ class SeatAtProxy:
 
     @property
     def standing(self) -> Standing:
-        """Return who has it; one that was left is not ours, whatever the proxy still has to say."""
+        """Return the owner; a released seat is not ours, even before the proxy confirms it."""
         now = standing(self._link.status, self._is_direct)
         if now is not Standing.OURS:
             self._is_left = False
@@ -39,7 +39,7 @@ class SeatAtProxy:
         return asked
 
     def request(self) -> None:
-        """Ask for it; whoever knows no such request is asked by a new hello."""
+        """Request it; a peer without that request gets a new hello instead."""
         if self.standing is not Standing.LATER:
             self._unheard = 0
         elif self._unheard % HELLO_AFTER == 1:

@@ -37,13 +37,13 @@ _PLAIN = b"text/plain; charset=utf-8"
 
 
 class Tiles(Interface):
-    """Who has the map's pictures."""
+    """Source of the map tiles."""
 
     def render(self, request: Any) -> Any:
         """Answer a request for one."""
 
     def stop(self) -> None:
-        """Fetch nothing any more."""
+        """Stop all fetches."""
 
 
 class GroundResource(Resource):

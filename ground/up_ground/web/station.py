@@ -33,7 +33,7 @@ TICK_S = 0.25
 
 
 class Station:
-    """Forwards telemetry the moment it comes, and keeps what a page that comes later must know."""
+    """Forwards telemetry without delay, and keeps the state that a page needs when it joins."""
 
     def __init__(
         self,
@@ -76,7 +76,7 @@ class Station:
 
     @property
     def summary(self) -> str:
-        """Return whom this is about, in a line."""
+        """Return the aircraft in one line."""
         way = "directly" if self._settings.direct else "by way of the proxy"
         return f"{self.name} {way} at {self._settings.address}"
 
@@ -143,7 +143,7 @@ class Station:
         return self._frame
 
     def past(self) -> Iterable[dict[str, Any]]:
-        """Return what a page is told that begins to watch."""
+        """Return the messages for a page that starts to watch."""
         yield track_message(self.name, self._track.points())
         yield from self.judge.past(self._reactor.seconds())
         yield self.desk.gains_message()
@@ -206,7 +206,7 @@ class Station:
         self.desk.on_command(page, message)
 
     def on_replay(self, page: Page, action: str, message: Reader) -> None:
-        """Refuse: this is no replay."""
+        """Refuse: the aircraft is live, not a replay."""
         raise PageFault("this is no replay")
 
     def on_away(self, page: Page) -> None:

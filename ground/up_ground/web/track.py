@@ -36,7 +36,7 @@ class Track:
         self._is_after_silence = False
 
     def take(self, telemetry: Telemetry, time_s: float) -> None:
-        """Take the place of a frame, where it has one that is one; time only goes on."""
+        """Take the position of a frame, if it has a valid one; time never runs back."""
         latitude = telemetry.number("location", "latitude")
         longitude = telemetry.number("location", "longitude")
         if latitude is None or longitude is None or abs(latitude) > 90 or abs(longitude) > 180:
@@ -77,7 +77,7 @@ class Track:
         return time_s - known_s > max(GAP_S, 2.5 * period_s)
 
     def _thin(self) -> None:
-        """Leave out every second point; what was told of it, the next one tells."""
+        """Drop every second point; the following point keeps the gap mark of a dropped one."""
         points: list[Point] = []
         times_s: list[float] = []
         is_after_silence = False
@@ -92,7 +92,7 @@ class Track:
 
 
 def track_message(aircraft: str, points: list[Point]) -> dict[str, Any]:
-    """Return what a page is told."""
+    """Return the message for a page."""
     return {"type": "track", "aircraft": aircraft, "points": points}
 
 

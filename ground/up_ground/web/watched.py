@@ -18,7 +18,7 @@ class WatchedAircraft(Protocol):
 
     @property
     def summary(self) -> str:
-        """Return whom this is about, in a line."""
+        """Return the aircraft in one line."""
 
     def start(self) -> None:
         """Begin."""
@@ -27,7 +27,7 @@ class WatchedAircraft(Protocol):
         """End."""
 
     def past(self) -> Iterable[dict[str, Any]]:
-        """Return what a page is told that begins to watch."""
+        """Return the messages for a page that starts to watch."""
 
     def frame(self) -> FrameMessage | None:
         """Return the newest frame."""
