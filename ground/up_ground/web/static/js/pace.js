@@ -6,7 +6,7 @@ export class Pace {
 
   /**
    * @param {number} now_s
-   * @returns {boolean} whether it is time to write them anew
+   * @returns {boolean} whether it is time to write them again
    */
   isTime(now_s) {
     if (now_s < this.#next_s) {

@@ -16,10 +16,10 @@ export class Bell {
   #rang_s = -Infinity;
 
   /**
-   * @param {{level: string, text: string|null}} alarm the worst, as the bar says it
+   * @param {{level: string, text: string|null}} alarm the worst, as shown in the bar
    * @param {{kind: string, level: string}[]} all
    * @param {number} now_s
-   * @returns {"warning"|"alarm"|null} what to ring
+   * @returns {"warning"|"alarm"|null} the sound to play
    */
   ring(alarm, all, now_s) {
     const now = new Set(all.map((each) => `${each.kind} ${each.level}`));

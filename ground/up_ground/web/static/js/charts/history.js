@@ -41,7 +41,7 @@ export class History {
     this.#forget(time_s - WINDOW_S - GAP_S);
   }
 
-  /** Draw no line from what came before to what comes next: another flight, another time. */
+  /** Draw no line between the samples before and after: another flight, another time. */
   clear() {
     this.#times_s = [];
     this.#values = this.#names.map(() => []);

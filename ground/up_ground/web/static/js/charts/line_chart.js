@@ -145,7 +145,7 @@ export function span(least, most, leastSpan) {
   return [least - margin - missing, most + margin + missing];
 }
 
-// A canvas knows no light-dark(): the element tells what the colour is now.
+// A canvas does not support light-dark(): read the present colour from the element.
 function colourOf(place, name) {
   const probe = element("span");
   probe.style.setProperty("color", `var(${name})`);

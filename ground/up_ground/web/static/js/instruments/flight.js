@@ -88,7 +88,7 @@ function showVetoes(place, store) {
     return;
   }
   place.shownVetoes = shown;
-  // In the air a veto is no warning: it tells what would have to be so to arm once more.
+  // In the air a veto is information, not a warning: it names the condition for arming again.
   place.classList.toggle("is-warning", !isArmed && all !== null && all.length > 0);
   const title = vetoTitle(all, isArmed);
   const items = (all ?? []).map((each) => html("li", {}, each));

@@ -47,7 +47,7 @@ export function homeWords(picture) {
   return `${distance} from home at ${from}°, the way back ${back}°${age}`;
 }
 
-// A place of the track alone: nobody told when that was.
+// A position from the track alone: its time is unknown.
 function ageWords(age_s) {
   return age_s === null ? "some time" : ageText(age_s);
 }

@@ -32,13 +32,13 @@ export function ruleAgainst(store, asker, name, data = null) {
  * @param {object} store
  * @param {string} name of the Command
  * @param {object} data
- * @returns {string} what is to be known before it is sent; empty: nothing
+ * @returns {string} warning before it is sent; empty: none
  */
 export function warningOf(store, name, data) {
   return setsGains(name, data) ? gainsWarning(store) : "";
 }
 
-// A request that brings gains as well is none to this page, whatever the aircraft makes of it.
+// A request that carries gains too counts as a change of gains, whatever the aircraft makes of it.
 function setsGains(name, data) {
   return name === GAINS && (!isOnlyRequest(name, data) || Object.hasOwn(data, "pids"));
 }

@@ -70,7 +70,7 @@ export class Arming {
     return "";
   }
 
-  /** Whether the motor is armed, null while that is not known of now. */
+  /** Whether the motor is armed, null without a fresh value. */
   #armed() {
     return this.#store.freshnessAt("armed") === "live" ? this.#store.flag("armed") : null;
   }

@@ -6,8 +6,8 @@ import { objection } from "./why.js";
 export { tell } from "./answer_notes.js";
 
 /**
- * Sends Commands as a person does: asks back where it matters, says that it is under way and
- * what became of it, beside the button and in `#last-answer`.
+ * Sends Commands for the user: confirms where it matters, and shows progress and outcome beside
+ * the button and in `#last-answer`.
  */
 export class Asker {
   #store;
@@ -50,7 +50,7 @@ export class Asker {
     this.#notes.tell(note, "sent, waiting for the answer", "plain");
     this.#tellLast(words, "sent, waiting for the answer", "plain");
     const answer = await this.#connection.command(name, data, { aircraft, isForced });
-    // An answer of another aircraft than the one that is looked at is no news of this one.
+    // An answer of another aircraft than the watched one is not shown.
     if (!this.#moved(aircraft)) {
       this.#notes.tell(note, answerWords(answer), answerLook(answer));
       this.#tellLast(words, answerWords(answer), answerLook(answer));

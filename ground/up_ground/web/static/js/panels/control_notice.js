@@ -1,7 +1,7 @@
 import { setText } from "../readout.js";
 import { element } from "./element.js";
 
-/** Somebody asks this page for control: said where it is seen wherever the page is scrolled to. */
+/** Another page requests control from this one: shown in view at every scroll position. */
 export class ControlNotice {
   #store;
   #connection;

@@ -24,14 +24,14 @@ export function fieldValue(field, text, isNull = false) {
 
 /**
  * @param {object} field of Catalogue.get()
- * @returns {string} what it must be, as `up-ground commands` says it
+ * @returns {string} its type and bounds, as in `up-ground commands`
  */
 export function wanted(field) {
   return field.text === "" ? "is missing or not what it must be" : `must be ${field.text}`;
 }
 
 /**
- * The fields of a Command that nobody here knows, written as JSON.
+ * The fields of an unknown Command, written as JSON.
  * @param {string} text empty: none
  * @returns {{problem: string, value?: object}}
  */

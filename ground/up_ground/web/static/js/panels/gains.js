@@ -74,7 +74,7 @@ class GainsPanel {
     this.#history.show(store.gains, store.flight_s - this.#came_s);
   }
 
-  // What flies elsewhere never touches what is being written here.
+  // Gains that change elsewhere never overwrite the input here.
   #take() {
     const { aircraft, gains } = this.#store;
     if (aircraft !== this.#shownAircraft) {

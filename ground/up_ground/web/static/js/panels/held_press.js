@@ -60,7 +60,7 @@ export class HeldPress {
     this.state = "idle";
   }
 
-  /** @param {string} why a press under way counts no more; any other stays as it is */
+  /** @param {string} why a press under way is cancelled; any other state stays */
   void(why) {
     if (this.state === "pressed") {
       this.state = "void";

@@ -18,7 +18,7 @@ export function switchMode(store) {
 
 /**
  * @param {object} store
- * @returns {string} the position and what it selects; where no profile was told, the default
+ * @returns {string} the position and what it selects; without a profile, the default
  */
 export function switchText(store) {
   const position = store.text("arduino.switch");

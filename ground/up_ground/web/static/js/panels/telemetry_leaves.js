@@ -5,7 +5,7 @@ export const MOST_LEAVES = 1000;
 const DEEPEST = 24;
 const LONGEST_TEXT = 160;
 const LONGEST_PATH = 200;
-// What is not seen, or turns the direction of what is: shown by its number.
+// Invisible characters and those that change the text direction: shown by their number.
 const UNSEEN = /[\p{Cc}\p{Cf}\p{Cs}\p{Co}\p{Zl}\p{Zp}]/gu;
 
 /**

@@ -1,5 +1,5 @@
 /**
- * Say on the page what is not installed, once.
+ * Show once on the page that a library is not installed.
  * @param {string} sentence
  */
 export function sayMissing(sentence) {

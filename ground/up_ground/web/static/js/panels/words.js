@@ -44,7 +44,7 @@ export function commandWords(name, data = {}) {
 
 /**
  * @param {{outcome: string, code?: ?string, reason?: ?string, round_trip_ms?: ?number}} answer
- * @returns {string} what became of a Command, in plain words
+ * @returns {string} the outcome of a Command, in plain words
  */
 export function answerWords(answer) {
   const reason = String(answer.reason ?? "")
@@ -129,7 +129,7 @@ export function clockWords(time_s) {
     : `${minutes}:${seconds}`;
 }
 
-// The board's own refusal comes with its name: it is said once who refused.
+// The board's own refusal already has its name: do not repeat it.
 function refusalWords(reason) {
   const [, ofBoard] = /^the Arduino refused: (.+)$/s.exec(reason) ?? [];
   return ofBoard ? `refused by the Arduino: ${ofBoard}` : `refused by the aircraft: ${reason || "no reason given"}`;

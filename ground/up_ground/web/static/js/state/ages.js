@@ -30,7 +30,7 @@ const READING_OF = {
   in_flight: "flight",
   arduino: "flight",
 };
-/** What the Raspberry Pi knows of the Arduino by itself. */
+/** Values about the Arduino that the Raspberry Pi determines, not the Arduino. */
 const KNOWN_BESIDES = new Set(["arduino.connected", "arduino.framing"]);
 
 /**
@@ -50,7 +50,7 @@ export function readingOf(path) {
 
 /**
  * @param {number|null} frameAge_s age of the newest frame; null: there was none
- * @returns {boolean} whether nothing on the page can be trusted to be of now
+ * @returns {boolean} whether every value on the page may be stale
  */
 export function isSilent(frameAge_s) {
   return frameAge_s === null || frameAge_s > SILENT_S;

@@ -45,7 +45,7 @@ export function texts(found) {
 /**
  * @param {unknown} tree
  * @param {string} path keys with dots between
- * @returns {unknown} what lies there of its own, undefined where nothing does
+ * @returns {unknown} the value at the path among own properties, undefined if there is none
  */
 export function at(tree, path) {
   return atKeys(tree, path.split("."));

@@ -45,7 +45,7 @@ export class Motion {
   }
 }
 
-/** A fix is told in many frames; only a newer one counts, and ages jitter by a few ms. */
+/** Many frames repeat a fix; only a newer one counts, and ages jitter by a few ms. */
 function keep(list, fix, isSame) {
   const last = list.at(-1);
   const since_s = last === undefined ? Infinity : fix.at_s - last.at_s;

@@ -12,9 +12,9 @@ export class NewestFrame {
   data = {};
   /** How many came. */
   frames = 0;
-  /** Its number, null while there is none. */
+  /** Its number, null without a frame. */
   beacon = null;
-  /** When it was so in a flight of the past, seconds; null: it is of now. */
+  /** Its time in a recorded flight, seconds; null: live. */
   frameTime_s = null;
 
   /** @param {() => number} clock_s seconds that never jump */
@@ -66,7 +66,7 @@ export class NewestFrame {
     return this.#clock_s();
   }
 
-  /** @returns {boolean} whether nothing shown can be trusted to be of now */
+  /** @returns {boolean} whether every value shown may be stale */
   get isSilent() {
     return isSilent(this.age_s(null));
   }
@@ -96,7 +96,7 @@ export class NewestFrame {
     return judge.texts(judge.at(this.data, path));
   }
 
-  /** @returns {number|boolean|string|string[]|null} what is there, judged */
+  /** @returns {number|boolean|string|string[]|null} the value, validated */
   value(path) {
     return this.number(path) ?? this.flag(path) ?? this.text(path) ?? this.texts(path);
   }
@@ -132,7 +132,7 @@ export class NewestFrame {
 
   /**
    * @param {string} path of a value
-   * @returns {"live"|"stale"|"none"} none: there is no such value
+   * @returns {"live"|"stale"|"none"} none: not in the frame
    */
   freshnessAt(path) {
     return this.value(path) === null ? "none" : this.freshness(readingOf(path));

@@ -1,6 +1,6 @@
 const RANK = { observer: 0, operator: 1, pilot: 2 };
 
-/** The least role that each Command needs (docs/protocols.md 5); what is not here: an operator. */
+/** The least role for each Command (docs/protocols.md 5); Commands not listed: an operator. */
 const NEEDED = {
   "arduino.profile.request": "observer",
   "up.arm": "pilot",

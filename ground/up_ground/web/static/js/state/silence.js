@@ -32,8 +32,8 @@ export class Silence {
   }
 
   /**
-   * Forget what came.
-   * @param {number|null} from_s a silence counts from then on; null: from what comes next
+   * Forget all arrivals.
+   * @param {number|null} from_s a silence counts from then on; null: from the next arrival
    */
   clear(from_s = null) {
     this.#last_s = from_s;

@@ -58,8 +58,8 @@ export class Store extends NewestFrame {
   }
 
   /**
-   * Repaint for the ages five times a second, whether or not a frame comes, and at once when a
-   * reading has become old.
+   * Repaint for the ages five times a second, whether or not a frame arrives, and immediately
+   * when a reading becomes stale.
    */
   start() {
     this.#timers.each(() => this.#change(), REPAINT_S);
@@ -166,7 +166,7 @@ export class Store extends NewestFrame {
     return true;
   }
 
-  /** Comes first after `watch` and after a jump in a replay: what was known is of another time. */
+  /** First message after `watch` and after a jump in a replay: earlier data is of another time. */
   #takeTrack(message) {
     this.track.replace(message.points, this.now_s);
     this.#events.clear();

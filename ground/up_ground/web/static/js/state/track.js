@@ -19,7 +19,7 @@ export class Track {
   startAltitude_m = null;
 
   /**
-   * @param {unknown} points the server's, taken in place of what was here
+   * @param {unknown} points the server's, which replace the present ones
    * @param {number|null} now_s a silence counts from then on
    */
   replace(points, now_s = null) {
