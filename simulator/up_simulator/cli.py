@@ -1,4 +1,4 @@
-"""The program ``up-sim``: which verbs there are, and what comes of their errors."""
+"""The program ``up-sim``: its verbs, and their error exits."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _open_closed_streams() -> None:
-    """Let what was closed before the start (``>&-``) lead nowhere, for children too."""
+    """Open streams closed before the start (``>&-``) on /dev/null, for children too."""
     while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
         os.set_inheritable(descriptor, True)
     os.close(descriptor)
@@ -139,7 +139,7 @@ def _fail(text: str, status: int) -> int:
 
 
 def _flush() -> None:
-    """Write out what is left; where nobody reads any more, let it go without another word."""
+    """Flush the output; without a reader drop it silently."""
     try:
         sys.stdout.flush()
     except (OSError, ValueError):

@@ -24,8 +24,8 @@ class Ending:
     def hear(self, number: int, _frame: object) -> None:
         """Raise KeyboardInterrupt.
 
-        The same wish within a second is one: a terminal that closes tells it twice, by the kernel
-        and by the shell, and the second must not disturb what ends in order.
+        Signals within a second count as one: a terminal that closes sends two, from the kernel
+        and from the shell, and the second must not disturb the orderly end.
         """
         now_s = time.monotonic()
         if self._number is None:
@@ -42,7 +42,7 @@ class Ending:
 
 @contextmanager
 def ending_in_order() -> Iterator[Ending]:
-    """Let each of the signals raise KeyboardInterrupt, but for one that is ignored (``nohup``)."""
+    """Let each of the signals raise KeyboardInterrupt, except ignored ones (``nohup``)."""
     ending = Ending()
     before = {number: signal.getsignal(number) for number in SIGNALS}
     for number, handler in before.items():
@@ -69,10 +69,10 @@ class Interrupt:
 
 @contextmanager
 def ending_between_steps() -> Iterator[Interrupt]:
-    """Note the signals, to be looked for between steps; a second Ctrl-C ends whatever runs.
+    """Record the signals, to be checked between steps; a second Ctrl-C ends in any place.
 
-    What Python raises by itself could come inside a call from C, which would swallow it. A signal
-    that nobody has asked to hear is left alone.
+    A KeyboardInterrupt from Python could arise inside a call from C, which would swallow it.
+    Signals without a handler are left alone.
     """
     interrupt = Interrupt()
     before: dict[int, Handler] = {}

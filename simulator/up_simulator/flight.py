@@ -57,7 +57,7 @@ class FlightState:
 
 
 class Flight(Protocol):
-    """Something that flies in steps of its own time."""
+    """A flight that advances in steps of its simulated time."""
 
     @property
     def state(self) -> FlightState:
@@ -65,7 +65,7 @@ class Flight(Protocol):
 
     @property
     def servos(self) -> Servos:
-        """Return where the servos stand now, us, which lags behind what was asked."""
+        """Return the present servo positions, us, which lag behind the commanded ones."""
 
     def set_servos(self, pulses_us: Servos) -> None:
         """Ask the servos to go to these pulses."""

@@ -1,4 +1,4 @@
-"""The Up Library as the phone aboard, in real time: a JVM with sockets of its own."""
+"""The Up Library as the phone aboard, in real time: a JVM with its own sockets."""
 
 from __future__ import annotations
 
@@ -34,16 +34,16 @@ def sentence_of(event: Mapping[str, Any]) -> str | None:
 
 
 def options_of(orientation: str, seed: int) -> list[str]:
-    """Return what every virtual phone of a flight is told."""
+    """Return the options of every virtual phone of a flight."""
     mounting = " ".join(map(str, MOUNTING))
     return ["--orientation", orientation, "--seed", str(seed), "--mounting", mounting]
 
 
 class JvmHandset:
-    """What every phone on a JVM has: its sensors' feed, its words, and how it ended by itself.
+    """Common to every phone on a JVM: its sensors' feed, its output, and an unexpected end.
 
-    A JVM that ends by itself is told in a sentence, once, and costs the flight nothing but its
-    phone. ``has_connected`` says whether it was connected at any time.
+    A JVM that ends unexpectedly is reported once in a sentence, and costs the flight only its
+    phone. ``has_connected`` is whether it was connected at any time.
     """
 
     def __init__(self, feed: SensorFeed, clock: Clock, say: Callable[[str], None]) -> None:
@@ -82,7 +82,7 @@ class JvmHandset:
             self._say(sentence)
 
     def lose(self, process: JavaPhoneProcess) -> None:
-        """Take that it has ended by itself."""
+        """Handle its unexpected end."""
         self._process = None
         self._feed.forget()
         process.end()
@@ -91,9 +91,9 @@ class JvmHandset:
 
 
 class JavaHandset(JvmHandset):
-    """A phone whose sensors are fed by ``tick``; it finds and keeps its links by itself.
+    """A phone whose sensors are fed by ``tick``; it finds and keeps its links without help.
 
-    ``place`` are the virtual phone's options that say where Raspilot is.
+    ``place`` are the virtual phone's options with Raspilot's addresses.
     """
 
     def __init__(
@@ -116,7 +116,7 @@ class JavaHandset(JvmHandset):
             self._options.append("--record")
 
     def start(self) -> None:
-        """Start the JVM; it connects as soon as it is there."""
+        """Start the JVM; it connects when it is up."""
         if self._process is None:
             self._process = JavaPhoneProcess(self._program, *self._options, *self._place())
 

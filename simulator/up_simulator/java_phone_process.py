@@ -22,11 +22,10 @@ MOST_UNREAD = 1 << 20
 
 
 class JavaPhoneProcess:
-    """One JVM, started at once, ended with us; its error output is kept in a folder of its own.
+    """One JVM, started by the constructor, ended with us; its error output goes to a folder.
 
     ``ask`` and ``answer`` are for one that answers every line, ``say`` and ``hear`` for one that
-    goes on by itself. Once it has ended, all of them do nothing, and ``last_words`` says how that
-    came.
+    runs freely. Once it has ended, all of them do nothing, and ``last_words`` has the reason.
     """
 
     def __init__(self, program: JavaProgram, *options: str) -> None:
@@ -96,7 +95,7 @@ class JavaPhoneProcess:
         return list(self._read_lines()) if self._is_heard else []
 
     def end(self) -> None:
-        """End it: it is asked to by the end of its input."""
+        """End it by closing its input."""
         self._is_heard = False
         if self._is_ended:
             return

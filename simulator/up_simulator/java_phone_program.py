@@ -48,9 +48,9 @@ class JavaProgram:
 def find_java_program(
     say: Callable[[str], None] = lambda _text: None, android: Path = ANDROID
 ) -> JavaProgram:
-    """Return the Java phone, built anew where its sources are newer than its jars.
+    """Return the Java phone, rebuilt if its sources are newer than its jars.
 
-    ``say`` is told in one sentence where it had to be left as it was. Raises JavaUnavailableError.
+    ``say`` reports in one sentence if outdated jars are used. Raises JavaUnavailableError.
     """
     java = shutil.which("java")
     if java is None:

@@ -78,7 +78,7 @@ class Phone:
         self._orientation_due_s = 0.0
 
     def set_battery(self, percent: float) -> None:
-        """Let the battery have this level now, and say so at once."""
+        """Set the battery level and report it immediately."""
         self.sensors.battery_percent = percent
         self.sensors.battery_time_s = self._flight.state.time_s
         for stream in self._streams:
@@ -86,7 +86,7 @@ class Phone:
                 stream.due_s = 0.0
 
     def connected(self, send: Callable[[bytes], None]) -> None:
-        """Begin to send on a new link: everything at once, then each in its period."""
+        """Start to send on a new link: everything immediately, then each in its period."""
         self.send = send
         self._connections += 1
         self._id = f"{self._identity}.{self._connections}"
@@ -99,7 +99,7 @@ class Phone:
         self.panic_s = 0.0
 
     def tick(self) -> None:
-        """Send what is due."""
+        """Send the data that is due."""
         now_s = self._clock.seconds()
         if self.send is not None:
             for stream in self._streams:

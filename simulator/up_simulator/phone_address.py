@@ -71,7 +71,7 @@ async def spawn(reactor: Any, runner: Runner) -> RaspberryPi:
 async def ask_runner(reactor: Any, runner: Runner, request: bytes) -> bytes:
     """Return a runner's answer to a request, both a line without its LF.
 
-    Raises ``NotFoundError`` when there is none.
+    Raises ``NotFoundError`` without an answer.
     """
     endpoint = TCP4ClientEndpoint(reactor, runner.host, runner.port, timeout=ANSWER_S)
     try:
@@ -135,7 +135,7 @@ class _Question(DatagramProtocol):
             self.answer.callback(host)
 
     def give_up(self) -> None:
-        """Say that nobody answered."""
+        """Fail: no answer in time."""
         host, port = self._place
         if not self.answer.called:
             self.answer.errback(

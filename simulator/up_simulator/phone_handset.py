@@ -16,9 +16,9 @@ Record = Callable[[FlightState], dict[str, Any]]
 
 
 class Handset(Protocol):
-    """A phone with its links; ``tick`` is to be called every few milliseconds once it began.
+    """A phone with its links; ``tick`` must be called every few milliseconds after ``start``.
 
-    ``loss`` says in a sentence how it ended by itself; None: it did not.
+    ``loss`` is a sentence about its unexpected end; None if it runs.
     """
 
     loss: str | None
@@ -28,7 +28,7 @@ class Handset(Protocol):
         """Switch it on: it connects, and connects again after every loss."""
 
     def tick(self) -> None:
-        """Do what is due."""
+        """Do the work that is due."""
 
     def set_battery(self, percent: float) -> None:
         """Let its battery have this level from now on."""

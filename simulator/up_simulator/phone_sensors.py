@@ -33,10 +33,9 @@ class PhoneSensors:
 
     GPS errors wander slowly about the truth (some metres) and jitter a little, as real ones do;
     a seed makes them repeatable. A fix is at least ``gps_delay_s`` old, 0.3 to 1.5 s drawn by the
-    seed; without ``has_gps`` there is none. The battery falls from ``battery_percent``, which it
-    had at ``battery_time_s`` of the flight. What a phone's software makes Commands of is there
-    raw, too: pressure, rotation and rate, of a phone that lies as ``mounting`` says (aircraft to
-    device).
+    seed; without ``has_gps`` there are no fixes. The battery falls from ``battery_percent``, its
+    level at ``battery_time_s`` of the flight. The raw inputs of a phone's software are included:
+    pressure, rotation and rate, of a phone mounted as in ``mounting`` (aircraft to device).
     """
 
     def __init__(self, seed: int = 1, mounting: Quaternion = MOUNTING) -> None:

@@ -1,8 +1,8 @@
-"""From a geometry to the coefficients of flight, over every angle that the air can come from.
+"""Derives the flight coefficients from a geometry, for every angle of attack and sideslip.
 
 Attached flow comes from a vortex lattice (``lattice.py``) and a drag build-up, separated flow from
 a flat plate; between them the blend of Beard and McLain (Small Unmanned Aircraft, 4.2). Each
-function says what it assumes.
+function states its assumptions.
 """
 
 from __future__ import annotations
@@ -181,7 +181,7 @@ class Derivation:
         return self.by("pitch").pitch * 2 * self.by("alpha_rad").lift / (math.pi * self.aspect)
 
     def side(self, beta_deg: float) -> float:
-        """Return the side force coefficient of a sideslip; a fuselage goes on as a body."""
+        """Return the side force coefficient of a sideslip; the fuselage contributes as a body."""
         slope = self.by("beta_rad").side
         fuselage = self.geometry.fuselage
         body = _CROSSFLOW_DRAG * fuselage.length_m * fuselage.side_height_m / self.area_m2
@@ -209,8 +209,8 @@ class Derivation:
     def lateral(self, what: str, alpha_deg: float) -> tuple[float, float]:
         """Return rolling and yawing moment by a rate, a deflection or the sideslip at an angle.
 
-        Past the stall a part of them is left, less the flatter the air comes; the roll damping
-        follows the slope of the lift, so that a stalled wing may turn by itself (strip theory).
+        Past the stall a part of them is left, less at a greater angle; the roll damping follows
+        the slope of the lift, so that a stalled wing may autorotate (strip theory).
         """
         share = self.attached(alpha_deg)
         found = self.by(what, _clipped(alpha_deg))

@@ -123,7 +123,7 @@ class FlightDynamics:
         self._servos.set(pulses_us)
 
     def advance(self, duration_s: float) -> None:
-        """Step as often as 2 ms fit; what is left is owed to the next call."""
+        """Run all whole steps of 2 ms; the remainder is added to the next call."""
         self._owed_s += duration_s
         while self._owed_s >= self.STEP_S - 1e-9:
             self._owed_s -= self.STEP_S
@@ -164,17 +164,17 @@ class FlightDynamics:
             self.crash = "the flight model has given up"
 
     def change_battery(self) -> None:
-        """Put a full battery in, in flight, as nobody else can."""
+        """Swap in a full battery in flight, which only the simulator can do."""
         self._battery.charge()
 
     def launch(self, start: Start) -> None:
-        """Begin the flight again in the air, with a full battery; the time goes on."""
+        """Restart the flight in the air, with a full battery; the time continues."""
         airframe = self.airframe
         self.crash = None
         self._launched_s = self.time_s
         self._state = None
         self._motion = None
-        # A state that is no number survives new initial conditions: build the model anew.
+        # A NaN state survives new initial conditions: rebuild the model.
         self._fdm: Any = load_model(airframe.model_path, self.STEP_S)
         seed = self._seed + self._launches
         set_initial(self._fdm, start, airframe.launch, self.weather, seed)

@@ -25,7 +25,7 @@ def _share(comment: str, default: float, most: float = 1.0) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Flap:
-    """A hinged part of a surface; a ``chord_share`` of 0 is none."""
+    """A hinged part of a surface; a ``chord_share`` of 0 means none."""
 
     chord_share: float = _share("Of the chord.", 0.0, 0.9)
     from_share: float = _share("Inner end, of the half span.", 0.0)
@@ -112,7 +112,7 @@ class Stall:
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """An aircraft as it is built: the wing, what is at its tail, its masses."""
+    """The construction of an aircraft: the wing, the tail, its masses."""
 
     notes: tuple[str, ...] = items(_NOTE, "Sentences for the notes of the model.", max_length=40)
     wing: Surface = section(Surface, "Both halves; its flap is the aileron or elevon.")

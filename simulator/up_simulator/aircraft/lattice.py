@@ -167,7 +167,7 @@ def _segment(a: Array, b: Array) -> Array:
 
 
 def _trail(from_start: Array) -> Array:
-    """Return the velocity of a vortex that begins at a point and goes aft for ever."""
+    """Return the velocity of a semi-infinite vortex from a point aft."""
     y, z = from_start[:, :, 1], from_start[:, :, 2]
     distance = np.linalg.norm(from_start, axis=2)
     factor = (1 + from_start[:, :, 0] / (distance + 1e-12)) / (y**2 + z**2 + _CORE_M**2)

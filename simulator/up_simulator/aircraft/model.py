@@ -57,7 +57,7 @@ def has_property(fdm: Any, name: str) -> bool:
 
 
 def writer(fdm: Any, name: str) -> Callable[[float], None]:
-    """Return what sets a property fast. Raises ``FlightUnavailableError`` where there is none."""
+    """Return a fast setter of a property. Raises ``FlightUnavailableError`` if it is missing."""
     if not has_property(fdm, name):
         raise FlightUnavailableError(f"the model has no property {name}")
     found: Callable[[float], None] = fdm.get_property_manager().get_node(name).set_double_value

@@ -1,4 +1,4 @@
-"""Lets JSBSim read and fly a model that is not ours, in a process of its own: it may end there."""
+"""Loads and flies a foreign JSBSim model in a separate process: JSBSim may abort there."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def check_model(path: Path, properties: Sequence[str], airspeed_m_s: float) -> d
         return {name: near for name, _, near in pairs}
     if done.returncode == _UNAVAILABLE or (not done.returncode and not done.stderr + done.stdout):
         return {}
-    # JSBSim goes on without a function that it does not understand, and says so.
+    # JSBSim only prints a message about a function that it does not understand, and continues.
     said = " ".join((done.stderr + "\n" + done.stdout).split())
     raise ModelRefusedError(said[:500] or f"it ended with status {done.returncode}")
 

@@ -11,12 +11,12 @@ _AIR_KG_M3 = 1.19
 _IDLE = 0.03
 _OFF_RPM = 400.0
 _RPM = 60 / (2 * math.pi)
-# Open-circuit volts of a LiPo cell by what is left of it.
+# Open-circuit volts of a LiPo cell by its state of charge.
 _CELL_V = ((0.0, 3.2), (0.05, 3.5), (0.1, 3.62), (0.3, 3.74), (0.5, 3.82), (0.8, 4.02), (1.0, 4.18))
 
 
 class Battery:
-    """A LiPo: its volts sag with the current and fall as it is used up."""
+    """A LiPo: its voltage sags with the current and falls with the charge used."""
 
     def __init__(self, config: BatteryConfig) -> None:
         self._config = config
@@ -42,12 +42,12 @@ class Battery:
 
     @property
     def percent(self) -> float:
-        """Return what is left, percent."""
+        """Return the state of charge, percent."""
         return 100 * self._left_c / self._capacity_c
 
     @property
     def used_mah(self) -> float:
-        """Return what was drawn since it was full, mAh."""
+        """Return the charge drawn since it was full, mAh."""
         return (self._capacity_c - self._left_c) / 3.6
 
     def charge(self) -> None:

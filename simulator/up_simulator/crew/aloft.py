@@ -14,7 +14,7 @@ from up_simulator.recorded_flight import read_recording
 
 
 class Aloft(Protocol):
-    """What flies, for a board of either kind: a ``Flight`` that a ``World`` can be made of."""
+    """The flight for a board of either kind: a ``Flight`` that a ``World`` can be made of."""
 
     @property
     def crash(self) -> str | None:
@@ -46,9 +46,9 @@ class Aloft(Protocol):
 
 
 def put_aloft(options: argparse.Namespace, airframe: Airframe, say: Callable[[str], None]) -> Aloft:
-    """Return what the options ask for, or the recorded flight where nothing else flies.
+    """Return the flight that the options select, or the recorded flight if nothing else is usable.
 
-    ``say`` is told which. Raises ``FlightUnavailableError`` for a recording that is none.
+    ``say`` gets the choice. Raises ``FlightUnavailableError`` for an invalid recording.
     """
     if options.replay is not None:
         say(f"flying the recorded flight {options.replay}: the servos have no effect")

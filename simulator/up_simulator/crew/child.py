@@ -1,4 +1,4 @@
-"""A program that somebody started, with its output kept in a file, ended whatever happens."""
+"""A child process with its output in a file, ended in every case."""
 
 from __future__ import annotations
 
@@ -24,13 +24,12 @@ _PR_SET_PDEATHSIG = 1
 
 
 class Child:
-    """One process in a session of its own, so that Ctrl-C reaches it through us alone.
+    """One process in its own session, so that Ctrl-C reaches it through us alone.
 
-    Its words are appended to ``<name>.log`` in ``folder``; ``<name>.pid`` there has its process
-    number if it is a program that writes it. On Linux it is told to end, by ``wish``,
-    when we die without a word. ``in_foreground`` leaves it the terminal; its words are not kept.
-    With ``talks`` its standard input and output are ``input`` and ``output``, and only what it
-    writes to its error output is kept.
+    Its output is appended to ``<name>.log`` in ``folder``; ``<name>.pid`` there has its process
+    number if the program writes one. On Linux it gets a signal, by ``wish``, when we die without
+    ending it. ``in_foreground`` leaves it the terminal; its output is not kept. With ``talks`` its
+    standard input and output are ``input`` and ``output``, and only its error output is kept.
     """
 
     def __init__(
@@ -185,7 +184,7 @@ def dying_wish(
 
     def wish() -> None:
         ask(_PR_SET_PDEATHSIG, number, 0, 0, 0)
-        # Who went before the wish was heard tells nobody.
+        # A parent that died before this request sends no signal.
         if os.getppid() != awaited:
             os.kill(os.getpid(), number)
 

@@ -33,7 +33,7 @@ def choose_ports(any_ports: bool = False) -> Ports:
 
 
 def choose_port_sets(count: int) -> tuple[Ports, ...]:
-    """Return so many sets of any free ports, all of them different; raises OSError."""
+    """Return this many sets of free ports, all of them different; raises OSError."""
     return _choose(count, True)
 
 

@@ -24,7 +24,7 @@ class Raspilot(Protocol):
         """Ask it to end, as a service manager does; ``is_running`` tells when it has."""
 
     def kill(self) -> None:
-        """End it at once, wherever it is, as ``kill -9`` does."""
+        """Kill it immediately in any state, as ``kill -9`` does."""
 
 
 class Ground(Protocol):
@@ -43,9 +43,9 @@ class Ground(Protocol):
         """Return when the newest frame came, in the crew's time; None before the first."""
 
     def take_latency_s(self) -> float | None:
-        """Return how old what came since the last call was, at most; None where nobody knows.
+        """Return the maximum age of the data since the last call, s; None if unknown.
 
-        Where nothing came it is the newest frame's, which was there before.
+        Without new data it is the age of the newest earlier frame.
         """
 
     @property
@@ -74,13 +74,13 @@ class Phone(Protocol):
 
     @property
     def loss(self) -> str | None:
-        """Return in a sentence how it ended by itself; None: it did not."""
+        """Return in a sentence how it ended unexpectedly; None if it has not."""
 
     def plug(self) -> None:
         """Plug it in: it connects within its own retry time."""
 
     def unplug(self) -> None:
-        """Pull the cable: nothing passes, and neither side is told."""
+        """Pull the cable: nothing passes, and neither side is notified."""
 
 
 class CrewError(Exception):

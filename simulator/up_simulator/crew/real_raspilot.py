@@ -1,4 +1,4 @@
-"""The daemon as it is started on a Raspberry Pi: ``python main.py --config DIR``."""
+"""The daemon, started as on a Raspberry Pi: ``python main.py --config DIR``."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class RealRaspilot:
         return self._alive().wait_for_line(text, limit_s)
 
     def check(self) -> None:
-        """Raise ``CrewError`` with its last words when it has ended by itself."""
+        """Raise ``CrewError`` with its last log lines if it has ended unexpectedly."""
         if self._child is not None and (status := self._child.poll()) is not None:
             raise CrewError(self._child.last_words(status))
 
@@ -70,7 +70,7 @@ class RealRaspilot:
             self._child.wait()
 
     def kill(self) -> None:
-        """End it at once, wherever it is, by ``kill -9``."""
+        """Kill it immediately in any state, by ``kill -9``."""
         if self._child is not None:
             self._child.signal(signal.SIGKILL)
             self._child.wait()

@@ -41,12 +41,12 @@ class _Server:
         self._child = Child(self.NAME, self._command, self._folder)
 
     def check(self) -> None:
-        """Raise ``CrewError`` with its last words when it has ended by itself."""
+        """Raise ``CrewError`` with its last log lines if it has ended unexpectedly."""
         if self._child is not None and (status := self._child.poll()) is not None:
             raise CrewError(self._child.last_words(status))
 
     def kill(self) -> None:
-        """End it at once by ``kill -9``."""
+        """Kill it immediately by ``kill -9``."""
         if self._child is not None:
             self._child.signal(signal.SIGKILL)
             self._child.wait()

@@ -24,16 +24,16 @@ class SerialLine(Protocol):
         """Return what has come, waiting for it up to a time."""
 
     def write(self, data: bytes) -> None:
-        """Send bytes, or drop them where nobody reads."""
+        """Send bytes, or drop them without a reader."""
 
 
 class RealTimeWorld:
-    """Flies a world for as long as a clock ran, and never after it.
+    """Flies a world in step with a clock, never ahead of it.
 
-    What was missed by more than 250 ms is skipped, not flown in a heap: it is counted in
-    ``skipped_s`` and said at most every 5 s. Each step passes the serial line's bytes, every tenth
-    moves the sticks, then ``watchers`` are called. ``clock`` only rises; ``say`` takes one line for
-    the user.
+    A delay beyond 250 ms is skipped instead of flown in a burst: it is added to ``skipped_s`` and
+    reported at most every 5 s. Each step passes the serial line's bytes, every tenth moves the
+    sticks, then ``watchers`` are called. ``clock`` is monotonic; ``say`` takes one line for the
+    user.
     """
 
     def __init__(
@@ -91,9 +91,9 @@ class RealTimeWorld:
             watch()
 
     def begin_again(self, boot: Callable[[World], None]) -> None:
-        """Let ``boot`` put the aircraft back into the air; the time that it takes is nobody's.
+        """Let ``boot`` put the aircraft back into the air; its duration does not count as delay.
 
-        Before it the sticks are where a pilot has them who switches a board on.
+        Before it the sticks are in the positions for power-on.
         """
         self._transmitter.send(Sticks())
         boot(self.world)

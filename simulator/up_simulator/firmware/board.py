@@ -32,13 +32,13 @@ class BoardImu(Protocol):
 
     @property
     def fault(self) -> ImuFault:
-        """Return what was set last."""
+        """Return the last fault set."""
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Let it fail, or mend it.
+        """Set a fault, or clear it.
 
-        frozen: it answers with the same sample for ever. unplugged: nobody answers. stuck: it
-        holds the bus. garbage: it answers with random numbers.
+        frozen: it repeats the same sample. unplugged: no answer. stuck: it holds the bus.
+        garbage: it answers with random numbers.
         """
 
 
@@ -82,7 +82,7 @@ class FirmwareBoard(Protocol):
         """Return how long ago the newest pulse of each servo ended; infinite before the first."""
 
     def read(self) -> bytes:
-        """Return what came on the serial line since the last reading."""
+        """Return the bytes from the serial line since the last call."""
 
     def write(self, data: bytes) -> None:
         """Put bytes on the serial line."""

@@ -1,4 +1,4 @@
-"""The IMU of a board as a flight sees it: what it errs by, and what is broken."""
+"""The IMU of a board as a flight sees it: its errors and its fault."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class BoardImu:
 
     @property
     def fault(self) -> ImuFault:
-        """Return what was set last."""
+        """Return the last fault set."""
         return self._fault
 
     def set_fault(self, fault: ImuFault) -> None:

@@ -86,14 +86,14 @@ class DirectBoard:
         return b""
 
     def write(self, data: bytes) -> None:
-        """Nobody reads it."""
+        """Drop the data: there is no serial line."""
 
     def reset(self, cause: ResetCause) -> None:
         """There is nothing to reset."""
 
     @property
     def eeprom(self) -> bytes:
-        """Return nothing: there is none."""
+        """Return nothing: this board has no EEPROM."""
         return b""
 
     def _send_frame(self, start_us: float) -> None:

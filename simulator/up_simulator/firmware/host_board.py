@@ -143,7 +143,7 @@ class HostBoard:
         return ailerons, elevator, throttle, rudder
 
     def read(self) -> bytes:
-        """Return what came on the serial line since the last reading."""
+        """Return the bytes from the serial line since the last call."""
         parts = []
         while size := self._library.read(self._into, _READ_SIZE):
             parts.append(self._into.raw[:size])

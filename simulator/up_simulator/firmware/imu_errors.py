@@ -38,7 +38,7 @@ class ImuErrors:
 
 
 def drawn_errors(seed: int, **known: Any) -> ImuErrors:
-    """Return the errors of one sensor of many: what is not ``known`` is drawn by the seed.
+    """Return the errors of one individual sensor: those not ``known`` are drawn by the seed.
 
     An MPU6050 may read 20 deg/s at rest (PS-MPU-6000A-00, 6.1). Drawn on each axis: a bias of 2 to
     4 deg/s with either sign, and a drift of up to 4 deg/s with the time constant ``warm_up_s``:
@@ -64,7 +64,7 @@ class ImuModel:
         self._measured_s = 0.0
 
     def measure(self, motion: Motion, time_s: float) -> Motion:
-        """Return the motion as it is measured at a time since power-on, which never falls."""
+        """Return the measured motion at a time since power-on, which never falls."""
         errors = self.errors
         p, q, r = errors.gyro_bias_deg_s
         x, y, z = errors.accel_bias_m_s2

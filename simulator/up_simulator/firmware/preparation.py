@@ -54,8 +54,8 @@ def prepared_eeprom(
 ) -> bytes:
     """Return the EEPROM of a board of this kind that holds an airframe's profile and gains.
 
-    The work is done once for each firmware and each set of values and then kept beside what was
-    built. Raises ``BoardUnavailableError``, ``BoardCrashedError``, ``SettingsError`` and
+    The result is computed once for each firmware and each set of values and cached beside the
+    build. Raises ``BoardUnavailableError``, ``BoardCrashedError``, ``SettingsError`` and
     ``PreparationError``.
     """
     if kind == "direct":
@@ -76,11 +76,12 @@ def prepared_eeprom(
 def prepare_eeprom(
     board: FirmwareBoard, profile: Mapping[str, Any], gains: Mapping[str, Any]
 ) -> bytes:
-    """Boot a board, write profile and gains, and return what its EEPROM then holds.
+    """Boot a board, write profile and gains, and return its EEPROM afterwards.
 
-    ``profile`` is shaped like airframe.yml, ``gains`` like pids.yml; what is null or missing the
-    board keeps. The values are read back after another power-on. The board ends disarmed, at
-    rest and level. Raises ``PreparationError``, ``SettingsError`` and ``BoardCrashedError``.
+    ``profile`` is shaped like airframe.yml, ``gains`` like pids.yml; for null or missing values
+    the board keeps its own. The values are read back after another power-on. The board ends
+    disarmed, at rest and level. Raises ``PreparationError``, ``SettingsError`` and
+    ``BoardCrashedError``.
     """
     talk = _Talk(board)
     board.set_motion(motion_at(0.0, 0.0))

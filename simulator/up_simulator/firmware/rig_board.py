@@ -1,4 +1,4 @@
-"""The firmware as it is compiled, on a simulated ATmega328P."""
+"""The compiled firmware on a simulated ATmega328P."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ class RigBoard:
         return ailerons, elevator, throttle, rudder
 
     def read(self) -> bytes:
-        """Return what came on the serial line since the last reading."""
+        """Return the bytes from the serial line since the last call."""
         return self._rig.serial.read()
 
     def write(self, data: bytes) -> None:
@@ -148,7 +148,7 @@ class RigBoard:
         return self.now_us - (pulse.rise_cycle + pulse.width_cycles) / CYCLES_PER_US
 
     def _switch(self, channel: str, is_on: bool) -> None:
-        # Frames go on unsent meanwhile: one that began anew could run into the one before.
+        # Frames continue without output: a restarted frame could run into the one before.
         if is_on:
             self._rig.receiver.resume(channel)
         else:

@@ -68,7 +68,7 @@ class BoardStatus:
 
     @property
     def is_restored(self) -> bool:
-        """Return whether the state of before the reset came back."""
+        """Return whether the state from before the reset was restored."""
         return bool(self.cause & 128)
 
 
@@ -94,11 +94,11 @@ class Inputs:
 
 
 class BoardTap:
-    """Feeds on the bytes that a board sends; each datum has the time at which it was complete.
+    """Decodes the bytes that a board sends; each datum has the time at which it was complete.
 
-    Nothing here is older than what came: a datum that no longer comes stays, and its ``_s`` tells.
-    ``counts`` counts the messages of each type, ``bad_frames`` what was no message, ``missing``
-    what the sequence says was lost. A frame that a reset cuts is a bad one.
+    A datum that no longer arrives keeps its last value, and its ``_s`` shows the age. ``counts``
+    counts the messages of each type, ``bad_frames`` the invalid ones, ``missing`` the gaps in the
+    sequence. A frame cut by a reset is invalid.
     """
 
     def __init__(self) -> None:
@@ -143,7 +143,7 @@ class BoardTap:
 
     def _messages(self, data: bytes) -> Iterator[Command]:
         *frames, self._buffer = (self._buffer + data).split(b"\0")
-        # What is longer than any frame is counted when it ends; its length need not be kept.
+        # An overlong frame is counted when it ends; its length need not be kept.
         self._buffer = self._buffer[: LONGEST_ENCODED + 1]
         for encoded in frames:
             if not encoded:

@@ -20,11 +20,11 @@ class _Life:
 
 
 class UptimeAges:
-    """Tells ages by ``system.uptime_s``, for a daemon whose own clock nobody else can read.
+    """Measures ages by ``system.uptime_s``, for a daemon with an unreadable clock.
 
-    Of each life of the daemon the frame that came quickest counts as 0 s old. The uptime has whole
-    seconds: an age is told up to 1 s too great, and too small by no more than that frame's own age
-    and a telemetry period. A life is known by its beacons, so that an old frame stays one.
+    In each run of the daemon the quickest frame counts as 0 s old. The uptime has whole seconds:
+    an age is up to 1 s too great, and too small by at most that frame's own age and a telemetry
+    period. A run is identified by its beacons, so that an old frame stays one.
     """
 
     def __init__(self) -> None:

@@ -80,7 +80,7 @@ class InProcessGround:
         return self._newest_s
 
     def take_latency_s(self) -> float | None:
-        """Return the greatest age of what came since the last call, else the newest frame's."""
+        """Return the maximum age of the data since the last call, otherwise the newest frame's."""
         worst_s, self._worst_age_s = self._worst_age_s, None
         found_s = self._newest_age_s if worst_s is None else worst_s
         return None if found_s == math.inf else found_s
@@ -123,12 +123,12 @@ class InProcessGround:
         return self._answers.get(command_id)
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take what comes from the aircraft."""
+        """Take a message from the aircraft."""
         now_s = self._reactor.seconds()
         if self._received.take(message, now_s):
             self._newest_s = now_s
             age_s = self._frame_age(message, now_s)
-            # Nobody knows how old: that may be any age.
+            # The age is unknown: it may have any value.
             self._newest_age_s = math.inf if age_s is None else age_s
             self._worst_age_s = max(self._newest_age_s, self._worst_age_s or 0.0)
         elif message.name in ("up.ack", "up.nack"):
@@ -155,7 +155,7 @@ class _TokenInMemory(TokenStore):
         self._token: str | None = None
 
     def hold(self) -> bool:
-        """Nobody else has it."""
+        """Return True: no other program shares this token."""
         return True
 
     def load(self) -> str | None:

@@ -20,10 +20,10 @@ _TINY_S = 1e-6
 
 
 class SteppedJavaHandset(JvmHandset):
-    """A JVM in lock-step: it is asked only when a timer, a reading or its network wants it.
+    """A JVM in lock-step: it runs only when a timer, a reading or its network is due.
 
-    Its sockets are opened on ``machine``, so that the same seed gives the same flight. The JVM is
-    started at once: it is there when the firmware has booted.
+    Its sockets are opened on ``machine``, so that the same seed gives the same flight. The
+    constructor starts the JVM, so that it is up when the firmware has booted.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""One program's reactor: everything that it opened can be cut off at once."""
+"""One program's reactor: all that the program opened can be cut off in one call."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ class TimedCall(DelayedCall):
 
 @implementer(IReactorTime, IReactorTCP, IReactorUDP, IReactorFDSet, IReactorPluggableNameResolver)
 class Machine:
-    """What a program takes for its reactor; sockets stay in this process, at 127.0.0.1.
+    """The reactor that a program sees; its sockets stay in this process, at 127.0.0.1.
 
-    ``cut_off`` is its end without a word: no timer, descriptor or port of it is left. Between
-    ``freeze`` and ``thaw`` it stands still as a stopped process: its system still acknowledges
-    what comes, and it finds everything when it goes on.
+    ``cut_off`` kills the program: no timer, descriptor or port of it is left. Between ``freeze``
+    and ``thaw`` it is suspended like a stopped process: its system still acknowledges arriving
+    data, and the program finds all of it when it resumes.
     """
 
     def __init__(self, reactor: SimulatedReactor, name: str) -> None:
@@ -74,15 +74,15 @@ class Machine:
         self.reactor.call_from_thread(partial(self.do, partial(callable, *args, **kw)))
 
     def callWhenRunning(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
-        """Make a call at once: time is always running here."""
+        """Call immediately: this reactor is always running."""
         callable(*args, **kw)
 
     def getDelayedCalls(self) -> list[TimedCall]:  # noqa: N802 - Twisted's name
-        """Return what is still to be called."""
+        """Return the pending calls."""
         return [each for each in self._calls if each.active()]
 
     def addSystemEventTrigger(self, *_: object, **__: object) -> object:  # noqa: N802
-        """Keep nothing: this reactor never shuts down by itself."""
+        """Keep nothing: this reactor never shuts down on its own."""
         return object()
 
     def removeSystemEventTrigger(self, _: object) -> None:  # noqa: N802 - Twisted's name
@@ -125,7 +125,7 @@ class Machine:
     def listenTCP(  # noqa: N802 - Twisted's name
         self, port: int, factory: Any, backlog: int = 50, interface: str = ""
     ) -> TcpPort:
-        """Listen in memory; raises CannotListenError where somebody else does already."""
+        """Listen in memory; raises CannotListenError if the port is in use."""
         listening = TcpPort(self, port, factory, interface)
         listening.startListening()
         return listening
@@ -150,7 +150,7 @@ class Machine:
         interface: str = "",
         maxPacketSize: int = 8192,  # noqa: N803 - Twisted's name
     ) -> UdpPort:
-        """Receive datagrams in memory; raises CannotListenError where somebody else does."""
+        """Receive datagrams in memory; raises CannotListenError if the port is in use."""
         listening = UdpPort(self, port, protocol, interface)
         listening.startListening()
         return listening
@@ -161,7 +161,7 @@ class Machine:
         return before
 
     def do(self, call: Callable[..., Any], *arguments: Any) -> None:
-        """Let something happen to the program now, or when it goes on."""
+        """Call into the program now, or when it resumes."""
         if self.is_frozen:
             self._missed.append((call, arguments))
         elif self.running:
@@ -174,7 +174,7 @@ class Machine:
             self._taken_descriptors = self.reactor.take_descriptors(self._descriptors)
 
     def keep_call(self, call: TimedCall) -> None:
-        """Keep a call whose time came meanwhile."""
+        """Keep a call that became due while frozen."""
         self._late_calls.append(call)
 
     def thaw(self) -> None:
@@ -197,7 +197,7 @@ class Machine:
             self.reactor.guarded(call, *arguments)
 
     def cut_off(self) -> None:
-        """End at once, as a killed process: its system closes what it leaves behind."""
+        """Kill the program: its system closes all that it leaves behind."""
         self.running = False
         for call in self._calls:
             if call.active():
@@ -223,7 +223,7 @@ class LiteralResolver:
         addressTypes: Any = None,  # noqa: N803 - Twisted's name
         transportSemantics: str = "TCP",  # noqa: N803 - Twisted's name
     ) -> Any:
-        """Answer a literal address by itself at once, anything else by nothing."""
+        """Resolve a literal address to itself, any other name to nothing."""
         resolutionReceiver.resolutionBegan(self)
         try:
             address = ip_address(hostName)

@@ -30,7 +30,7 @@ class Route:
 
     @property
     def is_perfect(self) -> bool:
-        """Return whether there is no link in between."""
+        """Return whether the route has no simulated link."""
         return self.pipe is None
 
     def carry(self, size: int, call: Callable[..., object], *arguments: Any) -> None:
@@ -58,7 +58,7 @@ class Network:
         self._next_port = FIRST_FREE_PORT
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Let what goes to a port pass ``up``, what comes from it ``down``."""
+        """Route data to a port through ``up``, data from it through ``down``."""
         self._links[port] = (up, down)
 
     def routes(self, port: int, *, is_datagram: bool = False) -> tuple[Route, Route]:
@@ -76,7 +76,7 @@ class Network:
         return self.routes(source, is_datagram=True)[1]
 
     def bind(self, table: dict[int, Any], port: int, who: Any, interface: str) -> int:
-        """Give a port to somebody, 0 for any that is free; raises CannotListenError."""
+        """Bind a port, 0 for any free one; raises CannotListenError."""
         if port and port in table:
             error = OSError(EADDRINUSE, strerror(EADDRINUSE))
             raise CannotListenError(interface, port, error)
@@ -104,7 +104,7 @@ class Network:
                 end.on_reset()
 
     def move(self, now_s: float) -> None:
-        """Bring what has arrived by now, then let leave what was written."""
+        """Deliver the data that has arrived, then send the written data."""
         for _ in range(len(self.next_step)):
             call, arguments = self.next_step.popleft()
             call(*arguments)

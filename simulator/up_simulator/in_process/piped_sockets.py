@@ -25,7 +25,7 @@ class PipedSockets:
         self.is_urgent = False
 
     def take(self) -> list[list[Any]]:
-        """Return what came since the last call."""
+        """Return the events since the last call."""
         for connection in list(self._connections.values()):
             connection.tell_room()
         taken, self._brought = self._brought, []
@@ -126,7 +126,7 @@ class _Connection(Protocol):
             self._sockets.bring("room", self._number, left)
 
     def end(self) -> None:
-        """Cut it off; nobody is told any more."""
+        """Abort the connection without a notification."""
         self._has_ended = True
         if self.transport is not None:
             transport: Any = self.transport
@@ -142,11 +142,11 @@ class _Connection(Protocol):
             self._sockets.is_urgent = True
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Do nothing: the end of the connection is told besides."""
+        """Do nothing: the end of the connection is reported separately."""
 
 
 class _Once(ClientFactory):
-    """Makes the one protocol, or tells why there is no connection."""
+    """Makes the one protocol, or reports why the connection failed."""
 
     noisy = False
 

@@ -1,4 +1,4 @@
-"""The daemon as it is, in this process and in simulated time."""
+"""The unmodified daemon, in this process and in simulated time."""
 
 from __future__ import annotations
 
@@ -151,7 +151,7 @@ class InProcessRaspilot:
         done.addBoth(lambda _: self.kill() if self._machine is machine else None)
 
     def kill(self) -> None:
-        """Cut everything at once: timers, ports, connections, and the serial line in mid-frame."""
+        """Cut off timers, ports, connections, and the serial line in mid-frame."""
         machine, self._machine = self._machine, None
         if machine is None:
             return

@@ -9,8 +9,8 @@ from contextlib import suppress
 class SocketLine:
     """The board's end of a line in this process; ``open`` gives the other end.
 
-    Bytes pass at once and in order, without the system's own time as on a pty. Opening it again
-    hangs up on the end before. ``unplug`` takes the whole adapter away: the port is gone.
+    Bytes pass in order and without the delays of a pty. A second ``open`` hangs up on the end
+    before. ``unplug`` removes the whole adapter: the port is gone.
     """
 
     def __init__(self) -> None:
@@ -19,7 +19,7 @@ class SocketLine:
         self._other: socket.socket | None = None
 
     def open(self) -> socket.socket:
-        """Return the other end, which whoever asked has to close."""
+        """Return the other end, which the caller has to close."""
         self.hang_up()
         self._own, self._other = socket.socketpair()
         self._own.setblocking(False)
@@ -38,7 +38,7 @@ class SocketLine:
             return b""
 
     def write(self, data: bytes) -> None:
-        """Send bytes; what nobody reads is dropped."""
+        """Send bytes; without a reader they are dropped."""
         if self._own is not None:
             with suppress(OSError):
                 self._own.send(data)
@@ -48,7 +48,7 @@ class SocketLine:
         self.is_plugged = True
 
     def unplug(self) -> None:
-        """Take the port away: whoever has it open is hung up on."""
+        """Remove the port: an open end is hung up."""
         self.is_plugged = False
         self.hang_up()
 

@@ -46,8 +46,8 @@ class Owner(Protocol):
 class TcpEnd:
     """One end; ``peer`` is the other, which is only reached through the route.
 
-    Whatever is not acknowledged is sent again. A connection ends by a FIN, by a reset, or by
-    silence: TCP_USER_TIMEOUT for bytes that nobody acknowledges, keepalive for one that is idle.
+    Unacknowledged data is sent again. A connection ends by a FIN, by a reset, or by silence:
+    TCP_USER_TIMEOUT for unacknowledged bytes, keepalive for an idle one.
     """
 
     def __init__(self, clock: Any, route: Route) -> None:
@@ -84,13 +84,13 @@ class TcpEnd:
             self._send(data[at : at + SEGMENT], is_last=False)
 
     def finish(self) -> None:
-        """Send no more: a FIN after what is on its way."""
+        """Send no more: a FIN follows the data in flight."""
         if not self._is_finished and not self.is_closed:
             self._is_finished = True
             self._send(b"", is_last=True)
 
     def close(self) -> None:
-        """Leave the connection to the system: what was sent still arrives, then the FIN."""
+        """Leave the connection to the system: sent data still arrives, then the FIN."""
         self.owner = None
         if self._unread:
             self.reset()
@@ -99,7 +99,7 @@ class TcpEnd:
             self._stop_probing()
 
     def reset(self) -> None:
-        """End it at once and tell the other side."""
+        """Abort it and notify the other side."""
         if not self.is_closed:
             self._route.carry(HEADER, self.peer.on_reset)
             self._end()
@@ -119,7 +119,7 @@ class TcpEnd:
             self._clock.callLater(0, self._hand_over)
 
     def watch(self) -> None:
-        """Look at the options anew: keepalive begins when it was asked for."""
+        """Apply changed options: keepalive starts when it has been enabled."""
         if self.options.keeps_alive and self._probe is None and not self._route.is_perfect:
             self._schedule_probe(self.options.keepalive[0])
 
@@ -211,7 +211,7 @@ class TcpEnd:
         self.establish()
 
     def _refuse(self) -> None:
-        """Answer a packet that belongs to no connection any more."""
+        """Answer a packet of a connection that no longer exists."""
         if not self.peer.is_closed:
             self._route.carry(HEADER, self.peer.on_reset)
 

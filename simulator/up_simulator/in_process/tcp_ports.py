@@ -87,7 +87,7 @@ class _Attempt:
         self.is_over = False
 
     def knock(self) -> None:
-        """Ask, and ask again when nobody answers."""
+        """Send a SYN, and again without an answer."""
         if not self.is_over:
             self._up.carry(HEADER, self._asked)
             self._again = self._clock.callLater(self._wait_s, self.knock)
@@ -109,7 +109,7 @@ class _Attempt:
             there = TcpEnd(self._network.clock, self._down)
             self._here.peer, there.peer = there, self._here
             self._network.note_connection(self._port, (self._here, there))
-            # Before whatever the other side sends: it may cut the connection off at once.
+            # Before any data of the other side, which may cut the connection off immediately.
             self._down.carry(HEADER, self._answered)
             port.accept(there, self._own_port)
         else:
@@ -195,7 +195,7 @@ class Connector:
         end.establish()
 
     def fail(self, error: Exception) -> None:
-        """Tell that there is no connection."""
+        """Report that the connection failed."""
         if self.state == "connecting":
             self._stop()
             self.state = "disconnected"

@@ -79,7 +79,7 @@ class TcpTransport:
         self._want_to_write()
 
     def abortConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Cut the connection off; the other side is told by a reset."""
+        """Abort the connection; the other side gets a reset."""
         if not self.disconnected and self._end.owner is self:
             self._end.reset()
             self._machine.callLater(0, self._lost, ConnectionAborted())
@@ -101,7 +101,7 @@ class TcpTransport:
         self._end.options.has_no_delay = bool(enabled)
 
     def getTcpNoDelay(self) -> bool:  # noqa: N802 - Twisted's name
-        """Return what was set."""
+        """Return the option's value."""
         return self._end.options.has_no_delay
 
     def setTcpKeepAlive(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
@@ -111,7 +111,7 @@ class TcpTransport:
         self._machine.callLater(0, self._end.watch)
 
     def getTcpKeepAlive(self) -> bool:  # noqa: N802 - Twisted's name
-        """Return what was set."""
+        """Return the option's value."""
         return self._end.options.keeps_alive
 
     def registerProducer(self, producer: Any, streaming: bool) -> None:  # noqa: N802
@@ -142,7 +142,7 @@ class TcpTransport:
             self._end.set_reading(True)
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Close, as a consumer of what is read asks."""
+        """Close, as the consumer requests."""
         self.loseConnection()
 
     # What the network and the machine call.
@@ -181,7 +181,7 @@ class TcpTransport:
             self._end.close()
 
     def refuse(self) -> None:
-        """End a connection that nobody wants."""
+        """Reset a refused connection."""
         self.disconnected = True
         self._machine.opened.pop(self, None)
         self._end.reset()

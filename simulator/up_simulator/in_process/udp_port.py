@@ -17,7 +17,7 @@ LARGEST = 65507
 
 @implementer(IListeningPort, IUDPTransport)
 class UdpPort:
-    """A port for datagrams; whatever goes to nobody vanishes."""
+    """A port for datagrams; those without a receiver vanish."""
 
     def __init__(self, machine: Any, port: int, protocol: Any, interface: str) -> None:
         self.protocol = protocol

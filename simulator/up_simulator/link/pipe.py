@@ -1,4 +1,4 @@
-"""What is on its way through one direction of a link."""
+"""Packets in flight through one direction of a link."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ _T = TypeVar("_T")
 
 
 class LinkPipe(Generic[_T]):
-    """Holds what was sent until the model says that it arrives; the order is kept.
+    """Holds packets until the model's arrival time; the order is kept.
 
-    Several pipes may share a model, as connections share a cable. ``lost`` counts what vanished.
+    Several pipes may share a model, as connections share a cable. ``lost`` counts lost packets.
     """
 
     def __init__(self, model: LinkModel, *, is_datagram: bool = False) -> None:
@@ -53,5 +53,5 @@ class LinkPipe(Generic[_T]):
         return arrived
 
     def clear(self) -> None:
-        """Forget what is on its way."""
+        """Drop all packets in flight."""
         self._waiting.clear()

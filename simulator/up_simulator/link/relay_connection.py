@@ -101,7 +101,7 @@ class _End(Protocol):
             transport.loseConnection()
 
     def abort(self) -> None:
-        """Close at once."""
+        """Abort the connection."""
         if self.is_connected:
             transport: Any = self.transport
             transport.abortConnection()
@@ -175,7 +175,7 @@ class RelayedConnection:
             end.incoming.is_blocked = False
 
     def on_finished(self) -> None:
-        """One end was told that the other sends no more."""
+        """Handle the half-close of one end."""
         self._finished += 1
         if self._finished == 2:
             self.near.close()

@@ -43,7 +43,7 @@ class Clock(Protocol):
 
 @dataclass(slots=True)
 class _Packet:
-    """What is on its way, when it arrives (None: it is lost), and how many blackouts ago."""
+    """A packet in flight, its arrival time (None: it is lost), and the blackouts before it."""
 
     content: bytes | Signal
     size: int
@@ -55,10 +55,10 @@ class _Packet:
 class LinkStream:
     """Carries packets by a model and hands each to ``deliver`` when it has arrived.
 
-    What the model loses is sent again, as TCP does: first after 0.2 s or two round trips, then
-    each time after twice as long, up to 120 s. ``is_blocked`` is the receiver that takes no more.
-    With ``user_timeout_s``, ``on_silence`` is called when nothing has arrived for so long although
-    something is on its way.
+    Lost packets are sent again, as TCP does: first after 0.2 s or two round trips, then each time
+    after twice the interval, up to 120 s. ``is_blocked`` means that the receiver takes no more.
+    ``on_silence`` is called when packets are in flight and none has arrived for
+    ``user_timeout_s``.
     """
 
     def __init__(
@@ -172,7 +172,7 @@ class LinkStream:
             self._retry_at_s = max(now_s, first.sent_s + self._retry_s)
         if now_s < self._retry_at_s - _TINY_S:
             return False
-        # The receiver keeps nothing that comes before what is missing: all of it goes again.
+        # The receiver keeps nothing beyond a gap: all packets go again.
         for packet in self._packets:
             self._launch(packet, now_s)
         if not self._has_vanished(first):
@@ -208,7 +208,7 @@ class LinkStream:
         self._run()
         silent_s = self._clock.seconds() - self._progress_s
         if self._packets and not self._is_blocked and silent_s >= self._user_timeout_s - _TINY_S:
-            # Who has given up says so once; only a reset is still on its way then.
+            # Report a timeout only once; only a reset may be in flight then.
             self._user_timeout_s = math.inf
             self._on_silence()
 
