@@ -33,7 +33,7 @@ class PhoneSensors:
 
     GPS errors wander slowly about the truth (some metres) and jitter a little, as real ones do;
     a seed makes them repeatable. A fix is at least ``gps_delay_s`` old, 0.3 to 1.5 s drawn by the
-    seed; without ``has_gps`` there are no fixes. The battery falls from ``battery_percent``, its
+    seed; without ``has_gps`` none exists. The battery falls from ``battery_percent``, its
     level at ``battery_time_s`` of the flight. The raw inputs of a phone's software are included:
     pressure, rotation and rate, of a phone mounted as in ``mounting`` (aircraft to device).
     """

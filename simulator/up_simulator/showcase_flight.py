@@ -36,10 +36,10 @@ WHO_HOLDS = {
 
 
 class ShowcaseFlight:
-    """One run: ``start`` says what flies what, ``stay`` watches it, ``stop`` ends everything.
+    """One run: ``start`` prints the components, ``stay`` watches them, ``stop`` ends all of them.
 
     ``say`` takes one line for the user. Raises ``AirframeError``, and ``CrewError`` with the last
-    words of a part that failed.
+    log lines of a part that failed.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class ShowcaseFlight:
         if options.link:
             say(f"  link       from the aircraft to the proxy: {options.link}")
         if not options.no_page:
-            # Nobody waits for it before all that flies is up.
+            # It is not awaited before the parts that fly are up.
             self._page = Page(folder, ports, options.page)
             self._children.append(self._page.child)
         aircraft.wait_for(self._has_board, "board", BUILD_LIMIT_S)
@@ -153,7 +153,7 @@ class ShowcaseFlight:
         )
 
     def _has_board(self, lines: list[str]) -> bool:
-        """Say what the aircraft has said meanwhile, and return whether its board is chosen."""
+        """Print the aircraft's new lines, and return whether its board is chosen."""
         for line in lines[self._told :]:
             if not line.startswith(("phone:", "board")):
                 self._say(f"  aircraft   {line}")
@@ -247,5 +247,5 @@ def _restore_terminal(settings: Any) -> None:
     sys.stdout.write(AS_BEFORE)
     sys.stdout.flush()
     with suppress(termios.error):
-        # What was typed for the picture is not for us.
+        # Keys typed for the screen are not for us.
         termios.tcsetattr(sys.stdin, termios.TCSAFLUSH, settings)

@@ -1,4 +1,4 @@
-"""What ``make run`` tells its user to try, as somebody types it in another terminal."""
+"""The commands that ``make run`` suggests for another terminal."""
 
 from __future__ import annotations
 
@@ -46,5 +46,5 @@ def log_hints(flights: Path) -> list[str]:
 
 
 def program(name: str) -> str:
-    """Return how somebody types a program of the project here."""
+    """Return the shell command of a program of the project."""
     return os.path.relpath(Path(sys.executable).parent / name)

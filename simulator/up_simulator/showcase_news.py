@@ -1,4 +1,4 @@
-"""What of the aircraft's words ``make run`` tells its user at once."""
+"""Selects the lines of the aircraft's output that ``make run`` prints immediately."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _LATE = re.compile(r"late by ([0-9]+(?:\.[0-9]+)?) s")
 
 
 class News:
-    """Chooses lines; how late the flight is on a busy machine is said once, then once a minute.
+    """Selects lines; the lateness on a busy machine is reported at first, then once a minute.
 
     ``now_s`` is a monotonic clock.
     """

@@ -47,7 +47,7 @@ class Page:
 
     @property
     def why_not(self) -> str:
-        """Return in words why there is no page."""
+        """Return in words why the page is missing."""
         status = self.child.poll()
         if status is None:
             return f"it names no address within {LIMIT_S:.0f} s (its log: {self.child.log})"

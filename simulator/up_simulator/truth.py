@@ -1,4 +1,4 @@
-"""The true state as it is written into a flight's log, beside what was measured."""
+"""The true state for a flight's log, beside the measurements."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _DIGITS = {"latitude_deg": 8, "longitude_deg": 8}
 
 
 def truth_of(state: FlightState, names: dict[str, str] = NAMES) -> dict[str, float]:
-    """Return the values by their names in the log; what is no number is left out."""
+    """Return the values by their names in the log; omits values that are not numbers."""
     values = {name: getattr(state, field) for name, field in names.items()}
     return {
         name: round(value, _DIGITS.get(name, 4))

@@ -38,5 +38,5 @@ class Valve:
         self._is_open = True
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Close for ever."""
+        """Close permanently."""
         self._is_open = False

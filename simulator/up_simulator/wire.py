@@ -35,7 +35,7 @@ def checked_frame(sequence: int, type_letter: str, payload: bytes = b"") -> byte
 
 
 def cobs_decode(encoded: bytes) -> bytes | None:
-    """Return what was encoded; None for what is not COBS."""
+    """Return the decoded bytes; None for invalid COBS."""
     try:
         return cobs.decode(encoded)
     except cobs.CobsError:

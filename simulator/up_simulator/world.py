@@ -20,7 +20,7 @@ THROTTLE, THROTTLE_LOW_US, THROTTLE_RANGE_US = 2, 1000.0, 1000.0
 
 
 class Dynamics(Protocol):
-    """What flies: the servos move it, and it says what an IMU aboard feels."""
+    """The flight: the servos move it, and it feeds the IMU aboard."""
 
     @property
     def state(self) -> FlightState:
@@ -91,7 +91,7 @@ class World:
         self._feel(pulses_us)
 
     def advance(self, duration_s: float) -> None:
-        """Make as many steps as fit into what was asked so far. Raises ``BoardCrashedError``."""
+        """Run all whole steps of the time requested so far. Raises ``BoardCrashedError``."""
         self._owed_s += duration_s
         while self._owed_s >= STEP_S - 1e-9:
             self._owed_s -= STEP_S

@@ -86,7 +86,7 @@ class DirectBoard:
         return b""
 
     def write(self, data: bytes) -> None:
-        """Drop the data: there is no serial line."""
+        """Drop the data: this board has no serial line."""
 
     def reset(self, cause: ResetCause) -> None:
         """There is nothing to reset."""

@@ -1,4 +1,4 @@
-"""The picture of a flight: what was asked, what the aircraft did, what happened, and where."""
+"""The picture of a flight: demands, response, events and track."""
 
 from __future__ import annotations
 
@@ -168,7 +168,7 @@ def _lines(log: Log, failures: Sequence[Failure], left_out: int) -> list[tuple[s
     ):
         values = [value for value in numbers(log, name) or () if math.isfinite(value)]
         if values:
-            # Adding zero to what is rounded makes a minus zero plain.
+            # Adding zero turns a rounded minus zero into zero.
             low, high = (round(each, 2) + 0.0 for each in (min(values), max(values)))
             lines.append((words.format(low, high).replace("-0 ", "0 "), False))
     for name, words in (("error.roll_deg", "roll error"), ("error.pitch_deg", "pitch error")):

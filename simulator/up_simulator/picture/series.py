@@ -1,4 +1,4 @@
-"""What is drawn of a log: its columns as numbers, thinned so that a long flight stays drawable."""
+"""Columns of a log as numbers for drawing, thinned so that a long flight stays drawable."""
 
 from __future__ import annotations
 

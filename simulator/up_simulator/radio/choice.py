@@ -29,9 +29,9 @@ def choose_radio(
 ) -> Radio:
     """Return the radio of a name: circle, script, keyboard, or a game controller's device.
 
-    ``moves`` is a script for the first two; ``is_armed`` tells that the board is armed before the
-    flight, where ``is_armed_at_first`` wants it; ``on_leave`` is called when the keyboard's pilot
-    leaves; ``mode`` names what the board flies, or nothing. Raises ``RadioError``.
+    ``moves`` is a script for the first two; ``is_armed`` returns whether the board is armed before
+    the flight, if ``is_armed_at_first`` requires it; ``on_leave`` is called when the keyboard's
+    pilot leaves; ``mode`` returns the board's mode, or nothing. Raises ``RadioError``.
     """
     if name == "circle":
         pilot = CirclingPilot(has_motor=has_motor, is_armed=is_armed, mode=mode)

@@ -45,10 +45,9 @@ class Circuit:
 class CirclingPilot:
     """Moves the sticks so that the aircraft stays near and high, for as long as it flies.
 
-    The sticks are those of the mode that the board says it flies: ``mode`` names it, and where it
-    names nothing they are those of FBW. The switch stands at ``switch``. Where the board
-    ``is_armed`` already, AUX2 is up from the beginning; else it rises soon, then the throttle.
-    Without a motor the height is what the air leaves of it.
+    The sticks suit the board's reported mode: ``mode`` returns it, and without a report FBW is
+    assumed. The switch stands at ``switch``. If the board ``is_armed`` already, AUX2 is up from the
+    beginning; otherwise it rises soon, then the throttle. Without a motor the height is not held.
     """
 
     def __init__(

@@ -67,7 +67,7 @@ class KeyboardSticks:
         return self._sticks
 
     def _centre(self, time_s: float) -> None:
-        """Let every stick go back that nobody has held for a while."""
+        """Recentre the sticks whose keys have been released for a while."""
         for channel, pressed_s in self._pressed_s.items():
             released_s = max(pressed_s + HELD_S, self._now_s)
             if time_s <= released_s:

@@ -29,7 +29,7 @@ class Seen:
 
 
 def write_sticks(sticks: Sticks | None) -> bytes:
-    """Return what the radio sends; None gives the sticks back and asks what is to be seen."""
+    """Return the radio's datagram; None gives the sticks back and requests the state."""
     return json.dumps({"sticks": None if sticks is None else _sticks(sticks)}).encode("ascii")
 
 
@@ -91,7 +91,7 @@ def _object(datagram: bytes) -> dict[str, Any]:
 
 
 class _Complete(dict[str, Any]):
-    """A mapping in which what is missing is a wrong value, not a bug."""
+    """A mapping in which a missing key is a wrong value, not a bug."""
 
     def __missing__(self, key: str) -> Any:
         raise ValueError(f"{key} is missing")

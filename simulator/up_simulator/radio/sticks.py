@@ -49,13 +49,13 @@ class Sticks:
 
 
 class Radio(Protocol):
-    """Somebody, or something, that moves the sticks."""
+    """A source of stick positions."""
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
         """Return where they stand at a time that only rises; ``state`` is what the pilot sees."""
 
     def close(self) -> None:
-        """Give back what was taken: a terminal, a device, a socket."""
+        """Release the terminal, the device or the socket."""
 
 
 class ReceivingBoard(Protocol):
@@ -69,7 +69,7 @@ class ReceivingBoard(Protocol):
 
 
 class Transmitter:
-    """Hands sticks to a receiver; only what has moved is told."""
+    """Sends sticks to a receiver; only changes are sent."""
 
     def __init__(self, receiver: ReceivingBoard) -> None:
         self._receiver = receiver
@@ -81,7 +81,7 @@ class Transmitter:
             pulse_us = getattr(sticks, channel)
             if self._sent is None or getattr(self._sent, channel) != pulse_us:
                 self._receiver.set_stick(channel, pulse_us)
-        # A receiver is on by itself: to switch it on again would begin its frames anew.
+        # A receiver starts switched on: switching it on again would restart its frames.
         was_on = self._sent is None or self._sent.is_on
         if was_on != sticks.is_on:
             self._receiver.set_receiver(sticks.is_on)

@@ -98,7 +98,7 @@ class BoardTopics:
             yield FlightStateCommand.NAME, {**state, ORIGIN: BOARD}
 
     def _told(self, row: LogRow) -> Data:
-        """Return its status; which vetoes it has is no signal, and not in it."""
+        """Return its status, without the vetoes, which the log has no signal for."""
         bits = (bit for name, bit in _FLAGS.items() if row.flag(f"board.{name}"))
         flags = sum(bits) & ~(0 if self._has_raspilot else _FLAGS["pi_heard"])
         causes = (row.word("board.reset_cause") or "").split()

@@ -69,7 +69,7 @@ class CrewCompanions(ABC):
 
     @abstractmethod
     def exchange(self, step_s: float) -> None:
-        """Let bytes pass and this time go by; raises CrewError when somebody has died."""
+        """Pass bytes and let this time go by; raises CrewError when a member has died."""
 
     @abstractmethod
     def plug_serial(self, is_in: bool) -> None:
@@ -96,7 +96,7 @@ class CrewCompanions(ABC):
         return self.seconds() - self._ready_s >= SETTLED_S
 
     def carry_out(self, event: Event) -> None:
-        """Let happen what concerns the crew; raises CrewError."""
+        """Carry out an event that concerns the crew; raises CrewError."""
         match event.kinds[0]:
             case "serial":
                 self.plug_serial(event.serial == "back")
@@ -119,7 +119,7 @@ class CrewCompanions(ABC):
                 pass
 
     def stop(self) -> None:
-        """End everybody."""
+        """End all members."""
         self._is_wanted = False
         if self.ground is not None:
             self.ground.stop()
@@ -128,7 +128,7 @@ class CrewCompanions(ABC):
         self.end_raspilot()
 
     def end_raspilot(self) -> None:
-        """End the daemon at once."""
+        """Kill the daemon."""
         self.raspilot.kill()
 
     def ask_raspilot_to_stop(self) -> None:

@@ -1,4 +1,4 @@
-"""What does not fit together in a scenario although each part is right by itself."""
+"""Contradictions between the parts of a scenario, each of which is valid alone."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ _SETPOINT = struct.Struct(">hhhHH")
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """Angles and rates that are asked for; None where nobody asks for one."""
+    """Demanded angles and rates; None without a demand."""
 
     roll_deg: float | None = None
     pitch_deg: float | None = None
@@ -48,7 +48,7 @@ class DemandModel:
             self.setpoint = Demand(roll_cdeg / 100, pitch_cdeg / 100)
 
     def at(self, mode: str, is_failsafe: bool, sticks_us: Mapping[str, float]) -> Demand:
-        """Return what is asked in a mode (``OUTPUT``: the Raspberry Pi flies by the sticks)."""
+        """Return the demand in a mode (``OUTPUT``: the Raspberry Pi flies by the sticks)."""
         if is_failsafe:
             return self._circle
         ailerons = _deflection(sticks_us["ailerons"])

@@ -47,7 +47,7 @@ class CommandPart:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing."""
+        """Yield the missing keys."""
         if not self.name:
             yield "name", "must be a Command's name, as up.flight_mode.set"
 
@@ -116,7 +116,7 @@ class Event:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing or too much."""
+        """Yield the missing and the surplus keys."""
         kinds = self.kinds
         if not kinds:
             yield "at_s", "nothing happens: name one of " + ", ".join(EVENT_KINDS)

@@ -40,7 +40,7 @@ class StepLimits:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing."""
+        """Yield the missing keys."""
         if not self.limits:
             yield "rise_time_s", "sets no limit: name one of " + ", ".join(STEP_FIGURES)
         if self.demand:
@@ -118,7 +118,7 @@ class Expectation:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing, too much or of the wrong kind."""
+        """Yield keys that are missing, surplus or of the wrong kind."""
         if not self.name:
             yield "name", "must be a sentence that says what is expected"
         if self.signal:
@@ -162,12 +162,12 @@ class Expectation:
 
     @property
     def kinds(self) -> list[str]:
-        """Return the attributes that say what is expected: one, when it has been read."""
+        """Return the keys of the expectation: one, after a successful read."""
         return [kind for kind in KINDS if getattr(self, kind) not in (None, ())]
 
     @property
     def kind(self) -> str:
-        """Return what is expected."""
+        """Return the key of the expectation."""
         return self.kinds[0]
 
 

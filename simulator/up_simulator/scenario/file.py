@@ -38,9 +38,9 @@ ROOT = Path(__file__).resolve().parents[3]
 
 @cache
 def daemon_files() -> dict[str, ConfigFile[Any]]:
-    """Return the files that the daemon reads; none where there is no daemon beside the simulator.
+    """Return the files that the daemon reads; none without a daemon beside the simulator.
 
-    What is none of these is judged by the daemon itself when it starts.
+    The daemon itself validates all other files when it starts.
     """
     try:
         application = Application.find(ROOT)
@@ -83,7 +83,7 @@ def _parse(
             problems.report(1, 1, "must be a map of keys that begins with 'title: ...'")
         problems.raise_if_any()
         raise AssertionError("a problem has been reported")
-    # What is no plain YAML makes no sense as a scenario: nothing is said about that.
+    # Invalid YAML cannot be checked as a scenario: report only the YAML problems.
     problems.raise_if_any()
     apply(overrides, root, problems.report)
     free = _Free(root, problems.report)
@@ -143,7 +143,7 @@ class _Free:
                     value.plain = False
 
     def fill(self, scenario: Scenario) -> Scenario:
-        """Return the scenario with what had been taken out of its file."""
+        """Return the scenario with the parts that were cut from its file."""
         events = tuple(map(_with_data, scenario.events, self.commands))
         raspilot = replace(scenario.raspilot, config=self.config)
         return replace(

@@ -34,11 +34,11 @@ _HALF_STEP_S = STEP_S / 2
 
 @dataclass(slots=True)
 class FlightRecord:
-    """What came out of a flight: the log, and everything that is no signal.
+    """Result of a flight: the log, and all results that are not signals.
 
-    ``crash`` is a sentence about how it ended on the ground, ``failure`` one about what kept it
-    from being flown to its end, with the lines of the daemon's log behind it. ``settings`` are the
-    configuration files that the board flies by, ``black_boxes`` what a real daemon has recorded.
+    ``crash`` is a sentence about its end on the ground, ``failure`` one about an early end, with
+    the lines of the daemon's log behind it. ``settings`` are the board's configuration files,
+    ``black_boxes`` the recordings of a real daemon.
     """
 
     scenario: Scenario

@@ -130,7 +130,7 @@ class _FlightFile:
             self._say(question.sent_s, "warn", f"{command.name} from the ground: {answer}")
 
     def _close(self, time_s: float) -> None:
-        """Write how it ended and what is true of it."""
+        """Write the end of the flight and its metadata."""
         record = self._record
         for trouble in (record.failure, record.crash):
             if trouble is not None:

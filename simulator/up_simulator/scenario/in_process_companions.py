@@ -20,10 +20,9 @@ from up_simulator.scenario.workspace import Workspace
 
 
 class InProcessCompanions(CrewCompanions):
-    """Everybody on one ``SimulatedReactor``, in step with the board: the same flight every time.
+    """All members on one ``SimulatedReactor``, in step with the board: a reproducible flight.
 
-    ``settings`` are the configuration files that the airframe gives; the scenario's own lie over
-    them.
+    ``settings`` are the airframe's configuration files; the scenario's own values override them.
     """
 
     def __init__(
@@ -78,6 +77,6 @@ class InProcessCompanions(CrewCompanions):
         self._daemon.meter.load = percent
 
     def stop(self) -> None:
-        """End everybody and remove the configuration."""
+        """End all members and remove the configuration."""
         super().stop()
         self._workspace.close()

@@ -1,4 +1,4 @@
-"""A board whose serial line is listened to, and spoilt, on its way to whoever speaks with it."""
+"""A board whose serial line is monitored, and disturbed, on its way to the other end."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ SLICE_US = 2000.0
 class LineBoard:
     """A ``FirmwareBoard`` around another one, run in slices of 2 ms.
 
-    After each slice ``after_slice`` is called: there the daemon's bytes are exchanged, in flight
-    and while the board boots. The tap hears what leaves the board before any noise, ``on_command``
-    gets what the board hears after it. Sticks reach the board through a receiver, with its delay.
+    ``after_slice`` is called after each slice: there the daemon's bytes are exchanged, in flight
+    and while the board boots. The tap gets the board's output before any noise, ``on_command`` the
+    board's input after it. Sticks reach the board through a receiver, with its delay.
     """
 
     def __init__(
@@ -116,7 +116,7 @@ class LineBoard:
         return self._board.pulse_ages_us()
 
     def read(self) -> bytes:
-        """Return what came on the serial line, as it arrives at the other end."""
+        """Return the bytes from the serial line as they arrive at the other end."""
         data = self._board.read()
         self.tap.feed(data, self.now_s)
         return self.wires.pass_on(data, FROM_BOARD, self.now_s)

@@ -20,7 +20,7 @@ Value = float | str
 
 
 class LogError(Exception):
-    """A file is no log of a flight: the message is one sentence with file and line."""
+    """A file is not a flight's log: the message is one sentence with file and line."""
 
 
 class FlightLog:
@@ -50,7 +50,7 @@ class FlightLog:
         return column in self._numbers or column in self._words
 
     def append(self, values: Mapping[str, float | bool | str | None]) -> None:
-        """Take a row; what is not in it is not known."""
+        """Take a row; signals missing in it are unknown."""
         for name, words in self._words.items():
             value = values.get(name)
             words.append("" if value is None else sys.intern(str(value)))

@@ -14,7 +14,7 @@ Message = tuple[str, Data]
 
 
 class LogRow:
-    """What every signal was at a moment; what is not known is None."""
+    """The value of every signal at one time; None if unknown."""
 
     def __init__(self, values: Mapping[str, Value]) -> None:
         self._values = values

@@ -54,7 +54,7 @@ def _first_other(
         shown = _shown(expectation, window.values[0])
         return _verdict(expectation, True, f"{shown} all the time", window)
     share = 100 / len(window.values)
-    # nan is not equal to itself; what is shown is.
+    # nan is not equal to itself; its text is.
     (shown, count), *others = Counter(
         _shown(expectation, window.values[at]) for at in wrong
     ).most_common()

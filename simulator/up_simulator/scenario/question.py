@@ -11,7 +11,7 @@ from up_simulator.scenario.verdict import Verdict
 
 @dataclass(slots=True)
 class Question:
-    """One Command on its way; ``answer`` is None until there is one, empty for an ack."""
+    """One Command in flight; ``answer`` stays None until the answer, which is empty for an ack."""
 
     event: Event
     command: CommandPart

@@ -31,8 +31,8 @@ FLIGHTS = "flights"
 class RealCompanions(CrewCompanions):
     """``python main.py`` on a pty; phone and ground station are stand-ins on real sockets.
 
-    The link lies between the daemon and whoever it speaks with: the ground station at its
-    listener, or the proxy. The flight keeps real time, from the boot on. Raises CrewError.
+    The link lies between the daemon and its peer: the ground station at its listener, or the
+    proxy. The flight keeps real time, from the boot on. Raises CrewError.
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class RealCompanions(CrewCompanions):
             self._real.check()
 
     def carry_out(self, event: Event) -> None:
-        """Let happen what concerns the crew; raises CrewError."""
+        """Carry out an event that concerns the crew; raises CrewError."""
         if event.proxy is None:
             super().carry_out(event)
         elif self._proxy is not None:
@@ -123,7 +123,7 @@ class RealCompanions(CrewCompanions):
         raise CrewError("a real machine's load is not set by a scenario: use 'runs: in process'")
 
     def stop(self) -> None:
-        """End everybody, and remove what was written."""
+        """End all members, and remove the written files."""
         super().stop()
         if self._proxy is not None:
             self._proxy.stop()
@@ -131,7 +131,7 @@ class RealCompanions(CrewCompanions):
             self._line.close()
             self._line = None
         self._reactor.stop()
-        # An instance of a runner has a folder of its own in the one that it is given.
+        # An instance of a runner has its own folder in the one that it is given.
         found = sorted((self._folder / FLIGHTS).rglob("*.mcap"))
         self.black_boxes = {path.name: path.read_bytes() for path in found}
         self._workspace.close()

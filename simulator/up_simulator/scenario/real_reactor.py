@@ -27,7 +27,7 @@ class RealReactor:
         from twisted.internet import reactor as default_reactor
 
         reactor: Any = default_reactor
-        # The reactor keeps wall-clock time by itself, and a flight must not see that jump.
+        # The reactor's own clock is wall-clock time, and a flight must not see its jumps.
         reactor.seconds = time.monotonic
         # Twisted's own resolver has threads, for which the program would wait at its end.
         reactor.installNameResolver(LiteralResolver())

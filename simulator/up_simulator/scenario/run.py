@@ -1,4 +1,4 @@
-"""Flies a scenario and its control run, and writes what came of it into a folder."""
+"""Flies a scenario and its control run, and writes the results into a folder."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def fly_scenario(
 ) -> Result:
     """Fly it, and its control run unless it was interrupted, and judge both.
 
-    With ``is_paced`` it is no faster than real time. Raises CannotFlyError.
+    With ``is_paced`` it runs in real time at most. Raises CannotFlyError.
     """
     record = _fly(name, scenario, progress, say, is_paced)
     result = Result(record, verdicts_of(record))

@@ -55,7 +55,7 @@ class RunnerDaemon:
         self._signal(signal.SIGTERM)
 
     def kill(self) -> None:
-        """End it at once; the runner starts it again."""
+        """Kill it; the runner restarts it."""
         self._signal(signal.SIGKILL)
 
     def freeze(self) -> None:
@@ -67,7 +67,7 @@ class RunnerDaemon:
         self._signal(signal.SIGCONT)
 
     def check(self) -> None:
-        """Raise CrewError when the runner has ended by itself."""
+        """Raise CrewError if the runner has ended unexpectedly."""
         self._runner.check()
 
     def end(self) -> None:

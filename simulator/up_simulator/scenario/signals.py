@@ -18,7 +18,7 @@ class Kind(enum.Enum):
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """One column of a flight's log: ``source`` tells which part must fly for it to be there."""
+    """One column of a flight's log; it exists only if the part ``source`` flies."""
 
     name: str
     about: str
@@ -27,7 +27,7 @@ class Signal:
 
     @property
     def source(self) -> str:
-        """Return what comes before the first dot: truth, board, ground..."""
+        """Return the part before the first dot: truth, board, ground..."""
         return self.name.partition(".")[0]
 
 

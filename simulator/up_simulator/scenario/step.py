@@ -1,4 +1,4 @@
-"""The verdict on how a signal followed a step of what was asked of it."""
+"""The verdict on a signal's response to a step of its demand."""
 
 from __future__ import annotations
 

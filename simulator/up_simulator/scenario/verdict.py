@@ -1,4 +1,4 @@
-"""What became of one expectation."""
+"""Result of one expectation."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Verdict:
     """Whether it held, with its figure beside the limit; ``why`` adds where and when it did not.
 
-    ``has_figure`` is False where nothing could be measured: that is no visible failure.
+    ``has_figure`` is False without a measurement, which does not count as a visible failure.
     """
 
     name: str

@@ -16,7 +16,7 @@ _TURNING = ("yaw_deg", "track_deg", "heading.actual", "heading.required", "home.
 
 
 class NoWindowError(Exception):
-    """The flight does not reach the window: the message says what it lacks."""
+    """The flight does not reach the window: the message names the missing part."""
 
 
 @dataclass(frozen=True, slots=True)

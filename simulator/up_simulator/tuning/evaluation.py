@@ -63,7 +63,7 @@ class Loop:
     airspeed_m_s: float
 
     def with_gains(self, gains: AxisGains) -> list[LoopPoint]:
-        """Return the loop as it is with other gains: what the board does is known exactly."""
+        """Return the loop with other gains: the board's part of it is known exactly."""
         return [
             LoopPoint(
                 point.frequency_hz,
@@ -75,10 +75,10 @@ class Loop:
         ]
 
     def at_least(self, airspeed_m_s: float) -> Loop:
-        """Return the loop as it is at this airspeed, if it was measured at a lower one.
+        """Return the loop at this airspeed, if it was measured at a lower one.
 
-        Surfaces grip with the square of the airspeed; that the air damps more too is left out,
-        which errs to the safe side.
+        Control forces grow with the square of the airspeed; the greater damping by the air is
+        neglected, which errs to the safe side.
         """
         if self.airspeed_m_s >= airspeed_m_s:
             return self

@@ -106,7 +106,7 @@ class FlownSteps:
 
     @property
     def steady_error_percent(self) -> float:
-        """Return the mean size of what was missing at the end of a step, in parts of the step."""
+        """Return the mean absolute error at the end of a step, percent of the step."""
         return fmean([abs(each.steady_error_percent) for each in self.responses] or [math.inf])
 
 
@@ -225,9 +225,9 @@ def fly_rough(
 
 
 def yaw_swing(bench: Bench, gains: GainSet) -> float:
-    """Return what is left of a kick of the rudder: yaw rate after it, rms, deg/s.
+    """Return the yaw rate that is left after a kick of the rudder, rms, deg/s.
 
-    The rudder stick goes right for 0.3 s; the rate is looked at for 3 s after that, less its mean.
+    The rudder stick goes right for 0.3 s; the rate is measured for 3 s after that, less its mean.
     """
     trial = bench.trial(gains)
     kick = [

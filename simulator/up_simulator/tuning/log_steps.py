@@ -169,7 +169,7 @@ def _advice(mode: str, responses: Sequence[StepResponse]) -> str:
     half = len(responses) / 2
     rings = sum(each.swings > 3 for each in responses)
     over = sum(each.overshoot_percent > 15 for each in responses)
-    # What comes back to level does not fall short: half of the steps do in a flight that does.
+    # A step back to level never falls short, and half of the steps of a flight are such.
     short = 2 * sum(each.steady_error_percent > 10 for each in responses)
     never = sum(each.rise_time_s is None for each in responses)
     if never > half:

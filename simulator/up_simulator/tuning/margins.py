@@ -51,7 +51,7 @@ class Multisine:
 
 @dataclass(frozen=True, slots=True)
 class LoopPoint:
-    """The loop's response at a frequency: what comes round of what goes in, with its sign."""
+    """The loop's response at a frequency: output over input once around, with its sign."""
 
     frequency_hz: float
     response: complex
@@ -130,12 +130,12 @@ def _at(values: Sequence[float], turns: Sequence[complex]) -> complex:
 
 @dataclass(frozen=True, slots=True)
 class Margins:
-    """What can still go wrong before the loop rings without end; ``None``: however much.
+    """Margins before the loop oscillates without end; ``None``: unlimited.
 
-    The gain margin is what the airspeed (its square), a steeper servo horn or a lighter wing may
-    add to every gain of the axis at once; the delay margin what a slower servo, receiver or
-    program may add. The peak sensitivity says both in one figure: how much the loop makes a
-    disturbance larger at worst; 1.4 is calm, 2 the usual limit, and much beyond 2 it rings.
+    The gain margin is the factor by which airspeed (its square), a steeper servo horn or a lighter
+    wing may raise all gains of the axis together; the delay margin is the delay that a slower
+    servo, receiver or program may add. The peak sensitivity combines both: how much the loop
+    amplifies a disturbance at worst; 1.4 is calm, 2 the usual limit, and much beyond 2 it rings.
     """
 
     gain_margin_db: float | None
@@ -149,7 +149,7 @@ class Margins:
 
     @property
     def is_stable(self) -> bool:
-        """Return whether it does not ring as it is."""
+        """Return whether the loop is stable without changes."""
         gain, phase = self.gain_margin_db, self.phase_margin_deg
         return (gain is None or gain > 0) and (phase is None or phase > 0)
 

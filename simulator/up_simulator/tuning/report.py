@@ -15,7 +15,7 @@ WIDTH = 98
 
 
 def tuning_lines(tuning: AxisTuning) -> list[str]:
-    """Return the best of what was tried as a table, the proposal marked."""
+    """Return the best candidates as a table, the proposal marked."""
     cruise_m_s, dive_m_s = tuning.cruise.airspeed_m_s, tuning.dive.airspeed_m_s
     lines = [
         f"{tuning.axis} in FBW, steps at cruise ({cruise_m_s:.0f} m/s); margins there and in a"

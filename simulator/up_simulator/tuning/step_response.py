@@ -108,7 +108,7 @@ def analyse_step(
 
 @dataclass(frozen=True, slots=True)
 class _Shape:
-    """A curve measured as parts of its own way: 0 where it began, 1 where it came to rest."""
+    """A curve normalised to its travel: 0 at its beginning, 1 at rest."""
 
     final: float
     peak: float
@@ -168,7 +168,7 @@ def _check(
 
 
 def _without_spikes(values: Sequence[float]) -> list[float]:
-    """Return the running median of five: what lasts a sample or two is no movement."""
+    """Return the running median of five: it removes spikes of one or two samples."""
     if len(values) < 5:
         return list(values)
     middle = [median(values[at - 2 : at + 3]) for at in range(2, len(values) - 2)]

@@ -49,7 +49,7 @@ class TuneError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """Gains of one axis, what was measured with them, and what is wrong with them."""
+    """Gains of one axis, their measurements, and the rules that they break."""
 
     gains: AxisGains
     cruise: Margins
@@ -59,7 +59,7 @@ class Candidate:
 
     @property
     def score(self) -> float:
-        """Return how good it is, s: the settling time, longer by what is missing at the end."""
+        """Return its score, s: the settling time, longer by the error at the end."""
         settling_s = self.steps.settling_time_s
         if settling_s is None:
             return math.inf
@@ -68,7 +68,7 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class AxisTuning:
-    """What was tried on an axis, the proposal among it, and the loops it was judged by."""
+    """The candidates for an axis, the proposal among them, and the loops that judged them."""
 
     axis: Axis
     candidates: tuple[Candidate, ...]
@@ -80,7 +80,7 @@ class AxisTuning:
 
     @property
     def keeps_the_rules(self) -> bool:
-        """Return whether the proposal breaks none of the rules."""
+        """Return whether the proposal keeps all rules."""
         return not self.proposal.broken
 
 
@@ -292,5 +292,5 @@ def _fly(
 
 
 def _round(gain: float) -> float:
-    """Return two digits of it: nobody sets more, and no aeroplane feels more."""
+    """Round to two digits: a user sets no more, and an aeroplane shows no difference."""
     return float(f"{gain:.2g}")

@@ -45,7 +45,7 @@ been flown until then is reported. Exit status: 0 all held, 1 something did not,
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Fly what is named; return the exit status."""
+    """Fly the named scenarios; return the exit status."""
     options = _parser().parse_args(arguments)
     flights = [(path, _read(path, options)) for path in map(find, options.scenarios)]
     try_output(options.output, [name_of(path) for path, _ in flights])

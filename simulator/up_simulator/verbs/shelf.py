@@ -18,9 +18,9 @@ def shipped_paths() -> list[Path]:
 
 
 def find(name: str) -> Path:
-    """Return the file of a shipped scenario, or a path as it is.
+    """Return the file of a shipped scenario, or a path unchanged.
 
-    Raises UsageError for a name that nothing has, with the nearest one.
+    Raises UsageError for an unknown name, with the nearest one.
     """
     path = Path(name)
     if path.suffix in SUFFIXES or path.is_file():
