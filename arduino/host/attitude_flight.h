@@ -54,7 +54,7 @@ struct Flight {
   }
 };
 
-/** A coordinated turn: what is felt stands on the floor, the more of it the steeper the bank. */
+/** A coordinated turn: the felt force is normal to the floor, greater with a steeper bank. */
 inline void turn(Flight& flight, double bank_deg, double speed_m_s, double seconds) {
   const double bank = bank_deg * DEG;
   const double rate_deg_s = GRAVITY_M_S2 * std::tan(bank) / speed_m_s / DEG;

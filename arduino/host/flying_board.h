@@ -62,7 +62,7 @@ class FlyingBoard {
   uint16_t output_us(Channel channel) const {
     return ticks_to_us(autopilot.controller.outputs().ticks[channel]);
   }
-  /** The newest frame of a type since the last call; empty payload and type 0 when there is none. */
+  /** The newest frame of a type since the last call; empty payload and type 0 without one. */
   SentFrame take(char type) {
     SentFrame found = {0, 0, {}};
     for (const SentFrame& frame : frames) {

@@ -42,7 +42,7 @@ class LinkBench {
   }
   /** Everything sent since the last call, as bytes. */
   Bytes take_raw() { return fake_board().take_sent(); }
-  /** Everything sent since the last call, as messages; what is no frame fails `is_clean`. */
+  /** Everything sent since the last call, as messages; an invalid frame fails `is_clean`. */
   std::vector<Message> take() {
     std::vector<Message> messages;
     for (uint8_t byte : take_raw()) {

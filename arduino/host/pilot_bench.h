@@ -32,7 +32,7 @@ class ReceiverLines {
     edge(static_cast<uint64_t>(at_us * 2 + 0.5), channel, true, is_late);
     edge(static_cast<uint64_t>((at_us + width_us) * 2 + 0.5), channel, false, is_late);
   }
-  /** Hands over what came before `now_us` since the bench began, then lets the reader check. */
+  /** Hands over the edges before `now_us` since the bench began, then lets the reader check. */
   void slot(uint64_t now_us) {
     std::stable_sort(edges_.begin(), edges_.end(),
                      [](const LineEdge& a, const LineEdge& b) { return a.tick < b.tick; });

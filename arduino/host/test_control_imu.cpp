@@ -216,7 +216,7 @@ TEST_CASE("`e` 3 keeps the bias of a still second, and refuses without one") {
   flight.fly(1);
   CHECK(flight.filter.calibrate_gyro() == Reason::NONE);
   CHECK(std::abs(flight.calibration.gyro_bias_16[1] - 64) <= 1);
-  // After the next start the calibration's bias is what flies until a still second.
+  // After the next start the calibration's bias is used until a still second.
   AttitudeFilter next(flight.calibration);
   next.stop_calibrating();
   uint32_t now_us = 0;

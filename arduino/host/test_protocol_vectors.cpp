@@ -118,7 +118,7 @@ TEST_CASE("every golden Command is registered once, with its size, and in its fr
       is_thesis |= old["direction"] == "to_arduino" && old["type"] == vector["type"];
     }
     CHECK((command.framing == Framing::BOTH) == is_thesis);
-    // Who answers by itself is asked when there is room, and its payload is gone by then.
+    // A handler with its own answer is called when there is room, and its payload is gone by then.
     if (command.answer == Answer::OWN) CHECK(command.size == 0);
   }
   for (int type = 0; type < 256; ++type) {

@@ -23,7 +23,7 @@ SavedState numbered(int number) {
   return state;
 }
 
-/** RAM as it is after power-on. */
+/** RAM after power-on. */
 SavedStates noise(uint8_t seed) {
   SavedStates states;
   Bytes bytes(sizeof states);

@@ -90,11 +90,11 @@ class Imu:
         library.rig_imu_on_sample(handle, self._function)
 
     def unplug(self) -> None:
-        """Take it from the bus: nobody answers, the lines are high."""
+        """Remove it from the bus: no acknowledge, the lines are high."""
         self._library.rig_imu_plug(self._handle, False)
 
     def plug(self) -> None:
-        """Put it back; it starts anew, asleep."""
+        """Put it back; it restarts, asleep."""
         self._library.rig_imu_plug(self._handle, True)
 
     def fail(self, fault: Fault) -> None:

@@ -91,7 +91,7 @@ def build_library() -> Path:
     if compiler is None or not HEADER.exists():
         raise RigUnavailableError(NEEDS)
     path.parent.mkdir(parents=True, exist_ok=True)
-    # Several processes may build at once: each its own file, the last one stays.
+    # Several processes may build in parallel: each to its own file, the last one stays.
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         fresh = Path(folder) / path.name
         command = [compiler, *FLAGS, *map(str, sources), "-lsimavr", "-o", str(fresh)]

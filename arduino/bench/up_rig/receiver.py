@@ -33,9 +33,9 @@ class Receiver:
     """Sends frames of pulses, one for each channel, until it is stopped.
 
     ``period_us`` is the time of a frame (7 to 22 ms in the trade). ``is_simultaneous`` starts all
-    channels at once; otherwise each starts ``gap_us`` after the one before has ended.
-    ``jitter_us`` spoils each width, ``period_jitter_us`` each frame, both evenly to either side.
-    Changes hold from the next frame on. ``sent`` lists what was sent.
+    channels together; otherwise each starts ``gap_us`` after the end of the one before.
+    ``jitter_us`` disturbs each width, ``period_jitter_us`` each frame, both evenly to either side.
+    Changes hold from the next frame on. ``sent`` lists the sent pulses.
     """
 
     def __init__(
@@ -65,12 +65,12 @@ class Receiver:
         self._widths_us[channel] = width_us
 
     def sticks(self, **widths_us: float) -> None:
-        """Set several channels at once: ``sticks(ailerons=1600, aux2=2000)``."""
+        """Set several channels together: ``sticks(ailerons=1600, aux2=2000)``."""
         for channel, width_us in widths_us.items():
             self.set(channel, width_us)
 
     def start(self, at_us: float | None = None) -> None:
-        """Begin to send frames, at a time or now; a channel that was stopped goes on."""
+        """Begin to send frames, at a time or now; a stopped channel resumes."""
         now_us = self._library.rig_cycle(self._handle) / CYCLES_PER_US
         self._next_us = now_us if at_us is None else at_us
         for channel, level in self._held.items():

@@ -117,7 +117,7 @@ class Rig:
         return bytes(data[RAM_START : RAM_START + RAM_SIZE])
 
     def brown_out(self, *, keeps_ram: bool = True) -> None:
-        """Let the supply sag: BORF, a write of the EEPROM is cut, the IMU starts anew."""
+        """Let the supply sag: BORF, an EEPROM write is cut, the IMU restarts."""
         if not keeps_ram:
             self._fill_ram(self._random.randbytes(RAM_SIZE))
         self._library.rig_reset(self._handle, int(Reset.BROWN_OUT))
@@ -151,15 +151,15 @@ class Rig:
         self._library.rig_load(self._handle, code, len(code), address)
 
     def measures(self) -> Measures:
-        """Return what was measured since the last ``forget_measures``."""
+        """Return the measurements since the last ``forget_measures``."""
         return read_measures(self._library, self._handle)
 
     def forget_measures(self) -> None:
-        """Begin to measure anew."""
+        """Restart the measurements."""
         self._library.rig_forget_measures(self._handle)
 
     def mark_stack(self) -> None:
-        """Fill the RAM with a pattern, so that ``untouched_ram`` tells what was never used."""
+        """Fill the RAM with a pattern, so that ``untouched_ram`` finds unused bytes."""
         self._fill_ram(bytes([STACK_PATTERN]) * RAM_SIZE)
 
     def untouched_ram(self) -> int:

@@ -29,7 +29,7 @@ class Input {
   const uint8_t* const end_;
 };
 
-/** The clock wraps at once, after 2 s, or after an hour and more. */
+/** The clock wraps immediately, after 2 s, or after an hour and more. */
 uint32_t begin_us(uint8_t choice) {
   const uint32_t moments[] = {0, 0xFFFFFFFF - 2000000, 0x7FFFFFFF - 2000000, 0xFFFFFFFF};
   return moments[choice & 3];

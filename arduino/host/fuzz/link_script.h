@@ -17,8 +17,8 @@ struct ScriptEnd {
 
 /**
  * Plays one script on an aircraft that only an Arm Command can arm. Its records are: 0x00 to 0x7F,
- * so many bytes as they are; 0x80 to 0xBF, so many slots of 2 ms and one; 0xC0 to 0xFF, a checked
- * frame of the type and payload that follow, which is right whatever came before. Aborts when one
+ * this number of raw bytes; 0x80 to 0xBF, the low six bits plus one slots of 2 ms; 0xC0 to 0xFF, a
+ * checked frame of the type and payload that follow, valid after any bytes before. Aborts when one
  * of the rules is broken.
  */
 ScriptEnd play(const uint8_t* script, size_t size);

@@ -1,6 +1,6 @@
 /**
- * docs/protocols.md 2.1 to 2.4 read a second time, without the firmware's code: what is a frame,
- * and which messages may leave. The fuzzer judges the firmware by it.
+ * A second implementation of docs/protocols.md 2.1 to 2.4 without the firmware's code: which bytes
+ * are a frame, and which messages may leave. The fuzzer checks the firmware against it.
  */
 #pragma once
 
@@ -50,7 +50,7 @@ inline int size_from_arduino(uint8_t type) {
   }
 }
 
-/** One frame without its closing zero: sequence, type and payload; empty when it is none. */
+/** One frame without its closing zero: sequence, type and payload; empty when invalid. */
 inline Bytes frame_in(const Bytes& encoded) {
   if (encoded.size() > LONGEST_ENCODED) return {};
   Bytes plain;
@@ -79,7 +79,7 @@ inline bool is_command(const Bytes& frame) {
   return frame.size() >= 2 && size_to_arduino(frame[1]) == static_cast<int>(frame.size()) - 2;
 }
 
-/** Follows the bytes to the Arduino, with the time that drops what is unfinished. */
+/** Follows the bytes to the Arduino, with the timeout that drops unfinished messages. */
 class Listener {
  public:
   /** The frame that ends with this byte, or nothing. */

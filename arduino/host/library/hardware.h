@@ -1,4 +1,4 @@
-/** The chip's hardware and what is wired to it, each part in a file of its own. */
+/** The chip's hardware and the parts wired to it, each in a separate file. */
 #pragma once
 
 #include <stdint.h>
@@ -53,7 +53,7 @@ void reset();
 namespace memory {
 void begin(const uint8_t* bytes, uint32_t size, uint32_t seed);
 void run(Cycles moment);
-/** Power fails: what is being written becomes anything. */
+/** Power fails: a cell being written gets any value. */
 void cut();
 }  // namespace memory
 

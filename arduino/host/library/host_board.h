@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/** The version of what follows. */
+/** The version of this interface. */
 uint32_t host_board_version(void);
 
 /** Power comes on. `eeprom` are its first bytes, the rest is erased. Once, before all others. */
@@ -39,7 +39,7 @@ typedef struct {
   int16_t sample[7];
   uint8_t eeprom[1024];
 } host_board_view;
-/** The pointer holds for ever. */
+/** The pointer stays valid. */
 host_board_view* host_board_get_view(void);
 
 /** Bytes to the firmware, each when the one before has ended; from it, how many were copied. */

@@ -41,7 +41,7 @@ enum { RESET_POWER = 1, RESET_EXTERNAL = 2, RESET_BROWN_OUT = 4, RESET_WATCHDOG 
 
 typedef struct rig rig_t;
 
-/* ---- what is recorded for the caller ---- */
+/* ---- records for the caller ---- */
 typedef struct { cycle_t cycle; uint8_t pin, level; } edge_t;
 typedef struct { cycle_t cycle; uint8_t value; } sent_t;
 typedef struct { cycle_t rise, fall; } pulse_t; /* fall is 0 before the first has ended */
@@ -152,7 +152,7 @@ typedef uint64_t quick_op_t;
 struct rig {
     avr_t *avr;
     quick_op_t *quick;       /* of each word that the program counter can point to */
-    bool is_decoded;         /* it is that of the flash as it is now */
+    bool is_decoded;         /* it matches the present flash */
     const char *trouble;     /* why the chip stopped, for good */
     char trouble_text[96];
     cycle_t next_due;
@@ -171,7 +171,7 @@ struct rig {
     watchdog_t watchdog;
     meter_t meter;
     record_t edges, sent;
-    bool drops_edges;        /* nobody asks for them: newest pulses are kept alone */
+    bool drops_edges;        /* unused by the caller: only the newest pulses are kept */
     cycle_t rises[8 * PORTS];
     pulse_t pulses[8 * PORTS];
     uint8_t reset_wanted;    /* its cause, 0 for none */

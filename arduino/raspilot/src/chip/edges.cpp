@@ -80,11 +80,11 @@ void drain(PwmReader& receiver, uint32_t now_us) {
 }  // namespace edges
 
 /**
- * An input changed. One routine reads both ports, so that edges that come together share one
- * stamp. Flags are cleared before the ports are read: what comes later asks again.
+ * An input changed. One routine reads both ports, so that simultaneous edges share one stamp.
+ * Flags are cleared before the ports are read: a later edge requests the interrupt again.
  *
  * In assembler, as the next edge often follows within microseconds: 5 us from edge to edge, with
- * the stamp 1.4 us after the edge. In C it would be, with `late` as said in interrupts_off.h:
+ * the stamp 1.4 us after the edge. In C it would be, with `late` as in interrupts_off.h:
  *   PCIFR = INTERRUPTS; ring[GPIOR2] = {TCNT1, (PIND & ON_D) | (PINB & ON_B) | late};
  *   if (after(GPIOR2) == oldest) { GPIOR0 |= 1 << NOTE_LOST; PCICR = 0; }
  *   else GPIOR2 = after(GPIOR2);

@@ -185,7 +185,7 @@ int16_t FlightController::wanted_angle_cdeg(Channel channel,
   return is_asked ? clamped16(asked, limit) : times_q15(limit, stick);
 }
 
-/** The yaw rate less its mean: a steady turn is none of the damper's business. */
+/** The yaw rate less its mean: the damper must not act on a steady turn. */
 int16_t FlightController::swinging_16(int16_t yaw_rate_16) {
   if (!has_steady_) {
     has_steady_ = true;

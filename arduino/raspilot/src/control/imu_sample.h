@@ -24,7 +24,7 @@ bool is_garbage(const ImuSample& sample);
 /** Whether a gyro axis is at its end stop: the aircraft turns faster than 1000 deg/s. */
 bool is_saturated(const ImuSample& sample);
 
-/** Sixteen bits that differ when samples differ, but for one noisy pair in a hundred or so. */
+/** Sixteen bits that differ when samples differ, except for about one noisy pair in a hundred. */
 uint16_t fingerprint(const ImuSample& sample);
 
 }  // namespace raspilot

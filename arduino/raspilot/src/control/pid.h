@@ -27,7 +27,7 @@ class Pid {
  private:
   int32_t derivative(int16_t measured);
 
-  // All zero at first, by whoever owns it.
+  // Initialised to zero by the owner.
   int32_t integral_;  // 2^-6 of an output
   int16_t measured_;
   int16_t change_q4_;  // of the measurement a slot, after the low-pass

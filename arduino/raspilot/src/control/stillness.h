@@ -6,8 +6,8 @@
 namespace raspilot {
 
 /**
- * Looks at windows of 256 samples, every other slot's one: 1.02 s. A window begins anew with the
- * first sample that differs from the window's first one by more than 1.2 deg/s.
+ * Checks windows of 256 samples, every other slot's one: 1.02 s. A window restarts with the first
+ * sample that differs from the window's first one by more than 1.2 deg/s.
  */
 class Stillness {
  public:
@@ -21,7 +21,7 @@ class Stillness {
   const int16_t* mean_q4() const { return mean_q4_; }
 
  private:
-  // All zero at first, by whoever owns it.
+  // Initialised to zero by the owner.
   int16_t first_[3];
   int16_t sums_[3];
   int16_t mean_q4_[3];

@@ -34,7 +34,7 @@ enum class Framing : uint8_t { CHECKED, BOTH };
  */
 enum class Answer : uint8_t { CONFIRMED, UNANSWERED, OWN };
 
-/** What is known of a Command's type; tables of these lie in flash (PROGMEM). */
+/** Description of a Command's type; tables of these lie in flash (PROGMEM). */
 struct CommandDefinition {
   char type;
   uint8_t size;
@@ -67,7 +67,7 @@ class CommandGroup {
 
 class CommandExecutor {
  public:
-  /** Looks a type up; false when nobody registered it with at most LONGEST_COMMAND bytes. */
+  /** Looks a type up; false unless it is registered with at most LONGEST_COMMAND bytes. */
   static bool find(char type, CommandDefinition& found);
   /** How many Commands are registered for this type: one, unless two files name the same. */
   static uint8_t count(char type);

@@ -17,7 +17,7 @@ constexpr uint8_t LONGEST_FRAME = LONGEST_PAYLOAD + FRAME_OVERHEAD;
 /** The one byte that COBS adds, and the zero that ends a frame. */
 constexpr uint8_t COBS_OVERHEAD = 2;
 
-/** When the first byte of a message came: what is unfinished 100 ms later is dropped. */
+/** When the first byte of a message came: an unfinished message is dropped after 100 ms. */
 class Beginning {
  public:
   void note(uint32_t now_us) { units_ = to_units(now_us); }

@@ -168,7 +168,7 @@ bool Link::send_answer(uint32_t now_us) {
   return true;
 }
 
-/** Lets a handler answer by itself; false when there is no room. A refusal replaces the request. */
+/** Lets a handler send its own answer; false without room. A refusal replaces the request. */
 bool Link::ask(PendingAnswer& pending, uint32_t now_us) {
   CommandDefinition command;
   if (!has_room(LONGEST_COMMAND)) return false;

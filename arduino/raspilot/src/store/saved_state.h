@@ -17,7 +17,7 @@ struct SavedState {
 class SavedStates {
  public:
   void write(const SavedState& state);
-  /** The newest copy whose CRC is right; false when there is none. */
+  /** The newest copy whose CRC is right; false without one. */
   bool read(SavedState& state) const;
   /** Makes both copies unreadable. */
   void forget();
