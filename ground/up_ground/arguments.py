@@ -182,7 +182,7 @@ def _add_send(verbs: argparse._SubParsersAction[_Parser]) -> None:
     fields = send.add_argument(
         "fields", nargs="*", metavar="key=value", default=[], help="the Command's fields"
     )
-    # Else argparse calls the fields required where only the name is missing.
+    # Otherwise argparse reports missing fields where only the name is missing.
     fields.required = False
     send.add_argument(
         "--force", action="store_true", help="send it unchecked, even with an unknown name"

@@ -23,7 +23,7 @@ class Style(Enum):
 
 
 class Canvas:
-    """Text goes in with `put`, rows come out as plain text or with ANSI sequences.
+    """Text is written with `put`; rows are read as plain text or with ANSI sequences.
 
     Only printable ASCII and letters that `safe_text` passed may be put.
     """

@@ -1,4 +1,4 @@
-"""How long messages were held up on their way, told by their sender's clock."""
+"""Estimates the transit delay of messages by their sender's clock."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The link to the aircraft: connects, comes back, keeps the seat."""
+"""The link to the aircraft: connects, reconnects, keeps the seat."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class LinkListener(Interface):
         """Take a message from the aircraft."""
 
     def on_link(self) -> None:
-        """Hear that the link's status has changed."""
+        """Handle a change of the link's status."""
 
 
 class GroundLink:
@@ -79,7 +79,7 @@ class GroundLink:
         self._connect()
 
     async def stop(self) -> None:
-        """Give the link up for good; returns when the connection is closed."""
+        """Close the link permanently; returns when the connection is closed."""
         self.status.disconnected(LinkState.STOPPED, self._reactor.seconds())
         if self._timer is not None and self._timer.active():
             self._timer.cancel()

@@ -28,14 +28,14 @@ class LinkStatus:
     state: LinkState = LinkState.CONNECTING
     since_s: float = 0.0
     reason: str = ""
-    """Why there is no connection, one sentence."""
+    """Why the link is down, one sentence."""
     rejection: str = ""
     """The code with which the proxy refused the hello."""
     seat: Seat | None = None
     holder: int | None = None
     is_holder_known: bool = False
     asked_by: int | None = None
-    """The listener that asks for the seat that is held here."""
+    """The listener that requests the seat held here."""
     is_aircraft_online: bool | None = None
     round_trip_ms: float | None = None
     """The kernel's measure of the way to the proxy and back."""
@@ -46,11 +46,11 @@ class LinkStatus:
     """Lines that were no General Messages."""
     too_long: int = 0
     strange_control: int = 0
-    """Control lines that say nothing known."""
+    """Unknown control lines."""
 
     @property
     def is_open(self) -> bool:
-        """Say whether messages can go now."""
+        """Return whether messages can be sent now."""
         return self.state is LinkState.OPEN
 
     @property

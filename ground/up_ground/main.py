@@ -34,7 +34,7 @@ from up_ground.web.serve import PageOptions, ServeError, fleet_of, make_stations
 
 
 def watch(options: argparse.Namespace) -> int:
-    """Show an aircraft in the form that was asked for."""
+    """Show an aircraft in the requested form."""
     settings = settings_of(options, Seat(options.seat))
     tokens = TokenStore(state_folder(os.environ), settings)
     more: dict[str, Any] = {
@@ -89,7 +89,7 @@ def send(options: argparse.Namespace) -> int:
 
 
 def seat(options: argparse.Namespace) -> int:
-    """Ask for the seat, hand it over or leave it."""
+    """Request the seat, hand it over or release it."""
     if options.direct:
         return _usage(["a direct link has no seats"])
     settings = settings_of(options, Seat.COMMAND)

@@ -81,7 +81,7 @@ def draw_power(pen: Pen, row: int, column: int) -> int:
 
 
 def draw_channels(pen: Pen, row: int, column: int, reading: str, title: str) -> int:
-    """Draw one bar for each channel that the aircraft tells; return the row below."""
+    """Draw one bar for each channel that the aircraft reports; return the row below."""
     pen.title(row, column, title, reading)
     shown = [name for name in _CHANNELS if pen.telemetry.number(reading, name) is not None]
     for line, name in enumerate(shown or _CHANNELS[:4], row + 1):

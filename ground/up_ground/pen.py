@@ -21,7 +21,7 @@ class Pen:
     now_s: float
 
     def is_old(self, reading: str = "") -> bool:
-        """Say whether a reading must look old."""
+        """Return whether a reading must be marked stale."""
         if reading:
             return self.telemetry.is_stale(reading, self.now_s)
         return self.telemetry.is_silent(self.now_s)

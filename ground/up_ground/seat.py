@@ -1,4 +1,4 @@
-"""``up-ground seat``: asks for the seat that commands, hands it over, leaves it."""
+"""``up-ground seat``: requests the seat that commands, hands it over, releases it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ANSWER_LIMIT_S = 3.0
 
 
 class SeatErrand(Errand):
-    """Connects for the seat and does one thing with it; subclasses say which."""
+    """Connects to the seat's proxy for one operation, which subclasses define."""
 
     LIMIT_S = ANSWER_LIMIT_S
 
@@ -38,7 +38,7 @@ class SeatErrand(Errand):
         """Telemetry is of no interest here."""
 
     def on_link(self) -> None:
-        """Go on as the proxy says."""
+        """React to the proxy's status."""
         status = self.link.status
         if self.is_finished:
             return
@@ -52,7 +52,7 @@ class SeatErrand(Errand):
         raise NotImplementedError
 
     def on_limit(self) -> None:
-        """Hear that the time is over."""
+        """Handle the timeout."""
         self.fail(f"the proxy did not do it within {self.LIMIT_S:g} s", EXIT_NO_ANSWER)
 
     def fail(self, sentence: str, status: int) -> None:
@@ -62,7 +62,7 @@ class SeatErrand(Errand):
 
 
 class RequestSeat(SeatErrand):
-    """Asks until the seat is given or ``wait_s`` is over."""
+    """Requests the seat until it is granted or ``wait_s`` is over."""
 
     def __init__(self, *args: Any, wait_s: float, **more: Any) -> None:
         super().__init__(*args, **more)
@@ -80,7 +80,7 @@ class RequestSeat(SeatErrand):
             self._ask()
 
     def on_limit(self) -> None:
-        """Say who would have had to give it."""
+        """Report who would have had to release it."""
         holder = self.link.status.holder
         who = "nobody gave it" if holder is None else f"ground {holder} has not given it"
         self.fail(f"no seat within {self.LIMIT_S:g} s: {who}", EXIT_NO_ANSWER)
@@ -117,7 +117,7 @@ class LeaveSeat(SeatErrand):
             self.fail("this ground has no seat to leave: it is free", EXIT_REFUSED)
 
     def on_limit(self) -> None:
-        """Say what most likely went wrong."""
+        """Report the most likely cause."""
         if self._is_asked and self._to is not None:
             self.fail(f"no ground {self._to} listens to this aircraft", EXIT_REFUSED)
         else:

@@ -10,11 +10,11 @@ from up_ground.settings import Seat
 ASK_INTERVAL_S = 1.1
 """The proxy passes one request a second on."""
 KEPT_S = 4.0
-"""Longer than a proxy keeps the seat of a ground that has gone (3 s)."""
+"""Longer than a proxy reserves the seat of a ground that has disconnected (3 s)."""
 
 
 class Standing(Enum):
-    """How it stands with the seat."""
+    """State of the seat as seen by this ground."""
 
     UNKNOWN = "unknown"
     OURS = "ours"

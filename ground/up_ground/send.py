@@ -27,9 +27,9 @@ _CONTENT_OF = {
     "arduino.pids.tunings": "arduino.pids.values",
     "arduino.profile.request": "arduino.profile.values",
 }
-"""What comes besides the ack when a Command asks for something."""
+"""Data besides the ack, for a Command that requests something."""
 _MAY_SET = ("arduino.pids.tunings",)
-"""Asks for something only with ``request=true``."""
+"""Requests something only with ``request=true``."""
 _QUIET = (TELEMETRY, "up.system.state")
 
 
@@ -81,7 +81,7 @@ class Send(Errand):
             self._on_answer(message, self._sent_s)
 
     def on_link(self) -> None:
-        """Go on as far as the link lets us."""
+        """Continue as far as the link permits."""
         if self.is_finished:
             return
         status = self.link.status

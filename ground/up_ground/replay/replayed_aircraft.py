@@ -147,16 +147,16 @@ class ReplayedAircraft:
         )
 
     def on_second(self) -> None:
-        """Hear that a second is over."""
+        """Handle the end of a second."""
 
     def on_away(self, page: Page) -> None:
-        """Hear that a page's link was lost; it may come back."""
+        """Handle the loss of a page's link; the page may return."""
 
     def on_back(self, page: Page) -> None:
-        """Hear that a page is here."""
+        """Handle a new page."""
 
     def on_gone(self, page: Page) -> None:
-        """Hear that it will not come back."""
+        """Handle the final loss of a page."""
 
     def _seek(self, time_s: float) -> None:
         self._player.seek(time_s)

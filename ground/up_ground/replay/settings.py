@@ -23,7 +23,7 @@ class Told:
 
 
 def told_at(told: Sequence[Told], time_s: float) -> Told | None:
-    """Return the last reported value before a time; None if there is no report."""
+    """Return the last reported value before a time; None without a report."""
     place = bisect_right(told, time_s, key=lambda each: each.time_s)
     return told[place - 1] if place else None
 
@@ -41,7 +41,7 @@ def gains_of(log: FlightLog) -> list[Told]:
 
 
 def profile_of(log: FlightLog) -> list[Told]:
-    """Return the airframe's profile as the board told it; raises FlightLogError likewise."""
+    """Return the reported profiles of the airframe; raises FlightLogError likewise."""
     return _told(log, PROFILE)
 
 

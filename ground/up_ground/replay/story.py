@@ -74,7 +74,7 @@ class Story:
         return self._alarms[place - 1]
 
     def frame_time_s(self, time_s: float) -> float | None:
-        """Return when the newest frame came that there was at a moment; None: there was none."""
+        """Return the time of the newest frame before a moment; None if there was none."""
         place = bisect_right(self._frame_times_s, time_s)
         return self._frame_times_s[place - 1] if place else None
 
@@ -83,7 +83,7 @@ class Story:
         return told_at(self._gains, time_s)
 
     def profile_at(self, time_s: float) -> Told | None:
-        """Return the airframe's profile as the board had told it; None: it had not."""
+        """Return the last reported profile of the airframe; None without a report."""
         return told_at(self._profiles, time_s)
 
     def track_until(self, time_s: float) -> dict[str, Any]:
@@ -116,7 +116,7 @@ class Story:
         self._judge.on_frame(telemetry, _link(False), frame.time_s)
 
     def _wait(self, telemetry: Telemetry, until_s: float, marks: list[tuple[float, str]]) -> None:
-        """Let the time between two frames pass, as far as it changes anything."""
+        """Advance the time between two frames to the events that it contains."""
         if not telemetry.frames:
             return
         begin_s = self._now_s

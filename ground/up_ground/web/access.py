@@ -33,14 +33,14 @@ class Access:
         return names_this_machine(host, self.names)
 
     def permits_origin(self, origin: str | None, host: str | None) -> bool:
-        """Say whether the page that opens a link came from here; a program names no origin."""
+        """Return whether the page that opens a link is from here; a program sends no origin."""
         if origin is None:
             return True
         match = _ORIGIN.fullmatch(origin)
         return match is not None and host is not None and match[1].casefold() == host.casefold()
 
     def why_not(self, key: object) -> str:
-        """Return why a page that brings ``key`` may not control; empty: it may."""
+        """Return why a page with ``key`` may not control; empty if it may."""
         if self.is_watch_only:
             return "this server was started with --watch-only"
         if self.key is None:

@@ -9,7 +9,7 @@ from up_ground.telemetry import Telemetry
 from up_ground.web.facts import ALARM, NOT_YET, WARNING, board_state, phone_state
 
 OVER_S = 2.0
-"""An alarm ends when its cause has been away for so long."""
+"""An alarm ends when its cause has been away for this time."""
 BATTERY_LOW = 20.0
 BATTERY_EMPTY = 10.0
 _BATTERY_BACK = 3.0
@@ -26,7 +26,7 @@ class Alarm:
 
 @dataclass(frozen=True, slots=True)
 class LinkFacts:
-    """What the link says at a moment; None: not known."""
+    """State of the link at a moment; None: not known."""
 
     is_open: bool
     reason: str
@@ -34,7 +34,7 @@ class LinkFacts:
     was_heard: bool
     is_silent: bool
     is_late: bool = False
-    """Telemetry comes, but what it says is as old as if it were silent."""
+    """Telemetry arrives, but is as old as if the link were silent."""
 
 
 class Alarms:

@@ -15,7 +15,7 @@ CONTENT_OF = {
     "arduino.pids.tunings": "arduino.pids.values",
     "arduino.profile.request": "arduino.profile.values",
 }
-"""What comes besides the ack when a Command asks for something."""
+"""Data besides the ack, for a Command that requests something."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,7 @@ class _Sent:
 
 
 class Answers:
-    """Matches answers by their id; each Command ends once, whatever comes twice or late."""
+    """Matches answers by their id; each Command ends once, despite duplicate or late answers."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
@@ -66,7 +66,7 @@ class Answers:
         return id_
 
     def take(self, message: GeneralMessage) -> None:
-        """Take what the aircraft says, where it answers something."""
+        """Take a message of the aircraft, if it is an answer."""
         if message.name in ("up.ack", "up.nack"):
             id_ = message.data.get("id")
             sent = self._sent.get(id_) if isinstance(id_, str) else None

@@ -113,11 +113,11 @@ class CommandDesk:
             self._tell_all(self.profile_message())
 
     def on_lost(self) -> None:
-        """Hear that the link is gone."""
+        """Handle the loss of the link."""
         self._answers.lost()
 
     def want_gains(self) -> None:
-        """Ask for the gains as soon as it can be."""
+        """Request the gains as soon as possible."""
         self._are_gains_due = True
         self.on_moment()
 

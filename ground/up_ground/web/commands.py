@@ -36,10 +36,10 @@ class Checks:
         role: str | None,
         is_forced: bool = False,
     ) -> Checked | Answer:
-        """Return what to know about a Command, or why it is not sent.
+        """Return a warning about a Command, or why it is not sent.
 
-        ``role`` is what the aircraft's link permits; None: not known, the aircraft decides. A name
-        that is not known here, which an aircraft may have all the same, is only sent when
+        ``role`` is the role that the aircraft's link permits; None: not known, the aircraft
+        decides. A name unknown here, which an aircraft may know all the same, is only sent when
         ``is_forced``.
         """
         cls = self._catalogue.get(name)

@@ -17,7 +17,7 @@ PER_PEER_LIMIT = 48
 HEADER_S = 5.0
 """The first request is complete by then, however its bytes are spread."""
 HTTP_LIMIT_S = 60.0
-"""A connection that has not become a page's link by then is closed: nobody dribbles for ever."""
+"""A connection that is not a page's link by then is closed, which bounds slow requests."""
 
 
 class Connection(ProtocolWrapper):
@@ -27,7 +27,7 @@ class Connection(ProtocolWrapper):
     factory: Any
     peer = ""
     has_asked = False
-    """Whether a complete request came."""
+    """Whether a complete request has arrived."""
 
     def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
         """Begin to wait for the first request."""
@@ -36,7 +36,7 @@ class Connection(ProtocolWrapper):
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
 
     def on_request(self) -> None:
-        """Note that a complete request came."""
+        """Note the arrival of a complete request."""
         if not self.has_asked:
             self.has_asked = True
             self._timer.reset(HTTP_LIMIT_S - HEADER_S)

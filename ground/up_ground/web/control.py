@@ -1,4 +1,4 @@
-"""Which page controls an aircraft, and the seat at the proxy that goes with it."""
+"""The page that controls an aircraft, and the seat at the proxy behind it."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from up_ground.web.page import Page
 from up_ground.web.page_message import PageFault
 
 ASK_LIMIT_S = 30.0
-"""Who asks for control asks for so long."""
+"""A request for control lasts this long."""
 DENIED_S = 5.0
-"""A ground that was denied asks anew when it has been quiet for so long."""
+"""A denied ground may request again after it has been quiet for this time."""
 
 
 class SeatLink(Protocol):
@@ -28,10 +28,10 @@ class SeatLink(Protocol):
         """Return the number of the ground that has it."""
 
     def take_ask(self) -> int | None:
-        """Return which ground has asked for it since the last time."""
+        """Return which ground has requested it since the last call."""
 
     def request(self) -> None:
-        """Ask for it."""
+        """Request it."""
 
     def give(self, to: int) -> None:
         """Hand it to another ground."""
@@ -41,9 +41,9 @@ class SeatLink(Protocol):
 
 
 class Control:
-    """One page at most has control, and the seat is only held while one wants it.
+    """At most one page has control, and the seat is only held while a page wants it.
 
-    ``tell`` hears in words what has changed, ``on_change`` that something has.
+    ``tell`` gets each change in words, ``on_change`` is called at each change.
     """
 
     def __init__(
@@ -132,18 +132,18 @@ class Control:
         self._on_change()
 
     def on_away(self, page: Page) -> None:
-        """Ask no more for a page whose link was lost; control is kept for it."""
+        """Stop requesting for a page whose link was lost; its control is kept for it."""
         if page in self._askers:
             _cancel(self._askers.pop(page))
             self._on_change()
 
     def on_gone(self, page: Page) -> None:
-        """Take control back from a page that is gone."""
+        """Take control back from a lost page."""
         if page in (self.holder, self._wanting) or page in self._askers:
             self.release(page)
 
     def on_seat(self) -> None:
-        """Hear of the link: the seat may have come, gone, or been asked for."""
+        """Handle a change of the link: the seat may be granted, lost or requested."""
         standing = self._seat.standing
         if self._wanting is not None:
             if standing is Standing.OURS:

@@ -11,7 +11,7 @@ from up_ground.wording import busy_text
 
 INFO, WARNING, ALARM = "info", "warning", "alarm"
 NOT_YET = "not yet"
-"""What is not connected and never told anything is not gone."""
+"""A part that was never connected and never reported anything does not count as lost."""
 
 Words = Callable[[Any, Any], tuple[str, str] | None]
 
@@ -60,7 +60,7 @@ def _state(telemetry: Telemetry, link: str, readings: tuple[str, ...]) -> bool |
 
 
 def _part(key: str, read: Callable[[Telemetry], Any], back: str, level: str) -> Fact:
-    """Return a fact of a part that may come later than the program, and go."""
+    """Return a fact of a part that may connect after the program, and disconnect."""
 
     def words(before: Any, now: Any) -> tuple[str, str] | None:
         if now is False or (now is NOT_YET and before is True):

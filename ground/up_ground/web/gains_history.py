@@ -21,7 +21,7 @@ class _Change:
 
 
 class GainsHistory:
-    """What the aircraft said last of its gains, and the sets that pages of this server sent."""
+    """The aircraft's last report of its gains, and the sets that pages of this server sent."""
 
     def __init__(self) -> None:
         self.flying: dict[str, Any] | None = None

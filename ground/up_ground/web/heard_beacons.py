@@ -9,7 +9,7 @@ from up.system.clock import Clock
 from up_ground.telemetry import Telemetry
 
 KEPT = 512
-"""More frames than this while a beacon is fresh come from no aircraft."""
+"""No aircraft sends more frames than this while a beacon is fresh."""
 
 
 class HeardBeacons:

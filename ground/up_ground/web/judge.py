@@ -59,7 +59,7 @@ class Judge:
         self._number = 0
 
     def note(self, kind: str, level: str, text: str, now_s: float, late_s: float = 0.0) -> None:
-        """Say that something happened, ``late_s`` ago."""
+        """Report an event of ``late_s`` ago."""
         self._number += 1
         event = Event(self._number, now_s - late_s, level, kind, text)
         self._events.append(event)

@@ -20,7 +20,7 @@ class ListenAddress:
 
     @property
     def is_loopback(self) -> bool:
-        """Say whether only this machine's own users reach it."""
+        """Return whether only users of this machine reach it."""
         return not is_wildcard(self.host) and ip_address(self.host).is_loopback
 
     def urls(self, port: int, key: str | None) -> list[str]:
@@ -36,7 +36,7 @@ def authority(host: str, port: int) -> str:
 
 
 def parse_listen(text: str) -> ListenAddress:
-    """Return what ``ADDRESS:PORT`` says; raises ValueError with a sentence.
+    """Parse ``ADDRESS:PORT``; raises ValueError with a sentence.
 
     ``localhost`` is the loopback address, ``*`` or nothing before the colon every interface.
     """

@@ -1,4 +1,4 @@
-"""What the server says to pages, as bytes that a WebSocket carries."""
+"""The server's messages to pages, as bytes for a WebSocket."""
 
 from __future__ import annotations
 

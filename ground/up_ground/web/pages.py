@@ -1,4 +1,4 @@
-"""All the pages that are open, and what each of them says."""
+"""All open pages and their messages."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from up_ground.web.places import PAGES_LIMIT, WATCHERS_LIMIT, NoPlaceError, make
 from up_ground.web.watched import WatchedAircraft
 
 GREETING_LIMIT = 16
-"""Of so many links that have said no hello yet the oldest goes."""
+"""Maximum number of links without a hello; beyond it the oldest is closed."""
 HELLO_S = 5.0
 KEPT_S = 5.0
-"""A page that vanishes is expected back for so long."""
+"""A lost page is expected back within this time."""
 ALIVE_S = 1.0
 FAULTS_LIMIT = 20
 GOING_AWAY = 4001
@@ -72,7 +72,7 @@ class Pages:
         self._all_closed: Deferred[None] | None = None
 
     def start(self) -> None:
-        """Begin to say once a second how things are."""
+        """Start to send the status once a second."""
         self._beat = self._clock.callLater(1.0, self._on_second)
 
     async def stop(self) -> None:
@@ -87,7 +87,7 @@ class Pages:
                 link.close(GOING_AWAY, "the server ends")
             await self._all_closed
 
-    # What an aircraft asks.
+    # Called by an aircraft.
 
     def all(self) -> list[Page]:
         """Return the pages that are here."""
@@ -105,7 +105,7 @@ class Pages:
                 page.news(kind, make)
 
     def tell(self, aircraft: str, message: dict[str, Any]) -> None:
-        """Say something to the pages that watch the aircraft."""
+        """Send a message to the pages that watch the aircraft."""
         encoded = b""
         for page in self._pages.values():
             if page.watched == aircraft:
@@ -117,7 +117,7 @@ class Pages:
         for page in self._pages.values():
             self._show_status(page, self.fleet[aircraft])
 
-    # What a page's link tells.
+    # Called by a page's link.
 
     def on_opened(self, link: PageConnection) -> None:
         """Wait for the page's hello, which shows whether it has a reserved place."""
@@ -212,7 +212,7 @@ class Pages:
         elif former.link is None:
             self._welcome_back(link, former, name, why_not)
         else:
-            # A tab that was doubled brings its original's token; a page whose old link hangs too.
+            # A duplicated tab has its original's token; so has a page whose old link hangs.
             old = former.link
 
             def decide(is_alive: bool) -> None:
@@ -331,7 +331,7 @@ class Pages:
         page.news(f"status {aircraft.name}", lambda: message_bytes(aircraft.status(page)))
 
     def _now_ms(self) -> float:
-        """Return the clock by which pages tell how long the way from here was."""
+        """Return the clock by which pages report the transit time from here."""
         return round(self._clock.seconds() * 1000, 1)
 
     def _forget(self, page: Page) -> None:

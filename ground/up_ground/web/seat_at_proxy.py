@@ -1,4 +1,4 @@
-"""The seat of a link, as `Control` asks of it."""
+"""The seat of a link, with the interface that `Control` requires."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from up_ground.seat_wait import Standing, standing
 from up_ground.settings import Seat
 
 HELLO_AFTER = 5
-"""Requests between two hellos to an aircraft's own listener, which tells not who has the seat."""
+"""Requests between two hellos to an aircraft's own listener, which does not report the owner."""
 
 
 class SeatAtProxy:
@@ -33,7 +33,7 @@ class SeatAtProxy:
         return self._link.status.holder
 
     def take_ask(self) -> int | None:
-        """Return which ground has asked for it since the last time."""
+        """Return which ground has requested it since the last call."""
         status = self._link.status
         asked, status.asked_by = status.asked_by, None
         return asked
@@ -51,7 +51,7 @@ class SeatAtProxy:
         self._link.request_seat()
 
     def give(self, to: int) -> None:
-        """Hand it to another ground; it stays ours where that one has gone."""
+        """Hand it to another ground; it stays ours if that one has disconnected."""
         self._link.give_seat(to)
 
     def release(self) -> None:

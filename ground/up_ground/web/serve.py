@@ -84,7 +84,7 @@ class PageOptions:
 
     @classmethod
     def of(cls, options: argparse.Namespace, environ: Mapping[str, str]) -> PageOptions:
-        """Return what the options say; raises ServeError."""
+        """Return the parsed options; raises ServeError."""
         try:
             # Its further dependencies are an extra; every other verb starts without them.
             importlib.import_module("up_ground.web.server")

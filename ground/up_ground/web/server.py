@@ -63,7 +63,7 @@ class Server(Errand):
         self._port: Any = None
 
     def start(self) -> None:
-        """Open the port, say where the page is, and begin to connect."""
+        """Open the port, print the page's address, and begin to connect."""
         listen = self._listen
         try:
             self._port = self._reactor.listenTCP(listen.port, self._factory, interface=listen.host)

@@ -13,7 +13,7 @@ from up_ground.web.access import Access
 from up_ground.web.static_files import StaticFiles
 
 IDLE_S = 20.0
-"""A connection that sends no line for so long is closed, as are half requests."""
+"""A connection without a line for this time is closed, as are incomplete requests."""
 HEADERS = {
     b"server": b"up-ground",
     b"content-security-policy": (
@@ -118,7 +118,7 @@ class GroundRequest(Request):
         super().gotLength(length)  # type: ignore[no-untyped-call]
 
     def process(self) -> None:
-        """Let the resource answer; Twisted itself answers ``*``, in its own name."""
+        """Let the resource answer; Twisted itself answers ``*`` with its own name."""
         channel: Any = self.channel
         channel.transport.on_request()
         if self.path == b"*":
@@ -142,14 +142,14 @@ def make_site(reactor: Any, resource: GroundResource) -> Site:
 
 
 def refuse(request: Any, code: int, sentence: str) -> bytes:
-    """Return an answer that says why there is nothing else."""
+    """Return an answer with only a reason."""
     request.setResponseCode(code, _WORDS.get(code))
     request.setHeader(b"content-type", _PLAIN)
     return send(request, f"{sentence}\n".encode())
 
 
 def send(request: Any, content: bytes) -> bytes:
-    """Return an answer's body, or nothing where only its head was asked for."""
+    """Return an answer's body, empty if only its head was requested."""
     request.setHeader(b"content-length", b"%d" % len(content))
     return b"" if request.method == b"HEAD" else content
 
@@ -162,7 +162,7 @@ def finish(request: Any, content: bytes) -> None:
 
 
 def _only(request: Any, name: bytes) -> str | None:
-    """Return a header that came once; None: absent, repeated, or no text."""
+    """Return a header that occurs once; None: absent, repeated, or not text."""
     values = request.requestHeaders.getRawHeaders(name, [])
     if len(values) != 1:
         return None

@@ -1,4 +1,4 @@
-"""One aircraft of the server: its link, what it says, what the pages make of it."""
+"""One aircraft of the server: its link, its messages, its pages."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from up_ground.web.track import Track, track_message
 from up_ground.web.watched import Audience
 
 TICK_S = 0.25
-"""So often what time alone changes is looked at."""
+"""Period of the checks for changes by time alone."""
 
 
 class Station:
@@ -94,7 +94,7 @@ class Station:
         await self.link.stop()
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take what the aircraft says."""
+        """Handle a message of the aircraft."""
         came_s = self._reactor.seconds()
         if self.telemetry.take(message, came_s):
             made_s = came_s - self.telemetry.way_s
@@ -124,7 +124,7 @@ class Station:
         self.desk.on_moment()
 
     def on_link(self) -> None:
-        """Hear of the link."""
+        """Handle a change of the link."""
         status = self.link.status
         if self._was_open and not status.is_open:
             self.desk.on_lost()
@@ -188,7 +188,7 @@ class Station:
         }
 
     def on_control(self, page: Page, action: str, to: int | None) -> None:
-        """Let a page ask for control, give, deny or release it."""
+        """Let a page request, give, deny or release control."""
         if action == "give":
             taker = None if to is None else self._audience.get(to)
             if to is not None and taker is None:
@@ -202,7 +202,7 @@ class Station:
             }[action](page)
 
     def on_command(self, page: Page, message: Reader) -> None:
-        """Let a page send a Command."""
+        """Send a page's Command."""
         self.desk.on_command(page, message)
 
     def on_replay(self, page: Page, action: str, message: Reader) -> None:
@@ -210,14 +210,14 @@ class Station:
         raise PageFault("this is no replay")
 
     def on_away(self, page: Page) -> None:
-        """Hear that a page's link was lost; it may come back."""
+        """Handle the loss of a page's link; the page may return."""
         self.control.on_away(page)
 
     def on_back(self, page: Page) -> None:
-        """Hear that a page is here."""
+        """Handle a new page."""
 
     def on_gone(self, page: Page) -> None:
-        """Hear that it will not come back."""
+        """Handle the final loss of a page."""
         self.control.on_gone(page)
 
     def _on_tick(self) -> None:

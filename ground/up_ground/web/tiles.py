@@ -1,4 +1,4 @@
-"""The map's pictures, fetched by the server so that a page never asks anybody else."""
+"""The map's pictures, fetched by the server so that a page contacts no other host."""
 
 from __future__ import annotations
 

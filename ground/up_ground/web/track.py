@@ -1,4 +1,4 @@
-"""The way that the aircraft has come."""
+"""The aircraft's track."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from up_ground.telemetry import Telemetry
 POINTS_LIMIT = 4000
 NEAREST_M = 2.0
 GAP_S = 0.9
-"""Nothing known for longer is a silence, unless places come more seldom than that."""
+"""A longer gap counts as a silence, unless the period of positions is longer."""
 _METRES_A_DEGREE = 111_195.0
 
 _INTERVALS = 5

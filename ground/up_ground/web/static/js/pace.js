@@ -1,6 +1,6 @@
 const PERIOD_S = 0.2;
 
-/** Lets figures of ages change five times a second: faster ones cannot be read. */
+/** Limits displayed ages to five changes a second: faster ones cannot be read. */
 export class Pace {
   #next_s = -Infinity;
 

@@ -10,7 +10,7 @@ const TONES = {
 const AGAIN_S = 6;
 const LOOK_S = 0.5;
 
-/** Decides when to ring: when something new is wrong, and every 6 s while an alarm stands. */
+/** Decides when to ring: at a new alarm, and every 6 s while one is active. */
 export class Bell {
   #known = new Set();
   #rang_s = -Infinity;
@@ -39,7 +39,7 @@ export class Bell {
 
 /**
  * Tones and vibration for alarms; silent until the user switches them on, because browsers play
- * nothing before a gesture. Looks by a timer, so that a page in the background is heard too.
+ * nothing before a gesture. Driven by a timer, so that a page in the background rings too.
  * @param {HTMLButtonElement} button
  * @param {object} store
  * @param {object} connection

@@ -72,7 +72,7 @@ export function mount(place, store, connection) {
     }
   }
 
-  // The store has taken the frame before: it hears every message first.
+  // The store has processed the frame already: it gets every message first.
   function take(message) {
     if (message.aircraft !== store.aircraft) {
       return;

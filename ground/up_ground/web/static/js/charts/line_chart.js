@@ -85,7 +85,7 @@ export class LineChart {
       width: 1.5,
       dash: line.dash,
       spanGaps: false,
-      // A single frame between two silences is a point, else it would not be seen.
+      // A single frame between two silences is a point, otherwise it would be invisible.
       points: { show: (plot, index, from, to) => to - from < 4, size: 3 },
     }));
     return new this.#UPlot(

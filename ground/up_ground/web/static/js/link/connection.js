@@ -47,7 +47,7 @@ export class Connection {
   isFull = false;
   /** The page's own round trip in seconds, null until measured. */
   roundTrip_s = null;
-  /** How long the message that is being heard was on its way, in seconds. */
+  /** Transit time of the message being processed, in seconds. */
   way_s = 0;
   /** Which frame the page has shown: set by the page, echoed in Commands. */
   shownBeacon = () => null;
@@ -67,7 +67,7 @@ export class Connection {
     this.#asks = new PendingAsks(this.#timers);
   }
 
-  /** @returns {boolean} whether the server has welcomed this page and the line stands */
+  /** @returns {boolean} whether the server has welcomed this page and the connection is open */
   get isOpen() {
     return this.welcome !== null;
   }
@@ -203,7 +203,7 @@ export class Connection {
     this.#tell("open", { welcome: message });
   }
 
-  /** A server that tells no clock leaves half of the round trip. */
+  /** Without a clock from the server, half of the round trip. */
   #timeWay(message) {
     const asked_s = message.type === "welcome" ? this.#hello_s : this.#pings.get(message.ping);
     const way_s = this.#way.take(message.sent_ms, this.#heard_s, asked_s ?? null);

@@ -13,7 +13,7 @@ export class PendingAsks {
     this.#timers = timers;
   }
 
-  /** @returns {{ask: number, answer: Promise<object>}} a new number and its answer to come */
+  /** @returns {{ask: number, answer: Promise<object>}} a new number and its future answer */
   add() {
     this.#last += 1;
     const ask = this.#last;

@@ -19,10 +19,10 @@ export class Way {
   #now_s = 0;
 
   /**
-   * @param {unknown} sent_ms the server's clock when the message left
-   * @param {number} now_s the page's clock when it came
-   * @param {number|null} asked_s the page's clock when it asked for this message, if it did
-   * @returns {number|null} how long it was on its way, in seconds; null: it tells no clock
+   * @param {unknown} sent_ms the server's clock at departure
+   * @param {number} now_s the page's clock at arrival
+   * @param {number|null} asked_s the page's clock at the request for this message, if any
+   * @returns {number|null} transit time in seconds; null: the server sends no clock
    */
   take(sent_ms, now_s, asked_s = null) {
     const stamp_ms = number(sent_ms);

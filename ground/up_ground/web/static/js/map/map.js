@@ -66,7 +66,7 @@ export function mount(place, store, connection) {
       "-": () => map?.zoom(-1),
       f: () => setFollow(!map?.isFollowing),
     };
-    // Leaflet itself hears + and - while it has the focus.
+    // Leaflet itself handles + and - while it has the focus.
     const isLeaflets = event.target === canvas && event.key !== "f";
     if (Object.hasOwn(keys, event.key) && !isLeaflets) {
       keys[event.key]();

@@ -1,7 +1,7 @@
 const known = new Set();
 
 /**
- * Silence an alarm until it is over and comes again.
+ * Silence an alarm until it is over and returns.
  * @param {{kind: string, level: string}} alarm
  */
 export function acknowledge(alarm) {

@@ -4,7 +4,7 @@ import { element } from "./element.js";
 import { awayWords } from "./why.js";
 
 /**
- * The alarms that stand: a bar each, until it is over. Acknowledging silences it.
+ * The active alarms: a bar each, until it is over. Acknowledging silences it.
  * @param {HTMLElement} place
  * @param {object} store
  * @param {object} connection

@@ -1,7 +1,7 @@
 import { setAttribute, setText } from "../readout.js";
 import { agoWords } from "./words.js";
 
-/** From then on an answer tells its age. */
+/** From then on an answer shows its age. */
 const AGED_S = 5;
 /** From then on it is grey. */
 const OLD_S = 15;

@@ -3,14 +3,14 @@ import { gainsObjection, gainsWarning } from "./gains_why.js";
 
 const GAINS = "arduino.pids.tunings";
 
-/** What takes more than a question is done where it is asked for as it must be. */
+/** Actions that need more than a confirmation are offered only in their own panel. */
 const ELSEWHERE = {
   "up.arm": "Arming takes the button that is held, under Commands.",
   "up.disarm": "Disarming takes the button that is held, under Commands.",
 };
 
 /**
- * Why a Command is not sent by its name: no way around what its own panel asks for.
+ * Why a Command is not sent by its name: its own panel's conditions cannot be bypassed.
  * @param {object} store
  * @param {import("./asker.js").Asker} asker
  * @param {string} name of the Command itself, not an alias

@@ -29,8 +29,8 @@ export class Asker {
    * @param {string} name of the Command
    * @param {object} data
    * @param {{note: HTMLElement, question?: object|null, isForced?: boolean}} where
-   *   note: says how it goes; question: for dialog.js, null: nothing is asked; isForced: a name that
-   *   the server does not know is sent all the same
+   *   note: shows the progress; question: for dialog.js, null: no confirmation; isForced: a name
+   *   that the server does not know is sent all the same
    * @returns {Promise<object|null>} the answer; null: it was not sent
    */
   async ask(name, data, { note, question = null, isForced = false }) {
@@ -39,7 +39,7 @@ export class Asker {
       this.#notes.tell(note, "not sent: you said no", "plain");
       return null;
     }
-    // While the question stood there, control may have gone elsewhere.
+    // While the dialog was open, control may have changed.
     const why = this.#moved(aircraft) || this.objection(name, data);
     if (why) {
       this.#notes.tell(note, `not sent: ${why}`, "bad");

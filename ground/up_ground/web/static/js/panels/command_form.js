@@ -18,7 +18,7 @@ export class KnownFields {
     this.#fields.forEach((each) => each.offer(isOffered));
   }
 
-  /** @returns {object|null} the data of the Command; null: a field is wrong, which it says itself */
+  /** @returns {object|null} the data of the Command; null: a field is wrong and shows its error */
   read() {
     const data = {};
     let firstWrong = null;

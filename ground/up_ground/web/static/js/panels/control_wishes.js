@@ -1,5 +1,5 @@
 const LIMIT_S = 30;
-/** The server tells when a wish is over; a page that does not hear it gives it up a little later. */
+/** The server reports the end of a request; without a report the page ends it a little later. */
 const LATE_S = 3;
 /** How long the outcome of a request is shown. */
 const TOLD_S = 30;
@@ -82,7 +82,7 @@ export class ControlWishes {
 /**
  * @param {object|null} control of a status
  * @param {number|null} page this page's number
- * @returns {boolean} whether it is this page that asks
+ * @returns {boolean} whether this page has the pending request
  */
 export function isAsker(control, page) {
   return typeof page === "number" && control?.asked_by?.page === page;

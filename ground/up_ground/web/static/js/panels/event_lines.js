@@ -26,7 +26,7 @@ export class EventLines {
     return scrollHeight - scrollTop - clientHeight < 24;
   }
 
-  /** Bring the newest line into sight. */
+  /** Scroll the newest line into view. */
   toNewest() {
     this.#window.scrollTop = this.#window.scrollHeight;
   }

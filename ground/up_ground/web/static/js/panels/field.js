@@ -37,7 +37,7 @@ export class Field {
     this.button.disabled = !isOffered;
   }
 
-  /** @returns {any} the value that stands there; null: none that could be sent */
+  /** @returns {any} its value; null: not valid for sending */
   get value() {
     const { value, problem } = this.#read(this.input.value);
     return problem ? null : value;

@@ -2,11 +2,11 @@
 const AROUND_BYTES = 52;
 const EVERY = 20;
 
-/** How many bytes a telemetry frame has as it comes from the aircraft: measured now and then. */
+/** Bytes of a telemetry frame as received from the aircraft: measured now and then. */
 export class FrameSize {
   #nextAt = 0;
 
-  /** @type {number|null} the mean of the last ones; null: none came */
+  /** @type {number|null} the mean of the last ones; null: no frame yet */
   bytes = null;
 
   /**

@@ -17,7 +17,7 @@ export const AXES = [
 /**
  * @param {{key: string}} loop
  * @param {{key: string}} axis
- * @returns {boolean} whether a controller uses its gains; the others are sent as they came
+ * @returns {boolean} whether a controller uses its gains; the others are sent as received
  */
 export function isUsed(loop, axis) {
   return loop.key !== "stabPIDs" || axis.key !== "rudder";

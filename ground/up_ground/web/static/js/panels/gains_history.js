@@ -17,7 +17,7 @@ export class GainsHistory {
 
   /**
    * @param {object|null} message the server's `gains`
-   * @param {number} since_s seconds since it came
+   * @param {number} since_s seconds since its arrival
    */
   show(message, since_s) {
     if (message !== this.#shown) {

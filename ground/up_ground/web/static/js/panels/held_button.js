@@ -52,7 +52,7 @@ export class HeldButton {
     this.#show();
   }
 
-  /** Take a press under way back when something speaks against it, and show how it stands. */
+  /** Cancel a press under way when there is an objection, and show the state. */
   update() {
     if (this.#press.state === "pressed") {
       this.#look();
@@ -68,7 +68,7 @@ export class HeldButton {
         this.#begin(`pointer ${event.pointerId}`, now_s());
       }
     });
-    // A finger is captured by what it touched first: that it left only its place tells.
+    // A finger is captured by the first element it touched: only its position shows that it left.
     button.addEventListener("pointermove", (event) => {
       if (this.#press.state === "pressed" && !isWithin(event, button)) {
         this.#end(() => this.#press.void("the pointer left the button"));

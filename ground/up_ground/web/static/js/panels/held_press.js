@@ -42,7 +42,7 @@ export class HeldPress {
     }
   }
 
-  /** @param {string} by what lets go */
+  /** @param {string} by the input that is released */
   release(by) {
     if (!this.#by.delete(by)) {
       return;
@@ -53,7 +53,7 @@ export class HeldPress {
     }
   }
 
-  /** Let go of everything: the pointer was taken away, the focus went elsewhere. */
+  /** Release all inputs: the pointer was cancelled, the focus was lost. */
   abandon(why) {
     this.void(why);
     this.#by.clear();

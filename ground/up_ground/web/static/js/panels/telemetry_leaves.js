@@ -10,7 +10,7 @@ const UNSEEN = /[\p{Cc}\p{Cf}\p{Cs}\p{Co}\p{Zl}\p{Zp}]/gu;
 
 /**
  * Every value of a tree of telemetry, in its order; an empty object or list is a value.
- * @param {unknown} tree as it came
+ * @param {unknown} tree as received
  * @param {number} [most]
  * @returns {{leaves: {path: string, keys: string[], value: unknown}[], isCut: boolean}}
  */

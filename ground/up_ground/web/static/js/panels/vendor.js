@@ -15,8 +15,8 @@ export function sayMissing(sentence) {
 }
 
 /**
- * @param {string} address of a style sheet of what npm brought
- * @returns {Promise<void>} fails when it is not there
+ * @param {string} address of a style sheet of an npm package
+ * @returns {Promise<void>} fails when it is missing
  */
 export function styleSheet(address) {
   return new Promise((resolve, reject) => {

@@ -15,7 +15,7 @@ export function modeWords(mode) {
 /**
  * @param {string} name of a Command
  * @param {object} [data]
- * @returns {string} what a Command asks for, as a heading
+ * @returns {string} the request of a Command, as a heading
  */
 export function commandWords(name, data = {}) {
   switch (name) {

@@ -8,9 +8,9 @@ export class NewestFrame {
   #frameAge_s = 0;
   #heldAt_s = null;
 
-  /** The tree as it came, not judged. */
+  /** The tree as received, not validated. */
   data = {};
-  /** How many came. */
+  /** Number of frames received. */
   frames = 0;
   /** Its number, null without a frame. */
   beacon = null;
@@ -41,12 +41,12 @@ export class NewestFrame {
     return true;
   }
 
-  /** Let no age grow: the flight itself stands still, as a replay does while it is paused. */
+  /** Freeze all ages: the flight stands still, as in a paused replay. */
   hold() {
     this.#heldAt_s ??= this.now_s;
   }
 
-  /** Let the ages grow from where they were held. */
+  /** Resume the ages from their frozen values. */
   release() {
     if (this.#heldAt_s !== null && this.#frameAt_s !== null) {
       this.#frameAt_s += this.now_s - this.#heldAt_s;
@@ -71,12 +71,12 @@ export class NewestFrame {
     return isSilent(this.age_s(null));
   }
 
-  /** @returns {"live"|"silent"|"none"} none: not one frame came yet */
+  /** @returns {"live"|"silent"|"none"} none: no frame yet */
   get aircraftState() {
     return this.#frameAt_s === null ? "none" : this.isSilent ? "silent" : "live";
   }
 
-  /** @returns {number|null} a number at that path; null: absent, or something else */
+  /** @returns {number|null} a number at that path; null: absent, or of another type */
   number(path) {
     return judge.number(judge.at(this.data, path));
   }

@@ -26,7 +26,7 @@ export function roleAllows(role, name, least = null) {
 /**
  * @param {string} name
  * @param {object} [data]
- * @returns {boolean} whether it only asks, and needs no control
+ * @returns {boolean} whether it only requests data, and needs no control
  */
 export function isOnlyRequest(name, data = {}) {
   return (

@@ -102,7 +102,7 @@ export class Store extends NewestFrame {
     return this.statuses.get(this.aircraft) ?? null;
   }
 
-  /** @returns {number} seconds: now in the flight that is replayed, else on the page's clock */
+  /** @returns {number} seconds: now in the replayed flight, otherwise on the page's clock */
   get flight_s() {
     const time_s = judge.number(this.replay?.time_s);
     if (time_s === null) {
