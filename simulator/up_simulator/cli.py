@@ -132,7 +132,7 @@ def _open_closed_streams() -> None:
 
 
 def _fail(text: str, status: int) -> int:
-    # The terminal may be gone by now.
+    # The terminal may be closed already.
     with suppress(OSError):
         sys.stderr.write(f"up-sim: {text}\n")
     return status

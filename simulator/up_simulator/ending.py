@@ -1,4 +1,4 @@
-"""SIGTERM and SIGHUP ask for the same orderly end as Ctrl-C."""
+"""SIGTERM and SIGHUP cause the same orderly end as Ctrl-C."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Handler = Callable[[int, FrameType | None], object]
 
 
 class Ending:
-    """Which signal has asked for the end first."""
+    """The first signal received."""
 
     def __init__(self) -> None:
         self._number: int | None = None
@@ -36,13 +36,13 @@ class Ending:
         raise KeyboardInterrupt
 
     def status(self, status: int) -> int:
-        """Return the exit status: 128 and the signal, as a shell has it, where one has come."""
+        """Return the exit status: 128 plus the signal, as in a shell, after a signal."""
         return status if self._number is None or status == 0 else FIRST_STATUS + self._number
 
 
 @contextmanager
 def ending_in_order() -> Iterator[Ending]:
-    """Let each of the signals raise KeyboardInterrupt, except ignored ones (``nohup``)."""
+    """Make each of the signals raise KeyboardInterrupt, except ignored ones (``nohup``)."""
     ending = Ending()
     before = {number: signal.getsignal(number) for number in SIGNALS}
     for number, handler in before.items():
@@ -56,7 +56,7 @@ def ending_in_order() -> Iterator[Ending]:
 
 
 class Interrupt:
-    """Whether the end was asked for."""
+    """Whether a signal has requested the end."""
 
     def __init__(self) -> None:
         self.is_asked = False

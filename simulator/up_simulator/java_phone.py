@@ -17,7 +17,7 @@ GONE = "the phone is gone, and all else flies on"
 
 
 def sentence_of(event: Mapping[str, Any]) -> str | None:
-    """Return what an event of the virtual phone is in plain words; None: nothing to say."""
+    """Return an event of the virtual phone in plain words; None if it is not worth a line."""
     match event.get("event"):
         case "connected":
             return f"connected to {event.get('host')}:{event.get('general')}"
@@ -61,7 +61,7 @@ class JvmHandset:
         return None if self._process is None else self._process.pid
 
     def set_battery(self, percent: float) -> None:
-        """Let its battery have this level from now on."""
+        """Set the level of its battery."""
         self._feed.set_battery(percent, self._clock.seconds())
 
     async def stop(self) -> None:
@@ -71,7 +71,7 @@ class JvmHandset:
             process.end()
 
     def take(self, event: dict[str, Any]) -> None:
-        """Take what the JVM says."""
+        """Take an event of the JVM."""
         if event.get("event") == "wants":
             period_s = event["period_ms"] / 1000
             self._feed.want(str(event["sensor"]), period_s, self._clock.seconds())
@@ -121,7 +121,7 @@ class JavaHandset(JvmHandset):
             self._process = JavaPhoneProcess(self._program, *self._options, *self._place())
 
     def tick(self) -> None:
-        """Hear what it says, and tell it what its sensors have."""
+        """Take its events, and send its sensors' readings."""
         process = self._process
         if process is None:
             return

@@ -1,4 +1,4 @@
-"""Which readings the Java phone wants when, and what they are."""
+"""The readings that the Java phone requests, with their times."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _TINY_S = 1e-6
 
 @dataclass(slots=True)
 class _Stream:
-    """One sensor that is wanted."""
+    """One requested sensor."""
 
     period_s: float
     due_s: float
@@ -44,7 +44,7 @@ class SensorFeed:
 
     @property
     def next_s(self) -> float:
-        """Return when the next reading is due: infinity while none is wanted."""
+        """Return when the next reading is due: infinity without requests."""
         return min((stream.due_s for stream in self._wanted.values()), default=math.inf)
 
     def want(self, sensor: str, period_s: float, now_s: float) -> None:

@@ -108,14 +108,14 @@ def _build(android: Path) -> None:
         if done.returncode:
             reason = _reason(done.stdout + done.stderr)
             raise JavaUnavailableError(f"the Java phone does not compile: {reason}")
-        # What needed no building counts as fresh all the same.
+        # A build without work counts as fresh all the same.
         for name in JARS:
             (android / "build" / name).touch()
 
 
 @contextlib.contextmanager
 def _lock(build: Path) -> Iterator[None]:
-    """Let one process build, and others wait for it."""
+    """Let one process build, and make others wait for it."""
     try:
         build.mkdir(exist_ok=True)
         lock = (build / ".lock").open("w")
@@ -128,7 +128,7 @@ def _lock(build: Path) -> Iterator[None]:
 
 
 def _reason(said: str) -> str:
-    """Return the line of make's output that says most: the first error, or the last line."""
+    """Return the most informative line of make's output: the first error, or the last line."""
     lines = [line.strip() for line in said.splitlines() if line.strip()]
     errors = [line for line in lines if "error:" in line or "needs" in line]
     return (errors or lines[-1:] or ["make said nothing"])[0]

@@ -1,4 +1,4 @@
-"""The stand-in for the airborne phone: what it sends, and what it answers."""
+"""The stand-in for the airborne phone: its messages and its answers."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ class _Stream:
 
 
 class Phone:
-    """Sends what the phone measures and answers what it is asked, apart from any socket.
+    """Sends the phone's measurements and answers requests, independent of sockets.
 
     ``send`` takes lines for the General Message link, ``send_orientation`` frames of 24 bytes;
-    ``tick`` is to be called every few milliseconds. In Panic Mode no stream is quicker than the
-    delay that the Raspberry Pi names. ``record`` gives what it has the black box write, 20 times
+    ``tick`` must be called every few milliseconds. In Panic Mode no stream is quicker than the
+    delay that the Raspberry Pi requests. ``record`` returns the phone's black box data, 20 times
     a second: the data of ``black_box.record``. ``identity``, up to 8 hexadecimal digits, begins
-    the id of each connection's first message and tells this phone from another (protocols 4).
+    the id of each connection's first message and identifies this phone (protocols 4).
     """
 
     def __init__(
@@ -94,7 +94,7 @@ class Phone:
             stream.due_s = 0.0
 
     def disconnected(self) -> None:
-        """Stop sending; what a lost link asked for is forgotten."""
+        """Stop sending; requests of a lost link are forgotten."""
         self.send = None
         self.panic_s = 0.0
 

@@ -1,4 +1,4 @@
-"""Chooses what the phone aboard is: the Up Library on a JVM, or the stand-in in Python."""
+"""Chooses the phone aboard: the Up Library on a JVM, or the stand-in in Python."""
 
 from __future__ import annotations
 

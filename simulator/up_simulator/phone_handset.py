@@ -31,10 +31,10 @@ class Handset(Protocol):
         """Do the work that is due."""
 
     def set_battery(self, percent: float) -> None:
-        """Let its battery have this level from now on."""
+        """Set the level of its battery."""
 
     async def stop(self) -> None:
-        """Switch it off for good."""
+        """Switch it off permanently."""
 
 
 class PythonHandset:

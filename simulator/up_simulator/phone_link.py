@@ -75,7 +75,7 @@ class PhoneLink:
             await self._udp.stopListening()
 
     def say(self, text: str) -> None:
-        """Say something unless it was said last."""
+        """Report a state unless it was the last one reported."""
         if text != self._said:
             self._said = text
             self._say(text)

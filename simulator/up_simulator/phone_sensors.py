@@ -1,4 +1,4 @@
-"""What a phone on board measures: its raw sensors, or what it makes of them, with their noise."""
+"""The measurements of a phone on board: raw sensors and derived values, with their noise."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ GPS_MEMORY = 0.95
 BAROMETER_M = 0.3
 COMPASS_DEG = 1.5
 COMPASS_S = 0.2
-"""How long an error of the compass lasts: so often the heading is sent."""
+"""Correlation time of a compass error, which is the period of the heading."""
 BATTERY_FULL = 95.0
 BATTERY_PERCENT_PER_S = 0.01
 SEA_LEVEL_HPA, SEA_LEVEL_K, LAPSE_K_M = 1013.25, 288.15, 0.0065

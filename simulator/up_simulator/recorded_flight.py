@@ -53,7 +53,7 @@ class RecordedFlight:
 
     @property
     def servos(self) -> Servos:
-        """Return the pulses asked last, us."""
+        """Return the last commanded pulses, us."""
         return self._servos
 
     def set_servos(self, pulses_us: Servos) -> None:

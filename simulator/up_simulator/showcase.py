@@ -26,7 +26,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 class Stopped(Exception):  # noqa: N818 - a signal is not an error
-    """A signal asks for the end."""
+    """A signal requests the end."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -169,7 +169,7 @@ def _fail(text: str, status: int) -> int:
 
 
 def _say(text: str) -> None:
-    # The terminal may be gone by now.
+    # The terminal may be closed already.
     with contextlib.suppress(OSError):
         print(text, flush=True)  # noqa: T201
 

@@ -24,7 +24,7 @@ class News:
         self._times = 0
 
     def of(self, lines: Iterable[str]) -> list[str]:
-        """Return what to say of new lines, and of those that were held back."""
+        """Return the lines to print for new lines, and for those held back."""
         chosen = []
         for line in lines:
             late = _LATE.search(line)

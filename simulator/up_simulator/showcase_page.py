@@ -32,7 +32,7 @@ class Page:
         self.command = f"{program('up-ground')} {shlex.join(words)}"
 
     def wait_for_address(self) -> str | None:
-        """Return where a browser finds it; None when it has ended or says nothing in time."""
+        """Return the page's address; None when it has ended or prints none in time."""
         deadline_s = time.monotonic() + LIMIT_S
         while time.monotonic() < deadline_s:
             has_ended = self.child.poll() is not None

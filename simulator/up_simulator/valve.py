@@ -1,4 +1,4 @@
-"""Lets a link lose what it cannot take."""
+"""Drops the data that a link cannot take."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ COMMAND_SIZES = {
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A serial Command as it came: its type letter, payload and, if framed, its sequence."""
+    """A serial Command as received: its type letter, payload and, if framed, its sequence."""
 
     type: str
     payload: bytes
@@ -59,7 +59,7 @@ class CheckedReader:
         self.dropped = 0
 
     def feed(self, data: bytes, now_s: float) -> Iterator[Command]:
-        """Take bytes that came at ``now_s`` and yield what they complete."""
+        """Take bytes received at ``now_s`` and yield the Commands that they complete."""
         self.expire(now_s)
         for byte in data:
             if byte:

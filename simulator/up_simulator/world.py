@@ -35,7 +35,7 @@ class Dynamics(Protocol):
         """Return what ended the flight; from then on the aircraft lies still."""
 
     def set_servos(self, pulses_us: Pulses) -> None:
-        """Ask the servos to go to these pulses."""
+        """Command the servos to these pulses."""
 
     def advance(self, duration_s: float) -> None:
         """Fly on."""

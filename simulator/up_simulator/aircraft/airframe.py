@@ -1,4 +1,4 @@
-"""An aircraft to be flown: what its folder says, checked."""
+"""An aircraft from its folder, validated."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class Airframe:
 
     @property
     def has_motor(self) -> bool:
-        """Tell whether something drives it."""
+        """Return whether it has a motor."""
         return self.motor.diameter_m > 0
 
 
@@ -184,7 +184,7 @@ def _mass_of(model_path: Path) -> float:
 
 
 def _check(path: Path, airframe: Airframe) -> None:
-    """Let JSBSim fly a model that is not ours. Raises ``AirframeError`` with what it says."""
+    """Let JSBSim fly a foreign model. Raises ``AirframeError`` with JSBSim's message."""
     servos = airframe.servos
     moved = {node: output for output in _OUTPUTS for node in getattr(servos, output).moves}
     wanted = [*moved, *([MOTOR] if airframe.has_motor else [])]

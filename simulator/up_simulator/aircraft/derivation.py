@@ -239,7 +239,7 @@ class Derivation:
 
     @cached_property
     def crossflow_drag(self) -> float:
-        """Return the drag when the air comes from the side: fuselage and fins."""
+        """Return the drag in a flow from the side: fuselage and fins."""
         geometry = self.geometry
         sides = geometry.fuselage.length_m * geometry.fuselage.side_height_m
         fins = 2 if geometry.tip_fins else 1

@@ -61,8 +61,8 @@ class FlightDynamics:
     """A flight in steps of 2 ms, launched in the air; satisfies ``Flight``.
 
     The same arguments and the same pulses at the same steps fly the same flight to the last
-    digit. ``crash`` says in one sentence what ended the flight; from then on nothing moves but
-    the time. Raises ``FlightUnavailableError`` where JSBSim is missing.
+    digit. ``crash`` is one sentence about the end of the flight; after it only the time advances.
+    Raises ``FlightUnavailableError`` where JSBSim is missing.
     """
 
     STEP_S = 0.002
@@ -115,11 +115,11 @@ class FlightDynamics:
 
     @property
     def servos(self) -> Servos:
-        """Return where the servos stand, us."""
+        """Return the servo positions, us."""
         return self._servos.rounded_us
 
     def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
-        """Ask the servos to go to these pulses; they move at their own speed."""
+        """Command the servos to these pulses; they move at their own speed."""
         self._servos.set(pulses_us)
 
     def advance(self, duration_s: float) -> None:

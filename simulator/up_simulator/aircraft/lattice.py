@@ -50,7 +50,7 @@ class Panel:
 
 @dataclass(frozen=True, slots=True)
 class Flow:
-    """How the air comes: angles, rates by span or chord over twice the speed, controls (rad)."""
+    """The flow: angles, rates by span or chord over twice the speed, controls (rad)."""
 
     alpha_rad: float = 0.0
     beta_rad: float = 0.0

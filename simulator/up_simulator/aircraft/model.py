@@ -52,7 +52,7 @@ def reader(fdm: Any, name: str) -> Callable[[], float]:
 
 
 def has_property(fdm: Any, name: str) -> bool:
-    """Tell whether JSBSim or the model knows a property."""
+    """Return whether JSBSim or the model has a property."""
     return bool(fdm.get_property_manager().hasNode(name))
 
 

@@ -62,7 +62,7 @@ def _fly(path: Path, airspeed_m_s: float, properties: Sequence[str]) -> int:
             if not fdm.run():
                 raise FlightUnavailableError("it gives up within the first steps")
     except FlightUnavailableError as error:
-        # What JSBSim printed itself tells more.
+        # JSBSim's own output has more details.
         sys.stderr.write(f"{error}\n".removeprefix(f"{path}: JSBSim refuses it"))
         return _REFUSED
     except (jsbsim.BaseError, RuntimeError, ValueError) as error:

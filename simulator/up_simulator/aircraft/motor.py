@@ -1,4 +1,4 @@
-"""The drive: a battery, a brushless motor and a propeller that folds or stands when it is off."""
+"""The drive: a battery, a brushless motor and a propeller that folds or stops when it is off."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Battery:
 
     @property
     def is_empty(self) -> bool:
-        """Tell whether the speed controller has to cut the motor off."""
+        """Return whether the speed controller has to cut the motor off."""
         return self._left_c <= 0.0
 
     @property
@@ -92,7 +92,7 @@ class Motor:
         return self._turns * 60
 
     def spin_up(self, throttle: float, airspeed_m_s: float) -> None:
-        """Let it turn as it does after a while at this throttle; nothing is drawn."""
+        """Set the steady rotation at this throttle; no charge is drawn."""
         for _ in range(1000):
             self._advance(throttle, airspeed_m_s, 0.002)
 

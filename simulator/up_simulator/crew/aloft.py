@@ -30,10 +30,10 @@ class Aloft(Protocol):
 
     @property
     def servos(self) -> Servos:
-        """Return where the servos stand now, us."""
+        """Return the present servo positions, us."""
 
     def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
-        """Ask the servos to go to these pulses."""
+        """Command the servos to these pulses."""
 
     def advance(self, duration_s: float) -> None:
         """Fly on."""

@@ -73,7 +73,7 @@ class Child:
 
     @property
     def output(self) -> IO[bytes]:
-        """Return where one that talks is heard."""
+        """Return the output of one that talks."""
         assert self._process.stdout is not None
         return self._process.stdout
 
@@ -112,7 +112,7 @@ class Child:
         while not is_ready(self.lines()):
             status = self.poll()
             if status is not None:
-                # It may have said it with its last breath.
+                # The line may be in its last output.
                 if is_ready(self.lines()):
                     return
                 raise CrewError(self.last_words(status))
@@ -126,7 +126,7 @@ class Child:
         return next(line for line in self.lines() if text in line)
 
     def last_words(self, status: int) -> str:
-        """Return the sentence that says how it ended, and the end of its log if there is any."""
+        """Return the sentence about its end, and the end of its log if there is any."""
         how = f"signal {-status}" if status < 0 else f"status {status}"
         ended = f"{self.name} ended by itself with {how}"
         tail = self.tail()
@@ -143,7 +143,7 @@ class Child:
                 self._process.send_signal(number)
 
     def terminate(self) -> None:
-        """Ask it to end."""
+        """Send it the signal to end."""
         self.signal(signal.SIGTERM)
 
     def wait(self, limit_s: float = STOP_LIMIT_S) -> int:
@@ -158,7 +158,7 @@ class Child:
             self._pid_file.unlink(missing_ok=True)
 
     def end(self) -> int:
-        """Ask it to end and wait until it has; returns its status."""
+        """Send it the signal to end and wait for it; returns its status."""
         self.terminate()
         return self.wait()
 
@@ -172,10 +172,10 @@ def _input_of(in_foreground: bool, talks: bool) -> int | None:
 def dying_wish(
     number: int = signal.SIGTERM, parent: int | None = None
 ) -> Callable[[], None] | None:
-    """Return what a child does before it becomes its program: it asks to go when we go.
+    """Return a function for the child before exec: it requests a signal at our death.
 
-    The child calls it, and gets the signal; ``parent`` is the process that makes it if no other is
-    named. None: only Linux can.
+    The child calls it, and gets the signal; ``parent`` is the process that creates it, by default
+    this one. None: only Linux supports it.
     """
     if not sys.platform.startswith("linux"):
         return None

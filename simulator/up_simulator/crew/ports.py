@@ -8,8 +8,8 @@ from dataclasses import astuple, dataclass
 
 _TRIES = 20
 _FIRST, _LAST = 20_000, 32_767
-"""Below what systems give to whoever connects (Linux: from 32768): nobody has one by chance before
-the program that it was chosen for."""
+"""Below the ephemeral ports of systems (Linux: from 32768), which another program could get by
+chance before the intended one."""
 _random = random.SystemRandom()
 
 

@@ -45,7 +45,7 @@ class RealRaspilot:
         """Make its process; raises ``CrewError`` when it runs already."""
         if self.is_running:
             raise CrewError("raspilot runs already")
-        # A frozen one hears nothing but this when we are killed.
+        # A frozen daemon receives only this signal when we are killed.
         self._child = Child("raspilot", self._command, self._folder, wish=signal.SIGKILL)
 
     def wait_for_line(self, text: str, limit_s: float = START_LIMIT_S) -> str:
@@ -58,13 +58,13 @@ class RealRaspilot:
             raise CrewError(self._child.last_words(status))
 
     def ask_to_stop(self) -> None:
-        """Ask it to end, as systemd does."""
+        """Send it the signal to end, as systemd does."""
         if self._child is not None:
             self._child.terminate()
             self.thaw()
 
     def stop(self) -> None:
-        """Ask it to end and wait until it has."""
+        """Send it the signal to end and wait for it."""
         if self._child is not None:
             self.ask_to_stop()
             self._child.wait()
@@ -80,7 +80,7 @@ class RealRaspilot:
         self._alive().signal(signal.SIGSTOP)
 
     def thaw(self) -> None:
-        """Let a frozen one go on."""
+        """Resume a frozen one."""
         self._alive().signal(signal.SIGCONT)
 
     def _alive(self) -> Child:

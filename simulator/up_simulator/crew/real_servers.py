@@ -15,7 +15,7 @@ START_LIMIT_S = 30.0
 
 
 class _Server:
-    """A program that says on which port it listens."""
+    """A program that prints the port on which it listens."""
 
     NAME = ""
     MODULE = ""
@@ -53,7 +53,7 @@ class _Server:
             self._child = None
 
     def stop(self) -> None:
-        """Ask it to end and wait until it has."""
+        """Send it the signal to end and wait for it."""
         if self._child is not None:
             self._child.end()
             self._child = None
@@ -83,7 +83,7 @@ class RealProxy(_Server):
 class RealRunner(_Server):
     """``up-runner --config DIR``; ``start`` waits for its port.
 
-    Its instances end with it where ``runner.yml`` says ``stop instances on exit: true``.
+    Its instances end with it if ``runner.yml`` has ``stop instances on exit: true``.
     """
 
     NAME, MODULE = "runner", "up_runner.main"

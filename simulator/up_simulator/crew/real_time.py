@@ -12,16 +12,16 @@ from up_simulator.world import BYTES_A_STEP, STEP_S, World
 LATEST_S = 0.25
 SAY_AGAIN_S = 5.0
 STICK_STEPS = 10
-"""A receiver sends a frame every 20 ms: nobody sees sticks that are read more often."""
+"""A receiver sends a frame every 20 ms: reading the sticks more often has no effect."""
 STEPS_MOST = 25
 """Steps at a time: a world that has to catch up leaves the sockets their turn."""
 
 
 class SerialLine(Protocol):
-    """What the board's serial line goes through, as ``up_rig.pty_line.PtyLine``."""
+    """The board's serial line, as ``up_rig.pty_line.PtyLine``."""
 
     def read(self, timeout_s: float, most: int) -> bytes:
-        """Return what has come, waiting for it up to a time."""
+        """Return the received bytes, waiting for them up to a time."""
 
     def write(self, data: bytes) -> None:
         """Send bytes, or drop them without a reader."""
@@ -63,7 +63,7 @@ class RealTimeWorld:
         return self._clock.seconds() - self._start_s - self.skipped_s - self.world.time_s
 
     def keep(self) -> None:
-        """Fly until now, or for as many steps as others can bear. Raises ``BoardCrashedError``."""
+        """Fly until now, or for a bounded number of steps. Raises ``BoardCrashedError``."""
         late_s = self.late_s
         if late_s > LATEST_S:
             self._skip(late_s)
@@ -73,7 +73,7 @@ class RealTimeWorld:
             self.step()
 
     def step(self) -> None:
-        """Fly for one step, whatever the clock says. Raises ``BoardCrashedError``."""
+        """Fly for one step, regardless of the clock. Raises ``BoardCrashedError``."""
         world = self.world
         if self._steps % STICK_STEPS == 0:
             self._transmitter.send(self.radio.sticks(world.time_s, world.state))

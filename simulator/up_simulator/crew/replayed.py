@@ -28,7 +28,7 @@ class ReplayedFlight:
 
     @property
     def servos(self) -> Servos:
-        """Return the pulses asked last, us."""
+        """Return the last commanded pulses, us."""
         return self._flight.servos
 
     @property

@@ -80,7 +80,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _hear(number: int, handler: Callable[[int, Any], object]) -> None:
-    """Hear a signal, unless it is to be ignored, as after ``nohup``."""
+    """Handle a signal, unless it is ignored, as after ``nohup``."""
     if signal.getsignal(number) != signal.SIG_IGN:
         signal.signal(number, handler)
 

@@ -39,7 +39,7 @@ MODE_WORDS = {
     "SETPOINT": "SETPOINT, the Arduino holds the attitude that Raspilot asks for",
     "OUTPUT": "OUTPUT, Raspilot moves the servos",
 }
-"""What is said when the board flies another mode."""
+"""Printed when the board flies another mode."""
 
 Say = Callable[[str], None]
 

@@ -1,4 +1,4 @@
-"""What a simulated flight asks of the board that is aboard."""
+"""The interface of a simulated flight to its board."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class FirmwareBoard(Protocol):
         """Switch all channels of the receiver on or off."""
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Let one channel of the receiver send pulses or stay silent."""
+        """Switch the pulses of one channel of the receiver on or off."""
 
     def set_motion(self, motion: Motion) -> None:
         """Set what the IMU feels from now on."""

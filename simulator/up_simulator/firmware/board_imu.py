@@ -39,5 +39,5 @@ class BoardImu:
         return self._fault
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Let it fail, or mend it."""
+        """Set a fault, or clear it."""
         self._fault = fault

@@ -125,7 +125,7 @@ def _is_ready(program: Path) -> bool:
 
 
 def _reason(error: Exception) -> str:
-    """Return the line of make's output that says most: the first error, or the last line."""
+    """Return the most informative line of make's output: the first error, or the last line."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     errors = [line for line in lines if "error:" in line or "needs" in line]
     return (errors or lines[-1:] or ["make said nothing"])[0]

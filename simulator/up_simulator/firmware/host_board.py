@@ -47,7 +47,7 @@ class HostImu(BoardImu):
         self._numbers = [0] * SAMPLE_NUMBERS
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Let it fail, or mend it."""
+        """Set a fault, or clear it."""
         super().set_fault(fault)
         self._library.set_imu_fault({"unplugged": 1, "stuck": 2}.get(fault, 0))
 
@@ -119,7 +119,7 @@ class HostBoard:
         self._library.set_receiver(is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Let one channel of the receiver send pulses or stay silent."""
+        """Switch the pulses of one channel of the receiver on or off."""
         self._library.set_channel(_CHANNELS[channel], is_on)
 
     def set_motion(self, motion: Motion) -> None:

@@ -1,4 +1,4 @@
-"""What spoils the measurements of an IMU: noise, bias, warming up, a motor that shakes it."""
+"""The measurement errors of an IMU: noise, bias, warming up, vibration by a motor."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ DRAWN_DRIFT_DEG_S = 4.0
 
 @dataclass(frozen=True, slots=True)
 class ImuErrors:
-    """How a sensor errs; vectors are x forward, y right, z down.
+    """Errors of a sensor; vectors are x forward, y right, z down.
 
-    Noise is a standard deviation for each sample. ``gyro_drift_deg_s`` is what the bias changes by
-    until the sensor is warm; ``warm_up_s`` is the time constant of that, from its power-on. The
-    vibration is an amplitude as the sensor's own filter passes it, at full throttle and at
-    ``vibration_hz``; frequency goes with the throttle, amplitude with its square, as the force of
-    an unbalanced rotor does.
+    Noise is a standard deviation for each sample. ``gyro_drift_deg_s`` is the change of the bias
+    until the sensor is warm; ``warm_up_s`` is its time constant, from power-on. The vibration is
+    an amplitude behind the sensor's own filter, at full throttle and at ``vibration_hz``;
+    frequency is proportional to the throttle, amplitude to its square, as the force of an
+    unbalanced rotor.
     """
 
     gyro_noise_deg_s: float = NOISE_DEG_S

@@ -20,7 +20,7 @@ STEP_US = 10_000.0
 BOOT_US = 1_500_000.0
 ANSWER_STEPS = 50
 QUIET_STEPS = 30
-"""An EEPROM that has not changed for so long holds all that it was to get: a byte takes 3.4 ms."""
+"""An EEPROM unchanged for this time is complete: a byte takes 3.4 ms."""
 WRITE_STEPS = 600
 _ANSWERS = {"c": "C", "G": "G"}
 

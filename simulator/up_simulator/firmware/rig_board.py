@@ -32,7 +32,7 @@ class RigImu(BoardImu):
         self._imu.motion = self._measure
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Let it fail, or mend it."""
+        """Set a fault, or clear it."""
         imu = self._imu
         imu.mend()
         imu.is_frozen = fault == "frozen"
@@ -95,7 +95,7 @@ class RigBoard:
             self._switch(channel, is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Let one channel of the receiver send pulses or stay silent."""
+        """Switch the pulses of one channel of the receiver on or off."""
         self._switch(channel, is_on)
 
     def set_motion(self, motion: Motion) -> None:

@@ -1,4 +1,4 @@
-"""Listens to a board's serial line and keeps the newest of everything that it says."""
+"""Monitors a board's serial line and keeps the newest datum of each kind."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class BoardStatus:
 
     @property
     def is_auto(self) -> bool:
-        """Return whether the switch stands at AUTO."""
+        """Return whether the switch is at AUTO."""
         return bool(self.flags & 2)
 
     @property
@@ -63,7 +63,7 @@ class BoardStatus:
 
     @property
     def has_heard(self) -> bool:
-        """Return whether the Raspberry Pi was heard within a second."""
+        """Return whether the board received from the Raspberry Pi within a second."""
         return bool(self.flags & 128)
 
     @property
@@ -118,7 +118,7 @@ class BoardTap:
         self.answers: list[Command] = []
 
     def feed(self, data: bytes, now_s: float) -> list[Command]:
-        """Take bytes that came until ``now_s``; return the messages that they complete."""
+        """Take bytes received until ``now_s``; return the messages that they complete."""
         if not data:
             return []
         found = list(self._messages(data))
@@ -137,7 +137,7 @@ class BoardTap:
         return self.command_bytes("s")
 
     def take_answers(self) -> list[Command]:
-        """Return the answers that came since the last call: ``K ! m T G C``."""
+        """Return the answers since the last call: ``K ! m T G C``."""
         answers, self.answers = self.answers, []
         return answers
 

@@ -20,7 +20,7 @@ BASE: Mapping[str, Mapping[str, Any]] = {
 }
 """A wired Arduino, a port for a ground station that may do everything, and no black box.
 
-The recorder writes from a thread of its own, which knows no simulated time.
+The recorder writes from a separate thread, which has no simulated time.
 """
 
 

@@ -15,7 +15,7 @@ from up_simulator.java_phone_process import JavaPhoneProcess
 from up_simulator.java_phone_program import JavaProgram
 
 THINKS_S = 0.002
-"""How long the phone takes for everything: meanwhile its JVM works beside the simulation."""
+"""Simulated duration of the phone's work, during which the JVM runs beside the simulation."""
 _TINY_S = 1e-6
 
 
@@ -46,7 +46,7 @@ class SteppedJavaHandset(JvmHandset):
         self._process = JavaPhoneProcess(program, *options)
 
     def start(self) -> None:
-        """Let the phone's time begin."""
+        """Start the phone's time."""
         self._due_s = self._machine.seconds()
 
     def tick(self) -> None:

@@ -70,7 +70,7 @@ class Machine:
         return call
 
     def callFromThread(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
-        """Make a call at the next step, from whatever thread it was asked for."""
+        """Call at the next step, from any thread."""
         self.reactor.call_from_thread(partial(self.do, partial(callable, *args, **kw)))
 
     def callWhenRunning(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
@@ -98,16 +98,16 @@ class Machine:
         self.reactor.remove_reader(reader)
 
     def addWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
-        """Tell when a descriptor of the system takes bytes."""
+        """Watch when a descriptor of the system takes bytes."""
         self._descriptors[writer] = None
         self.reactor.add_writer(writer)
 
     def removeWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
-        """Tell no longer."""
+        """Stop watching it."""
         self.reactor.remove_writer(writer)
 
     def removeAll(self) -> list[Any]:  # noqa: N802 - Twisted's name
-        """Let go of every descriptor and return them."""
+        """Forget every descriptor and return them."""
         descriptors, self._descriptors = list(self._descriptors), {}
         for each in descriptors:
             self.reactor.remove_reader(each)
@@ -168,7 +168,7 @@ class Machine:
             call(*arguments)
 
     def freeze(self) -> None:
-        """Let the program stand still."""
+        """Suspend the program."""
         if not self.is_frozen and self.running:
             self.is_frozen = True
             self._taken_descriptors = self.reactor.take_descriptors(self._descriptors)
@@ -178,7 +178,7 @@ class Machine:
         self._late_calls.append(call)
 
     def thaw(self) -> None:
-        """Let the program go on: late timers first, then what has come in the meantime."""
+        """Resume the program: late timers first, then the data that has arrived since."""
         if not self.is_frozen:
             return
         self.is_frozen = False

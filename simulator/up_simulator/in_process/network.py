@@ -34,7 +34,7 @@ class Route:
         return self.pipe is None
 
     def carry(self, size: int, call: Callable[..., object], *arguments: Any) -> None:
-        """Let ``call`` happen at the other end when a packet of that size arrives there."""
+        """Call at the other end when a packet of that size arrives there."""
         if self.pipe is None:
             self._network.next_step.append((call, arguments))
         else:
@@ -42,7 +42,7 @@ class Route:
 
 
 class Network:
-    """Knows who listens where, and brings every packet when its time has come."""
+    """Holds the listeners, and delivers every packet at its time."""
 
     def __init__(self, clock: Any) -> None:
         self.seconds: Callable[[], float] = clock.seconds

@@ -94,7 +94,7 @@ class InProcessPhone:
                 self._reactor.network.reset_connections(port)
 
     def set_battery(self, percent: float) -> None:
-        """Let its battery have this level from now on."""
+        """Set the level of its battery."""
         self.handset.set_battery(percent)
 
     def stop(self) -> None:

@@ -166,7 +166,7 @@ class InProcessRaspilot:
             self._machine.freeze()
 
     def thaw(self) -> None:
-        """Let a frozen one go on."""
+        """Resume a frozen one."""
         if self._machine is not None:
             self._machine.thaw()
 

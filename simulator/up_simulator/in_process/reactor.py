@@ -51,22 +51,22 @@ class SimulatedReactor(Clock):
         return Machine(self, name)
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Let connections and datagrams to a port pass a link from now on.
+        """Route connections and datagrams to a port over a link from now on.
 
-        ``up`` is the way to the port, ``down`` the way back. Several ports may share the models.
+        ``up`` is the direction to the port, ``down`` the one back. Ports may share the models.
         """
         self.network.link(port, up, down)
 
     def callLater(  # type: ignore[override]  # noqa: N802 - Twisted's name
         self, when: float, what: Callable[..., object], *a: object, **kw: object
     ) -> TimedCall:
-        """Call ``what`` when the time has come; of equal times the earlier call is first."""
+        """Call ``what`` at its time; of equal times the earlier call is first."""
         call = TimedCall(self.rightNow + when, what, a, kw, self._forget, self._moved, self.seconds)
         self.put_back(call)
         return call
 
     def put_back(self, call: TimedCall) -> None:
-        """Let a call wait for its time again."""
+        """Reschedule a call."""
         insort(self.calls, call, key=DelayedCall.getTime)
 
     def call_from_thread(self, call: Callable[[], Any]) -> None:

@@ -26,7 +26,7 @@ class SocketLine:
         return self._other
 
     def read(self, timeout_s: float, most: int) -> bytes:
-        """Return what has come; nothing is waited for."""
+        """Return the received bytes without waiting."""
         if self._own is None:
             return b""
         try:
@@ -44,7 +44,7 @@ class SocketLine:
                 self._own.send(data)
 
     def plug(self) -> None:
-        """Let the port be there again."""
+        """Restore the port."""
         self.is_plugged = True
 
     def unplug(self) -> None:

@@ -31,7 +31,7 @@ class Owner(Protocol):
         """The connection is there."""
 
     def on_bytes(self, data: bytes) -> None:
-        """Bytes have come, in order."""
+        """Handle bytes, in order."""
 
     def on_eof(self) -> None:
         """The other side sends no more."""
@@ -105,7 +105,7 @@ class TcpEnd:
             self._end()
 
     def establish(self) -> None:
-        """Be connected: the handshake is done, or bytes say that it must be."""
+        """Establish the connection: by the handshake, or by bytes that imply it."""
         if not self._is_established and not self.is_closed:
             self._is_established = True
             self._heard_s = self._progress_s = self._clock.seconds()
@@ -113,7 +113,7 @@ class TcpEnd:
                 self.owner.on_established()
 
     def set_reading(self, is_reading: bool) -> None:
-        """Let bytes wait in the system, or hand them over again."""
+        """Hold bytes in the system, or hand them over again."""
         self._is_reading = is_reading
         if is_reading:
             self._clock.callLater(0, self._hand_over)
@@ -126,7 +126,7 @@ class TcpEnd:
     # What arrives from the other end.
 
     def on_segment(self, offset: int, data: bytes, is_last: bool, sent_s: float) -> None:
-        """Take a segment; one that came before is only acknowledged again."""
+        """Take a segment; a duplicate is only acknowledged again."""
         if self.is_closed or (self.owner is None and data):
             self._refuse()
             return
@@ -173,7 +173,7 @@ class TcpEnd:
         self._lose(ConnectionLost("the connection was reset"))
 
     def on_probe(self) -> None:
-        """Say that this end is alive."""
+        """Answer a probe."""
         if self.is_closed:
             self._refuse()
         else:
@@ -181,7 +181,7 @@ class TcpEnd:
             self._route.carry(HEADER, self.peer.on_alive)
 
     def on_alive(self) -> None:
-        """Hear that the other end is alive."""
+        """Handle the answer to a probe."""
         if not self.is_closed:
             self._hear()
 

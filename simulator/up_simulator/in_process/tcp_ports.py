@@ -53,7 +53,7 @@ class TcpPort:
         return IPv4Address("TCP", self.interface or "0.0.0.0", self._number)
 
     def cut_off(self) -> None:
-        """Close it without a word."""
+        """Close it without a notification."""
         self._is_open = False
         self.machine.opened.pop(self, None)
         self.machine.network.tcp.pop(self._number, None)
@@ -94,7 +94,7 @@ class _Attempt:
             self._wait_s *= 2
 
     def end(self) -> None:
-        """Ask no more."""
+        """Cancel the attempt."""
         self.is_over = True
         if self._again is not None and self._again.active():
             self._again.cancel()
@@ -130,7 +130,7 @@ class _Attempt:
 
 @implementer(IConnector)
 class Connector:
-    """One attempt to connect, and the connection that came of it."""
+    """One attempt to connect, and the resulting connection."""
 
     def __init__(self, machine: Any, host: str, port: int, factory: Any, timeout_s: float) -> None:
         self.factory = factory
@@ -176,7 +176,7 @@ class Connector:
         return IPv4Address("TCP", self._host, self._port)
 
     def cut_off(self) -> None:
-        """End without a word."""
+        """End without a notification."""
         self._stop()
 
     def succeed(self, end: TcpEnd) -> None:
@@ -204,7 +204,7 @@ class Connector:
                 self.factory.doStop()
 
     def lost(self, reason: Failure) -> None:
-        """Hear that the connection is gone."""
+        """Handle the loss of the connection."""
         self.state = "disconnected"
         self.factory.clientConnectionLost(self, reason)
         if self.state == "disconnected":

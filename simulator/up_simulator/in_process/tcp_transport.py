@@ -17,12 +17,12 @@ from up_simulator.in_process.socket_options import SocketOptions
 from up_simulator.in_process.tcp_end import TcpEnd
 
 BUFFER_LIMIT = 65536
-"""Beyond which a streaming producer is asked to pause, as Twisted's own transports do."""
+"""Above this a streaming producer is paused, as in Twisted's own transports."""
 
 
 @implementer(ITCPTransport)
 class TcpTransport:
-    """Writes as a reactor does: what waits leaves at the end of the step, then more is asked for.
+    """Writes as a reactor does: queued data leaves at the end of the step, then more is requested.
 
     A protocol that raises loses its connection, and the failure is logged.
     """
@@ -115,7 +115,7 @@ class TcpTransport:
         return self._end.options.keeps_alive
 
     def registerProducer(self, producer: Any, streaming: bool) -> None:  # noqa: N802
-        """Ask a producer for more when nothing waits, or tell it to pause when too much does."""
+        """Resume a producer when the queue is empty, or pause it when the queue is long."""
         if self._producer is not None:
             raise RuntimeError(f"there is a producer already: {self._producer!r}")
         if self.disconnected:
@@ -148,7 +148,7 @@ class TcpTransport:
     # What the network and the machine call.
 
     def flush(self) -> None:
-        """Let as much leave as the connection takes, and ask the producer for more."""
+        """Send as much as the connection takes, and resume the producer."""
         if self._machine.is_frozen:
             self._machine.do(self._want_to_write)
             return
@@ -187,7 +187,7 @@ class TcpTransport:
         self._end.reset()
 
     def on_established(self) -> None:
-        """Tell the protocol that it is connected."""
+        """Notify the protocol of the connection."""
         self._machine.do(self._made)
 
     def on_bytes(self, data: bytes) -> None:
@@ -195,11 +195,11 @@ class TcpTransport:
         self._machine.do(self._received, data)
 
     def on_eof(self) -> None:
-        """Tell that the other side sends no more."""
+        """Notify the protocol of the other side's half-close."""
         self._machine.do(self._ended)
 
     def on_lost(self, error: Exception) -> None:
-        """Tell the protocol that the connection broke."""
+        """Notify the protocol of the lost connection."""
         self._machine.do(self._lost, error)
 
     def on_room(self) -> None:

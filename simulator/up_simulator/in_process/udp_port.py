@@ -74,7 +74,7 @@ class UdpPort:
         return True
 
     def cut_off(self) -> None:
-        """Close it without a word."""
+        """Close it without a notification."""
         self._is_open = False
         self._machine.opened.pop(self, None)
         self._machine.network.udp.pop(self._number, None)

@@ -144,7 +144,7 @@ class DatagramRelay(ListeningRelay):
         return port
 
     def _on_client(self, data: bytes, address: Address) -> None:
-        # The socket that sends is looked for on arrival: it may be gone by then.
+        # The sending socket is looked up on arrival: it may be closed by then.
         self._socket_of(address)
         self._up.send(data, lambda arrived: self._to_target(arrived, address))
 

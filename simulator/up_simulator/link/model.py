@@ -10,10 +10,10 @@ from up_simulator.link.settings import LinkSettings
 __all__ = ["LinkModel", "LinkSettings"]
 
 FIRST_RETRY_S = 0.2
-"""The least time after which TCP sends a lost packet again (Linux; RFC 6298 asks for 1 s)."""
+"""The least time after which TCP sends a lost packet again (Linux; RFC 6298 requires 1 s)."""
 LONGEST_RETRY_S = 3.0
 MOST_RETRIES = 12
-"""What is lost more often than this is taken to have come through, so that time goes on."""
+"""A packet lost more often than this counts as arrived, so that time advances."""
 
 
 class LinkModel:
@@ -37,7 +37,7 @@ class LinkModel:
 
     @property
     def is_stalled(self) -> bool:
-        """Return whether everything waits, to come in a burst later."""
+        """Return whether all packets are held, to arrive in a burst later."""
         return self._is_stalled
 
     @property
@@ -60,7 +60,7 @@ class LinkModel:
         settings = self.settings
         began_s = max(now_s, self._is_free_s)
         left_s = began_s + (size / settings.rate_bytes_s if settings.rate_bytes_s else 0.0)
-        # Drawn for every packet, lost or not, so that a fault does not shift all that comes later.
+        # Drawn for every packet, lost or not, so that a fault does not shift all later draws.
         jitter_s = self._random.random() * settings.jitter_ms / 1000
         retries = self._retries()
         # What vanishes may still have filled the narrow place; a blackout is before it.
@@ -99,14 +99,14 @@ class LinkModel:
         self._is_black = False
 
     def _retries(self) -> int | None:
-        """Return how often a packet is lost before it comes through; None: always."""
+        """Return how often a packet is lost before it arrives; None: always."""
         loss = self.settings.loss_percent / 100
         draw = self._random.random()
         if loss <= 0:
             return 0
         if loss >= 1:
             return None
-        # One draw tells the number of losses: that of a geometric distribution.
+        # One draw yields the number of losses: that of a geometric distribution.
         return min(MOST_RETRIES, int(math.log(max(draw, 1e-300)) / math.log(loss)))
 
     def _retry_s(self, retries: int) -> float:

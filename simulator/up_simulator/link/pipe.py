@@ -42,7 +42,7 @@ class LinkPipe(Generic[_T]):
         return self.model.arrival_s(self._waiting[0][0]) if self._waiting else math.inf
 
     def take(self, now_s: float) -> list[_T]:
-        """Return what has arrived by now; what a blackout met on its way is lost."""
+        """Return the data that has arrived; data that met a blackout in flight is lost."""
         model, waiting = self.model, self._waiting
         while waiting and (model.is_black or waiting[0][1] != model.blackouts):
             waiting.popleft()

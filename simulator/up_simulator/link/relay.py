@@ -90,7 +90,7 @@ class LinkRelay(ListeningRelay):
         return self._reactor.connectTCP(*self._target, factory, timeout=CONNECT_S)
 
     def forget(self, connection: RelayedConnection) -> None:
-        """Let a connection go that is over."""
+        """Forget a connection that is over."""
         self._connections.discard(connection)
         if self._idle is not None and not self._connections:
             idle, self._idle = self._idle, None

@@ -17,7 +17,7 @@ from up_simulator.link.model import LinkModel
 from up_simulator.link.stream import Clock, LinkStream, Signal
 
 SYSTEM_BUFFER = 32 * 1024
-"""What the system may keep for a socket of the relay, so that it is no part of the link."""
+"""The system's buffer for a socket of the relay, small enough not to act as part of the link."""
 
 
 class Road(Interface):
@@ -33,7 +33,7 @@ class Road(Interface):
         """Connect to the target."""
 
     def forget(self, connection: RelayedConnection) -> None:
-        """Let a connection go that is over."""
+        """Forget a connection that is over."""
 
 
 @implementer(IHalfCloseableProtocol, IPushProducer)
@@ -147,7 +147,7 @@ class _TargetFactory(ClientFactory):
 class RelayedConnection:
     """A client's connection and the relay's own to the target, with a stream each way.
 
-    The target is called when the opening has come through, the client is read when the answer has.
+    The target is called when the opening has arrived, the client is read when the answer has.
     """
 
     def __init__(self, road: Road) -> None:

@@ -1,4 +1,4 @@
-"""One direction of a connection over a link: in order, without loss, when the link lets it."""
+"""One direction of a connection over a link: in order, without loss, as the link permits."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ HEADER = 40
 """Bytes of an IPv4 and a TCP header, which a link carries too."""
 LEAST_RETRY_S, FIRST_RETRY_S, LONGEST_RETRY_S = 0.2, 1.0, 120.0
 LONGEST_RESET_RETRY_S = 1.0
-"""A peer that is gone answers the next packet of the other side with a reset."""
+"""A closed peer answers the next packet of the other side with a reset."""
 LOOK_S = 0.01
-"""How often a stalled link is asked whether it goes on."""
+"""Period of the checks whether a stalled link has resumed."""
 _TINY_S = 1e-9
 
 
@@ -32,7 +32,7 @@ class Signal(enum.Enum):
 
 
 class Clock(Protocol):
-    """Where the time comes from: a reactor, or ``task.Clock``."""
+    """The source of time: a reactor, or ``task.Clock``."""
 
     def seconds(self) -> float:
         """Return the time, which never falls."""
@@ -140,7 +140,7 @@ class LinkStream:
         return packet.due_s is None or model.is_black or packet.blackouts != model.blackouts
 
     def _run(self) -> None:
-        """Deliver what has arrived; what a delivery causes comes after it."""
+        """Deliver the arrived packets; packets that a delivery causes follow later."""
         if self._is_busy:
             return
         self._is_busy = True

@@ -41,7 +41,7 @@ COLUMN = 66
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """An expectation that was not held: its signal, the window it was asked in, a sentence."""
+    """A failed expectation: its signal, its window, a sentence."""
 
     signal: str
     begin_s: float
@@ -61,7 +61,7 @@ def draw_flight(
 ) -> None:
     """Draw a flight from its log into ``path`` (.png or .svg); the same log gives the same bytes.
 
-    Without ``marks`` the events of the log are marked. What the log does not tell is left out.
+    Without ``marks`` the events of the log are marked. Data missing in the log is left out.
     Raises ``PictureError``: no matplotlib, no place to write, or nothing to draw.
     """
     times_s = log.numbers("time_s")

@@ -1,4 +1,4 @@
-"""The panels over time: which signals stand together, how they look, what their axis says."""
+"""The panels over time: their signals, styles and axis labels."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ DEGREE_M = 111_194.9
 
 
 class Log(Protocol):
-    """What a picture and an analysis ask of a flight's log (``scenario.log.FlightLog``)."""
+    """The part of a flight's log that pictures and analyses use (``scenario.log.FlightLog``)."""
 
     def __contains__(self, column: object) -> bool:
         """Return whether there is a column of that name."""
@@ -81,7 +81,7 @@ def mode_spans(log: Log) -> list[Span]:
 
 
 def track(log: Log) -> tuple[list[float], list[float]] | None:
-    """Return metres east and north of the start; ``None`` where the log does not tell."""
+    """Return metres east and north of the start; ``None`` if the log lacks them."""
     north, east = numbers(log, "truth.north_m"), numbers(log, "truth.east_m")
     if north is not None and east is not None:
         return east, north

@@ -41,9 +41,9 @@ class Source:
     high: int = FULL
 
     def pulse_us(self, value: int, dead: float) -> int:
-        """Return the pulse of an axis that stands at ``value``.
+        """Return the pulse of an axis at ``value``.
 
-        ``dead`` is the part of the way around the centre in which nothing moves.
+        ``dead`` is the fraction of the travel around the centre that has no effect.
         """
         way = self.high - self.centre if value >= self.centre else self.centre - self.low
         part = max(-1.0, min(1.0, (value - self.centre) / way))

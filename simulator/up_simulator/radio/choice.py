@@ -1,4 +1,4 @@
-"""Chooses the radio that the user has asked for."""
+"""Chooses the radio by the user's option."""
 
 from __future__ import annotations
 

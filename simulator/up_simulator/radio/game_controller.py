@@ -37,7 +37,7 @@ class GameController:
         self._file: int | None = _open(device)
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return where its sticks stand now."""
+        """Return the present stick positions."""
         if self._file is None and time_s - self._looked_s >= LOOK_AGAIN_S:
             self._looked_s = time_s
             self._look_again()

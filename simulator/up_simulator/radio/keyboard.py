@@ -9,7 +9,7 @@ from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_U
 STEP_US = 60
 THROTTLE_STEP_US = 50
 HELD_S = 0.6
-"""A key that is held repeats after up to half a second: so long its stick stays."""
+"""A held key repeats after up to half a second: its stick is kept for that time."""
 RETURN_US_S = 1500
 _STICK_KEYS = {
     "left": ("ailerons", -1),
@@ -62,7 +62,7 @@ class KeyboardSticks:
         return True
 
     def sticks(self, time_s: float) -> Sticks:
-        """Return where they stand now."""
+        """Return the present stick positions."""
         self._centre(time_s)
         return self._sticks
 

@@ -10,7 +10,7 @@ from up_simulator.flight import FlightState
 
 LOWEST_US, CENTRE_US, HIGHEST_US = 1000, 1500, 2000
 SWITCH_US = {"ACRO": 1000, "FBW": 1500, "AUTO": 2000}
-"""Where the mode switch (AUX1) stands for each mode, as a new Arduino has it."""
+"""The mode switch (AUX1) position of each mode, in the default profile."""
 
 
 CHANNELS: tuple[Channel, ...] = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
@@ -34,7 +34,7 @@ class Sticks:
 
     @property
     def mode(self) -> str:
-        """Return the mode that the switch stands for."""
+        """Return the mode that the switch selects."""
         return min(SWITCH_US, key=lambda mode: abs(SWITCH_US[mode] - self.aux1))
 
     @property
@@ -52,7 +52,7 @@ class Radio(Protocol):
     """A source of stick positions."""
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return where they stand at a time that only rises; ``state`` is what the pilot sees."""
+        """Return the positions at a monotonic time; ``state`` is visible to the pilot."""
 
     def close(self) -> None:
         """Release the terminal, the device or the socket."""
@@ -76,7 +76,7 @@ class Transmitter:
         self._sent: Sticks | None = None
 
     def send(self, sticks: Sticks) -> None:
-        """Let the receiver get these from now on."""
+        """Send these to the receiver from now on."""
         for channel in CHANNELS:
             pulse_us = getattr(sticks, channel)
             if self._sent is None or getattr(self._sent, channel) != pulse_us:

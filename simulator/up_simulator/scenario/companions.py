@@ -56,7 +56,7 @@ class Companions(Protocol):
 
 
 class Nobody:
-    """No Raspberry Pi: a listener on the serial line asks the board to tell what it does."""
+    """No Raspberry Pi: a listener on the serial line requests the board's streams."""
 
     raspilot: Raspilot | None = None
     ground: Ground | None = None
@@ -76,7 +76,7 @@ class Nobody:
         return True
 
     def exchange(self, step_s: float) -> None:
-        """Listen; ask again after a reset, which ends the streams."""
+        """Listen; request again after a reset, which ends the streams."""
         board = self._board
         board.read()
         now_s = board.now_s

@@ -32,7 +32,7 @@ _PARTS = {
 
 
 def cross_problems(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
-    """Yield each mistake with the node where it stands."""
+    """Yield each mistake with its node."""
     yield from _airframe(scenario, root)
     yield from _sticks(scenario, root)
     yield from _crew(scenario, root)

@@ -1,4 +1,4 @@
-"""What the sticks, the failsafe or the Raspberry Pi ask of the aircraft in the mode that flies."""
+"""The demands of sticks, failsafe or Raspberry Pi in the active mode."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 CENTRE_US, HALF_TRAVEL_US = 1500.0, 500.0
 ROLL_STICK_DEG_S, PITCH_STICK_DEG_S = 180.0, 90.0
-"""What a full stick asks for in RATE (firmware, flight_controller.h)."""
+"""Rate at full stick in RATE (firmware, flight_controller.h)."""
 ROLL_LIMIT_DEG, PITCH_UP_DEG, PITCH_DOWN_DEG = 50.0, 20.0, 25.0
 GLIDE_PITCH_DEG, CIRCLE_BANK_DEG = -3.0, 20.0
 """What a new Arduino has (docs/airframe.md)."""

@@ -99,7 +99,7 @@ def _parse(
 
 
 def _check_times(root: MapNode, report: Report) -> None:
-    """Refuse what happens at no time: at 0 s is where hardly anybody wants it."""
+    """Refuse an event without a time: the default 0 s is hardly ever intended."""
     for parent, name in ((root, "sticks"), (child(root, "weather"), "gusts"), (root, "events")):
         for at, item in enumerate(items_of(parent, name)):
             if isinstance(item, MapNode) and child(item, "at_s") is None:

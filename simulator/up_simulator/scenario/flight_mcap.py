@@ -111,7 +111,7 @@ class _FlightFile:
             self._writer.add_attachment(f"config/{file}", "text/yaml", text.encode(), BEGIN_NS)
 
     def _tell_until(self, time_s: float) -> None:
-        """Write what has happened, and which Commands have come up from the ground."""
+        """Write the events, and the Commands from the ground."""
         while self._events and self._events[0][0] <= time_s:
             at_s, event = self._events.pop(0)
             self._message(EVENT_TOPIC, at_s, {"event": event})

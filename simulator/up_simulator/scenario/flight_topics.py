@@ -27,7 +27,7 @@ class FlightTopics:
         self._signals_due_s = -math.inf
 
     def messages(self, values: Mapping[str, Value]) -> Iterator[Message]:
-        """Yield topic and data of everything that this row tells."""
+        """Yield topic and data of everything in this row."""
         row = LogRow(values)
         yield TOPIC, _truth(row)
         yield from self._board.messages(row)

@@ -60,20 +60,20 @@ class InProcessCompanions(CrewCompanions):
         return float(self._reactor.seconds())
 
     def exchange(self, step_s: float) -> None:
-        """Let bytes pass and this time go by."""
+        """Pass bytes and let this time go by."""
         self._daemon.pump(self.board)
         self._reactor.advance(step_s)
         self.look_after_raspilot()
 
     def plug_serial(self, is_in: bool) -> None:
-        """Let the serial port be there, or be gone."""
+        """Attach or remove the serial port."""
         if is_in:
             self._daemon.line.plug()
         else:
             self._daemon.line.unplug()
 
     def load(self, percent: float) -> None:
-        """Let the Load Guard see this load."""
+        """Report this load to the Load Guard."""
         self._daemon.meter.load = percent
 
     def stop(self) -> None:

@@ -79,18 +79,18 @@ class LineBoard:
         return stalest_us
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
-        """Move a stick: the receiver passes it on after its delay, unless it hears no radio."""
+        """Move a stick: the receiver passes it on after its delay, unless its radio is off."""
         self._sticks_us[channel] = width_us
         if self._has_radio:
             self._coming.append((self.now_us + self._receiver_delay_us, channel, width_us))
 
     def lose_radio(self, throttle_us: float) -> None:
-        """Let the receiver hold its pulses and send its own failsafe on the throttle."""
+        """Make the receiver hold its pulses and send its own failsafe on the throttle."""
         self._has_radio = False
         self._coming = [(self.now_us, "throttle", throttle_us)]
 
     def find_radio(self) -> None:
-        """Let the receiver pass all sticks on again."""
+        """Make the receiver pass all sticks on again."""
         self._has_radio = True
         for channel, width_us in self._sticks_us.items():
             self.set_stick(channel, width_us)
@@ -100,7 +100,7 @@ class LineBoard:
         self._board.set_receiver(is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Let one channel of the receiver send pulses or stay silent."""
+        """Switch the pulses of one channel of the receiver on or off."""
         self._board.set_channel(channel, is_on)
 
     def set_motion(self, motion: Motion) -> None:

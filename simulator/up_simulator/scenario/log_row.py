@@ -1,4 +1,4 @@
-"""One row of a flight's log, asked by the names of signals."""
+"""One row of a flight's log, read by the names of signals."""
 
 from __future__ import annotations
 

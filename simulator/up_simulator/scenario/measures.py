@@ -167,7 +167,7 @@ _Measure = Callable[[Expectation, Window], Verdict]
 
 
 def _known(measure: _Measure) -> _Measure:
-    """Let a measure look only at windows in which every value is known."""
+    """Restrict a measure to windows in which every value is known."""
 
     def measure_known(expectation: Expectation, window: Window) -> Verdict:
         unknown_s = window.unknown_s()
@@ -179,7 +179,7 @@ def _known(measure: _Measure) -> _Measure:
 
 
 def _known_once(measure: _Measure) -> _Measure:
-    """Let a measure look only at windows in which at least one value is known."""
+    """Restrict a measure to windows in which at least one value is known."""
 
     def measure_known_once(expectation: Expectation, window: Window) -> Verdict:
         if any(value != "" and value == value for value in window.values):

@@ -1,4 +1,4 @@
-"""The daemon, and where it is wanted the proxy, as real programs with real sockets and a pty."""
+"""The daemon, and if required the proxy, as real programs with real sockets and a pty."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ class RealCompanions(CrewCompanions):
         return not is_awaited and super()._has_connected()
 
     def plug_serial(self, is_in: bool) -> None:
-        """Let the pty be there, or be gone with all that waits in it."""
+        """Attach the pty, or remove it with all queued bytes."""
         if self._line is not None:
             self._line.close()
             self._line = None
@@ -144,7 +144,7 @@ class RealCompanions(CrewCompanions):
             self._real.kill()
 
     def ask_raspilot_to_stop(self) -> None:
-        """Ask the daemon to end, and do not wait for it."""
+        """Send the daemon the signal to end, and do not wait for it."""
         if isinstance(self._real, RealRaspilot):
             self._real.ask_to_stop()
         else:
@@ -198,7 +198,7 @@ class RealCompanions(CrewCompanions):
         return files
 
     def _black_box(self) -> dict[str, Any]:
-        """Let it record as it does aboard, and nowhere else than here."""
+        """Make it record as aboard, but only into this folder."""
         return {"enabled": True, "folder": str(self._folder / FLIGHTS)}
 
     def _make_ground(self) -> None:
@@ -211,7 +211,7 @@ class RealCompanions(CrewCompanions):
             # The link is the phone's: daemon and proxy are on servers.
             self.ground = InProcessGround(reactor, ports.ground, seed=seed)
         elif self._has_proxy:
-            # From the aircraft's side of the link: what goes up leaves the aircraft.
+            # From the aircraft's side of the link: "up" leaves the aircraft.
             self._reactor.targets[before.airborne] = ports.airborne
             self._reactor.link(before.airborne, up=self.up, down=self.down)
             self.ground = InProcessGround(reactor, ports.ground, seed=seed)

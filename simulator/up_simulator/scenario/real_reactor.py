@@ -17,10 +17,10 @@ LOOPBACK = "127.0.0.1"
 
 
 class RealReactor:
-    """Looks to the stand-ins of phone and ground as the simulated one does.
+    """Has the interface of the simulated reactor for the stand-ins of phone and ground.
 
-    ``link`` puts a relay before a port: who connects to the port passes the link to the
-    ``targets`` entry of it.
+    ``link`` puts a relay before a port: connections to the port pass the link to its ``targets``
+    entry.
     """
 
     def __init__(self) -> None:

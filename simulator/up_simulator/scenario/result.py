@@ -1,4 +1,4 @@
-"""What a scenario came to: its flight, its verdicts, and those of its control run."""
+"""The result of a scenario: its flight, its verdicts, and those of its control run."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ class Files:
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """Where the files go; None: nowhere. A picture is drawn only where it is wanted."""
+    """The folder of the files; None: no files. Pictures are optional."""
 
     folder: Path | None
     has_picture: bool = True

@@ -59,7 +59,7 @@ class RunnerDoor:
         try:
             place = read_spawn_answer(answer, LOOPBACK)
         except NotFoundError:
-            # What the runner says of it is for the phone to read.
+            # The runner's reason is left to the phone.
             return answer
         ports = {
             "general": self._by_link(place.general_port),

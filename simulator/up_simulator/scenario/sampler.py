@@ -47,7 +47,7 @@ def sources_of(scenario: Scenario) -> set[str]:
 
 
 class Sampler:
-    """Gathers rows; ``is_crashed`` is asked of the dynamics, all else of the parts themselves."""
+    """Gathers rows; ``is_crashed`` comes from the dynamics, all else from the parts themselves."""
 
     def __init__(
         self,

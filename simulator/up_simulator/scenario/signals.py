@@ -219,7 +219,7 @@ EVENT_COLUMN = "event"
 """The log's last column: what happened since the row before, empty where nothing did."""
 SIGNALS = {signal.name: signal for signal in _all()}
 FREE_PREFIX = "ground.counters."
-"""What follows it is whatever the modules count."""
+"""The names behind it are the modules' counters."""
 
 
 def signal_of(name: str) -> Signal:

@@ -115,9 +115,9 @@ class _Move:
 
 
 class StickTimeline:
-    """The pulses of all channels at any time, made from points in whatever order they stand.
+    """The pulses of all channels at any time, made from points in any order.
 
-    A move that begins while another one still runs starts from where the stick is then.
+    A move that begins during another one starts from the stick's position at that time.
     """
 
     def __init__(self, points: tuple[StickPoint, ...], switch: dict[str, str]) -> None:

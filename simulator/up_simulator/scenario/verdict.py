@@ -21,7 +21,7 @@ class Verdict:
 
 
 def number_text(number: float) -> str:
-    """Return a figure with as many digits as tell something."""
+    """Return a figure with its significant digits."""
     if abs(number) >= 1000 or number == int(number):
         return f"{number:.0f}"
     return f"{number:.3g}" if abs(number) < 10 else f"{number:.1f}"

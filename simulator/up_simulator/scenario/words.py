@@ -21,7 +21,7 @@ _WORDS: dict[str, tuple[str, ...]] = {
     "ground.flight_control.mode": ("ACRO", "RATE", "FBW", "AUTO"),
 }
 _SEVERAL = {"board.reset_cause": " ", "ground.arduino.reset_cause": ", "}
-"""What stands between them where a value may be several at once."""
+"""Separators for signals that may have several values at a time."""
 
 
 def words_of(name: str) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""A flight's own temporary folder, which goes with it; what a killed flight left goes, too."""
+"""A flight's temporary folder, removed with the flight, or after a kill by a later one."""
 
 from __future__ import annotations
 

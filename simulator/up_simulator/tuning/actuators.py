@@ -58,9 +58,9 @@ class Mix:
 class Actuators:
     """Dynamics whose servos get the board's pulses later, larger, or with something added.
 
-    ``delay_s`` and ``factors`` (of an axis's deflection) act from now on; ``added_us`` is asked
-    for what to add to an axis at a time. ``on_step`` hears, at each step, what arrives from the
-    board and what the servos get.
+    ``delay_s`` and ``factors`` (of an axis's deflection) act from now on; ``added_us`` returns the
+    pulse to add to an axis at a time. ``on_step`` gets, at each step, the board's pulses and those
+    of the servos.
     """
 
     def __init__(self, dynamics: Dynamics, mix: Mix) -> None:

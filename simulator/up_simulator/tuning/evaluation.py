@@ -91,9 +91,9 @@ class Loop:
 
 
 def compensator(gains: AxisGains, frequency_hz: float) -> complex:
-    """Return what both controllers together make of a rotation rate, 1.25 us per deg/s.
+    """Return the response of both controllers together to a rotation rate, 1.25 us per deg/s.
 
-    The angle is the rate's integral; the rate the Stabilize controller asks for is minus its
+    The angle is the rate's integral; the rate that the Stabilize controller demands is minus its
     answer to the angle.
     """
     s = 2j * math.pi * frequency_hz

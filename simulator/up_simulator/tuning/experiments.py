@@ -1,4 +1,4 @@
-"""The short flights that tell what gains are worth: steps, the loop's response, rough air."""
+"""The short flights that evaluate gains: steps, the loop's response, rough air."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from up_simulator.world import STEP_S
 
 SETTLE_S = 4.0
 FULL_RATE_DEG_S: dict[Axis, float] = {"roll": 180.0, "pitch": 90.0}
-"""What a full stick asks for in RATE (the firmware's flight_controller.h)."""
+"""Rate at full stick in RATE (the firmware's flight_controller.h)."""
 _LIMITS = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
 DIVE_DEG = -20.0
 DIVE_SETTLE_S = 9.0
@@ -137,7 +137,7 @@ def fly_steps(
 
 
 def stick_us(airframe: Airframe, plan: StepPlan, demand: float) -> float:
-    """Return the stick pulse that asks for a demand."""
+    """Return the stick pulse of a demand."""
     if plan.mode != "FBW":
         return 1500.0 + 500.0 * demand / FULL_RATE_DEG_S[plan.axis]
     name = "roll_deg" if plan.axis == "roll" else "pitch_up_deg"
@@ -156,10 +156,10 @@ def measure_loop(
     periods: int = 4,
     delay_s: float = 0.0,
 ) -> tuple[list[LoopPoint], float]:
-    """Return the open loop of an axis in FBW and the airspeed, m/s, that it was measured at.
+    """Return the open loop of an axis in FBW and the airspeed of the measurement, m/s.
 
     A sum of sines is added between board and servos. ``dives``: with the nose 20 degrees down, at
-    the speed that comes of it. Raises ``MarginsError``.
+    the resulting speed. Raises ``MarginsError``.
     """
     trial = bench.trial(gains)
     moves = []
@@ -190,7 +190,7 @@ def measure_loop(
 
 @dataclass(frozen=True, slots=True)
 class RoughFlight:
-    """How still the aircraft was held in rough air: rms of the errors, level flight asked."""
+    """Steadiness in rough air: rms of the errors at a demand of level flight."""
 
     roll_rms_deg: float
     pitch_rms_deg: float

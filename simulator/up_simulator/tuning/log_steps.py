@@ -1,4 +1,4 @@
-"""Finds the steps in a flight's log, measures them, and says in plain words what to change."""
+"""Finds the steps in a flight's log, measures them, and recommends changes in plain words."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LONGEST_S = 5.0
 SHORTEST_S = 0.5
 STEADY_S = 0.3
 SAME = 0.1
-"""The demand stays within this part of the step, or it is no step."""
+"""The demand stays within this part of the step, otherwise it does not count as a step."""
 _SIGNALS: tuple[tuple[Axis, str, str, str], ...] = (
     ("roll", "FBW", "roll_deg", "deg"),
     ("pitch", "FBW", "pitch_deg", "deg"),
@@ -43,13 +43,13 @@ class LogStep:
     unit: str
     response: StepResponse | None
     problem: str = ""
-    """Why there is no response."""
+    """Why the response is missing."""
 
 
 def steps_of(log: Log, axes: Sequence[Axis] = ("roll", "pitch")) -> list[LogStep]:
     """Return every step of the demand in FBW and RATE, in order of time.
 
-    What flew is the aircraft's true attitude where the log has it, else the board's estimate.
+    The response is the aircraft's true attitude if the log has it, otherwise the board's estimate.
     Raises ``LogStepsError`` for a log without demands.
     """
     names = [each for each in _SIGNALS if each[0] in axes]
@@ -106,7 +106,7 @@ def _jumps(
 def _arrival(
     times_s: Sequence[float], demands: Sequence[float], at: int, least: float
 ) -> int | None:
-    """Return the row at which a step that begins at a row has come to its end, if one begins."""
+    """Return the row at which a step that begins at a row has ended, if one begins."""
     before = demands[at - 1]
     if not abs(demands[at] - before) > SAME * least:
         return None

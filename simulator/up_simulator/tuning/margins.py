@@ -12,11 +12,11 @@ from statistics import fmean
 WIDEST_SPREAD = 0.35
 """The periods of a measurement agree within this part, or the frequency is left out."""
 MOST_OF_ITS_OWN = 0.7
-"""A servo that moves more than this part at frequencies that nobody excited rings by itself."""
+"""A servo that moves more than this part at unexcited frequencies oscillates on its own."""
 
 
 class MarginsError(ValueError):
-    """The loop cannot be judged from this: the message is one sentence that says why."""
+    """The loop cannot be judged from this: the message is one sentence with the reason."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""What tuning says: tables and sentences for a terminal."""
+"""The report of tuning: tables and sentences for a terminal."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class TrialError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class StickMove:
-    """A stick or switch goes to a pulse at a time."""
+    """A stick or switch moves to a pulse at a time."""
 
     at_s: float
     channel: str

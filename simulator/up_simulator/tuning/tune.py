@@ -36,7 +36,7 @@ MOST_RATE_P = 20.0
 GENTLE_SENSITIVITY = 3.5
 """A loop that is measured with a peak beyond this is measured again with half the gains."""
 DIVE_FACTOR = 1.6
-"""The dive counts as at least so many times as fast as cruise."""
+"""The airspeed of the dive counts as at least this multiple of cruise."""
 NEARLY_AS_GOOD = 1.1
 WORTH_AN_INTEGRAL = 0.75
 HALF = 0.5

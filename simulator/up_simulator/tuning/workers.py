@@ -1,4 +1,4 @@
-"""Flies many trials in a few processes, and says how far it has come."""
+"""Flies many trials in a few processes, and reports the progress."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ MOST_PROCESSES = 2
 
 
 class Workers:
-    """A place for trials to be flown; one process is this one. Use it with ``with``.
+    """A pool of processes for trials, this one included. Use it with ``with``.
 
-    ``on_flown`` hears after each how many are flown of all that were asked for so far.
+    ``on_flown`` gets after each trial the number flown and the number requested so far.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class Workers:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """End the processes; after an error, or when the end is asked for, in mid-flight."""
+        """End the processes; after an error or an interrupt, in mid-flight."""
         if self._pool is not None:
             if kind is not None:
                 for process in multiprocessing.active_children():
@@ -80,7 +80,7 @@ class Workers:
 
 
 def _begin_worker(parent: int) -> None:
-    """Leave Ctrl-C and a closed terminal to the parent, and go when it goes."""
+    """Leave Ctrl-C and a closed terminal to the parent, and end with it."""
     for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)

@@ -190,7 +190,7 @@ class Fleet:
             self._write("\r\x1b[K")
 
     def _write(self, text: str) -> None:
-        # The terminal may be gone by now.
+        # The terminal may be closed already.
         with suppress(OSError):
             self._stream.write(text)
             self._stream.flush()

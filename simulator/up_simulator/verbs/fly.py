@@ -120,7 +120,7 @@ def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> tuple[Re
 
 
 def _note(text: str) -> None:
-    # The terminal may be gone by now.
+    # The terminal may be closed already.
     with suppress(OSError):
         sys.stderr.write(f"up-sim: {text}\n")
 

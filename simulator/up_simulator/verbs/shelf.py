@@ -40,7 +40,7 @@ def _hint(name: str) -> str:
 
 
 def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
-    """Return what to raise where no scenario has the tags that were asked for."""
+    """Return the exception for tags that no scenario has."""
     names = sorted(set(known))
     asked = " and ".join(f"'{tag[:80]}'" for tag in wanted)
     unknown = [tag for tag in wanted if tag not in names]
