@@ -1,4 +1,4 @@
-/** The attitude filter with an IMU that turns as a test says. */
+/** The attitude filter with an IMU whose rotation a test sets. */
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace raspilot {
 
-/** The filter with an IMU that turns as the test says, slot by slot. */
+/** The filter with an IMU whose rotation the test sets, slot by slot. */
 struct Flight {
   Calibration calibration = DEFAULT_CALIBRATION;
   AttitudeFilter filter{calibration};

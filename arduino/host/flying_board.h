@@ -47,7 +47,7 @@ class FlyingBoard {
     sticks[AUX2] = 2000;
     run(400);
   }
-  /** A receiver and an IMU that are heard, throttle low, AUX2 low, nothing to calibrate. */
+  /** A receiver and an IMU that work, throttle low, AUX2 low, nothing to calibrate. */
   void wake() {
     run_until([this] { return autopilot.authority.has_receiver(); }, 500);
     run_until([this] { return autopilot.attitude.is_valid(); }, 3000);

@@ -101,7 +101,7 @@ class PilotBench {
     sticks[AUX2] = 2000;
     run(400);
   }
-  /** A receiver that is heard, throttle low, the switch at a position. */
+  /** A valid receiver, throttle low, the switch at a position. */
   void fly(uint16_t aux1_us, bool is_armed = true) {
     sticks[AUX1] = aux1_us;
     run(100);

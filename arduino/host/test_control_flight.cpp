@@ -104,7 +104,7 @@ TEST_CASE("FBW: the surfaces go against bank, pitch and rotation") {
   Flight flight;
   flight.tune(only_p(1.0f, 2.0f));
   flight.attitude = attitude_of(1000, 0, 0, 0, 0, 0);
-  // 10 degrees ask for -20 deg/s, at 1.25 us a unit.
+  // 10 degrees demand -20 deg/s, at 1.25 us a unit.
   CHECK(flight.us(AILERONS) == doctest::Approx(1475).epsilon(0.001));
   flight.attitude = attitude_of(0, -500, 0, 0, 0, 0);
   CHECK(flight.us(ELEVATOR) == doctest::Approx(1512.5).epsilon(0.001));

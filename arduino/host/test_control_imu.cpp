@@ -144,7 +144,7 @@ TEST_CASE("a roll beyond 1000 deg/s is flown through; a gyro that stays at its e
   for (double rate_deg_s : {1300.0, -1300.0}) {
     Flight flight;
     flight.fly(3);
-    // As fast as 20 ms lets a roll begin.
+    // The fastest roll that may begin within 20 ms.
     for (int slot = 1; slot <= 10; ++slot) flight.slot(rate_deg_s * slot / 10);
     for (int slot = 0; slot < 200; ++slot) {
       flight.slot(rate_deg_s);

@@ -137,7 +137,7 @@ TEST_CASE("a power cut at any byte of a save leaves the copy before, or the new 
       save_gain(again, 4);
       REQUIRE(save_all(again));
       REQUIRE(reloaded().gains.rate[0].p == 4);
-      // The mark comes last, so that only the last byte makes the new copy; torn, it does not.
+      // The mark is last, so that only the last byte makes the new copy valid; torn, it is not.
       if (is_new) CHECK(cut >= 13);
       is_whole = is_new || cut == writes_of_save;
     }

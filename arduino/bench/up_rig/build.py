@@ -20,7 +20,7 @@ NO_SOURCES = f"the firmware's sources are not here: there is no {ARDUINO / 'rasp
 
 
 class BuildError(Exception):
-    """The firmware does not compile: the message is what make said."""
+    """The firmware does not compile: the message is make's output."""
 
 
 def has_sources() -> bool:

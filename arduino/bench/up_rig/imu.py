@@ -53,7 +53,7 @@ class Motion:
 def motion_at(
     roll_deg: float, pitch_deg: float, rates_deg_s: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> Motion:
-    """Return the motion of an unaccelerated aircraft that stands at an attitude."""
+    """Return the motion of an unaccelerated aircraft at a constant attitude."""
     roll, pitch = math.radians(roll_deg), math.radians(pitch_deg)
     return Motion(
         *rates_deg_s,
@@ -67,9 +67,9 @@ class Imu:
     """The sensor, mounted x forward, y left, z up.
 
     ``motion`` is a ``Motion`` or a function of the time in seconds that returns one. ``bias_deg_s``
-    and ``noise_deg_s`` (standard deviation), ``bias_m_s2`` and ``noise_m_s2`` spoil it; a real
-    part is never without noise, and one that is looks frozen. ``is_frozen`` repeats the last
-    sample; ``is_garbage`` sends noise over the whole range.
+    and ``noise_deg_s`` (standard deviation), ``bias_m_s2`` and ``noise_m_s2`` disturb it; a real
+    part always has noise, and one without looks frozen. ``is_frozen`` repeats the last sample;
+    ``is_garbage`` sends noise over the whole range.
     """
 
     def __init__(self, library: ctypes.CDLL, handle: Handle, seed: int = 1) -> None:
@@ -98,15 +98,15 @@ class Imu:
         self._library.rig_imu_plug(self._handle, True)
 
     def fail(self, fault: Fault) -> None:
-        """Let it fail now."""
+        """Start a fault now."""
         self._library.rig_imu_fault(self._handle, int(fault), 0, 0, True)
 
     def fail_at_byte(self, byte: int, fault: Fault, *, after_transfers: int = 0) -> None:
-        """Let it fail at a byte of a transfer: byte 0 is the first address after a start.
+        """Start a fault at a byte of a transfer: byte 0 is the first address after a start.
 
-        A repeated start begins a new transfer; ``after_transfers`` of them pass unharmed.
+        A repeated start begins a new transfer; ``after_transfers`` of them pass undisturbed.
         """
-        # The start that comes next is counted before its bytes are.
+        # The next start is counted before its bytes are.
         transfers = after_transfers + 1
         self._library.rig_imu_fault(self._handle, int(fault), byte, transfers, False)
 

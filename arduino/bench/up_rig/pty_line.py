@@ -1,4 +1,4 @@
-"""The serial line as a pseudo terminal, which anybody may open, close and open again."""
+"""The serial line as a pseudo terminal, which programs may open and close repeatedly."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class PtyLine:
         return self.name if self._link is None else str(self._link)
 
     def read(self, timeout_s: float, most: int) -> bytes:
-        """Return what has come, waiting for it up to a time."""
+        """Return the received bytes, waiting for them up to a time."""
         if not select.select([self._own] if most > 0 else [], [], [], max(timeout_s, 0.0))[0]:
             return b""
         self._release()
@@ -101,7 +101,7 @@ class PtyLine:
         return count
 
     def _make_link(self, link: Path) -> None:
-        """Let ``link`` point here in one step; an old link is replaced, nothing else is."""
+        """Point ``link`` here in one step; an old link is replaced, any other file is kept."""
         if link.exists() and not link.is_symlink():
             raise PtyLineError(f"{link} exists and is no symbolic link: left alone")
         if _is_live(link):

@@ -1,4 +1,4 @@
-"""The RC receiver's six wires: pulses at exact cycles, and everything that goes wrong with them."""
+"""The RC receiver's six wires: pulses at exact cycles, and all their faults."""
 
 from __future__ import annotations
 
@@ -87,12 +87,12 @@ class Receiver:
                 self.edge(each, self._library.rig_cycle(self._handle), _HIGH)
 
     def resume(self, channel: str) -> None:
-        """Let a stopped channel go on with the next frame."""
+        """Resume a stopped channel with the next frame."""
         if self._held.pop(channel, _LOW) == _HIGH:
             self.edge(channel, self._library.rig_cycle(self._handle), _LOW)
 
     def edge(self, channel: str, cycle: int, level: int) -> None:
-        """Drive a channel's wire to a level at a cycle; level 2 lets go of it."""
+        """Drive a channel's wire to a level at a cycle; level 2 releases it."""
         self._library.rig_pin_edge(self._handle, cycle, self._pins[channel], level)
 
     def level(self, channel: str) -> int:
@@ -100,7 +100,7 @@ class Receiver:
         return int(self._library.rig_pin_level(self._handle, self._pins[channel]))
 
     def glitch(self, channel: str, at_us: float, width_us: float, *, level: int = _HIGH) -> None:
-        """Add noise: the wire goes to a level at a time for a while, and back."""
+        """Add noise: the wire changes to a level at a time for a while, and back."""
         start = round(at_us * CYCLES_PER_US)
         self.edge(channel, start, level)
         self.edge(channel, start + max(1, round(width_us * CYCLES_PER_US)), 1 - level)

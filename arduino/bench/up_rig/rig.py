@@ -117,7 +117,7 @@ class Rig:
         return bytes(data[RAM_START : RAM_START + RAM_SIZE])
 
     def brown_out(self, *, keeps_ram: bool = True) -> None:
-        """Let the supply sag: BORF, an EEPROM write is cut, the IMU restarts."""
+        """Cause a brown-out: BORF, an EEPROM write is cut, the IMU restarts."""
         if not keeps_ram:
             self._fill_ram(self._random.randbytes(RAM_SIZE))
         self._library.rig_reset(self._handle, int(Reset.BROWN_OUT))
@@ -131,11 +131,11 @@ class Rig:
         self._library.rig_reset(self._handle, int(Reset.WATCHDOG))
 
     def set_watchdog_factor(self, factor: float) -> None:
-        """Let the watchdog's own oscillator run ``factor`` times slower than 128 kHz."""
+        """Make the watchdog's own oscillator ``factor`` times slower than 128 kHz."""
         self._library.rig_watchdog_factor(self._handle, factor)
 
     def preload(self, symbol: str, value: bytes, *, at: str = "main") -> None:
-        """Write a variable once, when the program comes to the function ``at``.
+        """Write a variable once, when the program reaches the function ``at``.
 
         It is for states that would take too long to reach, such as a clock before its wrap.
         Raises ``FirmwareError`` for a name that the ELF file does not have.

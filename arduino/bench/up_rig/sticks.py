@@ -18,7 +18,7 @@ class SticksError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class StickMove:
-    """At ``time_s`` the channel goes to ``value``: us, or for ``receiver`` 1 on and 0 off."""
+    """At ``time_s`` the channel is set to ``value``: us, or for ``receiver`` 1 on and 0 off."""
 
     time_s: float
     channel: str

@@ -1,6 +1,6 @@
 /**
  * libFuzzer over the firmware on its serial line. The first byte of an input chooses when the clock
- * begins; then come steps of one letter and what it needs, see `step`.
+ * begins; then follow steps of one letter and its operands, see `step`.
  */
 #include "fuzzed_board.h"
 

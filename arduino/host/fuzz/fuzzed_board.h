@@ -30,7 +30,7 @@ class FuzzedBoard {
     look("begin");
   }
 
-  /** A byte comes, and the time that it takes on the line passes. */
+  /** A byte arrives, and the time that it takes on the line passes. */
   void hear(uint8_t byte) {
     const bool was_armed = autopilot_.authority.is_armed();
     const bool was_thesis = autopilot_.link.is_thesis();
@@ -43,7 +43,7 @@ class FuzzedBoard {
     look("a byte");
     pass(BYTE_US);
   }
-  /** A checked frame comes, right in everything but perhaps type and size. */
+  /** A checked frame arrives, valid except perhaps for type and size. */
   void hear_frame(uint8_t type, const Bytes& payload) {
     outgoing().clear();
     write_frame(sequence_++, static_cast<char>(type), payload.data(),

@@ -99,7 +99,7 @@ class Conversation {
     autopilot_.link.on_byte(byte, now_us());
   }
 
-  /** A zero first, so that nothing before it can spoil the frame. */
+  /** A zero first, so that no earlier byte can corrupt the frame. */
   const uint8_t* frame(const uint8_t* script, size_t left) {
     if (left == 0) return script;
     const char type = static_cast<char>(*script++);
@@ -174,7 +174,7 @@ class Conversation {
     }
   }
 
-  /** Whatever came before: after 100 ms of silence a question is answered. */
+  /** After any input and 100 ms of silence a request is answered. */
   void still_answers() {
     slots(150);
     if (autopilot_.link.is_thesis()) {

@@ -17,7 +17,7 @@ constexpr int NO_SIZE = -1;
 constexpr size_t LONGEST_ENCODED = 101;
 constexpr uint32_t DROPPED_AFTER_US = 100000;
 
-/** Payload of what goes to the Arduino, bytes. */
+/** Payload of messages to the Arduino, bytes. */
 inline int size_to_arduino(uint8_t type) {
   switch (type) {
     case 's': case 'a': case 'd': case 'm': case 'T': case 'G': case 'c': return 0;
@@ -100,7 +100,7 @@ class Listener {
   uint32_t first_us_ = 0;
 };
 
-/** Whether these are whole messages of thesis framing; `!` comes alone or with a type. */
+/** Whether these are whole messages of thesis framing; `!` stands alone or before a type. */
 inline bool are_thesis_messages(const uint8_t* at, size_t size) {
   if (size == 0) return true;
   if (*at == '!') {

@@ -22,7 +22,7 @@ void await_sample();
 
 enum Stop { REACHED = 0, WANTS_SAMPLE = 1 };
 
-/** Runs to a moment, or to the next sample that the IMU wants from the caller. */
+/** Runs to a moment, or to the next IMU sample that the caller must provide. */
 Stop run_until(Cycles moment);
 
 /** Bits of MCUSR. The firmware restarts 66 ms after this, when it runs next. */

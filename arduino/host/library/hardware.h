@@ -12,7 +12,7 @@ namespace host {
 extern host_board_view view;
 inline double to_us(Cycles moment) { return static_cast<double>(moment) / PER_US; }
 
-/** Lets every part come to a moment; called whenever time has moved on. */
+/** Advances every part to a moment; called whenever time has moved on. */
 void run_hardware(Cycles moment);
 /** What a reset does to the parts; MCUSR has its cause. */
 void reset_hardware(Cycles moment);

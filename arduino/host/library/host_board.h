@@ -15,7 +15,7 @@ extern "C" {
 /** The version of this interface. */
 uint32_t host_board_version(void);
 
-/** Power comes on. `eeprom` are its first bytes, the rest is erased. Once, before all others. */
+/** Power-on. `eeprom` are its first bytes, the rest is erased. Once, before all others. */
 void host_board_begin(const uint8_t* eeprom, uint32_t size, uint32_t seed, double first_frame_us);
 /** Runs to a time: 0 when it is reached, 1 when `sample` is to be filled in before it runs on. */
 int host_board_run(double until_us);
@@ -32,7 +32,7 @@ typedef struct {
   /** The newest pulse of each servo, 0 before the first, and when it ended. */
   double width_us[4];
   double ended_us[4];
-  /** When the IMU took the sample that is wanted, and what the firmware has set it to. */
+  /** Time of the requested IMU sample, and the firmware's settings of the IMU. */
   double sample_us;
   uint8_t imu_registers[128];
   /** The sample, as the registers hold it: accelerometer, temperature, gyro. */

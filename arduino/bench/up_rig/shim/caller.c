@@ -1,4 +1,4 @@
-/* What the caller may ask of a rig, beside running it; each part's own questions are in its file. */
+/* The caller's queries to a rig, beside running it; those of each part are in its file. */
 #include <string.h>
 
 #include "rig.h"

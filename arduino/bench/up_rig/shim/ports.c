@@ -28,7 +28,7 @@ void port_update(rig_t *rig, uint8_t number, cycle_t now) {
     out = (uint8_t)((out & ~port->override) | (port->latch & port->override));
     uint8_t level = (uint8_t)((out & direction) | (outside & ~direction));
     if (number == PORT_C) {
-        /* Both lines of the bus are pulled up on the IMU's board, and anybody may hold them. */
+        /* Both lines of the bus are pulled up on the IMU's board, and any device may hold them. */
         bool has_pins = twi_has_pins(rig);
         uint8_t bus = 1 << SDA | 1 << SCL;
         uint8_t held = (uint8_t)(has_pins ? 0 : direction & ~out);

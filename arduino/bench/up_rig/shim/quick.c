@@ -1,9 +1,9 @@
-/* Instructions that concern nothing but registers, RAM and flash, run without simavr.
+/* Instructions that use only registers, RAM and flash, run without simavr.
  *
- * Most of what a program does is of that kind, and simavr takes long for it, as it must look after
- * every address. Here the flash is decoded once (decode.c). What touches a peripheral, lets an
- * interrupt in or leaves the RAM is left to simavr, which the rig asks alone while it measures:
- * both must come to the same cycles (tests/arduino/rig/test_quick.py). From the instruction set
+ * Most instructions are of that kind, and simavr takes long for them, as it must check every
+ * address. Here the flash is decoded once (decode.c). Instructions that access a peripheral, enable
+ * an interrupt or leave the RAM are left to simavr, which alone runs while the rig measures: both
+ * must arrive at the same cycles (tests/arduino/rig/test_quick.py). From the instruction set
  * manual (DS40002198), times of the ATmega328P.
  */
 #include "quick.h"
@@ -252,7 +252,7 @@ DO_OUT_SREG: {
     NEED(!lets_in || !rig->pending);
     c = value & 1, zero = !(value & 2), minus = value << 5, over = value << 4, sign = value << 3;
     half = value >> 1, t = value >> 6 & 1, i = value >> 7;
-    /* One more instruction runs before an interrupt comes, also one that is due now. */
+    /* One more instruction runs before an interrupt, also before one that is due now. */
     if (lets_in && left <= 1) avr->interrupt_state = -1;
     NEXT(1, 1);
 }

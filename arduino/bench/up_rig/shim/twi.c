@@ -160,7 +160,7 @@ static void on_control(avr_t *avr, avr_io_addr_t address, uint8_t value, void *p
     run_events(rig, now);
     uint8_t old = avr->data[R_TWCR];
     bool is_new = !(old & TWEN);
-    /* Writing one to TWINT clears it and starts what the other bits say; TWSTO clears itself. */
+    /* Writing one to TWINT clears it and starts the other bits' action; TWSTO clears itself. */
     uint8_t kept = value & TWINT ? 0 : old & TWINT;
     avr->data[R_TWCR] = (uint8_t)((value & 0x75) | kept | (old & TWSTO) | (old & TWWC));
     if (!(value & TWEN)) {
@@ -169,7 +169,7 @@ static void on_control(avr_t *avr, avr_io_addr_t address, uint8_t value, void *p
         begin(rig, DO_NOTHING, NEVER);
     } else if (twi->doing == DO_NOTHING && (value & TWINT || !(old & TWINT))) {
         if (value & TWSTO && twi->state == TWI_FOREIGN) {
-            /* No stop is sent on a bus that is another's; the lines are just let go (22.7.5). */
+            /* No stop is sent on another master's bus; the lines are just released (22.7.5). */
             avr->data[R_TWCR] &= (uint8_t)~TWSTO;
             twi->state = TWI_IDLE;
             if (value & TWSTA) start(rig, now);

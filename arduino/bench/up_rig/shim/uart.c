@@ -1,7 +1,7 @@
 /* USART 0, asynchronous, 8N1 (data sheet 20).
  *
  * simavr counts 11 bits a byte and receives into 64 places; here a frame has 10 bits, the receiver
- * two places and its shift register, and a byte that comes to a full one is lost (20.7.4, DOR).
+ * two places and its shift register, and a byte for a full one is lost (20.7.4, DOR).
  */
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-/** The MPU6050 at the bus: set up, read once each slot, set up again when it was gone. */
+/** The MPU6050 at the bus: set up, read once each slot, set up again after a failure. */
 #pragma once
 
 #include "../control/attitude_filter.h"
@@ -21,7 +21,7 @@ class Mpu6050 {
   bool pump() { return twi_.pump() == Twi::State::BUSY; }
   /** Ends this slot's transfer; one that has not completed has failed. */
   void end_transfer();
-  /** The sample of the newest transfer; null when that brought none. */
+  /** The sample of the newest transfer; null if that has none. */
   const ImuSample* sample() const { return has_sample_ ? &sample_ : nullptr; }
 
  private:

@@ -26,7 +26,7 @@ static inline uint8_t interrupt_of(uint8_t side) { return side ? _BV(OCIE1B) : _
 static_assert(OCIE1A == OCIE2A && OCIE1B == OCIE2B && OCF1A == OCIE1A && OCF1B == OCIE1B &&
               OCF2A == OCIE2A && OCF2B == OCIE2B, "one bit for all");
 
-/** COMnx1 alone lets a match clear the pin, COMnx0 beside it lets it set it. */
+/** COMnx1 alone makes a match clear the pin, COMnx0 beside it makes it set the pin. */
 void begin() {
   PORTB &= static_cast<uint8_t>(
       ~(pin_bit(PIN_SERVO_AILERONS) | pin_bit(PIN_SERVO_ELEVATOR) | pin_bit(PIN_SERVO_RUDDER)));

@@ -21,11 +21,11 @@ constexpr int16_t STICK_TO_Q15 = 16776;
 // A hundredth of a degree per second in sixteenths, Q15.
 constexpr int16_t CDEG_TO_16THS = 5243;
 
-// Rates come in 2^-4, so a Rate PID answers in 2^-14. Its 400 units of 1.25 us are half a servo's
-// way; a unit is 2.5 ticks.
+// Rates are in 2^-4, so a Rate PID answers in 2^-14. Its 400 units of 1.25 us are half a servo's
+// travel; a unit is 2.5 ticks.
 constexpr int32_t RATE_LIMIT = 400L << 14;
 constexpr int32_t UNIT_TO_UPPER_HALF = 10;
-// Angles come in 2^-7, so a Stabilize PID answers in 2^-17 of a deg/s: 2^13 make a sixteenth.
+// Angles are in 2^-7, so a Stabilize PID answers in 2^-17 of a deg/s: 2^13 make a sixteenth.
 constexpr int32_t ROLL_RATE_LIMIT = static_cast<int32_t>(ROLL_RATE_LIMIT_DEG_S) << 17;
 constexpr int32_t PITCH_RATE_LIMIT = static_cast<int32_t>(PITCH_RATE_LIMIT_DEG_S) << 17;
 constexpr int32_t RATE_TO_UPPER_HALF = 8;
@@ -137,7 +137,7 @@ OUT_OF_LINE void FlightController::hold_rates(const Demand& demand, const Attitu
   demands[RUDDER] = sum_of(demands[RUDDER], deflection(YAW, yaw_16, swinging));
 }
 
-/** By the stick in RATE, else by the Stabilize PID; `channel` is AILERONS or ELEVATOR. */
+/** By the stick in RATE, otherwise by the Stabilize PID; `channel` is AILERONS or ELEVATOR. */
 int16_t FlightController::wanted_rate_16(Channel channel, const Demand& demand,
                                                      const Attitude& attitude) {
   const bool is_roll = channel == AILERONS;

@@ -19,7 +19,7 @@ class ArmingSwitch {
   Event take(Ticks pulse, uint16_t passed_units);
   /** The receiver is lost: its later pulses start from the beginning. */
   void forget();
-  /** Stands at high, and has for 300 ms. */
+  /** At high, and has been for 300 ms. */
   bool is_high() const { return settled_ == HIGH && now_ == HIGH; }
 
  private:

@@ -65,7 +65,7 @@ class Authority {
   bool is_auto() const;
   /**
    * Whether settings must not change: armed, or an aircraft without a motor, which flies disarmed,
-   * unless it has been on for 5 s and its transmitter was never heard.
+   * unless it has been on for 5 s and its receiver was never valid.
    */
   bool is_in_flight(uint16_t uptime_s) const;
   /** 0 low, 1 middle, 2 high, 255 not known yet; holds while the receiver is lost. */
@@ -126,7 +126,7 @@ class Authority {
   Stopwatch sound_;
   Stopwatch lost_;
   Stopwatch away_;
-  // The newer of the two: which it is, flown_mode() says.
+  // The newer of the two: flown_mode() returns which it is.
   union {
     Setpoint setpoint_ ZEROED;
     Outputs asked_outputs_;

@@ -17,7 +17,7 @@ class PulseFilter {
  public:
   /** Takes a measured pulse; one whose stamps are uncertain only moves it by more than 6 us. */
   void take(Ticks measured, bool is_uncertain);
-  /** Goes to a pulse as if there had been no other. */
+  /** Jumps to a pulse, as if there had been no other. */
   void reset(Ticks pulse);
   Ticks pulse() const { return pulse_; }
 

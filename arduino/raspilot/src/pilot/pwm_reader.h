@@ -44,7 +44,7 @@ class PwmReader {
    */
   bool take_rise(Channel channel, uint16_t& stamp_ticks);
 
-  /** End points are learned from here to there; false, and nothing kept, as RangeLearner says. */
+  /** End points are learned from here to there; false, and nothing kept, as in RangeLearner. */
   void begin_range_learning() { learner_.begin(); }
   bool end_range_learning(Calibration& learned);
   bool is_learning() const { return learner_.is_learning(); }

@@ -10,9 +10,9 @@ namespace raspilot {
 /**
  * Keeps the smallest and the greatest pulse of each channel from begin() to end().
  *
- * The pilot moves all sticks and switches through, then centres ailerons, elevator and rudder
- * before end(): where these stand is their centre. Throttle and the switches rest nowhere: the
- * middle of their range is their centre.
+ * The pilot moves all sticks and switches to their ends, then centres ailerons, elevator and rudder
+ * before end(): their positions then are their centres. Throttle and the switches have no rest
+ * position: the middle of their range is their centre.
  */
 class RangeLearner {
  public:

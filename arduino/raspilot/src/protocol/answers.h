@@ -10,7 +10,7 @@ namespace raspilot {
 
 /** One answer to send: a confirmation, a refusal, or a Command that sends its own. */
 struct PendingAnswer {
-  /** `K`, ASK for a handler that answers itself, else a Reason. */
+  /** `K`, ASK for a handler that sends its own answer, otherwise a Reason. */
   uint8_t what;
   uint8_t type;
   uint8_t sequence;
@@ -36,7 +36,7 @@ class Answers {
 };
 
 /**
- * Lets each type be refused once a second (docs/protocols.md 2.5). It knows eight types at a time, one
+ * Limits refusals of each type to one a second (docs/protocols.md 2.5). It holds eight types, one
  * more than there are streams; when more are refused within a second it forgets the oldest.
  */
 class RefusalLimit {

@@ -14,7 +14,7 @@ namespace raspilot {
 
 class Autopilot;
 
-/** One Command as it came, its size already right. */
+/** One Command as received, its size already right. */
 struct Request {
   const uint8_t* payload;
   uint8_t sequence;

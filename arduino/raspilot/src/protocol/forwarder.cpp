@@ -89,7 +89,7 @@ OUT_OF_LINE bool Forwarder::is_due(uint8_t stream, Steps now) {
   return false;
 }
 
-/** Sends it, or finds that it has nothing to say; false when it does not fit. */
+/** Sends it, or has nothing to send; false when it does not fit. */
 bool Forwarder::send(uint8_t stream, uint32_t now_us) {
   const bool is_thesis = autopilot_.link.is_thesis();
   switch (stream) {

@@ -1,5 +1,5 @@
 /**
- * What goes to the Raspberry Pi unasked: receiver inputs, orientation, outputs, status
+ * The streams to the Raspberry Pi: receiver inputs, orientation, outputs, status
  * (docs/protocols.md 2.4), each at its period; the newest wins.
  */
 #pragma once

@@ -47,7 +47,7 @@ class Link {
 
   bool is_thesis() const { return is_thesis_; }
   bool is_started() const { return forwarder_.is_started(); }
-  /** Whether the Raspberry Pi was heard within 1 s. */
+  /** Whether the Raspberry Pi has sent a valid message within 1 s. */
   bool has_heard(uint32_t now_us) const;
   /** Frames dropped, and frames missing by sequence, since reset; they stay at 65535. */
   uint16_t dropped() const { return dropped_; }

@@ -1,9 +1,9 @@
 /**
- * Structs of small numbers to wire bytes and back by a table, which takes a third of the flash that
- * a statement a field would.
+ * Converts structs of small numbers to wire bytes and back by a table, which takes a third of the
+ * flash of one statement per field.
  *
- * A table says the kind of each field in the order of struct and wire alike; both must have the
- * same order, and the struct holds nothing but bool, char, one-byte enums and 16-bit integers.
+ * A table lists the kind of each field in the order of struct and wire alike; both must have the
+ * same order, and the struct holds only bool, char, one-byte enums and 16-bit integers.
  */
 #pragma once
 
