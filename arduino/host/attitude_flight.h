@@ -42,7 +42,7 @@ struct Flight {
     return std::ldexp(filter.state().bias_q36[axis], -36) / 0.002 / DEG;
   }
   double yaw_deg() const { return filter.attitude().yaw_cdeg / 100.0; }
-  /** Angle between what the filter and what the world takes for down. */
+  /** Angle between the filter's and the true direction of down. */
   double tilt_error_deg() const {
     const double roll = roll_deg() * DEG;
     const double pitch = pitch_deg() * DEG;

@@ -21,7 +21,7 @@ class FakeBoard {
   void power_on();
   /** Time passes: the line sends bytes, the EEPROM finishes its write. */
   void elapse(uint32_t us);
-  /** Takes what the firmware has sent so far. */
+  /** Takes the bytes that the firmware has sent so far. */
   std::vector<uint8_t> take_sent();
 
   uint8_t eeprom[EEPROM_SIZE];

@@ -40,7 +40,7 @@ class FlyingBoard {
     for (uint32_t passed = 0; passed < ms && !is_so(); passed += 2) slot();
     return is_so();
   }
-  /** Switch low to high after a low that counts: what arms and disarms. */
+  /** Switch low to high after a low that counts: arms and disarms. */
   void flick_aux2() {
     sticks[AUX2] = 1000;
     run(400);

@@ -94,7 +94,7 @@ class PilotBench {
   uint32_t clock_us() const { return lines.clock_us(now_us); }
 
   Ticks throttle_us() const { return static_cast<Ticks>(authority.throttle() / 2); }
-  /** Switch low to high after a low that counts: what arms. */
+  /** Switch low to high after a low that counts: arms. */
   void flick_aux2() {
     sticks[AUX2] = 1000;
     run(400);

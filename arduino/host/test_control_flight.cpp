@@ -230,7 +230,7 @@ TEST_CASE("OUTPUT: the Raspberry Pi's surfaces, through the servos' directions l
   CHECK(flight.us(AILERONS) == 1600);
   CHECK(flight.us(ELEVATOR) == 1450);
   CHECK(flight.us(RUDDER) == 1320);
-  // What rolls right from the Arduino rolls right from the Raspberry Pi.
+  // A demand that rolls right from the Arduino rolls right from the Raspberry Pi.
   flight.profile.servos[AILERONS].is_reversed = true;
   CHECK(flight.us(AILERONS) == 1400);
   flight.demand.mode = Mode::ACRO;

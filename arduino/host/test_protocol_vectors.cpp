@@ -124,7 +124,7 @@ TEST_CASE("every golden Command is registered once, with its size, and in its fr
   for (int type = 0; type < 256; ++type) {
     const char letter = static_cast<char>(type);
     CHECK(CommandExecutor::count(letter) < 2);
-    // A longer one than what can be received is never found.
+    // A message longer than the receive buffer is never found.
     CommandDefinition command;
     CHECK(CommandExecutor::find(letter, command) == (CommandExecutor::count(letter) == 1));
   }

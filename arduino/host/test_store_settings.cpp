@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t LOOK_US = 500;
 
-/** Runs the background until nothing is to save; false when it takes more than 10 s. */
+/** Runs the background until all is saved; false when it takes more than 10 s. */
 bool save_all(Settings& settings) {
   for (uint32_t us = 0; us < 10000000; us += LOOK_US) {
     if (!settings.is_saving()) return true;

@@ -9,7 +9,7 @@ MOST_ROWS = 100
 
 
 class Style(Enum):
-    """How a character looks; the value is its SGR parameters (ECMA-48)."""
+    """The style of a character; the value is its SGR parameters (ECMA-48)."""
 
     PLAIN = ""
     BOLD = "1"

@@ -1,4 +1,4 @@
-"""What a program on the link ends with: its exit status and its last words."""
+"""One-shot tasks on the link, with an exit status and a last message."""
 
 from __future__ import annotations
 

@@ -43,9 +43,9 @@ class LinkListener(Interface):
 
 
 class GroundLink:
-    """Connects again after each loss until it is stopped, and takes its seat back.
+    """Reconnects after each loss until it is stopped, and takes its seat back.
 
-    ``status`` is always true; a lost connection leaves nothing of its half lines behind.
+    ``status`` is always up to date; a lost connection leaves no partial lines behind.
     """
 
     def __init__(
@@ -123,7 +123,7 @@ class GroundLink:
             self._connection.give_up("another seat is asked for")
 
     def measure(self) -> None:
-        """Look at the link's own delay and drops."""
+        """Read the link's own delay and drops."""
         if self._connection is not None and self.status.is_open:
             self.status.round_trip_ms = self._connection.round_trip_ms()
 

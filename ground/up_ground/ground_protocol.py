@@ -81,7 +81,7 @@ class GroundProtocol(Protocol):
         self.transport.abortConnection()
 
     def close(self) -> None:
-        """Send what waits, then close."""
+        """Send the queued data, then close."""
         self._is_open = False
         self.transport.loseConnection()
 

@@ -9,7 +9,7 @@ from up_ground.settings import Seat
 
 
 class LinkState(Enum):
-    """How far the connection to the proxy is."""
+    """State of the connection to the proxy."""
 
     CONNECTING = "connecting"
     OPEN = "connected"
@@ -59,7 +59,7 @@ class LinkStatus:
         return self.malformed + self.too_long + self.strange_control
 
     def disconnected(self, state: LinkState, now_s: float, reason: str = "") -> None:
-        """Forget what only a connection can know."""
+        """Reset the fields that only a connection can fill."""
         self.state = state
         self.since_s = now_s
         self.reason = reason

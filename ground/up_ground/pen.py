@@ -1,4 +1,4 @@
-"""Writes readings on the canvas so that old ones look old."""
+"""Writes readings on the canvas, stale ones in the stale style."""
 
 from __future__ import annotations
 

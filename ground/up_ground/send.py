@@ -37,7 +37,7 @@ class Send(Errand):
     """Waits for the seat and for one telemetry frame, sends, waits for the answer.
 
     Nothing is sent twice, and nothing without the beacon of a frame; an aircraft whose frames have
-    none, as the thesis's, gets what does not need one (``needs_beacon``).
+    none, such as the thesis's, gets only Commands that need none (``needs_beacon``).
     """
 
     def __init__(
@@ -72,7 +72,7 @@ class Send(Errand):
         self.link.start()
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take telemetry for its beacon, and what answers us."""
+        """Take telemetry for its beacon, and the answers to us."""
         if self.is_finished:
             return
         if self._telemetry.take(message, self._reactor.seconds()):

@@ -11,7 +11,7 @@ DEFAULT_AIRCRAFT = "default"
 
 
 class Seat(Enum):
-    """What a ground may do at the proxy; the value is its word on the wire."""
+    """The rights of a ground at the proxy; the value is its word on the wire."""
 
     COMMAND = "command"
     LISTEN = "listen"

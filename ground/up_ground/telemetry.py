@@ -12,7 +12,7 @@ from up_ground.safe_text import safe_text
 
 NAME = "up.telemetry.update"
 SILENT_S = 0.9
-"""A frame that is older looks old on the screen, before the second is over."""
+"""An older frame is shown as stale, before the second is over."""
 LATE_S = 0.3
 LATE_FOR_S = 1.0
 """Late frames followed by a newer one are dropped for this time; then the path itself is late."""
@@ -94,7 +94,7 @@ class Telemetry:
         """Return how long the newest frame was on its way, as far as that is known."""
         if self._held_s is None:
             return self._round_trip_s / 2
-        # What queues on the way to the proxy is in the held time: the least is the way itself.
+        # The held time includes the queue before the proxy: its minimum is the path itself.
         return (self._least_trip_s or self._round_trip_s) / 2 + self._held_s
 
     def age_s(self, now_s: float) -> float | None:

@@ -81,7 +81,7 @@ class Terminal:
             return ""
 
     def paint(self, picture: str) -> bool:
-        """Show a picture of rows; False: the terminal still takes the last one, it is left out."""
+        """Show a picture of rows; False if it was dropped because the last one is still queued."""
         if not self._flush():
             return False
         rows = picture.split("\n")

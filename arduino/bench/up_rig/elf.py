@@ -1,4 +1,4 @@
-"""Reads what avr-gcc writes: ELF files with their symbols, and Intel HEX."""
+"""Reads the output of avr-gcc: ELF files with their symbols, and Intel HEX."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The MPU6050 on its bus: what it measures, and how it fails."""
+"""The MPU6050 on its bus: its measurements and its faults."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Fault(enum.IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """What moves the aircraft, in its axes: x forward, y right, z down.
+    """The motion of the aircraft, in its axes: x forward, y right, z down.
 
     Rates in degrees per second; the specific force in m/s^2 is (0, 0, -9.81) at rest and level.
     """
@@ -111,15 +111,15 @@ class Imu:
         self._library.rig_imu_fault(self._handle, int(fault), byte, transfers, False)
 
     def mend(self) -> None:
-        """End a fault; what it had been set to, it still is."""
+        """End a fault; the registers keep their values."""
         self._library.rig_imu_fault(self._handle, int(Fault.NONE), 0, 0, False)
 
     def set_identity(self, who_am_i: int) -> None:
-        """Set what WHO_AM_I reads, 0x68 in the real part."""
+        """Set the value of WHO_AM_I, 0x68 in the real part."""
         self._library.rig_imu_identity(self._handle, who_am_i)
 
     def register(self, number: int) -> int:
-        """Return what the program has set a register to."""
+        """Return the program's value of a register."""
         return int(self._library.rig_imu_register(self._handle, number))
 
     @property
@@ -143,7 +143,7 @@ class Imu:
         return int(self._library.rig_twi_bytes(self._handle))
 
     def raise_failure(self) -> None:
-        """Raise what the motion's function raised during the last run."""
+        """Raise the exception of the motion's function in the last run."""
         if self._failure is not None:
             failure, self._failure = self._failure, None
             raise failure

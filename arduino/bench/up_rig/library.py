@@ -42,7 +42,7 @@ class PinPulse(ctypes.Structure):
 
 
 class Meter(ctypes.Structure):
-    """What the C side measures; ``meter_t`` of rig.h."""
+    """The measurements of the C side; ``meter_t`` of rig.h."""
 
     _fields_ = [
         ("interrupt_cycles", ctypes.c_uint64),

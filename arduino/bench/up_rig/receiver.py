@@ -96,7 +96,7 @@ class Receiver:
         self._library.rig_pin_edge(self._handle, cycle, self._pins[channel], level)
 
     def level(self, channel: str) -> int:
-        """Return what the chip's pin of a channel sees now."""
+        """Return the present level at the chip's pin of a channel."""
         return int(self._library.rig_pin_level(self._handle, self._pins[channel]))
 
     def glitch(self, channel: str, at_us: float, width_us: float, *, level: int = _HIGH) -> None:

@@ -23,7 +23,7 @@ STACK_PATTERN = 0xC5
 
 
 class CrashError(Exception):
-    """The program did what the chip cannot do, or what the rig does not model."""
+    """The program used a feature that the chip lacks or the rig does not model."""
 
 
 class Reset(enum.IntFlag):
@@ -39,11 +39,11 @@ class Rig:
     """One chip with a program, its receiver, servos, IMU, serial line and EEPROM.
 
     ``bootloader`` (HEX or ELF, see ``build_optiboot``) lies above the program and runs first, as
-    with the BOOTRST fuse. ``eeprom`` is what the EEPROM holds before, all 0xFF without. ``seed``
-    decides every noise and the RAM's contents at power-on. ``start_up_us`` is the length of each
-    reset, 66 ms with the fuses of the Nano. Without ``is_measuring`` it runs faster and knows
-    neither the stack's depth nor the longest time with interrupts off. Time counts from the
-    power-on, in cycles of 62.5 ns, and never stops. Raises ``FirmwareError`` and
+    with the BOOTRST fuse. ``eeprom`` is the initial content of the EEPROM, by default all 0xFF.
+    ``seed`` decides every noise and the RAM's contents at power-on. ``start_up_us`` is the length
+    of each reset, 66 ms with the fuses of the Nano. Without ``is_measuring`` it runs faster and
+    measures neither the stack's depth nor the longest time with interrupts off. Time counts from
+    the power-on, in cycles of 62.5 ns, and never stops. Raises ``FirmwareError`` and
     ``RigUnavailableError``.
     """
 
@@ -112,7 +112,7 @@ class Rig:
         self._library.rig_reset(self._handle, int(Reset.POWER_ON))
 
     def ram(self) -> bytes:
-        """Return what the RAM holds now, for a power failure that is too short to lose it."""
+        """Return the content of the RAM, for a power failure that is too short to lose it."""
         data = self._library.rig_data(self._handle)
         return bytes(data[RAM_START : RAM_START + RAM_SIZE])
 

@@ -17,7 +17,7 @@ class SentByte:
 
 
 class Serial:
-    """What the Raspberry Pi has of the chip: one wire each way, 8N1, 115200 Bd unless changed."""
+    """The Raspberry Pi's end of the line: one wire each way, 8N1, 115200 Bd unless changed."""
 
     def __init__(self, library: ctypes.CDLL, handle: Handle) -> None:
         self._library = library

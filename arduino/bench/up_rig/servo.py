@@ -23,7 +23,7 @@ class Pulse:
 
 
 class Servo:
-    """Records what the four servos get; a pin that the chip does not drive is low."""
+    """Records the pulses of the four servos; a pin that the chip does not drive is low."""
 
     def __init__(self, library: ctypes.CDLL, handle: Handle, pins: dict[str, int]) -> None:
         self._library = library

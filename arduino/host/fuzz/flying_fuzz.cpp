@@ -8,7 +8,7 @@ using namespace raspilot;
 
 namespace {
 
-/** Steps beyond this time add nothing but waiting. */
+/** Steps beyond this time only wait. */
 constexpr uint32_t MOST_SLOTS = 3000;
 
 class Input {

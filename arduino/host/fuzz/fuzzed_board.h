@@ -1,4 +1,4 @@
-/** The whole portable firmware, run by a fuzzer and watched at each call for what may never be. */
+/** The whole portable firmware, run by a fuzzer and checked at each call against the rules. */
 #pragma once
 
 #include <stdint.h>

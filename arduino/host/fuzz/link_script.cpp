@@ -123,7 +123,7 @@ class Conversation {
   void slots(uint32_t count) {
     for (; count != 0; --count) {
       slot_us_ += SLOT_US;
-      // Throttle low, AUX2 high from the first pulse on: no edge of it, so nothing but `a` arms.
+      // Throttle low, AUX2 high from the first pulse on: no edge of it, so only `a` arms.
       if (slot_us_ % 20000 == 0) {
         const uint16_t pulses_us[INPUTS] = {1500, 1500, 1000, 1500, 2000, 2000};
         for (uint8_t channel = 0; channel < INPUTS; ++channel) {
@@ -138,7 +138,7 @@ class Conversation {
     }
   }
 
-  /** What must hold at every moment. */
+  /** Invariants at every moment. */
   void look() {
     const Link& link = autopilot_.link;
     const bool is_armed = autopilot_.authority.is_armed();

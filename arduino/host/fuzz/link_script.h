@@ -1,6 +1,6 @@
 /**
- * A conversation with the serial line out of arbitrary bytes, and what must hold whatever they are.
- * The fuzzer invents scripts; the host tests replay those that were kept.
+ * A conversation with the serial line out of arbitrary bytes, and its invariants. The fuzzer
+ * generates scripts; the host tests replay the kept ones.
  */
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace raspilot {
 
-/** What a script led to. */
+/** Result of a script. */
 struct ScriptEnd {
   bool is_armed;
   bool is_thesis;

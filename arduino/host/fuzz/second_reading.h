@@ -33,7 +33,7 @@ inline int size_to_arduino(uint8_t type) {
   }
 }
 
-/** Payload of what our firmware sends in checked framing, bytes. */
+/** Payload of our firmware's messages in checked framing, bytes. */
 inline int size_from_arduino(uint8_t type) {
   switch (type) {
     case 'm': return 1;

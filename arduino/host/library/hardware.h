@@ -8,13 +8,13 @@
 
 namespace host {
 
-/** What the caller sees, and where its samples are. */
+/** The caller's view, and the place of its samples. */
 extern host_board_view view;
 inline double to_us(Cycles moment) { return static_cast<double>(moment) / PER_US; }
 
 /** Advances every part to a moment; called whenever time has moved on. */
 void run_hardware(Cycles moment);
-/** What a reset does to the parts; MCUSR has its cause. */
+/** Resets the parts; MCUSR has the cause. */
 void reset_hardware(Cycles moment);
 bool has_watchdog_bitten(Cycles moment);
 

@@ -26,7 +26,7 @@ void host_board_set_stick(uint8_t channel, double width_us);
 void host_board_set_receiver(int is_on);
 void host_board_set_channel(uint8_t channel, int is_on);
 
-/** What the board and its caller share. */
+/** Data shared by the board and its caller. */
 typedef struct {
   double now_us;
   /** The newest pulse of each servo, 0 before the first, and when it ended. */

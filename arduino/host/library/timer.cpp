@@ -1,4 +1,4 @@
-/** The chip's clock, and what the firmware's work takes of it. */
+/** The chip's clock, and the time that the firmware's work takes. */
 #include "chip/clock.h"
 #include "chip/reset.h"
 #include "hardware.h"

@@ -60,7 +60,7 @@ class Player:
         return min(self.length_s, self._from_s + gone_s)
 
     def play(self) -> None:
-        """Go on, from the beginning when the end was reached."""
+        """Resume, from the beginning when the end was reached."""
         if self.is_playing:
             return
         if self._from_s >= self.length_s:

@@ -1,4 +1,4 @@
-"""What ``replay`` does."""
+"""The verb ``replay``."""
 
 from __future__ import annotations
 

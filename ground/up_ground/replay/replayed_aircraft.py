@@ -129,11 +129,11 @@ class ReplayedAircraft:
             self._player.pause()
 
     def on_control(self, page: Page, action: str, to: int | None) -> None:
-        """Refuse: nothing of the past can be controlled."""
+        """Refuse: a recorded flight cannot be controlled."""
         raise PageFault(REPLAY)
 
     def on_command(self, page: Page, message: Reader) -> None:
-        """Refuse: nothing of the past takes Commands."""
+        """Refuse: a recorded flight takes no Commands."""
         page.tell(
             {
                 "type": "answer",

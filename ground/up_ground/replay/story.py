@@ -1,4 +1,4 @@
-"""What happened in a flight, worked out once, so that any moment of it can be shown."""
+"""The events of a flight, computed once, so that any moment of it can be shown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who may look at the page, and which pages may control."""
+"""Access rules: who may see the page, and which pages may control."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _ORIGIN = re.compile(r"https?://([^/?#@\\]{1,300})", re.IGNORECASE)
 class Access:
     """The rules of one server.
 
-    ``names``: what this machine is called, in small letters. ``key``: what a page must know to
-    control; None: nothing. ``is_watch_only``: no page may control at all.
+    ``names``: this machine's host names, in small letters. ``key``: required for control; None:
+    no key. ``is_watch_only``: no page may control at all.
     """
 
     names: frozenset[str] = frozenset({"localhost"})

@@ -190,7 +190,7 @@ class CommandDesk:
         return unsent
 
     def _unsent(self) -> Answer | None:
-        """Return why nothing can be sent now."""
+        """Return why no Command can be sent now."""
         status = self._link.status
         if not status.is_open:
             reason = status.reason or "there is no link"

@@ -1,4 +1,4 @@
-"""What of a page's Command is checked before it is sent."""
+"""The checks of a page's Command before it is sent."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Checked:
 
 
 class Checks:
-    """Refuses what no aircraft of this version would take, with the reason."""
+    """Refuses Commands that no aircraft of this version accepts, with the reason."""
 
     def __init__(self, catalogue: Catalogue) -> None:
         self._catalogue = catalogue

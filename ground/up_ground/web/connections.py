@@ -21,7 +21,7 @@ HTTP_LIMIT_S = 60.0
 
 
 class Connection(ProtocolWrapper):
-    """One connection; what it carries is replaced when it becomes a WebSocket."""
+    """One connection; its protocol is replaced when it becomes a WebSocket."""
 
     transport: Any
     factory: Any
@@ -73,7 +73,7 @@ class Connections(WrappingFactory):
         self._waiting: dict[str, dict[Connection, None]] = {}
 
     def buildProtocol(self, addr: Any) -> ProtocolWrapper:  # noqa: N802 - Twisted's name
-        """Return what carries the connection."""
+        """Return the transport of the connection."""
         made: Any = super().buildProtocol(addr)
         made.peer = neighbourhood(addr.host)
         own = self._waiting.setdefault(made.peer, {})

@@ -1,4 +1,4 @@
-"""What of a frame is worth an event when it changes, and its words."""
+"""The values of a frame whose changes are events, and the events' texts."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ class Judge:
         self._tell(event.message(self._aircraft, now_s, is_past=False))
 
     def on_frame(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> None:
-        """Look at a new frame."""
+        """Process a new frame."""
         for fact in FACTS:
             value = fact.read(telemetry)
             if value is not None:
@@ -74,7 +74,7 @@ class Judge:
         self.on_moment(telemetry, link, now_s)
 
     def on_link(self, link: LinkFacts, now_s: float) -> None:
-        """Look at the link."""
+        """Process the state of the link."""
         state: tuple[bool, bool | None] = (link.is_open, link.is_aircraft_online)
 
         def say(before: Any, now: Any) -> None:
@@ -85,7 +85,7 @@ class Judge:
         self._settled.take("link", state, now_s, say)
 
     def on_moment(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> None:
-        """Look at what time alone has changed."""
+        """Process the changes by time alone."""
         self._settled.on_moment(now_s)
         if self._alarms.take(telemetry, link, now_s):
             kinds = {each.kind for each in self._alarms.active}

@@ -24,7 +24,7 @@ class ListenAddress:
         return not is_wildcard(self.host) and ip_address(self.host).is_loopback
 
     def urls(self, port: int, key: str | None) -> list[str]:
-        """Return what to open in a browser; ``port`` is the one that was opened in the end."""
+        """Return the URL for a browser; ``port`` is the one that was opened in the end."""
         hosts = _own_addresses(":" in self.host) if is_wildcard(self.host) else [self.host]
         fragment = f"#key={key}" if key else ""
         return [f"http://{authority(host, port)}/{fragment}" for host in hosts]

@@ -14,8 +14,8 @@ _FINAL_TEXT = 0x81
 def text_frame(payload: bytes) -> bytes:
     """Return the one frame of a text message, unmasked as a server's are; ``payload`` is UTF-8.
 
-    Made here so that one message is put together once for all pages, and so that what has not
-    left can still be replaced.
+    Made here so that one message is encoded once for all pages, and so that unsent messages can
+    still be replaced.
     """
     size = len(payload)
     if size < 126:

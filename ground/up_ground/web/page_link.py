@@ -51,7 +51,7 @@ class PageLink(WebSocketServerProtocol):
 
     def onOpen(self) -> None:  # noqa: N802 - the library's name
         """Take the transport."""
-        # What carried the HTTP request is still registered there.
+        # The transport of the HTTP request is still registered there.
         self.transport.unregisterProducer()
         watch_peer(self.transport, USER_TIMEOUT_MS)
         self.output.start(self.transport)
@@ -143,5 +143,5 @@ class _Factory(WebSocketServerFactory):
 
 
 def link_resource(reactor: Any, owner: LinkOwner) -> WebSocketResource:
-    """Return what turns a request for the link into one; Host and Origin are checked before."""
+    """Return the resource that upgrades a request; Host and Origin are checked before."""
     return WebSocketResource(_Factory(reactor, owner))

@@ -1,4 +1,4 @@
-"""What waits to leave for a page: messages in order, of each kind of news only the newest."""
+"""The send buffer of a page: messages in order, of each kind of news only the newest."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class PageOutput(BaseOutput):
 
     @property
     def waiting_bytes(self) -> int:
-        """Return the size of what waits in order."""
+        """Return the size of the queued messages."""
         return self._size
 
     def send(self, message: bytes) -> None:
@@ -36,10 +36,10 @@ class PageOutput(BaseOutput):
             self._on_overrun()
 
     def send_newest(self, kind: str, make: Make) -> None:
-        """Send what ``make`` returns in place of one of this kind that still waits."""
+        """Send the result of ``make`` in place of a queued one of this kind."""
         if self._transport is not None:
             self._put_news(kind, make, may_leave=self._is_drained)
 
     def forget(self, kind: str) -> None:
-        """Drop what waits of a kind."""
+        """Drop the queued one of a kind."""
         self._news.pop(kind, None)

@@ -99,7 +99,7 @@ class Pages:
         return None if page is None or page.link is None else page
 
     def show(self, aircraft: str, kind: str, make: Make) -> None:
-        """Give the pages that watch the aircraft what only counts until the next of its kind."""
+        """Send the pages that watch the aircraft a message that the next of its kind replaces."""
         for page in self._pages.values():
             if page.watched == aircraft:
                 page.news(kind, make)

@@ -1,4 +1,4 @@
-"""``up-ground serve``: what its options mean."""
+"""The options of ``up-ground serve``."""
 
 from __future__ import annotations
 

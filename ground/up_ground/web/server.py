@@ -47,7 +47,7 @@ class Server(Errand):
         told = None
         if tiles is not None:
             told = {"url": "/tiles/{z}/{x}/{y}", "attribution": attribution}
-        # Where nothing can be commanded there is nothing to offer.
+        # Without Commands there is nothing to offer.
         offered = None if catalogue is None else catalogue_message(catalogue)
         self.pages = Pages(reactor, access, tiles=told, catalogue=offered, is_replay=is_replay)
         for aircraft in make_fleet(self.pages):

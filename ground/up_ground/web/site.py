@@ -1,4 +1,4 @@
-"""What the server answers over HTTP: the page's files, the map's tiles, the link."""
+"""The server's HTTP resources: the page's files, the map's tiles, the link."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ class _Site(Site):
 
 
 def make_site(reactor: Any, resource: GroundResource) -> Site:
-    """Return the factory that listens; nothing of it is logged."""
+    """Return the factory that listens, without an access log."""
     make: Any = _Site
     site: Site = make(resource, requestFactory=GroundRequest, timeout=IDLE_S, reactor=reactor)
     site.displayTracebacks = False

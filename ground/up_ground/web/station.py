@@ -67,7 +67,7 @@ class Station:
         self.judge = Judge(name, lambda message: audience.tell(name, message))
         self._track = Track()
         self._home = Home()
-        # What pages do is worth an event, but not a flood of them.
+        # Actions of pages are events, but at a limited rate.
         self._notes = TokenBucket(reactor, rate_hz=1.0, burst=20.0)
         self._tick: Timer | None = None
         self._has_board: bool | None = None
@@ -112,7 +112,7 @@ class Station:
             self.desk.on_message(message)
 
     def _look_at(self, now_s: float) -> None:
-        """See what a frame means, after it has left for the pages."""
+        """Evaluate a frame, after it has been sent to the pages."""
         telemetry = self.telemetry
         self._track.take(telemetry, now_s)
         self._home.take(telemetry)

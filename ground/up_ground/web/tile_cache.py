@@ -13,7 +13,7 @@ from threading import Lock
 
 BYTES_LIMIT = 200_000_000
 TILES_LIMIT = 50_000
-"""What the index in memory holds at most."""
+"""Maximum number of tiles in the index in memory."""
 _CHECK_BYTES = hashlib.sha256().digest_size
 
 Tile = tuple[int, int, int]
@@ -85,7 +85,7 @@ class TileCache:
             self._thin(self._sizes)
 
     def _thin(self, sizes: OrderedDict[Tile, int]) -> None:
-        """Delete what has not been looked at for longest."""
+        """Delete the least recently used tiles."""
         while sizes and (self._bytes > self._limit or len(sizes) > self._tiles_limit):
             tile, size = sizes.popitem(last=False)
             self._bytes -= size

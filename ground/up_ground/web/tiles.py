@@ -139,7 +139,7 @@ class TileSource:
 
 
 def _finish_refused(request: Any) -> None:
-    """Answer that the source gave nothing."""
+    """Answer that the source failed."""
     finish(request, refuse(request, http.BAD_GATEWAY, "the source of the map gave no tile"))
 
 

@@ -21,10 +21,10 @@ Point = tuple[float, float, float | None] | tuple[float, float, float | None, bo
 
 
 class Track:
-    """Points at least ``NEAREST_M`` apart; when there are too many, every second one is left out.
+    """Points at least ``NEAREST_M`` apart; when there are too many, every second one is dropped.
 
-    Degrees, degrees, metres; and true where a silence lies before the point, so that no line leads
-    to it. The newest place is always the last point.
+    Degrees, degrees, metres; and true after a gap, so that no line leads to the point. The newest
+    position is always the last point.
     """
 
     def __init__(self) -> None:

@@ -61,7 +61,7 @@ class Audience(Protocol):
     """The pages, as an aircraft sees them."""
 
     def show(self, aircraft: str, kind: str, make: Make) -> None:
-        """Give the pages that watch the aircraft what only counts until the next of its kind."""
+        """Send the pages that watch the aircraft a message that the next of its kind replaces."""
 
     def tell(self, aircraft: str, message: dict[str, Any]) -> None:
         """Send a message to the pages that watch the aircraft."""

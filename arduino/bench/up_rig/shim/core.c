@@ -25,7 +25,7 @@ static unsigned access_cycles(const avr_t *avr) {
     return (opcode(avr) & 0xF000) == 0xB000 ? 1 : 2; /* IN and OUT; SBI, CBI, loads, stores */
 }
 
-/* What a register does may concern the next instruction: the run of instructions ends here. */
+/* A register access may concern the next instruction: the run of instructions ends here. */
 static cycle_t end_run(const rig_t *rig) {
     rig->avr->run_cycle_count = 1;
     return rig->avr->cycle + access_cycles(rig->avr);

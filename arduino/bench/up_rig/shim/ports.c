@@ -1,4 +1,4 @@
-/* Pins (data sheet 14, 13.2): what drives them, what they show, what servos see. */
+/* Pins (data sheet 14, 13.2): their drivers, their levels, the servos' view. */
 #include "rig.h"
 
 /* A level passes the synchronizer before PIN shows it, and some cycles more until its change sets
@@ -79,7 +79,7 @@ void ports_reset(rig_t *rig, cycle_t now) {
 static uint8_t on_pin_read(avr_t *avr, avr_io_addr_t address, void *param) {
     rig_t *rig = param;
     (void)avr;
-    /* What changed in the last cycle is not through the synchronizer yet. */
+    /* A change in the last cycle is not through the synchronizer yet. */
     run_events(rig, read_time(rig) - SYNCHRONIZER);
     return rig->ports[port_of(address)].level;
 }

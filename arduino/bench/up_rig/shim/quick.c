@@ -33,8 +33,8 @@ static inline void push_return(uint8_t *data, unsigned stack, unsigned pc) {
     set_pair(data, SPL, stack - 2);
 }
 
-/* Flags are kept as what they are computed from: the result for Z, bit 7 for N, V and S, bit 4 for
- * H. Most are never looked at. */
+/* Flags are kept as the values from which they are computed: the result for Z, bit 7 for N, V and
+ * S, bit 4 for H. Most are never used. */
 #define ADD_TO(carry) do { \
         unsigned old = D, with = R, sum = old + with + (carry); \
         half = old ^ with ^ sum, over = (old ^ sum) & (with ^ sum); \
@@ -178,7 +178,7 @@ DO_ST_MINUS:
     NEXT(1, 2);
 DO_LDS: D = data[K]; NEXT(2, 2);
 DO_STS: data[K] = D; NEXT(2, 2);
-/* Programs that wait look at Timer1 all the time; to look changes nothing but TEMP. */
+/* Programs that wait read Timer1 all the time; a read changes only TEMP. */
 DO_LDS_COUNT: {
     cycle_t now = avr->cycle + (cycle_t)(all - left);
     D = timers_read_count(rig, R_TCNT1L, now + 1);

@@ -1,4 +1,4 @@
-/* What quick.c runs without simavr, as decode.c has read it from the flash. */
+/* The instructions that quick.c runs without simavr, decoded by decode.c from the flash. */
 #pragma once
 
 #include "rig.h"

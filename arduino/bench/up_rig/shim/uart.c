@@ -61,7 +61,7 @@ void rig_uart_write(rig_t *rig, const uint8_t *bytes, uint32_t size, uint8_t fla
     plan_line(rig);
 }
 
-/* Bytes on the line that the chip has not got yet. */
+/* Bytes on the line that the chip has not received yet. */
 uint32_t rig_uart_waiting(const rig_t *rig) { return (uint32_t)rig->uart.line_count; }
 
 static void receive(rig_t *rig) {

@@ -93,7 +93,7 @@ ISR(TIMER1_COMPB_vect) {
 }
 
 /**
- * A round of Timer2 has ended for this output. `force` strobes its pin to what a match would do:
+ * A round of Timer2 has ended for this output. `force` strobes its pin to the level of a match,
  * only if this interrupt was held up for more than a round, so that no edge is ever missed.
  */
 __attribute__((always_inline)) static inline void on_round(

@@ -84,7 +84,7 @@ Hold FlightController::hold_of(const Demand& demand) {
   return is_level ? Hold::ANGLES : Hold::NOTHING;
 }
 
-/** From FBW to SETPOINT or into the circle nothing is forgotten: the surfaces do not jump. */
+/** From FBW to SETPOINT or into the circle the state is kept: the surfaces do not jump. */
 void FlightController::engage(Hold hold) {
   if (hold == hold_) return;
   if (hold_ == Hold::NOTHING) {
@@ -196,7 +196,7 @@ int16_t FlightController::swinging_16(int16_t yaw_rate_16) {
   return swinging;
 }
 
-/** What a Rate PID answers, ticks. */
+/** The output of a Rate PID, ticks. */
 OUT_OF_LINE Ticks FlightController::deflection(uint8_t axis, int16_t wanted_16, int16_t rate_16) {
   const int32_t units = rate_[axis].update(difference_of(wanted_16, rate_16), rate_16, RATE_LIMIT);
   return upper_half(units * UNIT_TO_UPPER_HALF);

@@ -15,7 +15,7 @@ constexpr int16_t PITCH_STICK_DEG_S = 90;
 constexpr int16_t ROLL_RATE_LIMIT_DEG_S = 120;
 constexpr int16_t PITCH_RATE_LIMIT_DEG_S = 80;
 
-/** What the controller is to do in this slot. */
+/** The controller's demand in this slot. */
 struct Demand {
   Mode mode;
   /** Receiver failsafe: circle when the IMU is valid, preset surfaces otherwise. */
@@ -30,10 +30,10 @@ struct Demand {
   Outputs asked;
 };
 
-/** Which controllers are in the loop; what they remember ends when they leave it. */
+/** Which controllers are in the loop; their state is cleared when they leave it. */
 enum class Hold : uint8_t { NOTHING, RATES, ANGLES };
 
-/** What the controller remembers; all of it zero at first. */
+/** The controller's state; all of it zero at first. */
 struct ControllerMemory {
   Outputs outputs_;
   Hold hold_;

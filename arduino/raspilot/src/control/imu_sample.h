@@ -1,4 +1,4 @@
-/** What the inertial sensor measures, as the MPU6050's registers hold it. */
+/** The inertial sensor's measurements, as in the MPU6050's registers. */
 #pragma once
 
 #include <stdint.h>

@@ -24,7 +24,7 @@ enum Veto : uint8_t {
   VETO_PROFILE = 64
 };
 
-/** What survives a watchdog reset. */
+/** State that survives a watchdog reset. */
 struct AuthorityState {
   bool is_armed;
   uint8_t switch_position;
@@ -47,7 +47,7 @@ class Authority {
  public:
   Authority(const Profile& profile, const PwmReader& receiver);
 
-  /** Looks at the receiver and at the lifetimes; each slot. */
+  /** Checks the receiver and the lifetimes; each slot. */
   void update(bool is_imu_valid, bool is_calibrating, bool is_profile_broken, uint32_t now_us);
 
   /**
@@ -104,7 +104,7 @@ class Authority {
   void restore(const AuthorityState& state, uint32_t now_us);
 
  private:
-  /** What holds for a while. */
+  /** States with a lifetime. */
   enum Life : uint8_t { ASKED, OUTPUT, DEMAND, PI_VETO, LIVES };
 
   void follow_receiver(uint16_t passed_units);

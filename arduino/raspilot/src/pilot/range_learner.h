@@ -17,7 +17,7 @@ namespace raspilot {
 class RangeLearner {
  public:
   void begin();
-  /** A good pulse; nothing while not learning. */
+  /** Takes a good pulse; ignored while not learning. */
   void take(uint8_t channel, uint16_t width_ticks);
   /**
    * Ends learning; `resting` are the newest pulses, ticks. False, and `ranges` untouched, when
@@ -35,7 +35,7 @@ class RangeLearner {
   bool is_learning_ ZEROED;
 };
 
-/** The pulse on the scale 1000, 1500, 2000 us, ticks; beyond the ends the lines go on. */
+/** The pulse on the scale 1000, 1500, 2000 us, ticks; extrapolated beyond the ends. */
 Ticks calibrated(const ChannelRange& range, Ticks pulse);
 
 }  // namespace raspilot

@@ -1,4 +1,4 @@
-/** Answers that wait for room on the line, and how often a type may be refused. */
+/** Answers that wait for room on the line, and the rate limit of refusals. */
 #pragma once
 
 #include <stdint.h>

@@ -21,7 +21,7 @@ struct Request {
   uint32_t now_us;
 };
 
-/** Carries a Command out; Reason::NONE, or why it is refused (then nothing of it was used). */
+/** Carries a Command out; Reason::NONE, or why it is refused (then it had no effect). */
 typedef Reason (*Handler)(Autopilot& autopilot, const Request& request);
 
 /** Which framings take the Command: BOTH only for those of the thesis. */

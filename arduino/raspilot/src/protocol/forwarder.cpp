@@ -55,7 +55,7 @@ bool Forwarder::send_next(uint32_t now_us) {
   for (uint8_t tried = 0; tried < STREAMS; ++tried) {
     const uint8_t stream = next_;
     const bool is_now = is_due(stream, now);
-    // What does not fit stays due and is sent with newer values; nothing overtakes it.
+    // A stream that does not fit stays due and is sent with newer values; nothing overtakes it.
     if (is_now && !send(stream, now_us)) return false;
     next_ = static_cast<uint8_t>((stream + 1) % STREAMS);
     if (!is_now) continue;

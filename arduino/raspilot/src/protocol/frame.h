@@ -8,7 +8,7 @@
 
 namespace raspilot {
 
-/** What a frame may carry at most, and what any Command or answer of ours does (`g` and `G`). */
+/** Maximum payload of a frame, and that of any Command or answer of ours (`g` and `G`). */
 constexpr uint8_t LONGEST_PAYLOAD = 96;
 constexpr uint8_t LONGEST_COMMAND = 72;
 /** Sequence, type, payload, CRC. */

@@ -31,7 +31,7 @@ class Link {
   /** Sends the extra zero that opens checked framing. */
   void open();
 
-  /** Sends one whole message in the framing that is spoken, or nothing when it does not fit. */
+  /** Sends one whole message in the present framing, or nothing when it does not fit. */
   bool send(char type, const uint8_t* payload, uint8_t size);
   /** Whether a message with this number of payload bytes fits now. */
   bool has_room(uint8_t size) const;

@@ -11,7 +11,7 @@
 
 namespace raspilot {
 
-/** What a field may be; 16 bits from TRIM on, big-endian on the wire. */
+/** Kinds of fields; 16 bits from TRIM on, big-endian on the wire. */
 enum Field : uint8_t {
   FLAG,    ///< 0 or 1
   MIX,     ///< 0 to 2

@@ -1,4 +1,4 @@
-/** What survives a reset in RAM that start-up does not clear. */
+/** State that survives a reset in RAM that start-up does not clear. */
 #pragma once
 
 #include <stdint.h>

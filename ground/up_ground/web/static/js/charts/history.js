@@ -1,6 +1,6 @@
 import { GAP_S, Silence } from "../state/silence.js";
 
-/** How much of the past a chart shows. */
+/** The time span of a chart. */
 export const WINDOW_S = 60;
 
 /**

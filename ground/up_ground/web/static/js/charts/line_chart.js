@@ -133,7 +133,7 @@ export class LineChart {
  * @param {number|null} least
  * @param {number|null} most
  * @param {number|null} leastSpan null: a fiftieth of the values
- * @returns {[number, number]} what the axis shows: all values, and never a sliver
+ * @returns {[number, number]} range of the axis: all values, with a minimum span
  */
 export function span(least, most, leastSpan) {
   if (least === null || most === null || !Number.isFinite(least) || !Number.isFinite(most)) {

@@ -12,7 +12,7 @@ const MEANINGS = {
   RTH: "flies home by itself",
 };
 
-/** Who flies, how, and what forbids it: mode, armed, vetoes, load, failsafe. */
+/** State of control: mode, armed, vetoes, load, failsafe. */
 export function mount(element, store) {
   const mode = html("span", { id: "flight-mode" });
   const meaning = html("p", { id: "flight-meaning" });

@@ -128,7 +128,7 @@ export class LeafletMap {
     this.#track.show(picture.track);
   }
 
-  // Another aircraft flies elsewhere: nothing of the first stays, not even what the grid counts from.
+  // Another aircraft flies elsewhere: reset everything, including the origin of the grid.
   #forget(picture) {
     this.#showAircraft({ ...picture, aircraft: null });
     this.#showHome(null);

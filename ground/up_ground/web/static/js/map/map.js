@@ -90,7 +90,7 @@ export function mount(place, store, connection) {
     showFollow();
   }
 
-  // What tiles there are is known with the welcome.
+  // The welcome message names the available tiles.
   if (connection.isOpen) {
     begin();
   } else {

@@ -3,7 +3,7 @@ import { element } from "./element.js";
 import { heading } from "./flight_modes.js";
 import { HeldButton } from "./held_button.js";
 
-/** Arm and disarm, each by a held press: nothing happens by a slip of the hand. */
+/** Arm and disarm, each by a held press, which prevents accidents. */
 export class Arming {
   #store;
   #asker;

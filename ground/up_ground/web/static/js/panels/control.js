@@ -14,7 +14,7 @@ const BUTTONS = [
 ];
 
 /**
- * Who holds control of the aircraft, and how it changes hands.
+ * The owner of control of the aircraft, and the actions that change it.
  * @param {HTMLElement} place
  * @param {object} store
  * @param {object} connection

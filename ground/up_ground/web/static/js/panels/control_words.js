@@ -24,7 +24,7 @@ export function controlWords(control, welcome) {
 /**
  * @param {object|null} control
  * @param {object|null} welcome
- * @returns {Set<string>} of request, give, deny, release: what a page may do now
+ * @returns {Set<string>} of request, give, deny, release: the actions available to a page now
  */
 export function offeredActions(control, welcome) {
   if (welcome === null || welcome.is_replay || welcome.may_control === false || control === null) {

@@ -13,7 +13,7 @@ export class EventLines {
 
   /**
    * @param {HTMLElement} list
-   * @param {HTMLElement} window what shows a part of it
+   * @param {HTMLElement} window the scrolling viewport
    */
   constructor(list, window) {
     this.#list = list;

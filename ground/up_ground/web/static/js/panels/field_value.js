@@ -1,7 +1,7 @@
 const NAME = /^[A-Za-z0-9_.-]{1,128}$/;
 
 /**
- * What a person wrote into a field of a Command, judged by its type and bounds.
+ * The user's input for a field of a Command, validated by its type and bounds.
  * @param {object} field of Catalogue.get()
  * @param {string} text empty: left out; for a field with choices and for true or false: JSON
  * @param {boolean} [isNull] whether null was chosen

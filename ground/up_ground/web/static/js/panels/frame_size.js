@@ -1,4 +1,4 @@
-/** What surrounds a frame's tree in its message: its name, the beacon, the line's end. */
+/** Overhead of a frame's message around its tree: its name, the beacon, the line's end. */
 const AROUND_BYTES = 52;
 const EVERY = 20;
 

@@ -102,7 +102,7 @@ export function readGain(written) {
 /**
  * @param {Map<string, number>} before
  * @param {Map<string, number>} after
- * @returns {{path: string, before: number, after: number, words: string}[]} what differs
+ * @returns {{path: string, before: number, after: number, words: string}[]} the differences
  */
 export function difference(before, after) {
   const found = [];

@@ -68,7 +68,7 @@ class GainsPanel {
     send.disabled = why !== "" || this.#editor.wanted === null;
     discard.hidden = !this.#editor.isEdited;
     undo.disabled = why !== "" || this.#before() === null;
-    // Nothing of the past can be changed.
+    // A recorded flight cannot be changed.
     ask.hidden = undo.hidden = send.hidden = store.replay !== null;
     ask.disabled = this.#asker.objection(NAME, { request: true }) !== "";
     this.#history.show(store.gains, store.flight_s - this.#came_s);

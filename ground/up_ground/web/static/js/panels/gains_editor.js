@@ -91,12 +91,12 @@ export class GainsEditor {
     return found;
   }
 
-  /** @returns {ReturnType<typeof difference>} what sending would change; cells without a gain left out */
+  /** @returns {ReturnType<typeof difference>} the changes to send; cells without a gain left out */
   get difference() {
     return difference(this.#flying, this.#wanted());
   }
 
-  /** @returns {object|null} the whole set to send; null: nothing to send, or a cell holds no gain */
+  /** @returns {object|null} the whole set to send; null: no changes, or a cell without a gain */
   get wanted() {
     return this.isEdited && this.problems.length === 0 ? setOf(this.#wanted()) : null;
   }

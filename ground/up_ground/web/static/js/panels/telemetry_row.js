@@ -6,7 +6,7 @@ import { pathWords, valueWords } from "./telemetry_leaves.js";
 
 const CHANGED_S = 1;
 
-/** One value of the telemetry in the list: path, value, whether it changed, how old it is. */
+/** One value of the telemetry in the list: path, value, whether it changed, its age. */
 export class TelemetryRow {
   #value;
   #age = element("span.age");

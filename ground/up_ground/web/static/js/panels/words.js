@@ -6,7 +6,7 @@ const MODES = {
 
 /**
  * @param {string} mode
- * @returns {string} what a flight mode does, in a few words; empty for one that is not known
+ * @returns {string} the effect of a flight mode, in a few words; empty for an unknown one
  */
 export function modeWords(mode) {
   return Object.hasOwn(MODES, mode) ? MODES[mode] : "";
@@ -75,14 +75,14 @@ export function answerWords(answer) {
 
 /**
  * @param {{outcome: string}} answer
- * @returns {"good"|"bad"} how it looks
+ * @returns {"good"|"bad"} its style
  */
 export function answerLook(answer) {
   return answer.outcome === "ack" ? "good" : "bad";
 }
 
 /**
- * What a period of telemetry costs.
+ * Data rate of a telemetry period.
  * @param {number} period_ms
  * @param {number|null} frame_bytes measured; null: unknown
  * @returns {string}

@@ -1,4 +1,4 @@
-/** A frame that is older looks old on the page, before the second is over. */
+/** An older frame is shown as stale, before the second is over. */
 export const SILENT_S = 0.9;
 
 /** Readings with a period of a second or more become stale later than SILENT_S. */

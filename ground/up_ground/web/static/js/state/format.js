@@ -19,8 +19,8 @@ export function numberText(value, decimals = 0, { sign = false } = {}) {
 }
 
 /**
- * @param {number} value of which nothing is known but itself
- * @returns {string} with as many figures as mean something, 9 at most
+ * @param {number} value of unknown precision
+ * @returns {string} with its significant digits, 9 at most
  */
 export function plainNumber(value) {
   if (!Number.isFinite(value)) {

@@ -1,7 +1,7 @@
 import { freshnessOf, isSilent, readingOf } from "./ages.js";
 import * as judge from "./judge.js";
 
-/** The newest telemetry of an aircraft, read with suspicion, and how old each part of it is. */
+/** The newest telemetry of an aircraft, validated, and the age of each part of it. */
 export class NewestFrame {
   #clock_s;
   #frameAt_s = null;
@@ -54,7 +54,7 @@ export class NewestFrame {
     this.#heldAt_s = null;
   }
 
-  /** Know nothing again. */
+  /** Reset to unknown. */
   forgetFrame() {
     this.data = {};
     this.beacon = null;

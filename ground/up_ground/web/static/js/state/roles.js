@@ -10,9 +10,9 @@ const NEEDED = {
 };
 
 /**
- * @param {string|null} role what the aircraft's link allows; null: unknown, the aircraft refuses
+ * @param {string|null} role allowed by the aircraft's link; null: unknown, the aircraft refuses
  * @param {string} name of the Command
- * @param {string|null} [least] role as the server's catalogue has it; null: the table above decides
+ * @param {string|null} [least] role in the server's catalogue; null: the table above decides
  * @returns {boolean} whether to offer it
  */
 export function roleAllows(role, name, least = null) {

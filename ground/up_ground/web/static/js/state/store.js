@@ -12,10 +12,10 @@ const LOOK_S = 0.04;
 const JUMP_S = 1.5;
 
 /**
- * What the page knows of the aircraft watched, and how old it is.
+ * The page's data on the watched aircraft, and its age.
  *
  * Fields to read: `aircraft` (the name watched), `names` (all), `data` (the newest frame's tree,
- * not judged), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
+ * not validated), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
  * (by name), `catalogue` (the Commands that the server knows), `alarms` ([{kind, level, text}]),
  * `gains`, `profile`, `replay`, `fault` (text), `track` (points, version, startAltitude_m),
  * `motion` (groundSpeed_m_s, climb_m_s), `events` (list, the newest last), `eventsVersion`.
@@ -73,7 +73,7 @@ export class Store extends NewestFrame {
     }, LOOK_S);
   }
 
-  /** @param {string} name of the aircraft to look at from now on */
+  /** @param {string} name of the aircraft to watch from now on */
   watch(name) {
     if (name !== this.aircraft) {
       this.aircraft = name;

@@ -5,8 +5,8 @@ const MOST = 20000;
 const STEP_DEG = 0.00001;
 
 /**
- * Where the aircraft flew: [latitude, longitude, altitude|null] each, the oldest first. A fourth
- * that is true: before it nothing was known for a while, and no line leads to it.
+ * The track: [latitude, longitude, altitude|null] each, the oldest first. A fourth element true
+ * marks a gap before the point: no line leads to it.
  */
 export class Track {
   #silence = new Silence();
