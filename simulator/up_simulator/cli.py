@@ -87,7 +87,7 @@ def _main(words: list[str]) -> int:
     except FailedError as error:
         return _fail(str(error), NOT_HELD)
     except BrokenPipeError:
-        # The reader, such as 'head', has seen enough; nothing more can be written.
+        # The reader, such as 'head', has closed the pipe; nothing more can be written.
         sys.stderr.close()
         return NOT_HELD
     except OSError as error:

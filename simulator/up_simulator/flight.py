@@ -1,4 +1,4 @@
-"""What the phone and the radio need of the aircraft: its state, its time and its servos."""
+"""The aircraft as phone and radio use it: its state, its time and its servos."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NEUTRAL: Servos = (1500, 1500, 1000, 1500)
 
 
 class FlightUnavailableError(Exception):
-    """Nothing can fly: the message is one sentence for the user."""
+    """No flight is possible: the message is one sentence for the user."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -125,9 +125,9 @@ class JavaPhoneProcess:
             self._unwritten = rest
 
     def _push(self, data: bytes) -> bytes:
-        """Write straight to the pipe; return what it does not take now.
+        """Write straight to the pipe; return the bytes that it does not take now.
 
-        What a buffer kept would be tried again at the end.
+        A buffer would try its content again at the end.
         """
         try:
             while data:

@@ -40,7 +40,7 @@ class JavaProgram:
     jars: tuple[Path, ...]
 
     def command(self, *options: str, main: str = MAIN) -> list[str]:
-        """Return what starts a program of the jars."""
+        """Return the command line of a program of the jars."""
         path = ":".join(map(str, self.jars))
         return [self.java, *QUICK_START, "-cp", path, main, *options]
 
@@ -91,7 +91,7 @@ def _build(android: Path) -> None:
         )
     with _lock(android / "build"):
         for name in JARS:
-            # A full disk leaves what make would take for done.
+            # A full disk leaves files that make would take for complete.
             if not zipfile.is_zipfile(android / "build" / name):
                 (android / "build" / name).unlink(missing_ok=True)
         try:

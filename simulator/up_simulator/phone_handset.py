@@ -1,4 +1,4 @@
-"""What a phone aboard is to those who carry it, whatever it is made of."""
+"""The common interface of every phone aboard."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from up_simulator.phone_link import OrientationBy, PhoneLink
 from up_simulator.phone_sensors import PhoneSensors
 
 Record = Callable[[FlightState], dict[str, Any]]
-"""What the phone has the black box write: the data of ``black_box.record``."""
+"""The phone's data for the black box: the data of ``black_box.record``."""
 
 
 class Handset(Protocol):

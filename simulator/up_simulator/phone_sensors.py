@@ -92,7 +92,7 @@ class PhoneSensors:
         return {"level": max(0, round(level))}
 
     def pressure_hpa(self, state: FlightState) -> float:
-        """Return what the barometer has, by the standard atmosphere."""
+        """Return the barometer's reading, by the standard atmosphere."""
         self._remember(state)
         altitude_m = state.altitude_m + self._noise.gauss(0.0, BAROMETER_M)
         part = 1 - LAPSE_K_M * altitude_m / SEA_LEVEL_K
@@ -116,7 +116,7 @@ class PhoneSensors:
             self._past.popleft()
 
     def rate_rad_s(self, state: FlightState) -> list[float]:
-        """Return what the gyroscope has about the device's axes, rad/s."""
+        """Return the gyroscope's reading about the device's axes, rad/s."""
         rates_deg_s = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)
         turned = self._mounting.turn(*map(math.radians, rates_deg_s))
         return [round(each, 9) for each in turned]

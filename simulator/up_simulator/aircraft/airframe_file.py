@@ -103,7 +103,7 @@ class LimitsConfig:
     break_g: float = _number(10.0, "Load factor at which it breaks.", "g", 1, 100)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what does not fit together."""
+        """Yield inconsistent values."""
         if self.break_g < self.load_g:
             yield "break_g", f"must not be below load_g, which is {self.load_g:g}"
 

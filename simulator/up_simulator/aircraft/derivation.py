@@ -157,14 +157,14 @@ class Derivation:
 
     @cached_property
     def munk_pitch(self) -> float:
-        """Return what the fuselage adds to the slope of the pitching moment (slender body)."""
+        """Return the fuselage's share of the slope of the pitching moment (slender body)."""
         fuselage = self.geometry.fuselage
         volume_m3 = math.pi / 4 * fuselage.diameter_m**2 * fuselage.length_m
         return 2 * 0.9 * volume_m3 / (self.area_m2 * self.chord_m)
 
     @cached_property
     def munk_yaw(self) -> float:
-        """Return what the fuselage adds to the slope of the yawing moment (slender body)."""
+        """Return the fuselage's share of the slope of the yawing moment (slender body)."""
         fuselage = self.geometry.fuselage
         volume_m3 = math.pi / 4 * fuselage.side_height_m**2 * fuselage.length_m
         return -2 * 0.9 * volume_m3 / (self.area_m2 * self.span_m)
@@ -197,7 +197,7 @@ class Derivation:
         )
 
     def _fin_share(self, beta_deg: float) -> float:
-        """Return radians of sideslip that the fin still answers as if attached."""
+        """Return the fin's effective sideslip for attached flow, rad."""
         beta = math.radians(beta_deg)
         steepness = 40.0
         inside = 1 / (

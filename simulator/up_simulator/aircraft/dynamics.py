@@ -108,7 +108,7 @@ class FlightDynamics:
 
     @property
     def motion(self) -> Motion:
-        """Return what an IMU at the airframe's place for it feels."""
+        """Return the motion at the airframe's place of the IMU."""
         if self._motion is None:
             self._motion = self._feel()
         return self._motion
@@ -155,7 +155,7 @@ class FlightDynamics:
         try:
             is_flying = self._fdm.run()
         except RuntimeError as error:
-            # What JSBSim throws: a property that no longer exists, a table without an answer.
+            # JSBSim's exceptions: a property that no longer exists, a table without an answer.
             self.crash = f"the flight model has given up: {error}"
             return
         if is_flying:

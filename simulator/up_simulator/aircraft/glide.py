@@ -1,4 +1,4 @@
-"""What coefficients mean in the air: where an aircraft trims, stalls and glides best."""
+"""Flight performance from coefficients: trim, stall and best glide."""
 
 from __future__ import annotations
 

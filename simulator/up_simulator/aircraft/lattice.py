@@ -21,8 +21,8 @@ class Panel:
     """A strip of a surface: its bound vortex from ``left`` to ``right``, chord and section.
 
     ``angle_rad`` is the section's incidence from its angle of no lift; ``flaps`` maps the name of
-    a control to what a radian of it adds, and ``flap_moments`` to its moment about the quarter
-    chord.
+    a control to the incidence per radian of it, and ``flap_moments`` to its moment about the
+    quarter chord.
     """
 
     left: Array
@@ -92,7 +92,7 @@ class Lattice:
         self._at_bounds = _influences(self._middle, self._left, self._right, bound=False)
 
     def loads(self, flow: Flow) -> Loads:
-        """Return what the flow does to the aircraft."""
+        """Return the forces and moments of the flow on the aircraft."""
         normals = np.array([_normal(each, flow.controls) for each in self._panels])
         stream = self._stream(flow, self._points)
         matrix = np.einsum("ijk,ik->ij", self._at_points, normals)

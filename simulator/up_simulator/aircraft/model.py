@@ -46,7 +46,7 @@ def load_model(path: Path, step_s: float) -> Any:
 
 
 def reader(fdm: Any, name: str) -> Callable[[], float]:
-    """Return what reads a property fast."""
+    """Return a fast reader of a property."""
     found: Callable[[], float] = fdm.get_property_manager().get_node(name).get_double_value
     return found
 

@@ -25,9 +25,9 @@ class ModelRefusedError(Exception):
 
 
 def check_model(path: Path, properties: Sequence[str], airspeed_m_s: float) -> dict[str, str]:
-    """Fly the model for a moment; return the properties it does not know, and the nearest names.
+    """Fly the model for a moment; return its unknown properties, and the nearest names.
 
-    Raises ``ModelRefusedError``. Where JSBSim is not installed nothing is unknown.
+    Raises ``ModelRefusedError``. Without JSBSim the result is empty.
     """
     program = f"from {__name__} import main; main()"
     command = [sys.executable, "-c", program, str(path), str(airspeed_m_s), *properties]

@@ -241,7 +241,7 @@ def _motor(derivation: Derivation) -> str:
 
 
 def derive(folder: Path) -> Derivation:
-    """Return what a folder's geometry gives; raises ``ConfigErrors`` and ``ModelError``."""
+    """Return the model of a folder's geometry; raises ``ConfigErrors`` and ``ModelError``."""
     derivation = Derivation(GEOMETRY.load(folder))
     try:
         slope = derivation.by("alpha_rad").lift

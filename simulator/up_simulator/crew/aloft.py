@@ -18,7 +18,7 @@ class Aloft(Protocol):
 
     @property
     def crash(self) -> str | None:
-        """Return in one sentence how it crashed; None while it flies."""
+        """Return one sentence about the crash; None while it flies."""
 
     @property
     def state(self) -> FlightState:
@@ -26,7 +26,7 @@ class Aloft(Protocol):
 
     @property
     def motion(self) -> Motion:
-        """Return what an IMU aboard feels now."""
+        """Return the present motion for an IMU aboard."""
 
     @property
     def servos(self) -> Servos:

@@ -18,7 +18,7 @@ class RealRaspilot:
     """Satisfies ``protocols.Raspilot`` by a process.
 
     ``config`` is its configuration folder, ``folder`` gets ``raspilot.log``, one log for all its
-    lives. Nothing here waits for it in flight but ``wait_for_line`` and ``stop``.
+    runs. In flight only ``wait_for_line`` and ``stop`` wait for it.
     """
 
     def __init__(self, config: Path, folder: Path, root: Path = ROOT) -> None:
@@ -76,7 +76,7 @@ class RealRaspilot:
             self._child.wait()
 
     def freeze(self) -> None:
-        """Stop it in its tracks: it holds its ports and does nothing, as a hung one."""
+        """Suspend it: it holds its ports and does nothing, as a hung one."""
         self._alive().signal(signal.SIGSTOP)
 
     def thaw(self) -> None:

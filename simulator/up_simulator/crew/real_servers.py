@@ -37,7 +37,7 @@ class _Server:
         return [] if self._child is None else self._child.lines()
 
     def begin(self) -> None:
-        """Make its process and wait for nothing."""
+        """Start its process without waiting."""
         self._child = Child(self.NAME, self._command, self._folder)
 
     def check(self) -> None:

@@ -115,7 +115,7 @@ class VirtualAircraft:
     def _board_it(
         self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
     ) -> Callable[[], None]:
-        """Put board, line and radio aboard and return what keeps them flying."""
+        """Build board, line and radio and return the object that runs them."""
         has_motor = airframe.has_motor and options.replay is None
         self._line = line = PtyLine(options.pty_link)
         board = board_aboard(options, airframe, self._say)

@@ -18,13 +18,13 @@ NEUTRAL_US: Pulses = (1500.0, 1500.0, 1000.0, 1500.0)
 
 
 class BoardCrashedError(Exception):
-    """The board's program did what its chip cannot do: the message is one sentence."""
+    """The board's program used a feature that its chip lacks: the message is one sentence."""
 
 
 class BoardImu(Protocol):
-    """The sensor aboard: how it errs and how it fails; both may change in flight.
+    """The sensor aboard: its errors and its fault; both may change in flight.
 
-    ``throttle`` (0 to 1) is how fast the motor turns that shakes it.
+    ``throttle`` (0 to 1) is the speed of the motor that causes its vibration.
     """
 
     errors: ImuErrors
@@ -50,7 +50,7 @@ class FirmwareBoard(Protocol):
 
     @property
     def title(self) -> str:
-        """Return what it is, in a few words."""
+        """Return its description, in a few words."""
 
     @property
     def imu(self) -> BoardImu:
@@ -73,7 +73,7 @@ class FirmwareBoard(Protocol):
         """Switch the pulses of one channel of the receiver on or off."""
 
     def set_motion(self, motion: Motion) -> None:
-        """Set what the IMU feels from now on."""
+        """Set the IMU's motion from now on."""
 
     def pulses_us(self) -> Pulses:
         """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
@@ -92,4 +92,4 @@ class FirmwareBoard(Protocol):
 
     @property
     def eeprom(self) -> bytes:
-        """Return what the EEPROM holds; empty for a board that has none."""
+        """Return the content of the EEPROM; empty for a board without one."""

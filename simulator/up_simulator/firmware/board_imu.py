@@ -8,7 +8,7 @@ from up_simulator.firmware.imu_errors import ImuErrors, ImuModel
 
 
 class BoardImu:
-    """What every board's IMU keeps; ``motion`` is what it feels until it is set again."""
+    """State common to every board's IMU; ``motion`` holds until it is set again."""
 
     def __init__(self, errors: ImuErrors, seed: int) -> None:
         self._model = ImuModel(errors, seed)
@@ -17,7 +17,7 @@ class BoardImu:
 
     @property
     def errors(self) -> ImuErrors:
-        """Return how it errs."""
+        """Return its errors."""
         return self._model.errors
 
     @errors.setter

@@ -34,7 +34,7 @@ class Program:
     def board(
         self, *, seed: int = 1, imu_errors: ImuErrors | None = None, eeprom: bytes = b""
     ) -> FirmwareBoard:
-        """Return a board that has just got its power; raises ``BoardUnavailableError``."""
+        """Return a freshly powered board; raises ``BoardUnavailableError``."""
         errors = imu_errors or ImuErrors()
         try:
             return self.make(self.path, seed=seed, imu_errors=errors, eeprom=eeprom)

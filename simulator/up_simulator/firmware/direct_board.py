@@ -67,7 +67,7 @@ class DirectBoard:
             self._silent.add(channel)
 
     def set_motion(self, motion: Motion) -> None:
-        """Nothing aboard feels it."""
+        """Ignore the motion: there is no IMU aboard."""
 
     def pulses_us(self) -> Pulses:
         """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
@@ -89,7 +89,7 @@ class DirectBoard:
         """Drop the data: this board has no serial line."""
 
     def reset(self, cause: ResetCause) -> None:
-        """There is nothing to reset."""
+        """Do nothing: this board has no state to reset."""
 
     @property
     def eeprom(self) -> bytes:

@@ -37,7 +37,7 @@ _TEMPERATURE = round((25.0 - 36.53) * 340)
 
 
 class HostImu(BoardImu):
-    """What the MPU6050 of a host build measures, by the same ``ImuModel`` as the rig's."""
+    """The MPU6050's measurements in a host build, by the same ``ImuModel`` as the rig's."""
 
     def __init__(self, library: HostLibrary, errors: ImuErrors, seed: int) -> None:
         super().__init__(errors, seed)
@@ -123,7 +123,7 @@ class HostBoard:
         self._library.set_channel(_CHANNELS[channel], is_on)
 
     def set_motion(self, motion: Motion) -> None:
-        """Set what the IMU feels from now on."""
+        """Set the IMU's motion from now on."""
         self.imu.motion = motion
 
     def pulses_us(self) -> Pulses:
@@ -159,7 +159,7 @@ class HostBoard:
 
     @property
     def eeprom(self) -> bytes:
-        """Return what the EEPROM holds."""
+        """Return the content of the EEPROM."""
         return bytes(self._library.view.eeprom)
 
 

@@ -25,7 +25,7 @@ class HostUnavailableError(RigUnavailableError):
 
 
 class View(ctypes.Structure):
-    """What the library and its caller share; ``host_board_view`` of host_board.h."""
+    """Data shared by the library and its caller; ``host_board_view`` of host_board.h."""
 
     _fields_ = [
         ("now_us", ctypes.c_double),

@@ -51,9 +51,9 @@ def drawn_errors(seed: int, **known: Any) -> ImuErrors:
 
 
 class ImuModel:
-    """Turns what moves the aircraft into what its IMU measures; the same seed errs alike.
+    """Turns the aircraft's motion into its IMU's measurements; the same seed gives equal errors.
 
-    ``errors`` may be changed in flight. ``throttle`` (0 to 1) is how fast the motor turns.
+    ``errors`` may be changed in flight. ``throttle`` (0 to 1) is the speed of the motor.
     """
 
     def __init__(self, errors: ImuErrors, seed: int) -> None:

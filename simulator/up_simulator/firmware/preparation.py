@@ -67,7 +67,7 @@ def prepared_eeprom(
     if kept.is_file():
         return kept.read_bytes()
     eeprom = prepare_eeprom(program.board(), profile, gains)
-    # Where nothing can be written the work is done again the next time.
+    # Without a writable folder the work is repeated the next time.
     with contextlib.suppress(OSError):
         keep(kept, eeprom)
     return eeprom

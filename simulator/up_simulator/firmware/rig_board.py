@@ -99,7 +99,7 @@ class RigBoard:
         self._switch(channel, is_on)
 
     def set_motion(self, motion: Motion) -> None:
-        """Set what the IMU feels from now on."""
+        """Set the IMU's motion from now on."""
         self.imu.motion = motion
 
     def pulses_us(self) -> Pulses:
@@ -138,7 +138,7 @@ class RigBoard:
 
     @property
     def eeprom(self) -> bytes:
-        """Return what the EEPROM holds."""
+        """Return the content of the EEPROM."""
         return self._rig.eeprom.read()
 
     def _age_us(self, channel: str) -> float:

@@ -74,7 +74,7 @@ class BoardStatus:
 
 @dataclass(frozen=True, slots=True)
 class BoardOrientation:
-    """What the board takes for its attitude: ``O``, in degrees and degrees per second."""
+    """The board's estimate of its attitude: ``O``, in degrees and degrees per second."""
 
     sequence: int
     yaw_deg: float

@@ -1,4 +1,4 @@
-"""The configuration of a daemon in a simulation: its defaults, and what a scenario changes."""
+"""The configuration of a daemon in a simulation: its defaults, and a scenario's changes."""
 
 from __future__ import annotations
 

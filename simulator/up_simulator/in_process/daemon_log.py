@@ -1,4 +1,4 @@
-"""What a program logs, as lines with simulated time."""
+"""A program's log, as lines with simulated time."""
 
 from __future__ import annotations
 

@@ -61,7 +61,7 @@ class Machine:
     def callLater(  # noqa: N802 - Twisted's name
         self, delay: float, callable: Callable[..., object], *args: object, **kw: object
     ) -> TimedCall:
-        """Call later; after the end of this program nothing is called."""
+        """Call later; ignored after the end of this program."""
         call = self.reactor.callLater(delay, callable, *args, **kw)
         call.machine = self
         self._calls.append(call)
@@ -86,7 +86,7 @@ class Machine:
         return object()
 
     def removeSystemEventTrigger(self, _: object) -> None:  # noqa: N802 - Twisted's name
-        """Forget nothing."""
+        """Do nothing: no trigger was kept."""
 
     def addReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name
         """Watch a descriptor of the system, as a serial port's."""

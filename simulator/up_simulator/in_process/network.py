@@ -1,4 +1,4 @@
-"""What carries bytes between the programs of one process."""
+"""The network between the programs of one process."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Pipe = LinkPipe[Delivery]
 
 
 class Route:
-    """One direction between two ports: a link, or none and then nothing is lost or late."""
+    """One direction between two ports: over a link, or without one, loss or delay."""
 
     def __init__(self, network: Network, pipe: Pipe | None) -> None:
         self._network = network

@@ -1,4 +1,4 @@
-"""A reactor whose time only its owner moves, and what every machine on it shares."""
+"""A reactor whose time only its owner moves, and the parts that all machines on it share."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ class SimulatedReactor(Clock):
             self._watch(number)
 
     def take_descriptors(self, of: Iterable[Any]) -> list[Callable[[], None]]:
-        """Watch descriptors no longer; return what each is to be watched by again."""
+        """Stop watching descriptors; return the calls that watch them again."""
         give_back: list[Callable[[], None]] = []
         for each in of:
             if each in self._readers:

@@ -1,4 +1,4 @@
-"""What a system's TCP does for one end of a connection: order, acknowledgement, giving up."""
+"""A system's TCP for one end of a connection: order, acknowledgement, timeouts."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ class TcpEnd:
         self._hand_over()
 
     def on_acknowledged(self, offset: int, sent_s: float) -> None:
-        """Forget what has arrived."""
+        """Forget the arrived data."""
         if self.is_closed:
             return
         self._hear()

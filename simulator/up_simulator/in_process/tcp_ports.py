@@ -59,7 +59,7 @@ class TcpPort:
         self.machine.network.tcp.pop(self._number, None)
 
     def accept(self, end: TcpEnd, from_port: int) -> None:
-        """Take a new connection; a factory that builds nothing for it refuses it."""
+        """Take a new connection; it is refused if the factory builds no protocol."""
         transport = TcpTransport(self.machine, end, self._number, from_port)
         self.machine.do(self._build, transport, IPv4Address("TCP", ADDRESS, from_port))
 

@@ -68,13 +68,13 @@ class TcpTransport:
         self.write(b"".join(iovec))
 
     def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Send what waits, then close."""
+        """Send the queued data, then close."""
         if self.connected and not self.disconnecting:
             self.disconnecting = True
             self._want_to_write()
 
     def loseWriteConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Send what waits, then a FIN; go on reading."""
+        """Send the queued data, then a FIN; continue to read."""
         self._write_is_closing = True
         self._want_to_write()
 
@@ -93,11 +93,11 @@ class TcpTransport:
         return self._host
 
     def getHandle(self) -> SocketOptions:  # noqa: N802 - Twisted's name
-        """Return what takes socket options."""
+        """Return the handle for socket options."""
         return self._end.options
 
     def setTcpNoDelay(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
-        """Note it: nothing is delayed here."""
+        """Store the option, which has no effect here."""
         self._end.options.has_no_delay = bool(enabled)
 
     def getTcpNoDelay(self) -> bool:  # noqa: N802 - Twisted's name
@@ -203,7 +203,7 @@ class TcpTransport:
         self._machine.do(self._lost, error)
 
     def on_room(self) -> None:
-        """Go on writing."""
+        """Continue to write."""
         if self._waiting or self.disconnecting or self._producer is not None:
             self._want_to_write()
 

@@ -1,4 +1,4 @@
-"""What every link between real sockets has: where it listens, and where it leads."""
+"""Common to every link between real sockets: its listening address and its target."""
 
 from __future__ import annotations
 

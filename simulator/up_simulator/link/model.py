@@ -63,7 +63,7 @@ class LinkModel:
         # Drawn for every packet, lost or not, so that a fault does not shift all later draws.
         jitter_s = self._random.random() * settings.jitter_ms / 1000
         retries = self._retries()
-        # What vanishes may still have filled the narrow place; a blackout is before it.
+        # A lost packet may still have filled the bottleneck; a blackout is before it.
         if self._is_black or retries is None:
             return None
         self._is_free_s = left_s
@@ -95,7 +95,7 @@ class LinkModel:
             self._blackouts += 1
 
     def restore(self) -> None:
-        """End a blackout; what vanished stays lost."""
+        """End a blackout; lost packets stay lost."""
         self._is_black = False
 
     def _retries(self) -> int | None:

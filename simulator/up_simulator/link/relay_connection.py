@@ -21,7 +21,7 @@ SYSTEM_BUFFER = 32 * 1024
 
 
 class Road(Interface):
-    """What a connection needs of its relay."""
+    """The interface of a relay to its connections."""
 
     up: LinkModel
     down: LinkModel
@@ -68,7 +68,7 @@ class _End(Protocol):
         self.look_at_window()
 
     def look_at_window(self) -> None:
-        """Read on, or no more, by how much is on its way; nothing before it is open."""
+        """Resume or pause reading by the bytes in flight; no reading before it is open."""
         if not self.is_connected or self._has_finished:
             return
         transport: Any = self.transport
@@ -81,7 +81,7 @@ class _End(Protocol):
             transport.pauseProducing()
 
     def take(self, content: bytes | Signal) -> None:
-        """Do what arrives from the other end."""
+        """Carry out a signal from the other end."""
         transport: Any = self.transport
         if not self.is_connected:
             return
@@ -209,7 +209,7 @@ class RelayedConnection:
 
     def _on_up(self, content: bytes | Signal) -> None:
         if content is Signal.OPEN:
-            # Nothing arrives at a target that is not connected yet.
+            # No data arrives at a target that is not connected yet.
             self.near.outgoing.is_blocked = True
             self._connector = self._road.connect(_TargetFactory(self.far, self._on_refused))
         elif content is Signal.RESET and self.far.transport is None:

@@ -23,7 +23,7 @@ _TINY_S = 1e-9
 
 
 class Signal(enum.Enum):
-    """What a connection carries beside its bytes."""
+    """A connection's signals beside its bytes."""
 
     OPEN = "open"
     OPENED = "opened"
@@ -88,7 +88,7 @@ class LinkStream:
 
     @property
     def is_blocked(self) -> bool:
-        """Return whether the receiver takes nothing now."""
+        """Return whether the receiver takes no data now."""
         return self._is_blocked
 
     @is_blocked.setter
@@ -98,7 +98,7 @@ class LinkStream:
         self._run()
 
     def send(self, content: bytes | Signal) -> None:
-        """Put bytes or a signal on the way; a reset overtakes what has not arrived."""
+        """Send bytes or a signal; a reset overtakes packets in flight."""
         if self._is_stopped:
             return
         if not self._packets:
@@ -114,7 +114,7 @@ class LinkStream:
         self._run()
 
     def stop(self) -> None:
-        """Forget everything and carry nothing more."""
+        """Forget everything and carry no more."""
         self._is_stopped = True
         self._forget()
         self._cancel()

@@ -1,4 +1,4 @@
-"""The paper that is drawn on: the only place that knows how matplotlib is had and how it saves."""
+"""The drawing surface: the only module that imports and uses matplotlib."""
 
 from __future__ import annotations
 

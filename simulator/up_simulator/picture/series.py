@@ -26,7 +26,7 @@ class Log(Protocol):
 
     @property
     def events(self) -> list[tuple[float, str]]:
-        """Return time and name of what happened."""
+        """Return time and name of the events."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class Span:
 
 
 def numbers(log: Log, name: str) -> list[float] | None:
-    """Return a column, or ``None`` where it is missing or nothing of it is known."""
+    """Return a column, or ``None`` if it is missing or entirely unknown."""
     if name not in log:
         return None
     values = log.numbers(name)

@@ -31,7 +31,7 @@ _SOURCE = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """An axis (or button) and how it is read; ``low``, ``centre``, ``high`` calibrate it."""
+    """An axis (or button) and its conversion; ``low``, ``centre``, ``high`` calibrate it."""
 
     number: int
     is_axis: bool = True

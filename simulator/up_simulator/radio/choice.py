@@ -13,7 +13,7 @@ from up_simulator.radio.scripted import ScriptedRadio
 from up_simulator.radio.sticks import HIGHEST_US, SWITCH_US, Radio, Sticks
 
 AT_FIRST = Sticks(throttle=1500, aux1=SWITCH_US["FBW"], aux2=HIGHEST_US)
-"""What a keyboard begins with, in the air."""
+"""Initial sticks of a keyboard, in the air."""
 
 
 def choose_radio(

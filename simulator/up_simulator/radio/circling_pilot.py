@@ -27,7 +27,7 @@ ROLL_MOST_DEG_S, PITCH_MOST_DEG_S = 60.0, 30.0
 FULL_ROLL_DEG_S, FULL_PITCH_DEG_S = 180.0, 90.0
 """Rate at full stick in RATE (firmware, flight_controller.h)."""
 SURFACE_US_PER_DEG_S = 3.0
-"""What the sticks damp in ACRO, where they move the surfaces."""
+"""Damping by the sticks in ACRO, where they move the surfaces."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ class CirclingPilot:
         self._climb_m_s = 0.0
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return what keeps the aircraft on its circle."""
+        """Return the sticks that keep the aircraft on its circle."""
         if self._home is None:
             self._home = state
         self._watch_climb(state)

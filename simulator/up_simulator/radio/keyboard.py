@@ -42,7 +42,7 @@ class KeyboardSticks:
         self._now_s = float("-inf")
 
     def press(self, key: str, time_s: float) -> bool:
-        """Move what a key moves; False: it moves nothing."""
+        """Move the stick of a key; return False for a key without one."""
         self._centre(time_s)
         sticks = self._sticks
         if key in _STICK_KEYS:

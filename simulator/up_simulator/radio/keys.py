@@ -1,4 +1,4 @@
-"""Turns what a terminal sends into keys."""
+"""Turns a terminal's bytes into keys."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ def read_sticks_of(datagram: bytes) -> Sticks | None:
 
 
 def write_seen(seen: Seen) -> bytes:
-    """Return what the aircraft answers."""
+    """Return the aircraft's answer."""
     values = {name: round(getattr(seen.state, name), 3) for name in SEEN}
     words = {"sticks": _sticks(seen.sticks), "mode": seen.mode, "is_others": seen.is_others}
     return json.dumps({**values, **words}).encode("ascii")

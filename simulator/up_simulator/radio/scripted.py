@@ -13,8 +13,8 @@ from up_simulator.radio.sticks import Radio, Sticks
 class ScriptedRadio:
     """Moves sticks at the times of a script; between them they stay.
 
-    With a ``pilot`` the script is what happens to that pilot's hands: a channel that the script
-    has named follows the script from then on.
+    With a ``pilot`` the script overrides that pilot: a channel that the script has named follows
+    the script from then on.
     """
 
     def __init__(self, moves: list[StickMove], pilot: Radio | None = None) -> None:

@@ -1,4 +1,4 @@
-"""What a radio sends: six pulses, or nothing."""
+"""The output of a radio: six pulses, or none."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ class Nobody:
         self._asked_s = -AGAIN_S
 
     def start(self) -> None:
-        """Start nothing."""
+        """Do nothing: no member has to start."""
 
     def is_ready(self) -> bool:
         """Return True: no member has to connect."""
@@ -93,4 +93,4 @@ class Nobody:
         """Do nothing: no member is affected."""
 
     def stop(self) -> None:
-        """End nothing."""
+        """Do nothing: no member has to end."""

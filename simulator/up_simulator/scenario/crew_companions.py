@@ -1,4 +1,4 @@
-"""What the crew of a flight does, whether it is in this process or real programs."""
+"""The parts common to every crew of a flight, in this process or as real programs."""
 
 from __future__ import annotations
 

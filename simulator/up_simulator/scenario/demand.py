@@ -12,7 +12,7 @@ ROLL_STICK_DEG_S, PITCH_STICK_DEG_S = 180.0, 90.0
 """Rate at full stick in RATE (firmware, flight_controller.h)."""
 ROLL_LIMIT_DEG, PITCH_UP_DEG, PITCH_DOWN_DEG = 50.0, 20.0, 25.0
 GLIDE_PITCH_DEG, CIRCLE_BANK_DEG = -3.0, 20.0
-"""What a new Arduino has (docs/airframe.md)."""
+"""The defaults of an Arduino (docs/airframe.md)."""
 _SETPOINT = struct.Struct(">hhhHH")
 
 

@@ -1,4 +1,4 @@
-"""What a scenario expects of a signal in a part of the flight."""
+"""A scenario's expectations of a signal in a part of the flight."""
 
 from __future__ import annotations
 
@@ -184,7 +184,7 @@ NULLS = ("null", "~", "")
 
 
 def value_of(text: str, kind: Kind) -> float | str:
-    """Return what a text means for a signal of that kind; a flag is 1.0 or 0.0.
+    """Return the value of a text for a signal of that kind; a flag is 1.0 or 0.0.
 
     Raises ValueError with a sentence.
     """

@@ -108,7 +108,7 @@ def _check_times(root: MapNode, report: Report) -> None:
 
 
 def _with_airframe_beside(scenario: Scenario, folder: Path) -> Scenario:
-    """Look for an airframe beside the file too, where its path leads nowhere from here."""
+    """Look for an airframe beside the file too, if its path does not exist from here."""
     beside = folder / scenario.airframe
     if scenario.airframe in airframe_names() or is_there(Path(scenario.airframe)):
         return scenario
@@ -116,9 +116,9 @@ def _with_airframe_beside(scenario: Scenario, folder: Path) -> Scenario:
 
 
 class _Free:
-    """The parts that may hold anything: taken out before the rest is checked, put back after.
+    """The parts with free content: taken out before the rest is checked, put back after.
 
-    Values of expectations are read as text here: what they mean depends on the signal.
+    Values of expectations are read as text here: their meaning depends on the signal.
     """
 
     def __init__(self, root: MapNode, report: Report) -> None:

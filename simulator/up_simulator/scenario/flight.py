@@ -120,7 +120,7 @@ class ScenarioFlight:
 
     @property
     def is_over(self) -> bool:
-        """Return whether nothing more is to be flown."""
+        """Return whether the flight is over."""
         record = self.record
         ended = record.crash is not None or record.failure is not None
         return ended or self._steps >= self._total_steps

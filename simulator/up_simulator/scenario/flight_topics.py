@@ -1,4 +1,4 @@
-"""What a row of a scenario's log is in a flight log: the Commands that meant the same aboard."""
+"""Converts a row of a scenario's log to the Commands of a flight log."""
 
 from __future__ import annotations
 

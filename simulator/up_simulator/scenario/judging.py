@@ -47,5 +47,5 @@ def _measure(expectation: Expectation, window: Window, log: FlightLog) -> Verdic
 
 
 def _is_done(expectation: Expectation) -> bool:
-    """Return whether what held once cannot cease to hold."""
+    """Return whether an expectation that held once cannot fail later."""
     return expectation.kind in ("becomes", "becomes_below", "becomes_above", "changes_above")

@@ -38,7 +38,7 @@ class LineBoard:
 
     @property
     def title(self) -> str:
-        """Return what it is."""
+        """Return its description."""
         return self._board.title
 
     @property
@@ -58,7 +58,7 @@ class LineBoard:
 
     @property
     def eeprom(self) -> bytes:
-        """Return what the EEPROM holds."""
+        """Return the content of the EEPROM."""
         return self._board.eeprom
 
     def run_us(self, duration_us: float) -> None:
@@ -104,7 +104,7 @@ class LineBoard:
         self._board.set_channel(channel, is_on)
 
     def set_motion(self, motion: Motion) -> None:
-        """Set what the IMU feels from now on."""
+        """Set the IMU's motion from now on."""
         self._board.set_motion(motion)
 
     def pulses_us(self) -> Pulses:

@@ -24,10 +24,10 @@ class LogError(Exception):
 
 
 class FlightLog:
-    """What every signal was at every row; ``columns`` begin with time_s and end with event.
+    """The value of every signal at every row; ``columns`` begin with time_s and end with event.
 
-    A number is rounded to six decimals when it is taken, so that a log that is read from the disk
-    is the one that was written.
+    A number is rounded to six decimals when it is taken, so that a log read from the disk equals
+    the one that was written.
     """
 
     def __init__(self, columns: Sequence[str]) -> None:
@@ -124,7 +124,7 @@ def is_word(name: str) -> bool:
 
 
 def read_log(path: Path) -> FlightLog:
-    """Return the log in a file; raises LogError in one sentence, also where nothing can be read."""
+    """Return the log in a file; raises LogError with one sentence, also for an unreadable file."""
     try:
         with path.open(encoding="utf-8", newline="") as file:
             return _read(path, csv.reader(file))

@@ -50,7 +50,7 @@ class OverriddenProblems(Problems):
 
 
 def apply(overrides: Sequence[Override], root: MapNode, report: Report) -> None:
-    """Put the values into the tree of a file; what cannot be put anywhere is reported."""
+    """Put the values into the tree of a file; values without a place are reported."""
     for number, override in enumerate(overrides):
         line = -number - 1
 

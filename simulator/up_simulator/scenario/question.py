@@ -1,4 +1,4 @@
-"""Commands that the ground station sent in a flight, and the answers that they got."""
+"""The ground station's Commands in a flight, and their answers."""
 
 from __future__ import annotations
 

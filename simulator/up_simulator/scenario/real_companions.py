@@ -119,7 +119,7 @@ class RealCompanions(CrewCompanions):
             self._line = self._open_line()
 
     def load(self, percent: float) -> None:
-        """Refuse: what a real daemon measures is the whole machine."""
+        """Refuse: a real daemon measures the load of the whole machine."""
         raise CrewError("a real machine's load is not set by a scenario: use 'runs: in process'")
 
     def stop(self) -> None:
@@ -137,7 +137,7 @@ class RealCompanions(CrewCompanions):
         self._workspace.close()
 
     def end_raspilot(self) -> None:
-        """End the daemon, or the runner and what it started."""
+        """End the daemon, or the runner and its instances."""
         if isinstance(self._real, RunnerDaemon):
             self._real.end()
         else:

@@ -28,7 +28,7 @@ class SerialWires:
         self._noise_until_s = now_s + noise.for_s
 
     def pass_on(self, data: bytes, direction: str, now_s: float) -> bytes:
-        """Return what arrives at the other end."""
+        """Return the bytes that arrive at the other end."""
         if not self.is_plugged:
             return b""
         noise = self._noise

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 
 class Kind(enum.Enum):
-    """What the values of a signal are."""
+    """The type of a signal's values."""
 
     NUMBER = "number"
     FLAG = "flag"
@@ -216,7 +216,7 @@ def _all() -> Iterator[Signal]:
 
 
 EVENT_COLUMN = "event"
-"""The log's last column: what happened since the row before, empty where nothing did."""
+"""The log's last column: the events since the row before, empty without one."""
 SIGNALS = {signal.name: signal for signal in _all()}
 FREE_PREFIX = "ground.counters."
 """The names behind it are the modules' counters."""

@@ -1,4 +1,4 @@
-"""What the pilot does with sticks and switches, over time."""
+"""The pilot's moves of sticks and switches, over time."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class StickPoint:
             yield "at_s", "moves nothing: name a stick, 'mode' or 'arm'"
 
     def pulses_us(self, switch: dict[str, str]) -> Iterator[tuple[str, float]]:
-        """Yield channel and pulse of what it moves; ``switch`` gives each position its mode.
+        """Yield channel and pulse of its moves; ``switch`` gives each position its mode.
 
         Raises KeyError for a mode that no position selects.
         """
