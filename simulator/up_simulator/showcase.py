@@ -52,7 +52,7 @@ def _fly(options: argparse.Namespace, folder: Path) -> int:
     # A shell starts background jobs with SIGINT ignored: one sent to this process is intended.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     for number in (signal.SIGTERM, signal.SIGHUP):
-        # What 'nohup' has it ignore stays so.
+        # Signals that 'nohup' ignores stay ignored.
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, _raise_stopped)
     last_words = ""

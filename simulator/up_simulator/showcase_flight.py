@@ -199,7 +199,7 @@ class ShowcaseFlight:
 
     @property
     def _picture(self) -> str:
-        """Return what this terminal is for."""
+        """Return the purpose of this terminal."""
         return "keyboard radio" if self._options.radio == "keyboard" else "ground station"
 
     def _open_watch(self) -> Child:

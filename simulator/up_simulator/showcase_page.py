@@ -20,8 +20,8 @@ _ADDRESS = re.compile(r"http://\S+")
 class Page:
     """``up-ground serve`` for the aircraft behind the proxy of a run.
 
-    ``listen`` is where it listens, ``ADDRESS:PORT``; its words are in ``page.log``.
-    ``command`` is what a user types to have it once more.
+    ``listen`` is its address, ``ADDRESS:PORT``; its output is in ``page.log``. ``command`` is the
+    shell command that starts it again.
     """
 
     def __init__(self, folder: Path, ports: Ports, listen: str | None = None) -> None:

@@ -1,4 +1,4 @@
-"""The truth as a file: what tests compare the ground's telemetry with."""
+"""The truth as a file: the reference for tests of the ground's telemetry."""
 
 from __future__ import annotations
 

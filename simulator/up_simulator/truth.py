@@ -39,7 +39,7 @@ NAMES = {
     "battery_v": "battery_v",
     "battery_percent": "battery_percent",
 }
-"""What each value is called in the log, and in a ``FlightState``."""
+"""The name of each value in the log, and in a ``FlightState``."""
 RECORDED_NAMES = {name: field for name, field in NAMES.items() if field in COLUMNS}
 """Those that a recorded flight knows."""
 _DIGITS = {"latitude_deg": 8, "longitude_deg": 8}

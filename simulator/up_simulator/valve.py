@@ -10,7 +10,7 @@ from zope.interface import implementer
 
 @implementer(IPushProducer)
 class Valve:
-    """Writes to a TCP transport while it takes more; what it does not take is dropped.
+    """Writes to a TCP transport while it takes more; further data is dropped.
 
     Without this a peer that does not read would fill the memory. ``dropped`` counts.
     """

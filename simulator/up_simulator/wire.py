@@ -51,7 +51,7 @@ def open_frame(encoded: bytes) -> bytes | None:
 
 
 class CheckedReader:
-    """Finds checked frames in a stream; counts what it drops (``dropped``)."""
+    """Finds checked frames in a stream; counts the frames that it drops (``dropped``)."""
 
     def __init__(self) -> None:
         self._buffer = bytearray()

@@ -38,7 +38,7 @@ class Workspace:
 
 
 def _sweep() -> None:
-    """Remove what killed flights left; what cannot be removed is left alone."""
+    """Remove the folders of killed flights, as far as possible."""
     for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
         with suppress(OSError):
             if folder.is_symlink() or folder.stat().st_uid != os.getuid():

@@ -86,12 +86,12 @@ class Actuators:
 
     @property
     def motion(self) -> Motion:
-        """Return what the IMU feels now."""
+        """Return the present motion for the IMU."""
         return self.dynamics.motion
 
     @property
     def crash(self) -> str | None:
-        """Return what ended the flight."""
+        """Return the cause of the flight's end."""
         return self.dynamics.crash
 
     def set_servos(self, pulses_us: Pulses) -> None:

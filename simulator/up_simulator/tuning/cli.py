@@ -63,7 +63,7 @@ _SENTENCES = (
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Tune, or look at a log; return the exit status. Raises ``UsageError`` and OSError."""
+    """Tune, or analyse a log; return the exit status. Raises ``UsageError`` and OSError."""
     options = _parser().parse_args(arguments)
     if options.log is not None and options.write is not None:
         raise UsageError("--write needs gains that were flown: leave --log out")
@@ -228,7 +228,7 @@ def _write(path: Path, gains: GainSet) -> None:
 
 
 def _held(path: Path) -> PidsConfig:
-    """Return what a file holds that is to be written; raises ConfigErrors where it is another's."""
+    """Return the content of a file to be overwritten; raises ConfigErrors if it is not ours."""
     return PIDS.parse(path.read_bytes(), path) if path.exists() else PidsConfig()
 
 

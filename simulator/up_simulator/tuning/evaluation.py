@@ -17,7 +17,7 @@ D_FILTER_S = 0.007
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """What a proposal has to keep. Margins hold at cruise and in the dive, the rest at cruise."""
+    """The rules for a proposal. Margins hold at cruise and in the dive, the rest at cruise."""
 
     gain_margin_db: float = 6.0
     phase_margin_deg: float = 45.0
@@ -27,7 +27,7 @@ class Rules:
     steady_error_percent: float = 10.0
 
     def broken_by_margins(self, margins: Margins) -> list[str]:
-        """Return what the margins lack, in a few words each."""
+        """Return the rules that the margins break, in a few words each."""
         broken = []
         if margins.gain_margin_db is not None and margins.gain_margin_db < self.gain_margin_db:
             broken.append(f"gain margin {margins.gain_margin_db:.1f} dB")
@@ -41,7 +41,7 @@ class Rules:
         return broken
 
     def broken_by_steps(self, steps: FlownSteps) -> list[str]:
-        """Return what the steps lack, in a few words each."""
+        """Return the rules that the steps break, in a few words each."""
         broken = []
         if steps.crash is not None:
             broken.append(steps.crash)

@@ -76,17 +76,17 @@ STEPS: dict[tuple[Axis, str], StepPlan] = {
 
 @dataclass(frozen=True, slots=True)
 class FlownSteps:
-    """The steps of a plan as they were followed; one that held nothing to measure is left out."""
+    """The responses to the steps of a plan; a step that cannot be measured is left out."""
 
     plan: StepPlan
     responses: tuple[StepResponse, ...]
     recording: Recording
     servo_us_s: float
-    """How far the servo of the axis moved in a second: what the gains cost."""
+    """Travel of the axis's servo in a second: the cost of the gains."""
 
     @property
     def crash(self) -> str | None:
-        """Return what ended the flight."""
+        """Return the cause of the flight's end."""
         return self.recording.crash
 
     @property
@@ -113,7 +113,7 @@ class FlownSteps:
 def fly_steps(
     bench: Bench, gains: GainSet, plan: StepPlan, weather: Weather | None = None
 ) -> FlownSteps:
-    """Fly the steps of a plan and measure how they were followed."""
+    """Fly the steps of a plan and measure the responses."""
     trial = bench.trial(gains, weather)
     channel = CHANNELS[plan.axis]
     moves = [] if plan.mode == "FBW" else [StickMove(SETTLE_S - 0.1, "aux1", RATE_US)]

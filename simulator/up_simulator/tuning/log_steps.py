@@ -32,7 +32,7 @@ class LogStepsError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class LogStep:
-    """A step of the demand in a flight, and how it was followed."""
+    """A step of the demand in a flight, and its response."""
 
     axis: Axis
     mode: str
@@ -152,7 +152,7 @@ def _measured(
 
 
 def advice(steps: Sequence[LogStep]) -> list[str]:
-    """Return what to change, a sentence for each axis and mode that was flown."""
+    """Return recommendations, a sentence for each axis and mode that was flown."""
     sentences = []
     for axis, mode, _, _ in _SIGNALS:
         chosen = [

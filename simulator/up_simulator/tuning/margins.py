@@ -1,4 +1,4 @@
-"""How far a control loop is from ringing: its margins, from its measured frequency response."""
+"""The stability margins of a control loop, from its measured frequency response."""
 
 from __future__ import annotations
 
@@ -62,9 +62,9 @@ def loop_response(
 ) -> list[LoopPoint]:
     """Return the open loop, cut between board and servo, at the frequencies of the excitation.
 
-    ``given`` is what the board gave to an axis and ``moved`` what its servos got, with the
-    excitation: both from whole periods, and the first one is left out until the flight swings
-    with the excitation. A frequency at which the periods do not agree is left out. Raises
+    ``given`` is the board's output to an axis and ``moved`` the input of its servos, with the
+    excitation: both from whole periods, without the first one, in which the flight settles into
+    the oscillation. A frequency at which the periods do not agree is left out. Raises
     ``MarginsError``.
     """
     period = round(multisine.period_s / step_s)
@@ -99,7 +99,7 @@ def loop_response(
 
 
 def _slope(values: Sequence[float], part: slice) -> float:
-    """Return how much values drift in a step, about a period: sines have no part in its means."""
+    """Return the drift of values in a step, about a period: sines have no part in its means."""
     period: int = part.stop - part.start
     before = values[part.start - period : part.start]
     now = values[part]
@@ -187,7 +187,7 @@ def margins_of(points: Sequence[LoopPoint]) -> Margins:
 
 
 def _excess(fine: Sequence[tuple[float, float, float]]) -> float:
-    """Return the gain margin, below zero, of a loop that rings: what its gain is too high by."""
+    """Return the gain margin, below zero, of a loop that rings: the excess of its gain."""
     above = [
         size_db
         for (_, size_db, angle), (_, _, next_angle) in itertools.pairwise(fine)

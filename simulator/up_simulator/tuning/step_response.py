@@ -1,4 +1,4 @@
-"""What an aircraft made of a step: how fast it followed, how far it overshot, when it was still."""
+"""An aircraft's response to a step: rise time, overshoot, settling time."""
 
 from __future__ import annotations
 
@@ -66,10 +66,10 @@ def analyse_step(
     end: float,
     until_s: float | None = None,
 ) -> StepResponse:
-    """Return how ``values`` followed a demand that stepped from ``start`` to ``end`` at ``at_s``.
+    """Measure the response of ``values`` to a demand stepped from ``start`` to ``end`` at ``at_s``.
 
-    Samples after ``until_s`` are not looked at. Single wild samples and noise are taken out first.
-    Raises ``StepError`` where there is nothing to measure.
+    Samples after ``until_s`` are ignored. Single outliers and noise are removed first. Raises
+    ``StepError`` where there is nothing to measure.
     """
     _check(times_s, values, at_s, start, end, until_s)
     first = bisect_left(times_s, at_s)
@@ -176,7 +176,7 @@ def _without_spikes(values: Sequence[float]) -> list[float]:
 
 
 def _smoothed(after_s: Sequence[float], curve: Sequence[float], width_s: float) -> list[float]:
-    """Return the running mean of ``width_s``, as much before as after, so that nothing is late."""
+    """Return the running mean of ``width_s``, centred, so that it adds no delay."""
     sums = [0.0, *accumulate(curve)]
     smooth = []
     low = high = 0

@@ -1,4 +1,4 @@
-"""Looks for the gains of an axis: the fastest that keep their margins at cruise and in a dive."""
+"""Searches the gains of an axis: the fastest that keep their margins at cruise and in a dive."""
 
 from __future__ import annotations
 
@@ -103,10 +103,10 @@ def tune_axis(
     is_quick: bool = False,
     say: Say = lambda _text: None,
 ) -> AxisTuning:
-    """Return what roll or pitch flies best with; the other axes keep their gains.
+    """Return the best gains for roll or pitch; the other axes keep their gains.
 
-    ``loops`` of the axis, at cruise and in the dive, are measured where they are not given.
-    Raises ``TuneError``.
+    ``loops`` of the axis, at cruise and in the dive, are measured if they are not given. Raises
+    ``TuneError``.
     """
     rules = rules or Rules()
     cruise, dive = loops or measure_loops(bench, gains, axis, workers, say)
@@ -141,10 +141,10 @@ def tune_axis(
 def tune_yaw(
     bench: Bench, gains: GainSet, workers: Workers, *, is_quick: bool = False
 ) -> YawTuning | None:
-    """Return the yaw damper that is worth its rudder; ``None`` where the rudder does nothing.
+    """Return the best yaw damper; ``None`` where the rudder has no effect.
 
-    It is the weakest one that leaves half of the swing that is there without: a damper works
-    against every turn, and shakes the rudder.
+    It is the weakest one that halves the swing without a damper: a damper works against every
+    turn, and shakes the rudder.
     """
     grid = QUICK_YAW_P if is_quick else YAW_P
     sets = [with_axis(gains, "yaw", AxisGains(Gains(each), Gains(0.0))) for each in grid]

@@ -30,7 +30,7 @@ class Workers:
         self._flown = self._asked = 0
         self._pool: ProcessPoolExecutor | None = None
         if processes > 1:
-            # A fresh interpreter: a copy of this one would share what JSBSim and simavr hold.
+            # A fresh interpreter: a fork would share the state of JSBSim and simavr.
             context = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(
                 min(processes, MOST_PROCESSES), context, _begin_worker, (os.getpid(),)
@@ -54,7 +54,7 @@ class Workers:
             self._pool.shutdown(cancel_futures=kind is not None)
 
     def fly(self, trial: Callable[..., T], arguments: Sequence[tuple[Any, ...]]) -> list[T]:
-        """Return what ``trial`` returns for each of the arguments, in their order."""
+        """Return the results of ``trial`` for each of the arguments, in their order."""
         self._asked += len(arguments)
         if self._pool is None:
             results = []

@@ -81,7 +81,7 @@ class Job:
         return True
 
     def summary(self) -> dict[str, object]:
-        """Return what it wrote about itself; empty where it did not get so far."""
+        """Return its own output; empty if it did not get so far."""
         try:
             found = json.loads((self.folder / SUMMARY).read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -161,7 +161,7 @@ class Fleet:
 
     def end(self) -> None:
         """End the running flights; a signal from the terminal has reached them already."""
-        # Not by SIGINT: a shell's background job and what it starts ignore that.
+        # Not by SIGINT: a shell's background job and its children ignore that.
         for job in self._flying:
             if job.process is not None and not job.is_over():
                 job.process.send_signal(signal.SIGTERM)

@@ -1,4 +1,4 @@
-"""``up-sim fly``: fly scenarios and report what held."""
+"""``up-sim fly``: fly scenarios and report the results."""
 
 from __future__ import annotations
 

@@ -50,5 +50,5 @@ def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
 
 
 def name_of(path: Path) -> str:
-    """Return what reports and folders call a scenario."""
+    """Return the name of a scenario in reports and folders."""
     return path.stem
