@@ -1,4 +1,4 @@
-/** Finds seconds in which the aircraft does not turn, and the gyro's mean reading in them. */
+/** Finds seconds in which the aircraft does not turn, and the gyro's reading in them. */
 #pragma once
 
 #include <stdint.h>
@@ -13,7 +13,7 @@ class Stillness {
  public:
   /** Takes a gyro sample, chip counts; true when a still window ends with it. */
   bool on_sample(const int16_t* gyro);
-  /** Samples are missing: the window restarts. */
+  /** Samples are missing: clears the state. */
   void forget();
   /** Whether a window was still and nothing has moved since. */
   bool is_still() const { return is_still_; }

@@ -11,7 +11,7 @@ namespace raspilot {
 /**
  * A pulse counts when the line was low for 2.5 ms before it, the case between two pulses of any
  * receiver. One that is followed by another edge within these 2.5 ms was a piece of a pulse, cut
- * by noise: it is discarded. Edges shorter than 300 us are noise.
+ * by noise: it is withdrawn. Edges shorter than 300 us are noise.
  *
  * Stamps are Timer1 (0.5 us, wrapping at 32.768 ms), units those of lifetime.h.
  */

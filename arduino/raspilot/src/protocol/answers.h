@@ -43,7 +43,7 @@ class RefusalLimit {
  public:
   /** True, and the second begins, when the type was not refused within the last one. */
   bool allows(char type, uint32_t now_us);
-  /** Forgets answers older than a second; call at least every ten seconds. */
+  /** Forgets refusals a second old; call at least every ten seconds. */
   void check(uint32_t now_us);
 
  private:
