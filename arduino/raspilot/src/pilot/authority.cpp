@@ -62,7 +62,7 @@ void Authority::follow_receiver(uint16_t passed_units) {
   if (is_auto()) {
     away_.start();
   } else {
-    // One bad pulse does not end the selected mode, though it has no effect until the next.
+    // One bad pulse suspends the selected mode but does not end it.
     away_.pass(passed_units);
     if (away_.units() >= LEFT_UNITS) asked_mode_ = 0;
     lives_[ASKED].end();
