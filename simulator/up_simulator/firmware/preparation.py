@@ -79,9 +79,8 @@ def prepare_eeprom(
     """Boot a board, write profile and gains, and return its EEPROM afterwards.
 
     ``profile`` is shaped like airframe.yml, ``gains`` like pids.yml; for null or missing values
-    the board keeps its own. The values are read back after another power-on. The board ends
-    disarmed, at rest and level. Raises ``PreparationError``, ``SettingsError`` and
-    ``BoardCrashedError``.
+    the board keeps its own. All are read back after another power-on. The board ends disarmed, at
+    rest and level. Raises ``PreparationError``, ``SettingsError`` and ``BoardCrashedError``.
     """
     talk = _Talk(board)
     board.set_motion(motion_at(0.0, 0.0))

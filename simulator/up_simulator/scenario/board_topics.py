@@ -44,8 +44,7 @@ _COUNTS = {
 class News:
     """Detects a new datum by its age: that of an old one grows with the time.
 
-    An age that grows by less than this ``share`` of the time is a new datum's, as the transit time
-    varies.
+    An age that grows by less than this ``share`` of the time is new: transit times vary.
     """
 
     def __init__(self, share: float = 0.9) -> None:

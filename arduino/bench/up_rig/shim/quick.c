@@ -68,8 +68,7 @@ static inline void push_return(uint8_t *data, unsigned stack, unsigned pc) {
 
 /* Runs on until a cycle; true when simavr is to run the next instruction before.
  *
- * Each operation must end in a separate jump: gcc would merge them into one, which the branch
- * predictor cannot predict.
+ * Each operation must end in a separate jump: one merged by gcc would be mispredicted.
  */
 __attribute__((optimize("no-gcse", "no-crossjumping")))
 bool quick_run(rig_t *rig, cycle_t end) {

@@ -57,8 +57,7 @@ class Authority {
   Mode mode() const;
   /**
    * The mode in effect, after switch, requested mode, lifetimes, failsafe and IMU: FBW at AUTO
-   * without a valid Setpoint or Output; ACRO instead of all modes that need the IMU while that is
-   * invalid.
+   * without a valid Setpoint or Output; ACRO instead of modes that need an IMU that is invalid.
    */
   Mode flown_mode() const;
   bool is_armed() const { return is_armed_; }
