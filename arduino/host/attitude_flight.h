@@ -1,4 +1,4 @@
-/** The attitude filter with an IMU that turns as a test says. */
+/** The attitude filter with an IMU whose rotation a test sets. */
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace raspilot {
 
-/** The filter with an IMU that turns as the test says, slot by slot. */
+/** The filter with an IMU whose rotation the test sets, slot by slot. */
 struct Flight {
   Calibration calibration = DEFAULT_CALIBRATION;
   AttitudeFilter filter{calibration};
@@ -42,7 +42,7 @@ struct Flight {
     return std::ldexp(filter.state().bias_q36[axis], -36) / 0.002 / DEG;
   }
   double yaw_deg() const { return filter.attitude().yaw_cdeg / 100.0; }
-  /** Angle between what the filter and what the world takes for down. */
+  /** Angle between the filter's and the true direction of down. */
   double tilt_error_deg() const {
     const double roll = roll_deg() * DEG;
     const double pitch = pitch_deg() * DEG;
@@ -54,7 +54,7 @@ struct Flight {
   }
 };
 
-/** A coordinated turn: what is felt stands on the floor, the more of it the steeper the bank. */
+/** A coordinated turn: the felt force is normal to the floor, greater with a steeper bank. */
 inline void turn(Flight& flight, double bank_deg, double speed_m_s, double seconds) {
   const double bank = bank_deg * DEG;
   const double rate_deg_s = GRAVITY_M_S2 * std::tan(bank) / speed_m_s / DEG;

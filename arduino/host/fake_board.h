@@ -11,17 +11,17 @@ constexpr uint16_t EEPROM_SIZE = 1024;
 constexpr uint8_t SERIAL_CAPACITY = 127;
 constexpr uint32_t EEPROM_WRITE_US = 3400;
 
-/** What board.h asks for; `reset()` makes a new board with an erased EEPROM. */
+/** Implements board.h; `reset()` makes a new board with an erased EEPROM. */
 class FakeBoard {
  public:
   FakeBoard() { reset(); }
 
   void reset();
-  /** Power comes back: EEPROM keeps its bytes, everything else is new. */
+  /** Power returns: EEPROM keeps its bytes, everything else is new. */
   void power_on();
   /** Time passes: the line sends bytes, the EEPROM finishes its write. */
   void elapse(uint32_t us);
-  /** Takes what the firmware has sent so far. */
+  /** Takes the bytes that the firmware has sent so far. */
   std::vector<uint8_t> take_sent();
 
   uint8_t eeprom[EEPROM_SIZE];

@@ -40,14 +40,14 @@ class FlyingBoard {
     for (uint32_t passed = 0; passed < ms && !is_so(); passed += 2) slot();
     return is_so();
   }
-  /** Switch low to high after a low that counts: what arms and disarms. */
+  /** Switch low to high after a low that counts: arms and disarms. */
   void flick_aux2() {
     sticks[AUX2] = 1000;
     run(400);
     sticks[AUX2] = 2000;
     run(400);
   }
-  /** A receiver and an IMU that are heard, throttle low, AUX2 low, nothing to calibrate. */
+  /** A receiver and an IMU that work, throttle low, AUX2 low, nothing to calibrate. */
   void wake() {
     run_until([this] { return autopilot.authority.has_receiver(); }, 500);
     run_until([this] { return autopilot.attitude.is_valid(); }, 3000);
@@ -62,7 +62,7 @@ class FlyingBoard {
   uint16_t output_us(Channel channel) const {
     return ticks_to_us(autopilot.controller.outputs().ticks[channel]);
   }
-  /** The newest frame of a type since the last call; empty payload and type 0 when there is none. */
+  /** The newest frame of a type since the last call; empty payload and type 0 without one. */
   SentFrame take(char type) {
     SentFrame found = {0, 0, {}};
     for (const SentFrame& frame : frames) {

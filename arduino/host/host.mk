@@ -30,7 +30,7 @@ host-test: $(HOST_BUILD)/tests
 host-clean:
 	rm -rf $(HOST_BUILD)
 
-# The list of objects decides too: another choice of parts links anew.
+# The list of objects decides too: another choice of parts links again.
 $(HOST_BUILD)/objects: FORCE
 	@mkdir -p $(@D)
 	@echo '$(HOST_OBJECTS)' | cmp -s - $@ || echo '$(HOST_OBJECTS)' > $@
@@ -56,7 +56,7 @@ LIBRARY_BUILD := build/host-library
 LIBRARY_CXX ?= $(shell command -v g++ || command -v clang++)
 LIBRARY_FLAGS := -std=gnu++11 -O2 -g -Wall -Wextra -fPIC -fvisibility=hidden -DF_CPU=16000000L \
 	-DRASPILOT_BAUD=$(or $(BAUD),115200)L -Ihost/library -Iraspilot/src -MMD -MP
-# Of src/chip what is not below: host/library answers in its place, or takes it in whole.
+# The parts of src/chip that are not listed below: host/library replaces or includes them.
 LIBRARY_SOURCES := $(sort $(wildcard host/library/*.cpp)) \
 	$(sort $(foreach part,core protocol protocol/commands pilot control store,$(wildcard raspilot/src/$(part)/*.cpp))) \
 	raspilot/src/chip/mpu6050.cpp raspilot/src/chip/servos.cpp

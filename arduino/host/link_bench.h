@@ -1,4 +1,4 @@
-/** A Link on a board that is just switched on, and what a Raspberry Pi at its other end hears. */
+/** A Link on a freshly powered board, and the bytes received by a Raspberry Pi at its other end. */
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ class LinkBench {
   }
   void hear(const std::string& bytes) { hear(Bytes(bytes.begin(), bytes.end())); }
   void send(char type, const Bytes& payload = {}) { hear(frame_of(sequence++, type, payload)); }
-  /** Time passes with all that a slot's spare time brings, in steps of 500 us. */
+  /** Time passes with all the work of a slot's spare time, in steps of 500 us. */
   void run_ms(uint32_t ms) {
     for (uint32_t step = 0; step < ms * 2; ++step) {
       now_us += 500;
@@ -42,7 +42,7 @@ class LinkBench {
   }
   /** Everything sent since the last call, as bytes. */
   Bytes take_raw() { return fake_board().take_sent(); }
-  /** Everything sent since the last call, as messages; what is no frame fails `is_clean`. */
+  /** Everything sent since the last call, as messages; an invalid frame fails `is_clean`. */
   std::vector<Message> take() {
     std::vector<Message> messages;
     for (uint8_t byte : take_raw()) {

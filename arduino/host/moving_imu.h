@@ -1,4 +1,4 @@
-/** An aircraft that turns as it is told, and what its MPU6050 reads: the truth for the filter. */
+/** An aircraft that turns on command, and its MPU6050's readings: the truth for the filter. */
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-"""Prints pid_vectors.inc: what simple-pid answers, for the test of the firmware's PID controller.
+"""Prints pid_vectors.inc: simple-pid's outputs, for the test of the firmware's PID controller.
 
 Run it with the project's Python: python host/pid_vectors.py > host/pid_vectors.inc
 """

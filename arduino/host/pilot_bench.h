@@ -32,7 +32,7 @@ class ReceiverLines {
     edge(static_cast<uint64_t>(at_us * 2 + 0.5), channel, true, is_late);
     edge(static_cast<uint64_t>((at_us + width_us) * 2 + 0.5), channel, false, is_late);
   }
-  /** Hands over what came before `now_us` since the bench began, then lets the reader check. */
+  /** Hands over the edges before `now_us` since the bench began, then lets the reader check. */
   void slot(uint64_t now_us) {
     std::stable_sort(edges_.begin(), edges_.end(),
                      [](const LineEdge& a, const LineEdge& b) { return a.tick < b.tick; });
@@ -94,14 +94,14 @@ class PilotBench {
   uint32_t clock_us() const { return lines.clock_us(now_us); }
 
   Ticks throttle_us() const { return static_cast<Ticks>(authority.throttle() / 2); }
-  /** Switch low to high after a low that counts: what arms. */
+  /** Switch low to high after a low that counts: arms. */
   void flick_aux2() {
     sticks[AUX2] = 1000;
     run(400);
     sticks[AUX2] = 2000;
     run(400);
   }
-  /** A receiver that is heard, throttle low, the switch at a position. */
+  /** A valid receiver, throttle low, the switch at a position. */
   void fly(uint16_t aux1_us, bool is_armed = true) {
     sticks[AUX1] = aux1_us;
     run(100);

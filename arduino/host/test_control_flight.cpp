@@ -104,7 +104,7 @@ TEST_CASE("FBW: the surfaces go against bank, pitch and rotation") {
   Flight flight;
   flight.tune(only_p(1.0f, 2.0f));
   flight.attitude = attitude_of(1000, 0, 0, 0, 0, 0);
-  // 10 degrees ask for -20 deg/s, at 1.25 us a unit.
+  // 10 degrees demand -20 deg/s, at 1.25 us a unit.
   CHECK(flight.us(AILERONS) == doctest::Approx(1475).epsilon(0.001));
   flight.attitude = attitude_of(0, -500, 0, 0, 0, 0);
   CHECK(flight.us(ELEVATOR) == doctest::Approx(1512.5).epsilon(0.001));
@@ -230,7 +230,7 @@ TEST_CASE("OUTPUT: the Raspberry Pi's surfaces, through the servos' directions l
   CHECK(flight.us(AILERONS) == 1600);
   CHECK(flight.us(ELEVATOR) == 1450);
   CHECK(flight.us(RUDDER) == 1320);
-  // What rolls right from the Arduino rolls right from the Raspberry Pi.
+  // A demand that rolls right from the Arduino rolls right from the Raspberry Pi.
   flight.profile.servos[AILERONS].is_reversed = true;
   CHECK(flight.us(AILERONS) == 1400);
   flight.demand.mode = Mode::ACRO;

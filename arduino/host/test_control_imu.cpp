@@ -144,7 +144,7 @@ TEST_CASE("a roll beyond 1000 deg/s is flown through; a gyro that stays at its e
   for (double rate_deg_s : {1300.0, -1300.0}) {
     Flight flight;
     flight.fly(3);
-    // As fast as 20 ms lets a roll begin.
+    // The fastest roll that may begin within 20 ms.
     for (int slot = 1; slot <= 10; ++slot) flight.slot(rate_deg_s * slot / 10);
     for (int slot = 0; slot < 200; ++slot) {
       flight.slot(rate_deg_s);
@@ -216,7 +216,7 @@ TEST_CASE("`e` 3 keeps the bias of a still second, and refuses without one") {
   flight.fly(1);
   CHECK(flight.filter.calibrate_gyro() == Reason::NONE);
   CHECK(std::abs(flight.calibration.gyro_bias_16[1] - 64) <= 1);
-  // After the next start the calibration's bias is what flies until a still second.
+  // After the next start the calibration's bias is used until a still second.
   AttitudeFilter next(flight.calibration);
   next.stop_calibrating();
   uint32_t now_us = 0;

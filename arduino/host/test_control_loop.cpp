@@ -10,7 +10,7 @@ using namespace raspilot;
 
 namespace {
 
-/** A small glider: surfaces ask for rotations that come with a lag; servos follow each 20 ms. */
+/** A small glider: surfaces cause rotations with a lag; servos follow each 20 ms. */
 class Glider {
  public:
   Profile profile = DEFAULT_PROFILE;
@@ -70,7 +70,7 @@ class Glider {
 constexpr double Glider::FASTEST_DEG_S[3];
 constexpr double Glider::LAG_SLOTS[3];
 
-/** Roll rate in RATE where the stick asks for 36 deg/s, after a second. */
+/** Roll rate in RATE at a demand of 36 deg/s, after a second. */
 double rate_at_a_fifth_of_the_stick(const Gains& gains) {
   Glider glider(gains);
   glider.fly(2);

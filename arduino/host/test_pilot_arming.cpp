@@ -8,7 +8,7 @@ namespace {
 
 uint8_t vetoes(const PilotBench& bench) { return bench.authority.vetoes(); }
 
-/** The switch goes up after a low that counts; returns after `ms`. */
+/** The switch moves up after a low that counts; returns after `ms`. */
 void raise_aux2(PilotBench& bench, uint32_t ms) {
   bench.sticks[AUX2] = 1000;
   bench.run(500);

@@ -24,7 +24,7 @@ struct Lines {
   uint64_t now_us = 0;
 };
 
-/** An edge on a line that carries nothing else: the first edge of all only shows the levels. */
+/** An edge on an otherwise unused line: the first edge of all only shows the levels. */
 void wake(Lines& bench) {
   bench.run_to(4000);
   bench.lines.edge(8100, AUX2, true);

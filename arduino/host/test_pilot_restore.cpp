@@ -8,7 +8,7 @@ using namespace raspilot;
 
 namespace {
 
-/** The aircraft goes on in another life of the board, with the sticks as they were. */
+/** The aircraft continues in another run of the board, with the sticks unchanged. */
 void restart(PilotBench& bench, const PilotBench& before) {
   bench.profile = before.profile;
   std::copy(before.sticks, before.sticks + INPUTS, bench.sticks);

@@ -117,7 +117,7 @@ TEST_CASE("through the door thesis framing is spoken until reset") {
   bench.take_raw();
   bench.hear(gains() + "T");
   CHECK(bench.autopilot.link.is_thesis());
-  // Neither was carried out, and nothing had to be started.
+  // Neither was carried out, and no start was needed.
   CHECK(bench.take_raw().empty());
   bench.run_ms(60);
   const Bytes streamed = bench.take_raw();

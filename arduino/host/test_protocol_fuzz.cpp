@@ -44,7 +44,7 @@ TEST_CASE("every kept script of the fuzzer keeps the rules") {
     armed += end.is_armed;
     thesis += end.is_thesis;
   }
-  // The rules say something: some of the scripts come to where they could be broken.
+  // The rules are effective: some of the scripts reach states where they could be broken.
   CHECK(armed > 0);
   CHECK(thesis > 0);
 }

@@ -155,7 +155,7 @@ TEST_CASE("the Raspberry Pi is heard for one second, however long it is silent t
   CHECK(bench.autopilot.link.has_heard(bench.now_us));
   bench.run_ms(4);
   CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us));
-  // A clock says the same again when it has come round.
+  // A clock shows the same value again after a wrap.
   CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us - 1003000));
 }
 

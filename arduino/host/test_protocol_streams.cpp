@@ -165,7 +165,7 @@ TEST_CASE("the age of an orientation is known by its sequence for 100 ms") {
   board.is_imu_on = false;
   board.run(400);
   CHECK(link.orientation_age_us(sequence, board.now_us()) > 100000);
-  // The short stamps come round after 4.2 s: they must be forgotten by then.
+  // The short stamps wrap after 4.2 s: they must be forgotten by then.
   for (uint32_t ms = 400; ms < 4600; ms += 2) {
     board.run(2);
     CHECK(link.orientation_age_us(sequence, board.now_us()) > 100000);

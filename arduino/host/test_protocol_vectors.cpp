@@ -118,13 +118,13 @@ TEST_CASE("every golden Command is registered once, with its size, and in its fr
       is_thesis |= old["direction"] == "to_arduino" && old["type"] == vector["type"];
     }
     CHECK((command.framing == Framing::BOTH) == is_thesis);
-    // Who answers by itself is asked when there is room, and its payload is gone by then.
+    // A handler with its own answer is called when there is room, and its payload is gone by then.
     if (command.answer == Answer::OWN) CHECK(command.size == 0);
   }
   for (int type = 0; type < 256; ++type) {
     const char letter = static_cast<char>(type);
     CHECK(CommandExecutor::count(letter) < 2);
-    // A longer one than what can be received is never found.
+    // A message longer than the receive buffer is never found.
     CommandDefinition command;
     CHECK(CommandExecutor::find(letter, command) == (CommandExecutor::count(letter) == 1));
   }

@@ -67,7 +67,7 @@ TEST_CASE("each field of a profile lands in its place") {
       "00ff38032008980100c8044c076c00000003e807d0010001038404b0"
       "0200416172000127102328dcd8dcd90321038408980321032201");
   REQUIRE(wire.size() == PROFILE_SIZE);
-  // 10000 cdeg is no limit: the rest of this wire is right.
+  // 10000 cdeg is not a limit: the rest of this wire is right.
   REQUIRE_FALSE(read_profile(wire.data(), profile));
   REQUIRE(read_profile(put_u16(wire, 35, 9000).data(), profile));
   CHECK_FALSE(profile.servos[AILERONS].is_reversed);

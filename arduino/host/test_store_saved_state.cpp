@@ -23,7 +23,7 @@ SavedState numbered(int number) {
   return state;
 }
 
-/** RAM as it is after power-on. */
+/** RAM after power-on. */
 SavedStates noise(uint8_t seed) {
   SavedStates states;
   Bytes bytes(sizeof states);
@@ -84,7 +84,7 @@ TEST_CASE("a reset in the midst of a write leaves the state of the write before"
   const Bytes before = bytes_of(states);
   states.write(numbered(20));
   const Bytes after = bytes_of(states);
-  // A write touches one half alone; whatever stands in it, the other half is read.
+  // A write changes one half alone; whatever its content, the other half is read.
   const size_t half = sizeof states / 2;
   const bool is_first = !std::equal(before.begin(), before.begin() + static_cast<long>(half), after.begin());
   REQUIRE(is_first == std::equal(before.begin() + static_cast<long>(half), before.end(),

@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t LOOK_US = 500;
 
-/** Runs the background until nothing is to save; false when it takes more than 10 s. */
+/** Runs the background until all is saved; false when it takes more than 10 s. */
 bool save_all(Settings& settings) {
   for (uint32_t us = 0; us < 10000000; us += LOOK_US) {
     if (!settings.is_saving()) return true;
@@ -137,7 +137,7 @@ TEST_CASE("a power cut at any byte of a save leaves the copy before, or the new 
       save_gain(again, 4);
       REQUIRE(save_all(again));
       REQUIRE(reloaded().gains.rate[0].p == 4);
-      // The mark comes last, so that only the last byte makes the new copy; torn, it does not.
+      // The mark is last, so that only the last byte makes the new copy valid; torn, it is not.
       if (is_new) CHECK(cut >= 13);
       is_whole = is_new || cut == writes_of_save;
     }

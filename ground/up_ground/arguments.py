@@ -108,7 +108,7 @@ def _add_connection(
     direct: object,
     aircraft: object = None,
 ) -> None:
-    """Add the options that say whom to talk to, with their defaults."""
+    """Add the options for the peer's address and the names, with their defaults."""
     now = "" if host is argparse.SUPPRESS else " (now %(default)s)"
     group = parser.add_argument_group("whom to talk to")
     group.add_argument(
@@ -138,14 +138,14 @@ def _add_connection(
 
 
 def settings_of(options: argparse.Namespace, seat: Seat) -> Settings:
-    """Return whom to talk to."""
+    """Return the settings of the peer to connect to."""
     return Settings(options.host, options.port, options.aircraft, seat, options.direct)
 
 
 def parse_arguments(
     arguments: Sequence[str] | None, environ: Mapping[str, str]
 ) -> tuple[argparse.ArgumentParser, argparse.Namespace]:
-    """Return the parser and what was given; exits with 2 after a sentence on a mistake."""
+    """Return the parser and the arguments; prints one sentence and exits with 2 on a mistake."""
     parser = make_parser(environ)
     return parser, parser.parse_args(arguments)
 
@@ -182,7 +182,7 @@ def _add_send(verbs: argparse._SubParsersAction[_Parser]) -> None:
     fields = send.add_argument(
         "fields", nargs="*", metavar="key=value", default=[], help="the Command's fields"
     )
-    # Else argparse calls the fields required where only the name is missing.
+    # Otherwise argparse reports missing fields where only the name is missing.
     fields.required = False
     send.add_argument(
         "--force", action="store_true", help="send it unchecked, even with an unknown name"

@@ -1,4 +1,4 @@
-"""A grid of characters with styles: what is drawn outside it is cut off."""
+"""A grid of styled characters; drawing outside the grid is clipped."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ MOST_ROWS = 100
 
 
 class Style(Enum):
-    """How a character looks; the value is its SGR parameters (ECMA-48)."""
+    """The style of a character; the value is its SGR parameters (ECMA-48)."""
 
     PLAIN = ""
     BOLD = "1"
@@ -23,7 +23,7 @@ class Style(Enum):
 
 
 class Canvas:
-    """Text goes in with `put`, rows come out as plain text or with ANSI sequences.
+    """Text is written with `put`; rows are read as plain text or with ANSI sequences.
 
     Only printable ASCII and letters that `safe_text` passed may be put.
     """

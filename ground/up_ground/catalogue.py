@@ -22,7 +22,7 @@ _GROUND_ROLES = (Role.OBSERVER, Role.OPERATOR, Role.PILOT, Role.ADMIN)
 
 
 class Catalogue:
-    """Commands by name, with their fields; ``problems`` are sentences about what is left out."""
+    """Commands by name, with their fields; ``problems`` lists the omitted ones, a sentence each."""
 
     def __init__(self, classes: Iterable[type[BaseCommand]], problems: Iterable[str] = ()) -> None:
         self.problems = list(problems)
@@ -45,7 +45,7 @@ class Catalogue:
         return self._registry.get(name)
 
     def sendable(self) -> list[type[BaseCommand]]:
-        """Return what some ground may send and an aircraft carries out, by name."""
+        """Return the Commands that a ground may send and an aircraft carries out, by name."""
         return [
             cls
             for cls in self._registry
@@ -53,7 +53,7 @@ class Catalogue:
         ]
 
     def suggestions(self, name: str) -> list[str]:
-        """Return names that look like a mistyped one, the nearest first."""
+        """Return names similar to a mistyped one, the nearest first."""
         names = {each.casefold(): each for cls in self.sendable() for each in _names(cls)}
         near = difflib.get_close_matches(name.casefold(), names, n=3, cutoff=0.6)
         within = [full for low, full in names.items() if name and name.casefold() in low]
@@ -88,7 +88,7 @@ def describe(cls: type[BaseCommand]) -> Iterator[str]:
 
 
 def about(cls: type[BaseCommand]) -> str:
-    """Return what a Command is for, one sentence."""
+    """Return the purpose of a Command, one sentence."""
     return _sentence(cls.__doc__)
 
 
@@ -98,7 +98,7 @@ def wire_name(field: dataclasses.Field[Any]) -> str:
 
 
 def fault_of(cls: type[BaseCommand], data: Mapping[str, Any]) -> str:
-    """Return why these data are none of that Command, one sentence; empty: they are."""
+    """Return why the data do not fit the Command, one sentence; empty if they do."""
     known = {wire_name(field) for field in dataclasses.fields(cls)}
     strange = [key for key in data if key not in known]
     if strange:

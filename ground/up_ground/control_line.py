@@ -1,4 +1,4 @@
-"""The lines that a proxy says to a ground, and those that a ground says (docs/protocols.md 9)."""
+"""The control lines between a proxy and a ground, in both directions (docs/protocols.md 9)."""
 
 from __future__ import annotations
 
@@ -46,21 +46,21 @@ class SeatLost:
 
 @dataclass(frozen=True, slots=True)
 class SeatAsked:
-    """A listener asks this ground for the seat."""
+    """A listener requests the seat from this ground."""
 
     by: int
 
 
 @dataclass(frozen=True, slots=True)
 class SeatHolder:
-    """Who commands; None: nobody does."""
+    """The ground that commands; None: the seat is free."""
 
     number: int | None
 
 
 @dataclass(frozen=True, slots=True)
 class AircraftPresence:
-    """The airborne side came or went."""
+    """The airborne side has connected or disconnected."""
 
     is_online: bool
 
@@ -80,12 +80,12 @@ def give_line(to: int) -> bytes:
 
 
 def is_token(text: str) -> bool:
-    """Say whether a text has the form of a resume token."""
+    """Return whether a text has the form of a resume token."""
     return _TOKEN.fullmatch(text) is not None
 
 
 def parse_proxy_line(line: bytes) -> ProxyLine | None:
-    """Return what a control line says; None when it says nothing that is known.
+    """Return the parsed control line; None for an unknown one.
 
     ``line`` has no line end. Unknown ``key=value`` words are ignored.
     """

@@ -1,4 +1,4 @@
-"""How long messages were held up on their way, told by their sender's clock."""
+"""Estimates the transit delay of messages by their sender's clock."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ NEW_CLOCK_S = 30.0
 
 
 class Delay:
-    """Tells how much longer than the quickest one a message was on its way.
+    """Estimates how much longer a message was under way than the quickest one.
 
-    The two clocks need not agree on any moment: what even the quickest message took is in no
-    figure. Of the quickest one nothing is forgotten but the drift, so that a queue that stands for
-    minutes is not taken for the length of the way: after a time t the figure is too small by up to
-    2 t ``DRIFT``, and never too great. A clock that goes back, or falls behind by ``NEW_CLOCK_S``
-    at once, is another clock: it begins anew.
+    The two clocks need no common zero: the delay of the quickest message is excluded from every
+    figure. The minimum is forgotten only at the rate of the clock drift, so that a queue that
+    stands for minutes does not count as transit time: after a time t the figure is too small by
+    up to 2 t ``DRIFT``, and never too great. A clock that steps back, or falls behind by
+    ``NEW_CLOCK_S`` in one step, counts as a new clock and resets the estimate.
     """
 
     def __init__(self) -> None:
@@ -27,13 +27,13 @@ class Delay:
         self._now_s = 0.0
 
     def forget(self) -> None:
-        """Begin anew, with another clock or another way."""
+        """Reset, for another clock or another path."""
         self._least_s = None
 
     def take(self, stamp_ms: float | None, now_s: float) -> float | None:
-        """Take a message that comes now; return the seconds it was held up.
+        """Take a message that arrives now; return its delay in seconds.
 
-        ``stamp_ms`` is its sender's clock when it left, None where none is told: None then.
+        ``stamp_ms`` is the sender's clock at departure; without it the result is None.
         """
         self.has_begun = False
         if stamp_ms is None:

@@ -1,4 +1,4 @@
-"""What a program on the link ends with: its exit status and its last words."""
+"""One-shot tasks on the link, with an exit status and a last message."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Say = Callable[[str], object]
 
 
 class Errand:
-    """Something that is done once over a link; ``finished`` fires with the exit status.
+    """A one-shot task over a link; ``finished`` fires with the exit status.
 
     ``say`` takes lines for the user, ``complain`` lines for stderr.
     """
@@ -42,11 +42,11 @@ class Errand:
             self.finished.callback(status)
 
     async def stop(self) -> None:
-        """Leave what was opened; returns when it is closed."""
+        """Close all that was opened; returns when it is closed."""
         await self.link.stop()
 
     def say(self, text: str) -> None:
-        """Give the user a line; a reader that has gone away ends the errand."""
+        """Print a line for the user; a closed output ends the task."""
         try:
             self._say(text)
         except OSError:
@@ -54,11 +54,11 @@ class Errand:
 
     @property
     def is_finished(self) -> bool:
-        """Say whether the end has come."""
+        """Return whether the task has ended."""
         return bool(self.finished.called)
 
     def after(self, reactor: Any, name: str, delay_s: float, call: Callable[[], object]) -> None:
-        """Call later, unless the end or another call of that name comes first."""
+        """Call later, unless the task ends or another call of that name replaces it."""
         self.forget(name)
         if not self.is_finished:
             self._timers[name] = reactor.callLater(delay_s, call)

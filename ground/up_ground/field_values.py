@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 
 
 class FieldError(ValueError):
-    """A word that is no field; the text is one sentence."""
+    """An argument that does not fit its field; the text is one sentence."""
 
 
 def parse_fields(words: Iterable[str]) -> dict[str, Any]:

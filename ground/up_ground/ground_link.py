@@ -1,4 +1,4 @@
-"""The link to the aircraft: connects, comes back, keeps the seat."""
+"""The link to the aircraft: connects, reconnects, keeps the seat."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ class LinkListener(Interface):
         """Take a message from the aircraft."""
 
     def on_link(self) -> None:
-        """Hear that the link's status has changed."""
+        """Handle a change of the link's status."""
 
 
 class GroundLink:
-    """Connects again after each loss until it is stopped, and takes its seat back.
+    """Reconnects after each loss until it is stopped, and takes its seat back.
 
-    ``status`` is always true; a lost connection leaves nothing of its half lines behind.
+    ``status`` is always up to date; a lost connection leaves no partial lines behind.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class GroundLink:
         self._connect()
 
     async def stop(self) -> None:
-        """Give the link up for good; returns when the connection is closed."""
+        """Close the link permanently; returns when the connection is closed."""
         self.status.disconnected(LinkState.STOPPED, self._reactor.seconds())
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
@@ -92,12 +92,12 @@ class GroundLink:
         self._tokens.close()
 
     def send(self, line: bytes) -> bool:
-        """Send an encoded message; False: there is no connection."""
+        """Send an encoded message; return False without a connection."""
         connection = self._connection
         return self.status.is_open and connection is not None and connection.send(line)
 
     def request_seat(self) -> bool:
-        """Ask for the seat; a free one is given at once. False: there is nobody to ask."""
+        """Request the seat; a free one is granted immediately. Return False if not sent."""
         self._wanted = Seat.COMMAND
         self._tokens.hold()
         return not self._settings.direct and self.send(control_line.SEAT_REQUEST)
@@ -111,7 +111,7 @@ class GroundLink:
         return self.status.seat is Seat.COMMAND and self.send(control_line.SEAT_RELEASE)
 
     def reconnect(self, seat: Seat) -> None:
-        """Say hello anew for another seat: an aircraft's own listener gives it only so."""
+        """Repeat the hello for another seat: an aircraft's own listener grants it only that way."""
         self._wanted = seat
         if seat is Seat.COMMAND:
             self._tokens.hold()
@@ -123,12 +123,12 @@ class GroundLink:
             self._connection.give_up("another seat is asked for")
 
     def measure(self) -> None:
-        """Look at the link's own delay and drops."""
+        """Read the link's own delay and drops."""
         if self._connection is not None and self.status.is_open:
             self.status.round_trip_ms = self._connection.round_trip_ms()
 
     def on_made(self, connection: GroundProtocol) -> None:
-        """Wait for the hello's answer, or begin at once where there is no hello."""
+        """Wait for the answer to the hello; without a hello start immediately."""
         self._connection = connection
         self._is_greeted = self._settings.direct
         if self._settings.direct:

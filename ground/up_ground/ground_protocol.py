@@ -22,7 +22,7 @@ _TCPI_RTT_OFFSET = 68
 
 
 class ConnectionOwner(Interface):
-    """Who hears of the connection."""
+    """Receiver of the connection's events."""
 
     def on_line(self, connection: GroundProtocol, line: bytes) -> None:
         """Take a line that was relayed from the aircraft, without its end."""
@@ -31,18 +31,18 @@ class ConnectionOwner(Interface):
         """Take a line of the proxy, without its end."""
 
     def on_made(self, connection: GroundProtocol) -> None:
-        """Hear that the connection is there."""
+        """Handle a new connection."""
 
     def on_lost(self, connection: GroundProtocol, reason: str) -> None:
-        """Hear that it is gone, and why."""
+        """Handle the loss of the connection and its reason."""
 
 
 class GroundProtocol(Protocol):
-    """Cuts the stream into lines and keeps the connection alive; make a new one for each.
+    """Splits the stream into lines and keeps the connection alive; one instance per connection.
 
-    With a ``hello`` it is sent first, must be answered within ``HELLO_TIMEOUT_S``
-    (``accept`` says that it was), and an empty line goes out after each second of own silence.
-    Without one nothing is sent but what `send` is given: a thesis peer knows no heartbeat.
+    A ``hello`` is sent first and must be answered within ``HELLO_TIMEOUT_S`` (``accept`` reports
+    the answer); then an empty line follows each second without output.
+    Without a hello only the input of `send` goes out: a thesis peer knows no heartbeat.
     """
 
     transport: Any
@@ -63,7 +63,7 @@ class GroundProtocol(Protocol):
         return self._lines.dropped_too_long
 
     def send(self, line: bytes) -> bool:
-        """Send a whole line; False: the connection is gone."""
+        """Send a whole line; return False if the connection is lost."""
         if not self._is_open:
             return False
         self._told_s = self._clock.seconds()
@@ -71,22 +71,22 @@ class GroundProtocol(Protocol):
         return True
 
     def accept(self) -> None:
-        """Say that the hello was answered: heartbeats begin."""
+        """Accept the answer to the hello: heartbeats begin."""
         self._schedule(HEARTBEAT_S, self._beat)
 
     def give_up(self, why: str) -> None:
-        """Cut the connection off; ``why`` becomes the reason that the owner hears."""
+        """Abort the connection; the owner gets ``why`` as the reason."""
         self._why = self._why or why
         self._is_open = False
         self.transport.abortConnection()
 
     def close(self) -> None:
-        """Send what waits, then close."""
+        """Send the queued data, then close."""
         self._is_open = False
         self.transport.loseConnection()
 
     def round_trip_ms(self) -> float | None:
-        """Return the kernel's smoothed round trip to the peer; None where it tells none."""
+        """Return the kernel's smoothed round trip to the peer; None if not available."""
         option = getattr(socket, "TCP_INFO", None)
         if option is None or not self._is_open:
             return None
@@ -98,7 +98,7 @@ class GroundProtocol(Protocol):
         return float(rtt_us) / 1000
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Set the socket up and say hello."""
+        """Set the socket up and send the hello."""
         watch_peer(self.transport, USER_TIMEOUT_MS)
         self._is_open = True
         if self._hello is not None:
@@ -117,7 +117,7 @@ class GroundProtocol(Protocol):
                 self._owner.on_line(self, line)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
-        """Tell that the connection is gone; an unfinished line goes with it."""
+        """Report the lost connection; an unfinished line is dropped."""
         self._is_open = False
         self._lines.reset()
         self._cancel()

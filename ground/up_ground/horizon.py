@@ -9,7 +9,7 @@ from up_ground.canvas import Canvas, Style
 PITCH_RANGE_DEG = 60.0
 """From the upper edge of the picture to the lower one."""
 _LETTER_ASPECT = 2.0
-"""A letter is about twice as high as it is wide."""
+"""A character is about twice as high as it is wide."""
 
 
 def draw_horizon(

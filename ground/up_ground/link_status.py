@@ -1,4 +1,4 @@
-"""What is known about the link to the aircraft."""
+"""State of the link to the aircraft."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from up_ground.settings import Seat
 
 
 class LinkState(Enum):
-    """How far the connection to the proxy is."""
+    """State of the connection to the proxy."""
 
     CONNECTING = "connecting"
     OPEN = "connected"
@@ -19,23 +19,23 @@ class LinkState(Enum):
 
 @dataclass(slots=True)
 class LinkStatus:
-    """The link as it stands now; times are the clock's seconds.
+    """The present state of the link; times are in seconds of the clock.
 
-    ``seat`` and ``is_aircraft_online`` are None while nobody told: before the hello's answer, and
-    always on a direct link. ``holder`` is the number of the ground that commands.
+    ``seat`` and ``is_aircraft_online`` stay None while unknown: before the answer to the hello,
+    and always on a direct link. ``holder`` is the number of the ground that commands.
     """
 
     state: LinkState = LinkState.CONNECTING
     since_s: float = 0.0
     reason: str = ""
-    """Why there is no connection, one sentence."""
+    """Why the link is down, one sentence."""
     rejection: str = ""
     """The code with which the proxy refused the hello."""
     seat: Seat | None = None
     holder: int | None = None
     is_holder_known: bool = False
     asked_by: int | None = None
-    """The listener that asks for the seat that is held here."""
+    """The listener that requests the seat held here."""
     is_aircraft_online: bool | None = None
     round_trip_ms: float | None = None
     """The kernel's measure of the way to the proxy and back."""
@@ -46,11 +46,11 @@ class LinkStatus:
     """Lines that were no General Messages."""
     too_long: int = 0
     strange_control: int = 0
-    """Control lines that say nothing known."""
+    """Unknown control lines."""
 
     @property
     def is_open(self) -> bool:
-        """Say whether messages can go now."""
+        """Return whether messages can be sent now."""
         return self.state is LinkState.OPEN
 
     @property
@@ -59,7 +59,7 @@ class LinkStatus:
         return self.malformed + self.too_long + self.strange_control
 
     def disconnected(self, state: LinkState, now_s: float, reason: str = "") -> None:
-        """Forget what only a connection can know."""
+        """Reset the fields that only a connection can fill."""
         self.state = state
         self.since_s = now_s
         self.reason = reason

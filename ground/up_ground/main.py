@@ -34,7 +34,7 @@ from up_ground.web.serve import PageOptions, ServeError, fleet_of, make_stations
 
 
 def watch(options: argparse.Namespace) -> int:
-    """Show an aircraft in the form that was asked for."""
+    """Show an aircraft in the requested form."""
     settings = settings_of(options, Seat(options.seat))
     tokens = TokenStore(state_folder(os.environ), settings)
     more: dict[str, Any] = {
@@ -59,7 +59,7 @@ def watch(options: argparse.Namespace) -> int:
 
 
 def send(options: argparse.Namespace) -> int:
-    """Check a Command as far as it is known here, and send it."""
+    """Check a Command against the catalogue, where it is listed, and send it."""
     catalogue = Catalogue.installed()
     cls = catalogue.get(options.name)
     try:
@@ -89,7 +89,7 @@ def send(options: argparse.Namespace) -> int:
 
 
 def seat(options: argparse.Namespace) -> int:
-    """Ask for the seat, hand it over or leave it."""
+    """Request the seat, hand it over or release it."""
     if options.direct:
         return _usage(["a direct link has no seats"])
     settings = settings_of(options, Seat.COMMAND)
@@ -107,7 +107,7 @@ def seat(options: argparse.Namespace) -> int:
 
 
 def commands(options: argparse.Namespace) -> int:
-    """List what a ground may send."""
+    """List the Commands that a ground may send."""
     catalogue = Catalogue.installed()
     chosen = catalogue.sendable()
     if options.name is not None:
@@ -202,7 +202,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if sys.stdout is None or sys.stderr is None:
         # Python's own None for a descriptor that the caller closed (`>&-`).
         return _refuse_closed()
-    # A terminal that is not UTF-8 shows what it cannot show as an escape.
+    # A terminal that is not UTF-8 shows other characters as escapes.
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
@@ -214,7 +214,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return carry_out(options)
     except BrokenPipeError:
-        # The reader, such as 'head', has seen enough; nothing more can be written.
+        # The reader, such as 'head', has closed the pipe; nothing more can be written.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return EXIT_DONE
     except KeyboardInterrupt:

@@ -31,7 +31,7 @@ def draw_flight(pen: Pen, row: int, column: int) -> int:
     style = Style.PLAIN if armed is None else (Style.BAD if armed else Style.GOOD)
     pen.value(row + 3, column, flag_text(armed, "ARMED", "disarmed"), style=style)
     vetoes = telemetry.texts("vetoes")
-    # In the air a veto is no alarm: it tells what would have to be so to arm once more.
+    # In the air a veto is information, not an alarm: it names the condition for arming again.
     text = "against arming again: " if armed else "vetoes "
     text += UNKNOWN if vetoes is None else "; ".join(vetoes) or "none"
     alarm = Style.WARNING if vetoes and not armed else Style.PLAIN
@@ -81,7 +81,7 @@ def draw_power(pen: Pen, row: int, column: int) -> int:
 
 
 def draw_channels(pen: Pen, row: int, column: int, reading: str, title: str) -> int:
-    """Draw one bar for each channel that the aircraft tells; return the row below."""
+    """Draw one bar for each channel that the aircraft reports; return the row below."""
     pen.title(row, column, title, reading)
     shown = [name for name in _CHANNELS if pen.telemetry.number(reading, name) is not None]
     for line, name in enumerate(shown or _CHANNELS[:4], row + 1):
@@ -92,7 +92,7 @@ def draw_channels(pen: Pen, row: int, column: int, reading: str, title: str) -> 
 
 
 def bar(pulse_us: float | None, columns: int = _BAR_COLUMNS) -> str:
-    """Return the deflection from 1500 us as a bar; `<` and `>` mark what is beyond its ends."""
+    """Return the deflection from 1500 us as a bar; `<` and `>` mark values beyond its ends."""
     cells = [" "] * columns
     middle = columns // 2
     if pulse_us is not None:

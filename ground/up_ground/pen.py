@@ -1,4 +1,4 @@
-"""Writes readings on the canvas so that old ones look old."""
+"""Writes readings on the canvas, stale ones in the stale style."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from up_ground.wording import age_text
 
 @dataclass(frozen=True, slots=True)
 class Pen:
-    """Canvas, telemetry and moment in one hand.
+    """Canvas, telemetry and time for the drawing functions.
 
-    A reading is one that has an age in telemetry; ``""`` is what is as old as its frame.
+    A reading has its own age in telemetry; ``""`` stands for a value as old as its frame.
     """
 
     canvas: Canvas
@@ -21,7 +21,7 @@ class Pen:
     now_s: float
 
     def is_old(self, reading: str = "") -> bool:
-        """Say whether a reading must look old."""
+        """Return whether a reading must be marked stale."""
         if reading:
             return self.telemetry.is_stale(reading, self.now_s)
         return self.telemetry.is_silent(self.now_s)

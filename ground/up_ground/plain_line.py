@@ -16,7 +16,7 @@ from up_ground.wording import (
 
 
 def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
-    """Return link, age and what is flown; values that are too old are left unknown."""
+    """Return link, age and flight values; stale values are shown as unknown."""
     link = f"link {link_text(status, now_s)}"
     if not status.is_open and status.reason:
         return f"{link}: {status.reason}"

@@ -1,4 +1,4 @@
-"""The picture of the aircraft: pure, from what is known to a grid of letters."""
+"""The screen of the aircraft: a pure function from known values to a grid of characters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``up-ground seat``: asks for the seat that commands, hands it over, leaves it."""
+"""``up-ground seat``: requests the seat that commands, hands it over, releases it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ANSWER_LIMIT_S = 3.0
 
 
 class SeatErrand(Errand):
-    """Connects for the seat and does one thing with it; subclasses say which."""
+    """Connects to the seat's proxy for one operation, which subclasses define."""
 
     LIMIT_S = ANSWER_LIMIT_S
 
@@ -38,7 +38,7 @@ class SeatErrand(Errand):
         """Telemetry is of no interest here."""
 
     def on_link(self) -> None:
-        """Go on as the proxy says."""
+        """React to the proxy's status."""
         status = self.link.status
         if self.is_finished:
             return
@@ -48,11 +48,11 @@ class SeatErrand(Errand):
             self.on_standing(standing(status, False))
 
     def on_standing(self, seat: Standing) -> None:
-        """Hear who has the seat."""
+        """Receive the owner of the seat."""
         raise NotImplementedError
 
     def on_limit(self) -> None:
-        """Hear that the time is over."""
+        """Handle the timeout."""
         self.fail(f"the proxy did not do it within {self.LIMIT_S:g} s", EXIT_NO_ANSWER)
 
     def fail(self, sentence: str, status: int) -> None:
@@ -62,14 +62,14 @@ class SeatErrand(Errand):
 
 
 class RequestSeat(SeatErrand):
-    """Asks until the seat is given or ``wait_s`` is over."""
+    """Requests the seat until it is granted or ``wait_s`` is over."""
 
     def __init__(self, *args: Any, wait_s: float, **more: Any) -> None:
         super().__init__(*args, **more)
         self.LIMIT_S = wait_s
 
     def on_standing(self, seat: Standing) -> None:
-        """Take it, or ask and say whom."""
+        """Take the seat, or request it and name its owner."""
         if seat is Standing.OURS:
             self.say("this ground commands now")
             self.finish(EXIT_DONE)
@@ -80,7 +80,7 @@ class RequestSeat(SeatErrand):
             self._ask()
 
     def on_limit(self) -> None:
-        """Say who would have had to give it."""
+        """Report who would have had to release it."""
         holder = self.link.status.holder
         who = "nobody gave it" if holder is None else f"ground {holder} has not given it"
         self.fail(f"no seat within {self.LIMIT_S:g} s: {who}", EXIT_NO_ANSWER)
@@ -91,14 +91,14 @@ class RequestSeat(SeatErrand):
 
 
 class LeaveSeat(SeatErrand):
-    """Hands the seat to the listener ``to``, or leaves it free when that is None."""
+    """Hands the seat to the listener ``to``; releases it if ``to`` is None."""
 
     def __init__(self, *args: Any, to: int | None, **more: Any) -> None:
         super().__init__(*args, **more)
         self._to = to
 
     def on_standing(self, seat: Standing) -> None:
-        """Leave it when it is ours, and wait until the proxy says so."""
+        """Release our seat and wait for the proxy's confirmation."""
         holder = self.link.status.holder
         if self._is_asked:
             if seat is not Standing.OURS and self._to in (None, holder):
@@ -117,7 +117,7 @@ class LeaveSeat(SeatErrand):
             self.fail("this ground has no seat to leave: it is free", EXIT_REFUSED)
 
     def on_limit(self) -> None:
-        """Say what most likely went wrong."""
+        """Report the most likely cause."""
         if self._is_asked and self._to is not None:
             self.fail(f"no ground {self._to} listens to this aircraft", EXIT_REFUSED)
         else:

@@ -10,11 +10,11 @@ from up_ground.settings import Seat
 ASK_INTERVAL_S = 1.1
 """The proxy passes one request a second on."""
 KEPT_S = 4.0
-"""Longer than a proxy keeps the seat of a ground that has gone (3 s)."""
+"""Longer than a proxy reserves the seat of a ground that has disconnected (3 s)."""
 
 
 class Standing(Enum):
-    """How it stands with the seat."""
+    """State of the seat as seen by this ground."""
 
     UNKNOWN = "unknown"
     OURS = "ours"
@@ -24,9 +24,9 @@ class Standing(Enum):
 
 
 def standing(status: LinkStatus, is_direct: bool) -> Standing:
-    """Return who has the seat; a direct link knows no seats, so all may be sent there.
+    """Return who owns the seat; a direct link has no seats, so every peer may send there.
 
-    FREE is what the proxy says of a seat that nobody holds, which it may keep for a token yet.
+    FREE: the proxy reports no owner; it may still reserve the seat for a token.
     """
     if not status.is_open:
         return Standing.UNKNOWN

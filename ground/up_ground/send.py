@@ -27,9 +27,9 @@ _CONTENT_OF = {
     "arduino.pids.tunings": "arduino.pids.values",
     "arduino.profile.request": "arduino.profile.values",
 }
-"""What comes besides the ack when a Command asks for something."""
+"""Data besides the ack, for a Command that requests something."""
 _MAY_SET = ("arduino.pids.tunings",)
-"""Asks for something only with ``request=true``."""
+"""Requests something only with ``request=true``."""
 _QUIET = (TELEMETRY, "up.system.state")
 
 
@@ -37,7 +37,7 @@ class Send(Errand):
     """Waits for the seat and for one telemetry frame, sends, waits for the answer.
 
     Nothing is sent twice, and nothing without the beacon of a frame; an aircraft whose frames have
-    none, as the thesis's, gets what does not need one (``needs_beacon``).
+    none, such as the thesis's, gets only Commands that need none (``needs_beacon``).
     """
 
     def __init__(
@@ -72,7 +72,7 @@ class Send(Errand):
         self.link.start()
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take telemetry for its beacon, and what answers us."""
+        """Take telemetry for its beacon, and the answers to us."""
         if self.is_finished:
             return
         if self._telemetry.take(message, self._reactor.seconds()):
@@ -81,7 +81,7 @@ class Send(Errand):
             self._on_answer(message, self._sent_s)
 
     def on_link(self) -> None:
-        """Go on as far as the link lets us."""
+        """Continue as far as the link permits."""
         if self.is_finished:
             return
         status = self.link.status
@@ -96,7 +96,7 @@ class Send(Errand):
                 EXIT_REFUSED,
             )
         elif seat is Standing.FREE:
-            # Kept for somebody's token for a moment; then it is given to who asks.
+            # Reserved for a token for a moment; then the first request gets it.
             self.after(self._reactor, "connect", KEPT_S, self._on_no_seat)
             self._ask()
         elif seat is Standing.OURS:

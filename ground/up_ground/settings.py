@@ -1,4 +1,4 @@
-"""Whom a ground station talks to and as what."""
+"""The peer of a ground station, and the name the station uses."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ DEFAULT_AIRCRAFT = "default"
 
 
 class Seat(Enum):
-    """What a ground may do at the proxy; the value is its word on the wire."""
+    """The rights of a ground at the proxy; the value is its word on the wire."""
 
     COMMAND = "command"
     LISTEN = "listen"
@@ -19,7 +19,7 @@ class Seat(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """The other side of the link: a proxy's ground side or, ``direct``, whoever says no hello."""
+    """The peer: a proxy's ground side or, with ``direct``, a listener without a hello."""
 
     host: str = DEFAULT_HOST
     port: int = DEFAULT_PORT

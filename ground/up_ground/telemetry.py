@@ -1,4 +1,4 @@
-"""What the aircraft said last, and how old that is."""
+"""The newest telemetry of the aircraft, and its age."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from up_ground.safe_text import safe_text
 
 NAME = "up.telemetry.update"
 SILENT_S = 0.9
-"""A frame that is older looks old on the screen, before the second is over."""
+"""An older frame is shown as stale, before the second is over."""
 LATE_S = 0.3
 LATE_FOR_S = 1.0
-"""Late frames that a newer one follows are dropped for so long; then the way itself is late."""
+"""Late frames followed by a newer one are dropped for this time; then the path itself is late."""
 _STALE_S = {"location": 1.9, "altitude": 1.9, "heading": 1.9, "battery": 120.0}
-"""Sources that come once a second or more seldom are stale later than SILENT_S."""
+"""Sources with a period of a second or more become stale later than SILENT_S."""
 _LARGEST_GAP = 1000
 _ONE_LIFE = 1_000_000
 """Beacons of one life of an aircraft are nearer: each life draws its first at random."""
@@ -25,12 +25,12 @@ _GREATEST = 1e12
 
 
 class Telemetry:
-    """The newest frame, read with suspicion: a field of a wrong type is a field not known.
+    """The newest frame, validated: a field of a wrong type counts as unknown.
 
-    Times are the clock's seconds. ``lost`` counts the frames that the beacon's numbers say were
-    sent and did not come, or came too late. ``way_s`` is how long the newest one was on its way, as
-    far as that is known: half of the round trip to the proxy, and by how much it came later than
-    the quickest one by the aircraft's own clock, where it tells one (``system.clock_ms``).
+    Times are the clock's seconds. ``lost`` counts frames that, by the beacon numbers, were sent
+    but did not arrive, or arrived too late. ``way_s`` is the known part of the newest frame's
+    transit time: half of the round trip to the proxy, plus its delay against the quickest frame
+    by the aircraft's own clock, if it is reported (``system.clock_ms``).
     """
 
     def __init__(self) -> None:
@@ -73,7 +73,7 @@ class Telemetry:
         return True
 
     def _is_superseded(self, stamp_ms: float | None, held_s: float | None, now_s: float) -> bool:
-        """Return whether the next frame left before this late one came, as in a cut of the link."""
+        """Return whether the next frame left before this late one arrived, as in a link outage."""
         before_ms, self._stamp_ms = self._stamp_ms, stamp_ms
         period_s = (stamp_ms - before_ms) / 1000 if stamp_ms and before_ms else math.inf
         if held_s is None or held_s <= max(LATE_S, period_s):
@@ -94,7 +94,7 @@ class Telemetry:
         """Return how long the newest frame was on its way, as far as that is known."""
         if self._held_s is None:
             return self._round_trip_s / 2
-        # What queues on the way to the proxy is in the held time: the least is the way itself.
+        # The held time includes the queue before the proxy: its minimum is the path itself.
         return (self._least_trip_s or self._round_trip_s) / 2 + self._held_s
 
     def age_s(self, now_s: float) -> float | None:
@@ -102,12 +102,12 @@ class Telemetry:
         return None if self._received_s is None else now_s - self._received_s + self.way_s
 
     def is_late(self, now_s: float) -> bool:
-        """Say whether frames come, but so late that they are as good as silence."""
+        """Return whether frames arrive, but so late that they count as silence."""
         received_s = self._received_s
         return received_s is not None and now_s - received_s <= SILENT_S < self.way_s
 
     def is_silent(self, now_s: float) -> bool:
-        """Say whether nothing on the screen can be trusted to be of now."""
+        """Return whether every value on the screen may be stale."""
         age_s = self.age_s(now_s)
         return age_s is None or age_s > SILENT_S
 
@@ -117,21 +117,21 @@ class Telemetry:
         return None if age_s is None or there_ms is None else age_s + max(0.0, there_ms) / 1000
 
     def is_stale(self, reading: str, now_s: float) -> bool:
-        """Say whether a reading is too old to be flown by; one without an age is as its frame."""
+        """Return whether a reading is too old to fly by; without an age it is as its frame."""
         if self.is_silent(now_s):
             return True
         age_s = self.reading_age_s(reading, now_s)
         return age_s is not None and age_s > _STALE_S.get(reading, SILENT_S)
 
     def rate_hz(self, now_s: float) -> float | None:
-        """Return how many frames come a second; None while too few came or when they stopped."""
+        """Return the frames per second; None after too few frames or in a silence."""
         times = self._times_s
         if len(times) < 3 or times[-1] <= times[0] or now_s - times[-1] > 10:
             return None
         return (len(times) - 1) / (max(now_s, times[-1]) - times[0])
 
     def number(self, *path: str) -> float | None:
-        """Return a finite number at that key path; None: absent, null or something else."""
+        """Return a finite number at that key path; None if absent, null or of another type."""
         return _number(_at(self.data, path))
 
     def flag(self, *path: str) -> bool | None:

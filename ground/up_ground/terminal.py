@@ -15,10 +15,10 @@ _FALLBACK_SIZE = (80, 24)
 
 
 class Terminal:
-    """A full-screen terminal: alternate screen, keys at once, no echo.
+    """A full-screen terminal: alternate screen, unbuffered keys, no echo.
 
-    It is written through a descriptor of its own that never blocks: a terminal that is slow or
-    stopped (Ctrl-S) loses pictures and holds nobody up. ``leave`` gives everything back.
+    Output uses a separate non-blocking descriptor: a terminal that is slow or stopped (Ctrl-S)
+    drops pictures and blocks nothing. ``leave`` restores the terminal.
     """
 
     def __init__(self, input_descriptor: int = 0, output_descriptor: int = 1) -> None:
@@ -67,7 +67,7 @@ class Terminal:
             self._own = None
         if self._saved is not None:
             with contextlib.suppress(termios.error):
-                # What was typed for the picture is not for the shell.
+                # Keys typed for this screen must not reach the shell.
                 termios.tcsetattr(self._input, termios.TCSAFLUSH, self._saved)
             self._saved = None
         with contextlib.suppress(OSError):
@@ -81,7 +81,7 @@ class Terminal:
             return ""
 
     def paint(self, picture: str) -> bool:
-        """Show a picture of rows; False: the terminal still takes the last one, it is left out."""
+        """Show a picture of rows; False if it was dropped because the last one is still queued."""
         if not self._flush():
             return False
         rows = picture.split("\n")

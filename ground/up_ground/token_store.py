@@ -1,4 +1,4 @@
-"""The resume token on disk: a ground that comes back takes its seat at once."""
+"""The resume token on disk: a ground that reconnects gets its seat back immediately."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ def state_folder(environ: Mapping[str, str]) -> Path:
 class TokenStore:
     """The token of one aircraft at one proxy, used by one program of this user at a time.
 
-    Two programs with one token would take the seat from each other for ever, so whoever cannot
-    ``hold`` the store has no token in it. Where nothing can be stored nothing is: a lost token
-    costs three seconds of waiting, no more.
+    Two programs with one token would take the seat from each other without end; a program that
+    cannot ``hold`` the store gets no token. Without a writable folder nothing is stored: a lost
+    token costs three seconds of waiting.
     """
 
     def __init__(self, folder: Path, settings: Settings) -> None:
@@ -42,7 +42,7 @@ class TokenStore:
         return self._path
 
     def hold(self) -> bool:
-        """Reserve the token for this program; False: another one has it, or there is no room."""
+        """Reserve the token for this program; False if another one has it or storing fails."""
         if self._lock is not None:
             return True
         try:
@@ -61,7 +61,7 @@ class TokenStore:
         return True
 
     def load(self) -> str | None:
-        """Return the token; None: there is none, it is damaged, or it is not ours to use."""
+        """Return the token; None if it is missing, damaged or reserved by another program."""
         if self._lock is None:
             return None
         try:

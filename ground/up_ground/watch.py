@@ -1,4 +1,4 @@
-"""``up-ground watch``: what runs while somebody looks."""
+"""``up-ground watch``: the displays of one aircraft."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ KEYS = "q quit  c ask for the seat  g give it  r release it"
 
 
 class Watch(Errand):
-    """Follows one aircraft; subclasses show it. It goes on until somebody ends it.
+    """Follows one aircraft until the user ends it; subclasses show it.
 
-    Paints by the clock, not by telemetry: ages go on when nothing comes.
+    Painted by the clock, not by telemetry, so that ages advance without new frames.
     """
 
     PERIOD_S = LINE_S
@@ -70,20 +70,20 @@ class Watch(Errand):
             self.state.notice = f"{safe_text(message.name, 40)} {safe_text(message.data, 120)}"
 
     def on_link(self) -> None:
-        """Hear of the link."""
+        """Handle a change of the link."""
 
     def on_frame(self, message: GeneralMessage) -> None:
-        """Hear of a telemetry frame."""
+        """Handle a telemetry frame."""
 
     def on_tick(self, now_s: float) -> None:
-        """Show what is known."""
+        """Show the present state."""
 
     def on_time_over(self) -> None:
-        """End when the time that was asked for is over."""
+        """End when the requested time is over."""
         self.finish(EXIT_DONE)
 
     def shown_one(self) -> None:
-        """Count what was shown and end after the last."""
+        """Count a shown message and end after the last."""
         if self._left is not None:
             self._left -= 1
             if self._left <= 0:
@@ -103,20 +103,20 @@ class PlainWatch(Watch):
     """One line a second."""
 
     def start(self) -> None:
-        """Begin with what the first second brings."""
+        """Start after the data of the first second."""
         self.link.start()
         if self._for_s is not None:
             self.after(self._reactor, "end", self._for_s, self.on_time_over)
         self.after(self._reactor, "tick", self.PERIOD_S, self._tick)
 
     def on_tick(self, now_s: float) -> None:
-        """Say a line."""
+        """Print a line."""
         self.say(plain_line(self.state.status, self.state.telemetry, now_s))
         self.shown_one()
 
 
 class JSONWatch(Watch):
-    """The telemetry messages themselves, one a line; what goes wrong is told on stderr."""
+    """The telemetry messages themselves, one per line; errors go to stderr."""
 
     _told = ""
 
@@ -127,7 +127,7 @@ class JSONWatch(Watch):
         self.shown_one()
 
     def on_link(self) -> None:
-        """Tell once why there is nothing."""
+        """Print once why there is no output."""
         status = self.link.status
         if status.state is LinkState.WAITING and status.reason != self._told:
             self._told = status.reason
@@ -152,7 +152,7 @@ class OnceWatch(Watch):
         self.finish(EXIT_DONE)
 
     def on_time_over(self) -> None:
-        """Say why there is no picture."""
+        """Print the reason for the missing telemetry."""
         status = self.link.status
         reason = status.reason
         if status.is_aircraft_online is False:
@@ -193,7 +193,7 @@ class ScreenWatch(Watch):
             self.shown_one()
 
     def fileno(self) -> int:
-        """Return where keys come from, for the reactor."""
+        """Return the descriptor of the keys, for the reactor."""
         return self._terminal.fileno()
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
@@ -201,10 +201,10 @@ class ScreenWatch(Watch):
         return "keys"
 
     def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
-        """Hear that the reactor stops."""
+        """Handle the stop of the reactor."""
 
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
-        """Do what the keys say."""
+        """Carry out the keys."""
         keys = self._terminal.keys()
         if not keys:
             self.finish(EXIT_DONE)
@@ -226,5 +226,5 @@ class ScreenWatch(Watch):
 
 
 def is_terminal(descriptor: int) -> bool:
-    """Say whether a picture can be painted there."""
+    """Return whether a picture can be painted there."""
     return os.isatty(descriptor) and os.environ.get("TERM", "") not in ("", "dumb")

@@ -44,7 +44,7 @@ def busy_text(telemetry: Telemetry) -> str:
 
 
 def seat_text(status: LinkStatus) -> str:
-    """Return which seat this ground has and who commands."""
+    """Return this ground's seat and the number of the ground that commands."""
     if status.seat is None:
         return UNKNOWN
     if status.seat.value == "command" or not status.is_holder_known:
@@ -54,7 +54,7 @@ def seat_text(status: LinkStatus) -> str:
 
 
 def link_text(status: LinkStatus, now_s: float) -> str:
-    """Return the state of the connection, with what went wrong."""
+    """Return the state of the connection, with its last error."""
     if status.state is LinkState.OPEN or not status.failures:
         return status.state.value
     return f"down for {age_text(now_s - status.since_s)}, attempt {status.failures + 1}"

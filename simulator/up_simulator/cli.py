@@ -1,4 +1,4 @@
-"""The program ``up-sim``: which verbs there are, and what comes of their errors."""
+"""The program ``up-sim``: its verbs, and their error exits."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def _main(words: list[str]) -> int:
     except FailedError as error:
         return _fail(str(error), NOT_HELD)
     except BrokenPipeError:
-        # The reader, such as 'head', has seen enough; nothing more can be written.
+        # The reader, such as 'head', has closed the pipe; nothing more can be written.
         sys.stderr.close()
         return NOT_HELD
     except OSError as error:
@@ -123,7 +123,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _open_closed_streams() -> None:
-    """Let what was closed before the start (``>&-``) lead nowhere, for children too."""
+    """Open streams closed before the start (``>&-``) on /dev/null, for children too."""
     while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
         os.set_inheritable(descriptor, True)
     os.close(descriptor)
@@ -132,14 +132,14 @@ def _open_closed_streams() -> None:
 
 
 def _fail(text: str, status: int) -> int:
-    # The terminal may be gone by now.
+    # The terminal may be closed already.
     with suppress(OSError):
         sys.stderr.write(f"up-sim: {text}\n")
     return status
 
 
 def _flush() -> None:
-    """Write out what is left; where nobody reads any more, let it go without another word."""
+    """Flush the output; without a reader drop it silently."""
     try:
         sys.stdout.flush()
     except (OSError, ValueError):

@@ -1,4 +1,4 @@
-"""What tells the time."""
+"""The interface of a clock."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SIGTERM and SIGHUP ask for the same orderly end as Ctrl-C."""
+"""SIGTERM and SIGHUP cause the same orderly end as Ctrl-C."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Handler = Callable[[int, FrameType | None], object]
 
 
 class Ending:
-    """Which signal has asked for the end first."""
+    """The first signal received."""
 
     def __init__(self) -> None:
         self._number: int | None = None
@@ -24,8 +24,8 @@ class Ending:
     def hear(self, number: int, _frame: object) -> None:
         """Raise KeyboardInterrupt.
 
-        The same wish within a second is one: a terminal that closes tells it twice, by the kernel
-        and by the shell, and the second must not disturb what ends in order.
+        Signals within a second count as one: a terminal that closes sends two, from the kernel
+        and from the shell, and the second must not disturb the orderly end.
         """
         now_s = time.monotonic()
         if self._number is None:
@@ -36,13 +36,13 @@ class Ending:
         raise KeyboardInterrupt
 
     def status(self, status: int) -> int:
-        """Return the exit status: 128 and the signal, as a shell has it, where one has come."""
+        """Return the exit status: 128 plus the signal, as in a shell, after a signal."""
         return status if self._number is None or status == 0 else FIRST_STATUS + self._number
 
 
 @contextmanager
 def ending_in_order() -> Iterator[Ending]:
-    """Let each of the signals raise KeyboardInterrupt, but for one that is ignored (``nohup``)."""
+    """Make each of the signals raise KeyboardInterrupt, except ignored ones (``nohup``)."""
     ending = Ending()
     before = {number: signal.getsignal(number) for number in SIGNALS}
     for number, handler in before.items():
@@ -56,7 +56,7 @@ def ending_in_order() -> Iterator[Ending]:
 
 
 class Interrupt:
-    """Whether the end was asked for."""
+    """Whether a signal has requested the end."""
 
     def __init__(self) -> None:
         self.is_asked = False
@@ -69,10 +69,10 @@ class Interrupt:
 
 @contextmanager
 def ending_between_steps() -> Iterator[Interrupt]:
-    """Note the signals, to be looked for between steps; a second Ctrl-C ends whatever runs.
+    """Record the signals, to be checked between steps; a second Ctrl-C ends in any place.
 
-    What Python raises by itself could come inside a call from C, which would swallow it. A signal
-    that nobody has asked to hear is left alone.
+    A KeyboardInterrupt from Python could arise inside a call from C, which would swallow it.
+    Signals without a handler are left alone.
     """
     interrupt = Interrupt()
     before: dict[int, Handler] = {}

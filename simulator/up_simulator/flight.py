@@ -1,4 +1,4 @@
-"""What the phone and the radio need of the aircraft: its state, its time and its servos."""
+"""The aircraft as phone and radio use it: its state, its time and its servos."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NEUTRAL: Servos = (1500, 1500, 1000, 1500)
 
 
 class FlightUnavailableError(Exception):
-    """Nothing can fly: the message is one sentence for the user."""
+    """No flight is possible: the message is one sentence for the user."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,11 +20,11 @@ class FlightState:
     """The true state of the aircraft at one moment.
 
     Positive roll is right wing down, positive pitch nose up, positive yaw clockwise from above.
-    Rates are those of the body axes, as a gyroscope feels them. Altitude is above the sea,
+    Rates are those of the body axes, as measured by a gyroscope. Altitude is above the sea,
     height above the ground; speed is over the ground, along ``track_deg``. The angles of the air
     are of attack (alpha) and of sideslip (wind from the right positive); the load factor is 1 in
-    level flight; ``north_m`` and ``east_m`` count from the start of the flight. The wind is where
-    the air around it goes, gusts and turbulence included.
+    level flight; ``north_m`` and ``east_m`` count from the start of the flight. The wind is the
+    velocity of the air around it, gusts and turbulence included.
     """
 
     time_s: float
@@ -57,7 +57,7 @@ class FlightState:
 
 
 class Flight(Protocol):
-    """Something that flies in steps of its own time."""
+    """A flight that advances in steps of its simulated time."""
 
     @property
     def state(self) -> FlightState:
@@ -65,10 +65,10 @@ class Flight(Protocol):
 
     @property
     def servos(self) -> Servos:
-        """Return where the servos stand now, us, which lags behind what was asked."""
+        """Return the present servo positions, us, which lag behind the commanded ones."""
 
     def set_servos(self, pulses_us: Servos) -> None:
-        """Ask the servos to go to these pulses."""
+        """Command the servos to these pulses."""
 
     def advance(self, duration_s: float) -> None:
-        """Fly on for as many whole steps as fit into what has been asked so far."""
+        """Run all whole steps of the time requested so far."""

@@ -13,7 +13,7 @@ LONGEST_LINE = 16384
 
 
 class MalformedError(ValueError):
-    """A line is no General Message."""
+    """A line that is not a General Message."""
 
 
 @dataclass(frozen=True, slots=True)

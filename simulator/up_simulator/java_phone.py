@@ -1,4 +1,4 @@
-"""The Up Library as the phone aboard, in real time: a JVM with sockets of its own."""
+"""The Up Library as the phone aboard, in real time: a JVM with its own sockets."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ GONE = "the phone is gone, and all else flies on"
 
 
 def sentence_of(event: Mapping[str, Any]) -> str | None:
-    """Return what an event of the virtual phone is in plain words; None: nothing to say."""
+    """Return an event of the virtual phone in plain words; None if it is not worth a line."""
     match event.get("event"):
         case "connected":
             return f"connected to {event.get('host')}:{event.get('general')}"
@@ -34,16 +34,16 @@ def sentence_of(event: Mapping[str, Any]) -> str | None:
 
 
 def options_of(orientation: str, seed: int) -> list[str]:
-    """Return what every virtual phone of a flight is told."""
+    """Return the options of every virtual phone of a flight."""
     mounting = " ".join(map(str, MOUNTING))
     return ["--orientation", orientation, "--seed", str(seed), "--mounting", mounting]
 
 
 class JvmHandset:
-    """What every phone on a JVM has: its sensors' feed, its words, and how it ended by itself.
+    """Common to every phone on a JVM: its sensors' feed, its output, and an unexpected end.
 
-    A JVM that ends by itself is told in a sentence, once, and costs the flight nothing but its
-    phone. ``has_connected`` says whether it was connected at any time.
+    A JVM that ends unexpectedly is reported once in a sentence, and costs the flight only its
+    phone. ``has_connected`` is whether it was connected at any time.
     """
 
     def __init__(self, feed: SensorFeed, clock: Clock, say: Callable[[str], None]) -> None:
@@ -61,7 +61,7 @@ class JvmHandset:
         return None if self._process is None else self._process.pid
 
     def set_battery(self, percent: float) -> None:
-        """Let its battery have this level from now on."""
+        """Set the level of its battery."""
         self._feed.set_battery(percent, self._clock.seconds())
 
     async def stop(self) -> None:
@@ -71,7 +71,7 @@ class JvmHandset:
             process.end()
 
     def take(self, event: dict[str, Any]) -> None:
-        """Take what the JVM says."""
+        """Take an event of the JVM."""
         if event.get("event") == "wants":
             period_s = event["period_ms"] / 1000
             self._feed.want(str(event["sensor"]), period_s, self._clock.seconds())
@@ -82,7 +82,7 @@ class JvmHandset:
             self._say(sentence)
 
     def lose(self, process: JavaPhoneProcess) -> None:
-        """Take that it has ended by itself."""
+        """Handle its unexpected end."""
         self._process = None
         self._feed.forget()
         process.end()
@@ -91,9 +91,9 @@ class JvmHandset:
 
 
 class JavaHandset(JvmHandset):
-    """A phone whose sensors are fed by ``tick``; it finds and keeps its links by itself.
+    """A phone whose sensors are fed by ``tick``; it finds and keeps its links without help.
 
-    ``place`` are the virtual phone's options that say where Raspilot is.
+    ``place`` are the virtual phone's options with Raspilot's addresses.
     """
 
     def __init__(
@@ -116,12 +116,12 @@ class JavaHandset(JvmHandset):
             self._options.append("--record")
 
     def start(self) -> None:
-        """Start the JVM; it connects as soon as it is there."""
+        """Start the JVM; it connects when it is up."""
         if self._process is None:
             self._process = JavaPhoneProcess(self._program, *self._options, *self._place())
 
     def tick(self) -> None:
-        """Hear what it says, and tell it what its sensors have."""
+        """Take its events, and send its sensors' readings."""
         process = self._process
         if process is None:
             return

@@ -1,4 +1,4 @@
-"""Which readings the Java phone wants when, and what they are."""
+"""The readings that the Java phone requests, with their times."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ _TINY_S = 1e-6
 
 @dataclass(slots=True)
 class _Stream:
-    """One sensor that is wanted."""
+    """One requested sensor."""
 
     period_s: float
     due_s: float
 
 
 class SensorFeed:
-    """Gives each sensor's reading in the period that was asked for, the first one at once.
+    """Provides each sensor's readings in the requested period, starting immediately.
 
-    The sensors are called as in the lines of the virtual phone. ``now_s`` is of any one clock.
+    The sensors have the names of the virtual phone's lines. ``now_s`` is of any one clock.
     """
 
     def __init__(self, flight: Flight, *, seed: int = 1, record: Record | None = None) -> None:
@@ -44,25 +44,25 @@ class SensorFeed:
 
     @property
     def next_s(self) -> float:
-        """Return when the next reading is due: infinity while none is wanted."""
+        """Return when the next reading is due: infinity without requests."""
         return min((stream.due_s for stream in self._wanted.values()), default=math.inf)
 
     def want(self, sensor: str, period_s: float, now_s: float) -> None:
-        """Give a sensor's readings so often from now on; 0: no more."""
+        """Provide a sensor's readings with this period from now on; 0: no more."""
         if period_s > 0 and sensor in self._measure:
             self._wanted[sensor] = _Stream(period_s, now_s)
         else:
             self._wanted.pop(sensor, None)
 
     def set_battery(self, percent: float, now_s: float) -> None:
-        """Let the battery have this level now, and tell it at once."""
+        """Set the battery level and report it immediately."""
         self.sensors.battery_percent = percent
         self.sensors.battery_time_s = self._flight.state.time_s
         if "battery" in self._wanted:
             self._wanted["battery"].due_s = now_s
 
     def readings(self, now_s: float) -> dict[str, Any]:
-        """Return what is due by now, by sensor; in the same order every time."""
+        """Return the due readings by sensor; in the same order every time."""
         found: dict[str, Any] = {}
         for sensor, measure in self._measure.items():
             stream = self._wanted.get(sensor)
@@ -76,5 +76,5 @@ class SensorFeed:
         return found
 
     def forget(self) -> None:
-        """Want nothing any more."""
+        """Cancel all sensors."""
         self._wanted.clear()

@@ -15,18 +15,17 @@ from up_simulator.java_phone_program import JavaProgram
 from up_simulator.scenario.workspace import Workspace
 
 ANSWER_S = 30.0
-"""How long a step may take, on a machine that is very busy: there is no sense in it beyond."""
+"""Limit of a step, for a very busy machine."""
 END_S = 2.0
 CHUNK = 65_536
 MOST_UNREAD = 1 << 20
 
 
 class JavaPhoneProcess:
-    """One JVM, started at once, ended with us; its error output is kept in a folder of its own.
+    """One JVM, started by the constructor, ended with us; its error output goes to a folder.
 
     ``ask`` and ``answer`` are for one that answers every line, ``say`` and ``hear`` for one that
-    goes on by itself. Once it has ended, all of them do nothing, and ``last_words`` says how that
-    came.
+    runs freely. Once it has ended, all of them do nothing, and ``last_words`` has the reason.
     """
 
     def __init__(self, program: JavaProgram, *options: str) -> None:
@@ -55,12 +54,12 @@ class JavaPhoneProcess:
         return self._is_heard
 
     def step(self, line: Mapping[str, Any]) -> tuple[list[dict[str, Any]], dict[str, Any]]:
-        """Say a line and wait for its answer."""
+        """Send a line and wait for its answer."""
         self.ask(line)
         return self.answer()
 
     def ask(self, line: Mapping[str, Any]) -> None:
-        """Say a line; its answer is to be taken before the next one."""
+        """Send a line; its answer must be taken before the next one."""
         if self._is_heard:
             self._write(line)
 
@@ -83,9 +82,9 @@ class JavaPhoneProcess:
         return events, {}
 
     def say(self, line: Mapping[str, Any]) -> None:
-        """Say a line; one that it does not take now is lost, and counted.
+        """Send a line; one that the JVM does not take now is dropped and counted.
 
-        One that has been begun is never lost: its rest goes before the next.
+        A line partly sent is never dropped: its rest goes before the next.
         """
         if self._is_heard:
             os.set_blocking(self._child.input.fileno(), False)
@@ -96,7 +95,7 @@ class JavaPhoneProcess:
         return list(self._read_lines()) if self._is_heard else []
 
     def end(self) -> None:
-        """End it: it is asked to by the end of its input."""
+        """End it by closing its input."""
         self._is_heard = False
         if self._is_ended:
             return
@@ -118,7 +117,7 @@ class JavaPhoneProcess:
                 return
             rest = self._push(data)
         except OSError:
-            # It has ended: what it said before is read first.
+            # It has ended: its earlier output is read first.
             return
         if rest == data:
             self.dropped += 1
@@ -126,9 +125,9 @@ class JavaPhoneProcess:
             self._unwritten = rest
 
     def _push(self, data: bytes) -> bytes:
-        """Write straight to the pipe; return what it does not take now.
+        """Write straight to the pipe; return the bytes that it does not take now.
 
-        What a buffer kept would be tried again at the end.
+        A buffer would try its content again at the end.
         """
         try:
             while data:
@@ -160,7 +159,7 @@ class JavaPhoneProcess:
 
 
 def _read(line: bytes) -> dict[str, Any]:
-    """Return a line's object; what else a JVM prints is a notice."""
+    """Return a line's object; other output of a JVM is a notice."""
     try:
         found = json.loads(line)
     except ValueError:

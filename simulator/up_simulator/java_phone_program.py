@@ -40,7 +40,7 @@ class JavaProgram:
     jars: tuple[Path, ...]
 
     def command(self, *options: str, main: str = MAIN) -> list[str]:
-        """Return what starts a program of the jars."""
+        """Return the command line of a program of the jars."""
         path = ":".join(map(str, self.jars))
         return [self.java, *QUICK_START, "-cp", path, main, *options]
 
@@ -48,9 +48,9 @@ class JavaProgram:
 def find_java_program(
     say: Callable[[str], None] = lambda _text: None, android: Path = ANDROID
 ) -> JavaProgram:
-    """Return the Java phone, built anew where its sources are newer than its jars.
+    """Return the Java phone, rebuilt if its sources are newer than its jars.
 
-    ``say`` is told in one sentence where it had to be left as it was. Raises JavaUnavailableError.
+    ``say`` reports in one sentence if outdated jars are used. Raises JavaUnavailableError.
     """
     java = shutil.which("java")
     if java is None:
@@ -91,7 +91,7 @@ def _build(android: Path) -> None:
         )
     with _lock(android / "build"):
         for name in JARS:
-            # A full disk leaves what make would take for done.
+            # A full disk leaves files that make would take for complete.
             if not zipfile.is_zipfile(android / "build" / name):
                 (android / "build" / name).unlink(missing_ok=True)
         try:
@@ -108,14 +108,14 @@ def _build(android: Path) -> None:
         if done.returncode:
             reason = _reason(done.stdout + done.stderr)
             raise JavaUnavailableError(f"the Java phone does not compile: {reason}")
-        # What needed no building counts as fresh all the same.
+        # A build without work counts as fresh all the same.
         for name in JARS:
             (android / "build" / name).touch()
 
 
 @contextlib.contextmanager
 def _lock(build: Path) -> Iterator[None]:
-    """Let one process build, and others wait for it."""
+    """Let one process build, and make others wait for it."""
     try:
         build.mkdir(exist_ok=True)
         lock = (build / ".lock").open("w")
@@ -128,7 +128,7 @@ def _lock(build: Path) -> Iterator[None]:
 
 
 def _reason(said: str) -> str:
-    """Return the line of make's output that says most: the first error, or the last line."""
+    """Return the most informative line of make's output: the first error, or the last line."""
     lines = [line.strip() for line in said.splitlines() if line.strip()]
     errors = [line for line in lines if "error:" in line or "needs" in line]
     return (errors or lines[-1:] or ["make said nothing"])[0]

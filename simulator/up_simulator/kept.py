@@ -1,4 +1,4 @@
-"""Files that are made once and kept for the next start, beside what the rig has built."""
+"""Files that are made once and kept for the next start, beside the rig's build."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def kept_path(folder: str, name: str) -> Path:
 
 
 def keep(path: Path, content: bytes) -> None:
-    """Write the whole file or nothing; other processes may write the same one now."""
+    """Write the file atomically; other processes may write the same one now."""
     path.parent.mkdir(parents=True, exist_ok=True)
     fresh = path.with_name(f"{path.name}.{os.getpid()}.new")
     fresh.write_bytes(content)

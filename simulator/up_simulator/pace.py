@@ -12,11 +12,11 @@ SAY_AGAIN_S = 5.0
 
 
 class Pace:
-    """Lets a flight fly as long as the clock ran.
+    """Flies a flight in step with the clock.
 
     When the process was held up for more than 250 ms, the missed time is skipped instead of
-    flown in a heap: catching up would make the next call late as well. It is counted in
-    ``skipped_s`` and said at most every 5 s.
+    flown in a burst: catching up would make the next call late as well. It is added to
+    ``skipped_s`` and reported at most every 5 s.
     """
 
     def __init__(self, flight: Flight, clock: Clock, say: Callable[[str], None]) -> None:

@@ -1,4 +1,4 @@
-"""The stand-in for the airborne phone: what it sends, and what it answers."""
+"""The stand-in for the airborne phone: its messages and its answers."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ class _Stream:
 
 
 class Phone:
-    """Sends what the phone measures and answers what it is asked, apart from any socket.
+    """Sends the phone's measurements and answers requests, independent of sockets.
 
     ``send`` takes lines for the General Message link, ``send_orientation`` frames of 24 bytes;
-    ``tick`` is to be called every few milliseconds. In Panic Mode no stream is quicker than the
-    delay that the Raspberry Pi names. ``record`` gives what it has the black box write, 20 times
+    ``tick`` must be called every few milliseconds. In Panic Mode no stream is quicker than the
+    delay that the Raspberry Pi requests. ``record`` returns the phone's black box data, 20 times
     a second: the data of ``black_box.record``. ``identity``, up to 8 hexadecimal digits, begins
-    the id of each connection's first message and tells this phone from another (protocols 4).
+    the id of each connection's first message and identifies this phone (protocols 4).
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class Phone:
         self._orientation_due_s = 0.0
 
     def set_battery(self, percent: float) -> None:
-        """Let the battery have this level now, and say so at once."""
+        """Set the battery level and report it immediately."""
         self.sensors.battery_percent = percent
         self.sensors.battery_time_s = self._flight.state.time_s
         for stream in self._streams:
@@ -86,7 +86,7 @@ class Phone:
                 stream.due_s = 0.0
 
     def connected(self, send: Callable[[bytes], None]) -> None:
-        """Begin to send on a new link: everything at once, then each in its period."""
+        """Start to send on a new link: everything immediately, then each in its period."""
         self.send = send
         self._connections += 1
         self._id = f"{self._identity}.{self._connections}"
@@ -94,12 +94,12 @@ class Phone:
             stream.due_s = 0.0
 
     def disconnected(self) -> None:
-        """Stop sending; what a lost link asked for is forgotten."""
+        """Stop sending; requests of a lost link are forgotten."""
         self.send = None
         self.panic_s = 0.0
 
     def tick(self) -> None:
-        """Send what is due."""
+        """Send the data that is due."""
         now_s = self._clock.seconds()
         if self.send is not None:
             for stream in self._streams:

@@ -36,7 +36,7 @@ class RaspberryPi:
 
 @dataclass(frozen=True, slots=True)
 class Runner:
-    """A runner to ask for an instance first, and for which aircraft."""
+    """A runner that is asked for an instance first, and the aircraft's name."""
 
     host: str
     port: int
@@ -44,9 +44,9 @@ class Runner:
 
 
 async def discover(reactor: Any, host: str, port: int) -> str:
-    """Ask Discovery (protocols 7) once and return the Raspberry Pi's address.
+    """Query Discovery (protocols 7) once and return the Raspberry Pi's address.
 
-    ``host`` may be a broadcast address. Raises ``NotFoundError`` when no answer comes.
+    ``host`` may be a broadcast address. Raises ``NotFoundError`` without an answer.
     """
     question = _Question(host, port)
     listening = reactor.listenUDP(0, question)
@@ -60,7 +60,7 @@ async def discover(reactor: Any, host: str, port: int) -> str:
 
 
 async def spawn(reactor: Any, runner: Runner) -> RaspberryPi:
-    """Ask a runner (protocols 8) for an instance and return where it listens.
+    """Request an instance from a runner (protocols 8) and return its address.
 
     Raises ``NotFoundError`` with the runner's own sentence when nothing runs.
     """
@@ -71,7 +71,7 @@ async def spawn(reactor: Any, runner: Runner) -> RaspberryPi:
 async def ask_runner(reactor: Any, runner: Runner, request: bytes) -> bytes:
     """Return a runner's answer to a request, both a line without its LF.
 
-    Raises ``NotFoundError`` when there is none.
+    Raises ``NotFoundError`` without an answer.
     """
     endpoint = TCP4ClientEndpoint(reactor, runner.host, runner.port, timeout=ANSWER_S)
     try:
@@ -121,7 +121,7 @@ class _Question(DatagramProtocol):
         self.answer: Deferred[str] = Deferred()
 
     def startProtocol(self) -> None:  # noqa: N802 - Twisted's name
-        """Ask."""
+        """Send the query."""
         transport: Any = self.transport
         transport.setBroadcastAllowed(True)
         transport.write(QUESTION, self._place)
@@ -135,7 +135,7 @@ class _Question(DatagramProtocol):
             self.answer.callback(host)
 
     def give_up(self) -> None:
-        """Say that nobody answered."""
+        """Fail: no answer in time."""
         host, port = self._place
         if not self.answer.called:
             self.answer.errback(

@@ -1,4 +1,4 @@
-"""Chooses what the phone aboard is: the Up Library on a JVM, or the stand-in in Python."""
+"""Chooses the phone aboard: the Up Library on a JVM, or the stand-in in Python."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ IN_PYTHON = "a stand-in in Python"
 
 @dataclass(frozen=True, slots=True)
 class PhoneChoice:
-    """What flies as the phone; ``title`` says it, and why, to the user."""
+    """The phone aboard; ``title`` names it, and the reason for the choice, to the user."""
 
     title: str
     java: JavaProgram | None = None
@@ -26,10 +26,10 @@ class PhoneChoice:
 def choose_phone(
     kind: PhoneKind = "auto", say: Callable[[str], None] = lambda _text: None
 ) -> PhoneChoice:
-    """Return the phone of that kind; auto is the Java one wherever it can be had.
+    """Return the phone of that kind; auto is the Java one if it is available.
 
-    ``say`` is told of a Java phone that is older than its sources. Raises CrewError where Java is
-    asked for and cannot be had.
+    ``say`` reports a Java phone older than its sources. Raises CrewError if Java is required but
+    not available.
     """
     if kind == "python":
         return PhoneChoice(IN_PYTHON)

@@ -1,4 +1,4 @@
-"""What a phone aboard is to those who carry it, whatever it is made of."""
+"""The common interface of every phone aboard."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from up_simulator.phone_link import OrientationBy, PhoneLink
 from up_simulator.phone_sensors import PhoneSensors
 
 Record = Callable[[FlightState], dict[str, Any]]
-"""What the phone has the black box write: the data of ``black_box.record``."""
+"""The phone's data for the black box: the data of ``black_box.record``."""
 
 
 class Handset(Protocol):
-    """A phone with its links; ``tick`` is to be called every few milliseconds once it began.
+    """A phone with its links; ``tick`` must be called every few milliseconds after ``start``.
 
-    ``loss`` says in a sentence how it ended by itself; None: it did not.
+    ``loss`` is a sentence about its unexpected end; None if it runs.
     """
 
     loss: str | None
@@ -28,13 +28,13 @@ class Handset(Protocol):
         """Switch it on: it connects, and connects again after every loss."""
 
     def tick(self) -> None:
-        """Do what is due."""
+        """Do the work that is due."""
 
     def set_battery(self, percent: float) -> None:
-        """Let its battery have this level from now on."""
+        """Set the level of its battery."""
 
     async def stop(self) -> None:
-        """Switch it off for good."""
+        """Switch it off permanently."""
 
 
 class PythonHandset:

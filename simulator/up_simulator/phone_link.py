@@ -27,11 +27,11 @@ OrientationBy = Literal["off", "tcp", "udp"]
 
 
 class PhoneLink:
-    """Keeps a phone's links to the Raspberry Pi, each by itself, for ever.
+    """Keeps a phone's two links to the Raspberry Pi open, independently and without a limit.
 
-    ``find`` is asked anew before every attempt of the General Message link; the orientation link
-    goes where that found the Raspberry Pi. A link that is lost comes back after 0.5 to 2 s; what
-    a stalled link cannot take is dropped, never kept.
+    ``find`` is called before every attempt of the General Message link; the orientation link uses
+    its result. A lost link is retried after 0.5 to 2 s; data for a stalled link is dropped, never
+    queued.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class PhoneLink:
             self._phone.send_orientation = self._send_datagram
 
     async def stop(self) -> None:
-        """Close every link at once: a peer that does not read delays nothing."""
+        """Abort every link: a peer that does not read delays nothing."""
         self._phone.send_orientation = None
         for transport in list(self.live):
             transport.abortConnection()
@@ -75,7 +75,7 @@ class PhoneLink:
             await self._udp.stopListening()
 
     def say(self, text: str) -> None:
-        """Say something unless it was said last."""
+        """Report a state unless it was the last one reported."""
         if text != self._said:
             self._said = text
             self._say(text)

@@ -49,7 +49,7 @@ north, up; nose, right wing, down to the axes of a flat phone with its top edge 
 
 MOUNTING = about(0, -5.0).times(about(2, 12.0)).times(about(1, 80.0)).times(SWAP)
 """Aircraft (nose, right wing, down) to device (right edge, top edge, out of the screen): on its
-long edge in a narrow fuselage, and crooked, as a phone lies that somebody has pushed in."""
+long edge in a narrow fuselage, and slightly crooked, as in a real installation."""
 
 
 def body_to_world(roll_deg: float, pitch_deg: float, yaw_deg: float) -> Quaternion:

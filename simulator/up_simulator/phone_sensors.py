@@ -1,4 +1,4 @@
-"""What a phone on board measures: its raw sensors, or what it makes of them, with their noise."""
+"""The measurements of a phone on board: raw sensors and derived values, with their noise."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ GPS_MEMORY = 0.95
 BAROMETER_M = 0.3
 COMPASS_DEG = 1.5
 COMPASS_S = 0.2
-"""How long an error of the compass lasts: so often the heading is sent."""
+"""Correlation time of a compass error, which is the period of the heading."""
 BATTERY_FULL = 95.0
 BATTERY_PERCENT_PER_S = 0.01
 SEA_LEVEL_HPA, SEA_LEVEL_K, LAPSE_K_M = 1013.25, 288.15, 0.0065
@@ -33,10 +33,9 @@ class PhoneSensors:
 
     GPS errors wander slowly about the truth (some metres) and jitter a little, as real ones do;
     a seed makes them repeatable. A fix is at least ``gps_delay_s`` old, 0.3 to 1.5 s drawn by the
-    seed; without ``has_gps`` there is none. The battery falls from ``battery_percent``, which it
-    had at ``battery_time_s`` of the flight. What a phone's software makes Commands of is there
-    raw, too: pressure, rotation and rate, of a phone that lies as ``mounting`` says (aircraft to
-    device).
+    seed; without ``has_gps`` none exists. The battery falls from ``battery_percent``, its
+    level at ``battery_time_s`` of the flight. The raw inputs of a phone's software are included:
+    pressure, rotation and rate, of a phone mounted as in ``mounting`` (aircraft to device).
     """
 
     def __init__(self, seed: int = 1, mounting: Quaternion = MOUNTING) -> None:
@@ -93,7 +92,7 @@ class PhoneSensors:
         return {"level": max(0, round(level))}
 
     def pressure_hpa(self, state: FlightState) -> float:
-        """Return what the barometer has, by the standard atmosphere."""
+        """Return the barometer's reading, by the standard atmosphere."""
         self._remember(state)
         altitude_m = state.altitude_m + self._noise.gauss(0.0, BAROMETER_M)
         part = 1 - LAPSE_K_M * altitude_m / SEA_LEVEL_K
@@ -117,7 +116,7 @@ class PhoneSensors:
             self._past.popleft()
 
     def rate_rad_s(self, state: FlightState) -> list[float]:
-        """Return what the gyroscope has about the device's axes, rad/s."""
+        """Return the gyroscope's reading about the device's axes, rad/s."""
         rates_deg_s = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)
         turned = self._mounting.turn(*map(math.radians, rates_deg_s))
         return [round(each, 9) for each in turned]

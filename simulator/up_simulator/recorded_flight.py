@@ -1,4 +1,4 @@
-"""A recorded flight, looped: what flies where JSBSim does not run."""
+"""A recorded flight, looped: the flight without JSBSim."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ANGLES = ("roll_deg", "pitch_deg", "yaw_deg", "track_deg")
 
 
 class RecordedFlight:
-    """Plays a state log for ever; what the servos are asked has no effect on it.
+    """Plays a state log in a loop; the servo commands have no effect on it.
 
     The last ``BLEND_S`` of the recording fade into its beginning, and each round starts where
     the one before ended, so that neither attitude nor position jumps.
@@ -53,7 +53,7 @@ class RecordedFlight:
 
     @property
     def servos(self) -> Servos:
-        """Return the pulses asked last, us."""
+        """Return the last commanded pulses, us."""
         return self._servos
 
     def set_servos(self, pulses_us: Servos) -> None:
@@ -92,7 +92,7 @@ class RecordedFlight:
 def read_recording(path: Path | None) -> RecordedFlight:
     """Return the flight of a state log, plain or gzipped; None: the one shipped here.
 
-    Raises ``FlightUnavailableError`` for a file that is none, naming the line.
+    Raises ``FlightUnavailableError`` for an invalid file, naming the line.
     """
     try:
         if path is None:

@@ -1,8 +1,8 @@
 """``make run``: the whole system on one machine, in the air, stabilised, until Ctrl-C.
 
 Starts the proxy, the virtual aircraft with its firmware and phone, Raspilot and the ground station
-for browser and terminal, each as the process that a user would start, with configuration in a
-folder of its own.
+for browser and terminal, each as the process that a user would start, with configuration in its
+own folder.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from up_simulator.showcase_flight import ShowcaseFlight
 ROOT = Path(__file__).resolve().parents[2]
 
 
-class Stopped(Exception):  # noqa: N818 - a signal is no error
-    """A signal asks for the end."""
+class Stopped(Exception):  # noqa: N818 - a signal is not an error
+    """A signal requests the end."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -49,10 +49,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _fly(options: argparse.Namespace, folder: Path) -> int:
-    # A shell's background job ignores SIGINT: whoever sends it here means it.
+    # A shell starts background jobs with SIGINT ignored: one sent to this process is intended.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     for number in (signal.SIGTERM, signal.SIGHUP):
-        # What 'nohup' has it ignore stays so.
+        # Signals that 'nohup' ignores stay ignored.
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, _raise_stopped)
     last_words = ""
@@ -144,7 +144,7 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def _text_of(read: Callable[[str], object]) -> Callable[[str], str]:
-    """Return what takes a text as it is if the aircraft, which gets it, will understand it."""
+    """Return a parser that keeps a text unchanged, after a check by the aircraft's own parser."""
 
     def take(text: str) -> str:
         read(text)
@@ -169,7 +169,7 @@ def _fail(text: str, status: int) -> int:
 
 
 def _say(text: str) -> None:
-    # The terminal may be gone by now.
+    # The terminal may be closed already.
     with contextlib.suppress(OSError):
         print(text, flush=True)  # noqa: T201
 

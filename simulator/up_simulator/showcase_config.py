@@ -25,8 +25,8 @@ def write_config(
 ) -> None:
     """Write the files of a run; gains that an earlier run of the same airframe saved stay.
 
-    ``controller`` (arduino or raspberry) is who holds the attitude: nothing else differs. The
-    aircraft finds the proxy at ``uplink_port`` where there is a bad link between them.
+    ``controller`` (arduino or raspberry) holds the attitude: nothing else differs. The aircraft
+    finds the proxy at ``uplink_port`` if a bad link lies between them.
     """
     folder.mkdir(parents=True, exist_ok=True)
     files = {

@@ -36,10 +36,10 @@ WHO_HOLDS = {
 
 
 class ShowcaseFlight:
-    """One run: ``start`` says what flies what, ``stay`` watches it, ``stop`` ends everything.
+    """One run: ``start`` prints the components, ``stay`` watches them, ``stop`` ends all of them.
 
     ``say`` takes one line for the user. Raises ``AirframeError``, and ``CrewError`` with the last
-    words of a part that failed.
+    log lines of a part that failed.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class ShowcaseFlight:
         self._ports = Ports()
 
     def start(self) -> None:
-        """Bring everything into the air."""
+        """Start all components and launch the aircraft."""
         say, options, folder = self._say, self._options, self._folder
         say("Raspilot's virtual aircraft: the real firmware, daemon, proxy and ground station,")
         say(f"all on this machine. Configuration and logs: {folder}")
@@ -71,7 +71,7 @@ class ShowcaseFlight:
         if options.link:
             say(f"  link       from the aircraft to the proxy: {options.link}")
         if not options.no_page:
-            # Nobody waits for it before all that flies is up.
+            # It is not awaited before the parts that fly are up.
             self._page = Page(folder, ports, options.page)
             self._children.append(self._page.child)
         aircraft.wait_for(self._has_board, "board", BUILD_LIMIT_S)
@@ -89,7 +89,7 @@ class ShowcaseFlight:
             say(line)
 
     def stay(self) -> None:
-        """Show the ground station, tell what happens, until the time is over."""
+        """Show the ground station and report events, until the time is over."""
         options = self._options
         end_s = None if options.seconds is None else time.monotonic() + options.seconds
         watch: Child | None = None
@@ -134,7 +134,7 @@ class ShowcaseFlight:
         self._children.clear()
 
     def _show_page(self, page: Page) -> str | None:
-        """Say where the ground station for a browser is; without it everything else flies."""
+        """Print the address of the ground station for a browser; the flight runs without it."""
         address = page.wait_for_address()
         if address is not None:
             self._say(f"  page       {address}  the ground station in a browser")
@@ -153,7 +153,7 @@ class ShowcaseFlight:
         )
 
     def _has_board(self, lines: list[str]) -> bool:
-        """Say what the aircraft has said meanwhile, and return whether its board is chosen."""
+        """Print the aircraft's new lines, and return whether its board is chosen."""
         for line in lines[self._told :]:
             if not line.startswith(("phone:", "board")):
                 self._say(f"  aircraft   {line}")
@@ -199,7 +199,7 @@ class ShowcaseFlight:
 
     @property
     def _picture(self) -> str:
-        """Return what this terminal is for."""
+        """Return the purpose of this terminal."""
         return "keyboard radio" if self._options.radio == "keyboard" else "ground station"
 
     def _open_watch(self) -> Child:
@@ -213,7 +213,7 @@ class ShowcaseFlight:
         return child
 
     def _leave_watch(self, status: int, terminal: Any) -> None:
-        """Give the terminal back where the picture did not, and say that nothing else ends."""
+        """Restore the terminal if the screen did not, and report that all else continues."""
         why = ""
         if status:
             if status < 0:
@@ -223,7 +223,7 @@ class ShowcaseFlight:
         self._say(f"{why}It flies on. Enter: the {self._picture} again; Ctrl-C: stop all.")
 
     def _tell_news(self, aircraft: Child) -> None:
-        """Say what the aircraft has said since the last time, if its user wants to know."""
+        """Print the aircraft's new lines that matter to the user."""
         for line in self._news.of(aircraft.new_lines()):
             self._say(f"aircraft: {line}")
 
@@ -247,5 +247,5 @@ def _restore_terminal(settings: Any) -> None:
     sys.stdout.write(AS_BEFORE)
     sys.stdout.flush()
     with suppress(termios.error):
-        # What was typed for the picture is not for us.
+        # Keys typed for the screen are not for us.
         termios.tcsetattr(sys.stdin, termios.TCSAFLUSH, settings)

@@ -1,4 +1,4 @@
-"""What ``make run`` tells its user to try, as somebody types it in another terminal."""
+"""The commands that ``make run`` suggests for another terminal."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from up_simulator.crew.ports import Ports
 
 
 def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
-    """Return what there is to try; ``page`` is where a browser finds the ground station."""
+    """Return the suggestions; ``page`` is the address of the ground station for a browser."""
     ground, sim = program("up-ground"), program("up-sim")
     port = "" if ports.ground == 3004 else f" --port {ports.ground}"
     socket = "" if folder == Path.cwd() / "run/showcase" else f" --socket {folder / 'radio'}"
@@ -34,7 +34,7 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
 
 
 def log_hints(flights: Path) -> list[str]:
-    """Return how to read what the black box has written; none where it has written nothing."""
+    """Return the commands that read the black box's recordings; empty without recordings."""
     if not any(flights.glob("*.mcap")):
         return []
     folder = os.path.relpath(flights) if flights.is_relative_to(Path.cwd()) else str(flights)
@@ -46,5 +46,5 @@ def log_hints(flights: Path) -> list[str]:
 
 
 def program(name: str) -> str:
-    """Return how somebody types a program of the project here."""
+    """Return the shell command of a program of the project."""
     return os.path.relpath(Path(sys.executable).parent / name)

@@ -1,4 +1,4 @@
-"""What of the aircraft's words ``make run`` tells its user at once."""
+"""Selects the lines of the aircraft's output that ``make run`` prints immediately."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _LATE = re.compile(r"late by ([0-9]+(?:\.[0-9]+)?) s")
 
 
 class News:
-    """Chooses lines; how late the flight is on a busy machine is said once, then once a minute.
+    """Selects lines; the lateness on a busy machine is reported at first, then once a minute.
 
     ``now_s`` is a monotonic clock.
     """
@@ -24,7 +24,7 @@ class News:
         self._times = 0
 
     def of(self, lines: Iterable[str]) -> list[str]:
-        """Return what to say of new lines, and of those that were held back."""
+        """Return the lines to print for new lines, and for those held back."""
         chosen = []
         for line in lines:
             late = _LATE.search(line)

@@ -20,8 +20,8 @@ _ADDRESS = re.compile(r"http://\S+")
 class Page:
     """``up-ground serve`` for the aircraft behind the proxy of a run.
 
-    ``listen`` is where it listens, ``ADDRESS:PORT``; its words are in ``page.log``.
-    ``command`` is what a user types to have it once more.
+    ``listen`` is its address, ``ADDRESS:PORT``; its output is in ``page.log``. ``command`` is the
+    shell command that starts it again.
     """
 
     def __init__(self, folder: Path, ports: Ports, listen: str | None = None) -> None:
@@ -32,7 +32,7 @@ class Page:
         self.command = f"{program('up-ground')} {shlex.join(words)}"
 
     def wait_for_address(self) -> str | None:
-        """Return where a browser finds it; None when it has ended or says nothing in time."""
+        """Return the page's address; None when it has ended or prints none in time."""
         deadline_s = time.monotonic() + LIMIT_S
         while time.monotonic() < deadline_s:
             has_ended = self.child.poll() is not None
@@ -47,7 +47,7 @@ class Page:
 
     @property
     def why_not(self) -> str:
-        """Return in words why there is no page."""
+        """Return in words why the page is missing."""
         status = self.child.poll()
         if status is None:
             return f"it names no address within {LIMIT_S:.0f} s (its log: {self.child.log})"

@@ -1,4 +1,4 @@
-"""The truth as a file: what tests compare the ground's telemetry with."""
+"""The truth as a file: the reference for tests of the ground's telemetry."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ DECIMALS = {"latitude_deg": 8, "longitude_deg": 8, "time_s": 3}
 
 
 class StateLog:
-    """A CSV line for every 20 ms of flight, written through at once.
+    """A CSV line for every 20 ms of flight, flushed immediately.
 
-    Columns are what a recorded flight has (``recorded_flight.COLUMNS``), then the four servo
+    Columns are those of a recorded flight (``recorded_flight.COLUMNS``), then the four servo
     positions (us). The file can be flown again with ``--replay``. Raises ``OSError`` when it cannot
     be written.
     """

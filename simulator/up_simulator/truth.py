@@ -1,4 +1,4 @@
-"""The true state as it is written into a flight's log, beside what was measured."""
+"""The true state for a flight's log, beside the measurements."""
 
 from __future__ import annotations
 
@@ -39,14 +39,14 @@ NAMES = {
     "battery_v": "battery_v",
     "battery_percent": "battery_percent",
 }
-"""What each value is called in the log, and in a ``FlightState``."""
+"""The name of each value in the log, and in a ``FlightState``."""
 RECORDED_NAMES = {name: field for name, field in NAMES.items() if field in COLUMNS}
 """Those that a recorded flight knows."""
 _DIGITS = {"latitude_deg": 8, "longitude_deg": 8}
 
 
 def truth_of(state: FlightState, names: dict[str, str] = NAMES) -> dict[str, float]:
-    """Return the values by their names in the log; what is no number is left out."""
+    """Return the values by their names in the log; omits values that are not numbers."""
     values = {name: getattr(state, field) for name, field in names.items()}
     return {
         name: round(value, _DIGITS.get(name, 4))

@@ -1,4 +1,4 @@
-"""Lets a link lose what it cannot take."""
+"""Drops the data that a link cannot take."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from zope.interface import implementer
 
 @implementer(IPushProducer)
 class Valve:
-    """Writes to a TCP transport while it takes more; what it does not take is dropped.
+    """Writes to a TCP transport while it takes more; further data is dropped.
 
     Without this a peer that does not read would fill the memory. ``dropped`` counts.
     """
@@ -38,5 +38,5 @@ class Valve:
         self._is_open = True
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Close for ever."""
+        """Close permanently."""
         self._is_open = False

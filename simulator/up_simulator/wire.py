@@ -21,7 +21,7 @@ COMMAND_SIZES = {
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A serial Command as it came: its type letter, payload and, if framed, its sequence."""
+    """A serial Command as received: its type letter, payload and, if framed, its sequence."""
 
     type: str
     payload: bytes
@@ -35,7 +35,7 @@ def checked_frame(sequence: int, type_letter: str, payload: bytes = b"") -> byte
 
 
 def cobs_decode(encoded: bytes) -> bytes | None:
-    """Return what was encoded; None for what is not COBS."""
+    """Return the decoded bytes; None for invalid COBS."""
     try:
         return cobs.decode(encoded)
     except cobs.CobsError:
@@ -51,7 +51,7 @@ def open_frame(encoded: bytes) -> bytes | None:
 
 
 class CheckedReader:
-    """Finds checked frames in a stream; counts what it drops (``dropped``)."""
+    """Finds checked frames in a stream; counts the frames that it drops (``dropped``)."""
 
     def __init__(self) -> None:
         self._buffer = bytearray()
@@ -59,7 +59,7 @@ class CheckedReader:
         self.dropped = 0
 
     def feed(self, data: bytes, now_s: float) -> Iterator[Command]:
-        """Take bytes that came at ``now_s`` and yield what they complete."""
+        """Take bytes received at ``now_s`` and yield the Commands that they complete."""
         self.expire(now_s)
         for byte in data:
             if byte:

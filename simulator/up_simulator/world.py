@@ -12,7 +12,7 @@ from up_simulator.flight import FlightState
 STEP_S = 0.002
 STEP_US = 2000.0
 BYTES_A_STEP = 23
-"""What a line of 115200 baud carries in a step: more waits, as it does on a line."""
+"""Bytes of a line of 115200 baud in a step: the rest waits, as on a real line."""
 STILL_S = 2.0
 TILT_S = 1.0
 SETTLE_S = 0.5
@@ -20,7 +20,7 @@ THROTTLE, THROTTLE_LOW_US, THROTTLE_RANGE_US = 2, 1000.0, 1000.0
 
 
 class Dynamics(Protocol):
-    """What flies: the servos move it, and it says what an IMU aboard feels."""
+    """The flight: the servos move it, and it feeds the IMU aboard."""
 
     @property
     def state(self) -> FlightState:
@@ -28,14 +28,14 @@ class Dynamics(Protocol):
 
     @property
     def motion(self) -> Motion:
-        """Return what the IMU feels now."""
+        """Return the present motion for the IMU."""
 
     @property
     def crash(self) -> str | None:
-        """Return what ended the flight; from then on the aircraft lies still."""
+        """Return the cause of the flight's end; after it the aircraft lies still."""
 
     def set_servos(self, pulses_us: Pulses) -> None:
-        """Ask the servos to go to these pulses."""
+        """Command the servos to these pulses."""
 
     def advance(self, duration_s: float) -> None:
         """Fly on."""
@@ -45,7 +45,7 @@ class World:
     """The board and the flight in lockstep: 2 ms of the one, 2 ms of the other.
 
     Time begins in the air: ``boot`` runs the board before, on the ground, and need not be called
-    for a flight that begins with a board that has just got its power.
+    for a flight that begins with a freshly powered board.
     """
 
     def __init__(self, dynamics: Dynamics, board: FirmwareBoard) -> None:
@@ -91,7 +91,7 @@ class World:
         self._feel(pulses_us)
 
     def advance(self, duration_s: float) -> None:
-        """Make as many steps as fit into what was asked so far. Raises ``BoardCrashedError``."""
+        """Run all whole steps of the time requested so far. Raises ``BoardCrashedError``."""
         self._owed_s += duration_s
         while self._owed_s >= STEP_S - 1e-9:
             self._owed_s -= STEP_S

@@ -1,8 +1,8 @@
-"""The bench rig: the firmware as it is compiled, on a simulated ATmega328P with all its wires.
+"""The bench rig: the compiled firmware on a simulated ATmega328P with all its wires.
 
 Construct a ``Rig`` with an ELF file, set the receiver's sticks and the IMU's motion, run to a
 time, read the servo pulses and the bytes. Everything is deterministic: the same calls give the
-same cycles. Nothing here looks into the firmware's variables.
+same cycles. The rig never reads the firmware's variables.
 """
 
 from up_rig.bootloader import build_optiboot

@@ -69,7 +69,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _load(path: Path) -> bytes:
-    """Return what an EEPROM file holds; nothing but such a file, or a new one, is ever written."""
+    """Return the content of an EEPROM file; only such a file, or a new one, is ever written."""
     if not path.exists():
         if not path.parent.is_dir():
             raise FirmwareError(f"there is no folder {path.parent} for the EEPROM's file")
@@ -148,7 +148,7 @@ def _baud(text: str) -> int:
 
 
 def _say(text: str) -> None:
-    """Write one line for the user; a closed standard output ends nothing."""
+    """Write one line for the user; a closed standard output is ignored."""
     with suppress(BrokenPipeError):
         sys.stdout.write(f"{text}\n")
         sys.stdout.flush()

@@ -1,7 +1,7 @@
 """The bootloader optiboot, compiled from the source that Debian's arduino-core-avr ships.
 
 The HEX file beside that source does not fit: compiled with today's defaults it takes 532 bytes of
-the 512 that lie below the end of the flash. Two switches bring it to the 500 of the original.
+the 512 below the end of the flash. Two switches reduce it to the 500 of the original.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ NO_SOURCES = f"the firmware's sources are not here: there is no {ARDUINO / 'rasp
 
 
 class BuildError(Exception):
-    """The firmware does not compile: the message is what make said."""
+    """The firmware does not compile: the message is make's output."""
 
 
 def has_sources() -> bool:
@@ -41,12 +41,12 @@ def missing_toolchain() -> str | None:
 
 
 def make(*arguments: str, timeout_s: float = LONGEST_S, lock_name: str = ".lock") -> str:
-    """Run make in ``arduino/`` and return what it printed.
+    """Run make in ``arduino/`` and return its output.
 
     Of several processes one builds, the others wait, also for compilers that outlive a killed
-    builder: they inherit the lock. ``lock_name``: another one for what shares no file with the
-    firmware. Raises ``BuildError``, and
-    ``RigUnavailableError`` without make, without the sources, and where nothing can be written.
+    builder: they inherit the lock. ``lock_name``: another one for builds that share no file with
+    the firmware. Raises ``BuildError``, and ``RigUnavailableError`` without make, without the
+    sources, and where nothing can be written.
     """
     program = shutil.which("make")
     if program is None:

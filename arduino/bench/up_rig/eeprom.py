@@ -17,12 +17,12 @@ class Eeprom:
         self._handle = handle
 
     def read(self, start: int = 0, size: int = SIZE) -> bytes:
-        """Return what it holds."""
+        """Return its content."""
         cells = self._library.rig_eeprom(self._handle)
         return bytes(cells[start : min(start + size, SIZE)])
 
     def write(self, start: int, data: bytes) -> None:
-        """Set what it holds, as a programmer would; raises ``ValueError`` beyond its end."""
+        """Set its content, as a programmer would; raises ``ValueError`` beyond its end."""
         if start < 0 or start + len(data) > SIZE:
             raise ValueError(f"the EEPROM has {SIZE} bytes")
         cells = self._library.rig_eeprom(self._handle)

@@ -1,4 +1,4 @@
-"""Reads what avr-gcc writes: ELF files with their symbols, and Intel HEX."""
+"""Reads the output of avr-gcc: ELF files with their symbols, and Intel HEX."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LOAD, _SYMBOLS = 1, 2
 
 
 class FirmwareError(Exception):
-    """A file is no program for the chip: the message is one sentence for the user."""
+    """A file is not a program for the chip: the message is one sentence for the user."""
 
 
 @dataclass(frozen=True, slots=True)

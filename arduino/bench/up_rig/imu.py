@@ -1,4 +1,4 @@
-"""The MPU6050 on its bus: what it measures, and how it fails."""
+"""The MPU6050 on its bus: its measurements and its faults."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Fault(enum.IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """What moves the aircraft, in its axes: x forward, y right, z down.
+    """The motion of the aircraft, in its axes: x forward, y right, z down.
 
     Rates in degrees per second; the specific force in m/s^2 is (0, 0, -9.81) at rest and level.
     """
@@ -53,7 +53,7 @@ class Motion:
 def motion_at(
     roll_deg: float, pitch_deg: float, rates_deg_s: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> Motion:
-    """Return the motion of an unaccelerated aircraft that stands at an attitude."""
+    """Return the motion of an unaccelerated aircraft at a constant attitude."""
     roll, pitch = math.radians(roll_deg), math.radians(pitch_deg)
     return Motion(
         *rates_deg_s,
@@ -67,9 +67,9 @@ class Imu:
     """The sensor, mounted x forward, y left, z up.
 
     ``motion`` is a ``Motion`` or a function of the time in seconds that returns one. ``bias_deg_s``
-    and ``noise_deg_s`` (standard deviation), ``bias_m_s2`` and ``noise_m_s2`` spoil it; a real
-    part is never without noise, and one that is looks frozen. ``is_frozen`` repeats the last
-    sample; ``is_garbage`` sends noise over the whole range.
+    and ``noise_deg_s`` (standard deviation), ``bias_m_s2`` and ``noise_m_s2`` disturb it; a real
+    part always has noise, and one without looks frozen. ``is_frozen`` repeats the last sample;
+    ``is_garbage`` sends noise over the whole range.
     """
 
     def __init__(self, library: ctypes.CDLL, handle: Handle, seed: int = 1) -> None:
@@ -90,36 +90,36 @@ class Imu:
         library.rig_imu_on_sample(handle, self._function)
 
     def unplug(self) -> None:
-        """Take it from the bus: nobody answers, the lines are high."""
+        """Remove it from the bus: no acknowledge, the lines are high."""
         self._library.rig_imu_plug(self._handle, False)
 
     def plug(self) -> None:
-        """Put it back; it starts anew, asleep."""
+        """Put it back; it restarts, asleep."""
         self._library.rig_imu_plug(self._handle, True)
 
     def fail(self, fault: Fault) -> None:
-        """Let it fail now."""
+        """Start a fault now."""
         self._library.rig_imu_fault(self._handle, int(fault), 0, 0, True)
 
     def fail_at_byte(self, byte: int, fault: Fault, *, after_transfers: int = 0) -> None:
-        """Let it fail at a byte of a transfer: byte 0 is the first address after a start.
+        """Start a fault at a byte of a transfer: byte 0 is the first address after a start.
 
-        A repeated start begins a new transfer; ``after_transfers`` of them pass unharmed.
+        A repeated start begins a new transfer; ``after_transfers`` of them pass undisturbed.
         """
-        # The start that comes next is counted before its bytes are.
+        # The next start is counted before its bytes are.
         transfers = after_transfers + 1
         self._library.rig_imu_fault(self._handle, int(fault), byte, transfers, False)
 
     def mend(self) -> None:
-        """End a fault; what it had been set to, it still is."""
+        """End a fault; the registers keep their values."""
         self._library.rig_imu_fault(self._handle, int(Fault.NONE), 0, 0, False)
 
     def set_identity(self, who_am_i: int) -> None:
-        """Set what WHO_AM_I reads, 0x68 in the real part."""
+        """Set the value of WHO_AM_I, 0x68 in the real part."""
         self._library.rig_imu_identity(self._handle, who_am_i)
 
     def register(self, number: int) -> int:
-        """Return what the program has set a register to."""
+        """Return the program's value of a register."""
         return int(self._library.rig_imu_register(self._handle, number))
 
     @property
@@ -143,7 +143,7 @@ class Imu:
         return int(self._library.rig_twi_bytes(self._handle))
 
     def raise_failure(self) -> None:
-        """Raise what the motion's function raised during the last run."""
+        """Raise the exception of the motion's function in the last run."""
         if self._failure is not None:
             failure, self._failure = self._failure, None
             raise failure

@@ -42,7 +42,7 @@ class PinPulse(ctypes.Structure):
 
 
 class Meter(ctypes.Structure):
-    """What the C side measures; ``meter_t`` of rig.h."""
+    """The measurements of the C side; ``meter_t`` of rig.h."""
 
     _fields_ = [
         ("interrupt_cycles", ctypes.c_uint64),
@@ -91,7 +91,7 @@ def build_library() -> Path:
     if compiler is None or not HEADER.exists():
         raise RigUnavailableError(NEEDS)
     path.parent.mkdir(parents=True, exist_ok=True)
-    # Several processes may build at once: each its own file, the last one stays.
+    # Several processes may build in parallel: each to its own file, the last one stays.
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         fresh = Path(folder) / path.name
         command = [compiler, *FLAGS, *map(str, sources), "-lsimavr", "-o", str(fresh)]

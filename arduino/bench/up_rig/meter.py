@@ -1,4 +1,4 @@
-"""What the rig measures beside the pins: interrupt load, stack, time with interrupts off."""
+"""The rig's measurements beside the pins: interrupt load, stack, time with interrupts off."""
 
 from __future__ import annotations
 

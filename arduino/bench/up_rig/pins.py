@@ -1,4 +1,4 @@
-"""Which wire goes to which pin of the board (docs/wiring.md)."""
+"""The wiring of the board's pins (docs/wiring.md)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The serial line as a pseudo terminal, which anybody may open, close and open again."""
+"""The serial line as a pseudo terminal, which programs may open and close repeatedly."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ class PtyLineError(Exception):
 
 
 class PtyLine:
-    """Bytes to and from whoever opens ``path``; neither direction ever blocks.
+    """Bytes to and from the reader of ``path``; neither direction ever blocks.
 
-    When nobody reads, what waits is thrown away and the newest piece alone waits instead, as a USB
-    port without a listener does: who comes back gets nothing old. ``dropped`` counts the pieces,
-    ``returned`` is called when there is a reader again. Raises ``PtyLineError``.
+    Without a reader the queue is dropped and only the newest piece is kept, as on a USB port
+    without a listener: a new reader gets no old data. ``dropped`` counts the pieces, ``returned``
+    is called when there is a reader again. Raises ``PtyLineError``.
     """
 
     def __init__(self, link: Path | None = None) -> None:
         self.returned: Callable[[], None] = lambda: None
         self.dropped = 0
         self._is_unread = False
-        # The other end stays open here, too: its raw mode outlives every reader, and its absence
-        # is no hang-up that would have to be polled.
+        # The other end stays open here, too: its raw mode outlives every reader, and a missing
+        # reader does not raise a hang-up that would have to be polled.
         self._own, self._other = os.openpty()
         tty.setraw(self._other)
         # A lock of the process, not of the file as a serial port's user takes it (flock).
@@ -54,7 +54,7 @@ class PtyLine:
         return self.name if self._link is None else str(self._link)
 
     def read(self, timeout_s: float, most: int) -> bytes:
-        """Return what has come, waiting for it up to a time."""
+        """Return the received bytes, waiting for them up to a time."""
         if not select.select([self._own] if most > 0 else [], [], [], max(timeout_s, 0.0))[0]:
             return b""
         self._release()
@@ -64,7 +64,7 @@ class PtyLine:
             return b""
 
     def write(self, data: bytes) -> None:
-        """Send bytes if somebody reads; drop them otherwise."""
+        """Send bytes to a reader; drop them without one."""
         unread = self._unread()
         if self._is_unread and unread == 0:
             self._is_unread = False
@@ -93,7 +93,7 @@ class PtyLine:
         os.close(self._other)
 
     def _release(self) -> None:
-        """Undo exclusive use: the last close would, but there is none while we hold the line."""
+        """Undo exclusive use: only the last close would, and we hold the line open."""
         fcntl.ioctl(self._other, termios.TIOCNXCL)
 
     def _unread(self) -> int:
@@ -101,7 +101,7 @@ class PtyLine:
         return count
 
     def _make_link(self, link: Path) -> None:
-        """Let ``link`` point here in one step; an old link is replaced, nothing else is."""
+        """Point ``link`` here in one step; an old link is replaced, any other file is kept."""
         if link.exists() and not link.is_symlink():
             raise PtyLineError(f"{link} exists and is no symbolic link: left alone")
         if _is_live(link):

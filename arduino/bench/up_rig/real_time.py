@@ -26,10 +26,9 @@ def rocking(time_s: float) -> Motion:
 
 
 class RealTime:
-    """Keeps a rig in step with a clock that only rises.
+    """Keeps a rig in step with a monotonic clock.
 
-    What was missed by more than 250 ms is skipped, not flown in a heap. ``say`` takes one line
-    for the user.
+    A delay beyond 250 ms is skipped, not flown in a burst. ``say`` takes one line for the user.
     """
 
     def __init__(
@@ -72,7 +71,7 @@ class RealTime:
             return
         while self._moves and self._moves[0].time_s <= time_s + STEP_S:
             self._move(self._moves.pop(0))
-        # Nobody asks for these here, and they would grow for ever.
+        # Unused here, and they would grow without a bound.
         self._rig.servo.forget()
         self._rig.receiver.sent.clear()
         self._rig.run_us(STEP_S * 1e6)

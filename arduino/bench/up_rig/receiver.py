@@ -1,4 +1,4 @@
-"""The RC receiver's six wires: pulses at exact cycles, and everything that goes wrong with them."""
+"""The RC receiver's six wires: pulses at exact cycles, and all their faults."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ class Receiver:
     """Sends frames of pulses, one for each channel, until it is stopped.
 
     ``period_us`` is the time of a frame (7 to 22 ms in the trade). ``is_simultaneous`` starts all
-    channels at once; otherwise each starts ``gap_us`` after the one before has ended.
-    ``jitter_us`` spoils each width, ``period_jitter_us`` each frame, both evenly to either side.
-    Changes hold from the next frame on. ``sent`` lists what was sent.
+    channels together; otherwise each starts ``gap_us`` after the end of the one before.
+    ``jitter_us`` disturbs each width, ``period_jitter_us`` each frame, both evenly to either side.
+    Changes hold from the next frame on. ``sent`` lists the sent pulses.
     """
 
     def __init__(
@@ -65,12 +65,12 @@ class Receiver:
         self._widths_us[channel] = width_us
 
     def sticks(self, **widths_us: float) -> None:
-        """Set several channels at once: ``sticks(ailerons=1600, aux2=2000)``."""
+        """Set several channels together: ``sticks(ailerons=1600, aux2=2000)``."""
         for channel, width_us in widths_us.items():
             self.set(channel, width_us)
 
     def start(self, at_us: float | None = None) -> None:
-        """Begin to send frames, at a time or now; a channel that was stopped goes on."""
+        """Begin to send frames, at a time or now; a stopped channel resumes."""
         now_us = self._library.rig_cycle(self._handle) / CYCLES_PER_US
         self._next_us = now_us if at_us is None else at_us
         for channel, level in self._held.items():
@@ -87,20 +87,20 @@ class Receiver:
                 self.edge(each, self._library.rig_cycle(self._handle), _HIGH)
 
     def resume(self, channel: str) -> None:
-        """Let a stopped channel go on with the next frame."""
+        """Resume a stopped channel with the next frame."""
         if self._held.pop(channel, _LOW) == _HIGH:
             self.edge(channel, self._library.rig_cycle(self._handle), _LOW)
 
     def edge(self, channel: str, cycle: int, level: int) -> None:
-        """Drive a channel's wire to a level at a cycle; level 2 lets go of it."""
+        """Drive a channel's wire to a level at a cycle; level 2 releases it."""
         self._library.rig_pin_edge(self._handle, cycle, self._pins[channel], level)
 
     def level(self, channel: str) -> int:
-        """Return what the chip's pin of a channel sees now."""
+        """Return the present level at the chip's pin of a channel."""
         return int(self._library.rig_pin_level(self._handle, self._pins[channel]))
 
     def glitch(self, channel: str, at_us: float, width_us: float, *, level: int = _HIGH) -> None:
-        """Add noise: the wire goes to a level at a time for a while, and back."""
+        """Add noise: the wire changes to a level at a time for a while, and back."""
         start = round(at_us * CYCLES_PER_US)
         self.edge(channel, start, level)
         self.edge(channel, start + max(1, round(width_us * CYCLES_PER_US)), 1 - level)

@@ -23,7 +23,7 @@ STACK_PATTERN = 0xC5
 
 
 class CrashError(Exception):
-    """The program did what the chip cannot do, or what the rig does not model."""
+    """The program used a feature that the chip lacks or the rig does not model."""
 
 
 class Reset(enum.IntFlag):
@@ -39,11 +39,11 @@ class Rig:
     """One chip with a program, its receiver, servos, IMU, serial line and EEPROM.
 
     ``bootloader`` (HEX or ELF, see ``build_optiboot``) lies above the program and runs first, as
-    with the BOOTRST fuse. ``eeprom`` is what the EEPROM holds before, all 0xFF without. ``seed``
-    decides every noise and the RAM's contents at power-on. ``start_up_us`` is the length of each
-    reset, 66 ms with the fuses of the Nano. Without ``is_measuring`` it runs faster and knows
-    neither the stack's depth nor the longest time with interrupts off. Time counts from the
-    power-on, in cycles of 62.5 ns, and never stops. Raises ``FirmwareError`` and
+    with the BOOTRST fuse. ``eeprom`` is the initial content of the EEPROM, by default all 0xFF.
+    ``seed`` decides every noise and the RAM's contents at power-on. ``start_up_us`` is the length
+    of each reset, 66 ms with the fuses of the Nano. Without ``is_measuring`` it runs faster and
+    measures neither the stack's depth nor the longest time with interrupts off. Time counts from
+    the power-on, in cycles of 62.5 ns, and never stops. Raises ``FirmwareError`` and
     ``RigUnavailableError``.
     """
 
@@ -112,12 +112,12 @@ class Rig:
         self._library.rig_reset(self._handle, int(Reset.POWER_ON))
 
     def ram(self) -> bytes:
-        """Return what the RAM holds now, for a power failure that is too short to lose it."""
+        """Return the content of the RAM, for a power failure that is too short to lose it."""
         data = self._library.rig_data(self._handle)
         return bytes(data[RAM_START : RAM_START + RAM_SIZE])
 
     def brown_out(self, *, keeps_ram: bool = True) -> None:
-        """Let the supply sag: BORF, a write of the EEPROM is cut, the IMU starts anew."""
+        """Cause a brown-out: BORF, an EEPROM write is cut, the IMU restarts."""
         if not keeps_ram:
             self._fill_ram(self._random.randbytes(RAM_SIZE))
         self._library.rig_reset(self._handle, int(Reset.BROWN_OUT))
@@ -131,11 +131,11 @@ class Rig:
         self._library.rig_reset(self._handle, int(Reset.WATCHDOG))
 
     def set_watchdog_factor(self, factor: float) -> None:
-        """Let the watchdog's own oscillator run ``factor`` times slower than 128 kHz."""
+        """Make the watchdog's own oscillator ``factor`` times slower than 128 kHz."""
         self._library.rig_watchdog_factor(self._handle, factor)
 
     def preload(self, symbol: str, value: bytes, *, at: str = "main") -> None:
-        """Write a variable once, when the program comes to the function ``at``.
+        """Write a variable once, when the program reaches the function ``at``.
 
         It is for states that would take too long to reach, such as a clock before its wrap.
         Raises ``FirmwareError`` for a name that the ELF file does not have.
@@ -151,15 +151,15 @@ class Rig:
         self._library.rig_load(self._handle, code, len(code), address)
 
     def measures(self) -> Measures:
-        """Return what was measured since the last ``forget_measures``."""
+        """Return the measurements since the last ``forget_measures``."""
         return read_measures(self._library, self._handle)
 
     def forget_measures(self) -> None:
-        """Begin to measure anew."""
+        """Restart the measurements."""
         self._library.rig_forget_measures(self._handle)
 
     def mark_stack(self) -> None:
-        """Fill the RAM with a pattern, so that ``untouched_ram`` tells what was never used."""
+        """Fill the RAM with a pattern, so that ``untouched_ram`` finds unused bytes."""
         self._fill_ram(bytes([STACK_PATTERN]) * RAM_SIZE)
 
     def untouched_ram(self) -> int:

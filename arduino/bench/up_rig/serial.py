@@ -17,7 +17,7 @@ class SentByte:
 
 
 class Serial:
-    """What the Raspberry Pi has of the chip: one wire each way, 8N1, 115200 Bd unless changed."""
+    """The Raspberry Pi's end of the line: one wire each way, 8N1, 115200 Bd unless changed."""
 
     def __init__(self, library: ctypes.CDLL, handle: Handle) -> None:
         self._library = library
@@ -30,7 +30,7 @@ class Serial:
     def write(self, data: bytes, *, broken: bool = False) -> None:
         """Put bytes on the line, each when the one before has ended.
 
-        ``broken`` spoils their stop bits, so that the chip sees framing errors.
+        ``broken`` corrupts their stop bits, so that the chip sees framing errors.
         """
         self._library.rig_uart_write(self._handle, data, len(data), int(broken))
 
@@ -41,15 +41,15 @@ class Serial:
 
     @property
     def overruns(self) -> int:
-        """Return how many bytes came when the chip's receiver was full."""
+        """Return the number of bytes that arrived when the chip's receiver was full."""
         return int(self._library.rig_overruns(self._handle))
 
     def read(self) -> bytes:
-        """Return the bytes that came since the last reading."""
+        """Return the bytes received since the last call."""
         return bytes(each.value for each in self.read_stamped())
 
     def read_stamped(self) -> list[SentByte]:
-        """Return the bytes that came since the last reading, with their times."""
+        """Return the bytes received since the last call, with their times."""
         count = ctypes.c_uint64()
         sent = self._library.rig_sent(self._handle, ctypes.byref(count))
         fresh = [SentByte(sent[at].cycle, sent[at].value) for at in range(count.value)]

@@ -23,7 +23,7 @@ class Pulse:
 
 
 class Servo:
-    """Records what the four servos get; a pin that the chip does not drive is low."""
+    """Records the pulses of the four servos; a pin that the chip does not drive is low."""
 
     def __init__(self, library: ctypes.CDLL, handle: Handle, pins: dict[str, int]) -> None:
         self._library = library
@@ -62,7 +62,7 @@ class Servo:
         return Pulse(newest.rise, fall - newest.rise) if fall else None
 
     def record(self, is_recording: bool) -> None:
-        """Keep edges, or no longer: then only ``last_pulse`` knows what comes."""
+        """Record edges, or keep only ``last_pulse``."""
         self._library.rig_drop_edges(self._handle, not is_recording)
 
     def forget(self) -> None:

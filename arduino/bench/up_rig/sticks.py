@@ -1,4 +1,4 @@
-"""Reads what the pilot does: the stick scripts of the virtual aircraft's ``--sticks``."""
+"""Reads the stick scripts of the virtual aircraft's ``--sticks``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from up_rig.pins import CHANNELS
 
 LOWEST_US, HIGHEST_US = 800, 2200
 BEFORE = "t=0 throttle=1000 aux1=2000 aux2=1000 t=1 aux2=2000"
-"""What holds before the script: the switch at AUTO, the arming switch raised after a second."""
+"""The state before the script: the switch at AUTO, the arming switch raised after a second."""
 _SINGULAR = {"aileron": "ailerons"}
 
 
@@ -18,7 +18,7 @@ class SticksError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class StickMove:
-    """At ``time_s`` the channel goes to ``value``: us, or for ``receiver`` 1 on and 0 off."""
+    """At ``time_s`` the channel is set to ``value``: us, or for ``receiver`` 1 on and 0 off."""
 
     time_s: float
     channel: str

@@ -1,5 +1,5 @@
-# The second fuzzer: the whole firmware flies while the line brings anything. After fuzz.mk.
-#   make -C arduino fuzz-flying SECONDS=60   search; what breaks a rule is left in build/fuzz
+# The second fuzzer: the whole firmware flies with arbitrary input on the line. After fuzz.mk.
+#   make -C arduino fuzz-flying SECONDS=60   search; an input that breaks a rule stays in build/fuzz
 #   make -C arduino fuzz-flying-keep         keep the fewest inputs that reach all code reached
 #   make -C arduino fuzz-corpus              run each kept input of both fuzzers once
 FLYING_CORPUS := host/fuzz/flying_corpus

@@ -1,6 +1,6 @@
 /**
  * libFuzzer over the firmware on its serial line. The first byte of an input chooses when the clock
- * begins; then come steps of one letter and what it needs, see `step`.
+ * begins; then follow steps of one letter and its operands, see `step`.
  */
 #include "fuzzed_board.h"
 
@@ -8,7 +8,7 @@ using namespace raspilot;
 
 namespace {
 
-/** Steps beyond this time add nothing but waiting. */
+/** Steps beyond this time only wait. */
 constexpr uint32_t MOST_SLOTS = 3000;
 
 class Input {
@@ -29,7 +29,7 @@ class Input {
   const uint8_t* const end_;
 };
 
-/** The clock wraps at once, after 2 s, or after an hour and more. */
+/** The clock wraps immediately, after 2 s, or after an hour and more. */
 uint32_t begin_us(uint8_t choice) {
   const uint32_t moments[] = {0, 0xFFFFFFFF - 2000000, 0x7FFFFFFF - 2000000, 0xFFFFFFFF};
   return moments[choice & 3];

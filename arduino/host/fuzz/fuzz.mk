@@ -1,6 +1,6 @@
 # Fuzzing of the serial line by libFuzzer (Debian clang). Included by arduino/Makefile; alone:
 #   make -C arduino -f host/fuzz/fuzz.mk fuzz SECONDS=60
-# The host tests replay what is kept in host/fuzz/corpus. `fuzz-keep` adds what was found and is new.
+# The host tests replay host/fuzz/corpus. `fuzz-keep` adds new findings to it.
 FUZZ_BUILD ?= build/fuzz
 FUZZ_CXX ?= clang++
 SECONDS ?= 60

@@ -1,4 +1,4 @@
-/** The whole portable firmware, run by a fuzzer and watched at each call for what may never be. */
+/** The whole portable firmware, run by a fuzzer and checked at each call against the rules. */
 #pragma once
 
 #include <stdint.h>
@@ -13,7 +13,7 @@
 
 namespace raspilot {
 
-/** Ends the run with a sentence that says what happened although it may never. */
+/** Ends the run with a sentence about the broken rule. */
 inline void never(bool has_happened, const char* what) {
   if (!has_happened) return;
   fprintf(stderr, "the firmware broke a rule: %s\n", what);
@@ -30,7 +30,7 @@ class FuzzedBoard {
     look("begin");
   }
 
-  /** A byte comes, and the time that it takes on the line passes. */
+  /** A byte arrives, and the time that it takes on the line passes. */
   void hear(uint8_t byte) {
     const bool was_armed = autopilot_.authority.is_armed();
     const bool was_thesis = autopilot_.link.is_thesis();
@@ -43,7 +43,7 @@ class FuzzedBoard {
     look("a byte");
     pass(BYTE_US);
   }
-  /** A checked frame comes, right in everything but perhaps type and size. */
+  /** A checked frame arrives, valid except perhaps for type and size. */
   void hear_frame(uint8_t type, const Bytes& payload) {
     outgoing().clear();
     write_frame(sequence_++, static_cast<char>(type), payload.data(),
@@ -56,7 +56,7 @@ class FuzzedBoard {
   void run(uint32_t slots) {
     for (; slots != 0; --slots) pass(SLOT_US);
   }
-  /** Nobody calls the firmware for a while, as while a debugger holds it. */
+  /** The firmware is not called for a while, as while a debugger holds it. */
   void stall(uint32_t us) {
     passed_us_ += us;
     next_slot_us_ += us;
@@ -107,7 +107,7 @@ class FuzzedBoard {
       look("background");
     }
   }
-  /** Level and at rest, with so much noise that nobody takes the IMU for frozen. */
+  /** Level and at rest, with enough noise that the IMU does not count as frozen. */
   ImuSample sample_at_rest() {
     ImuSample sample = {};
     noise_ = noise_ * 1664525 + 1013904223;
@@ -131,7 +131,7 @@ class FuzzedBoard {
     next_frame_us_ = passed_us_ + 20000;
   }
 
-  /** After every call: framing, counters, outputs, and what was sent. */
+  /** After every call: framing, counters, outputs, and the sent bytes. */
   void look(const char* after) {
     const Link& link = autopilot_.link;
     if (link.is_thesis() && !is_thesis_) {

@@ -99,7 +99,7 @@ class Conversation {
     autopilot_.link.on_byte(byte, now_us());
   }
 
-  /** A zero first, so that nothing before it can spoil the frame. */
+  /** A zero first, so that no earlier byte can corrupt the frame. */
   const uint8_t* frame(const uint8_t* script, size_t left) {
     if (left == 0) return script;
     const char type = static_cast<char>(*script++);
@@ -123,7 +123,7 @@ class Conversation {
   void slots(uint32_t count) {
     for (; count != 0; --count) {
       slot_us_ += SLOT_US;
-      // Throttle low, AUX2 high from the first pulse on: no edge of it, so nothing but `a` arms.
+      // Throttle low, AUX2 high from the first pulse on: no edge of it, so only `a` arms.
       if (slot_us_ % 20000 == 0) {
         const uint16_t pulses_us[INPUTS] = {1500, 1500, 1000, 1500, 2000, 2000};
         for (uint8_t channel = 0; channel < INPUTS; ++channel) {
@@ -138,7 +138,7 @@ class Conversation {
     }
   }
 
-  /** What must hold at every moment. */
+  /** Invariants at every moment. */
   void look() {
     const Link& link = autopilot_.link;
     const bool is_armed = autopilot_.authority.is_armed();
@@ -174,7 +174,7 @@ class Conversation {
     }
   }
 
-  /** Whatever came before: after 100 ms of silence a question is answered. */
+  /** After any input and 100 ms of silence a request is answered. */
   void still_answers() {
     slots(150);
     if (autopilot_.link.is_thesis()) {

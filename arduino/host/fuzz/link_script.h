@@ -1,6 +1,6 @@
 /**
- * A conversation with the serial line out of arbitrary bytes, and what must hold whatever they are.
- * The fuzzer invents scripts; the host tests replay those that were kept.
+ * A conversation with the serial line out of arbitrary bytes, and its invariants. The fuzzer
+ * generates scripts; the host tests replay the kept ones.
  */
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace raspilot {
 
-/** What a script led to. */
+/** Result of a script. */
 struct ScriptEnd {
   bool is_armed;
   bool is_thesis;
@@ -17,8 +17,8 @@ struct ScriptEnd {
 
 /**
  * Plays one script on an aircraft that only an Arm Command can arm. Its records are: 0x00 to 0x7F,
- * so many bytes as they are; 0x80 to 0xBF, so many slots of 2 ms and one; 0xC0 to 0xFF, a checked
- * frame of the type and payload that follow, which is right whatever came before. Aborts when one
+ * this number of raw bytes; 0x80 to 0xBF, the low six bits plus one slots of 2 ms; 0xC0 to 0xFF, a
+ * checked frame of the type and payload that follow, valid after any bytes before. Aborts when one
  * of the rules is broken.
  */
 ScriptEnd play(const uint8_t* script, size_t size);

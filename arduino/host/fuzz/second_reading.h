@@ -1,6 +1,6 @@
 /**
- * docs/protocols.md 2.1 to 2.4 read a second time, without the firmware's code: what is a frame,
- * and which messages may leave. The fuzzer judges the firmware by it.
+ * A second implementation of docs/protocols.md 2.1 to 2.4 without the firmware's code: which bytes
+ * are a frame, and which messages may leave. The fuzzer checks the firmware against it.
  */
 #pragma once
 
@@ -17,7 +17,7 @@ constexpr int NO_SIZE = -1;
 constexpr size_t LONGEST_ENCODED = 101;
 constexpr uint32_t DROPPED_AFTER_US = 100000;
 
-/** Payload of what goes to the Arduino, bytes. */
+/** Payload of messages to the Arduino, bytes. */
 inline int size_to_arduino(uint8_t type) {
   switch (type) {
     case 's': case 'a': case 'd': case 'm': case 'T': case 'G': case 'c': return 0;
@@ -33,7 +33,7 @@ inline int size_to_arduino(uint8_t type) {
   }
 }
 
-/** Payload of what our firmware sends in checked framing, bytes. */
+/** Payload of our firmware's messages in checked framing, bytes. */
 inline int size_from_arduino(uint8_t type) {
   switch (type) {
     case 'm': return 1;
@@ -50,7 +50,7 @@ inline int size_from_arduino(uint8_t type) {
   }
 }
 
-/** One frame without its closing zero: sequence, type and payload; empty when it is none. */
+/** One frame without its closing zero: sequence, type and payload; empty when invalid. */
 inline Bytes frame_in(const Bytes& encoded) {
   if (encoded.size() > LONGEST_ENCODED) return {};
   Bytes plain;
@@ -79,7 +79,7 @@ inline bool is_command(const Bytes& frame) {
   return frame.size() >= 2 && size_to_arduino(frame[1]) == static_cast<int>(frame.size()) - 2;
 }
 
-/** Follows the bytes to the Arduino, with the time that drops what is unfinished. */
+/** Follows the bytes to the Arduino, with the timeout that drops unfinished messages. */
 class Listener {
  public:
   /** The frame that ends with this byte, or nothing. */
@@ -100,7 +100,7 @@ class Listener {
   uint32_t first_us_ = 0;
 };
 
-/** Whether these are whole messages of thesis framing; `!` comes alone or with a type. */
+/** Whether these are whole messages of thesis framing; `!` stands alone or before a type. */
 inline bool are_thesis_messages(const uint8_t* at, size_t size) {
   if (size == 0) return true;
   if (*at == '!') {

@@ -35,7 +35,7 @@ void move_to(Cycles moment) {
   run_hardware(moment);
 }
 
-/** What the chip does at once when it is reset; then it waits for START_UP. */
+/** The chip's immediate actions at a reset; then it waits for START_UP. */
 void begin_reset() {
   MCUSR = wanted_causes & _BV(PORF) ? _BV(PORF) : static_cast<uint8_t>(MCUSR | wanted_causes);
   wanted_causes = 0;

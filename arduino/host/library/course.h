@@ -1,6 +1,6 @@
 /**
- * The course of time: the firmware runs on a stack of its own until a moment, and stands still
- * there until the caller lets it run on. Nothing here knows a clock on a wall.
+ * The course of time: the firmware runs on a separate stack until a moment, and stands still there
+ * until the caller lets it run on. No wall clock is used.
  */
 #pragma once
 
@@ -15,17 +15,17 @@ constexpr Cycles NEVER = INT64_MAX;
 
 Cycles now();
 
-/** Lets time pass for the firmware, and the hardware work meanwhile. */
+/** Lets time pass for the firmware and the hardware. */
 void pass(Cycles duration);
 /** Leaves the firmware until the caller has given a sample. */
 void await_sample();
 
 enum Stop { REACHED = 0, WANTS_SAMPLE = 1 };
 
-/** Runs to a moment, or to the next sample that the IMU wants from the caller. */
+/** Runs to a moment, or to the next IMU sample that the caller must provide. */
 Stop run_until(Cycles moment);
 
-/** Bits of MCUSR. The firmware starts anew, 66 ms after this, when it runs next. */
+/** Bits of MCUSR. The firmware restarts 66 ms after this, when it runs next. */
 void want_reset(uint8_t causes);
 bool is_in_reset();
 

@@ -1,4 +1,4 @@
-/** The chip's hardware and what is wired to it, each part in a file of its own. */
+/** The chip's hardware and the parts wired to it, each in a separate file. */
 #pragma once
 
 #include <stdint.h>
@@ -8,13 +8,13 @@
 
 namespace host {
 
-/** What the caller sees, and where its samples are. */
+/** The caller's view, and the place of its samples. */
 extern host_board_view view;
 inline double to_us(Cycles moment) { return static_cast<double>(moment) / PER_US; }
 
-/** Lets every part come to a moment; called whenever time has moved on. */
+/** Advances every part to a moment; called whenever time has moved on. */
 void run_hardware(Cycles moment);
-/** What a reset does to the parts; MCUSR has its cause. */
+/** Resets the parts; MCUSR has the cause. */
 void reset_hardware(Cycles moment);
 bool has_watchdog_bitten(Cycles moment);
 
@@ -53,7 +53,7 @@ void reset();
 namespace memory {
 void begin(const uint8_t* bytes, uint32_t size, uint32_t seed);
 void run(Cycles moment);
-/** Power fails: what is being written becomes anything. */
+/** Power fails: a cell being written gets any value. */
 void cut();
 }  // namespace memory
 

@@ -12,10 +12,10 @@
 extern "C" {
 #endif
 
-/** The version of what follows. */
+/** The version of this interface. */
 uint32_t host_board_version(void);
 
-/** Power comes on. `eeprom` are its first bytes, the rest is erased. Once, before all others. */
+/** Power-on. `eeprom` are its first bytes, the rest is erased. Once, before all others. */
 void host_board_begin(const uint8_t* eeprom, uint32_t size, uint32_t seed, double first_frame_us);
 /** Runs to a time: 0 when it is reached, 1 when `sample` is to be filled in before it runs on. */
 int host_board_run(double until_us);
@@ -26,20 +26,20 @@ void host_board_set_stick(uint8_t channel, double width_us);
 void host_board_set_receiver(int is_on);
 void host_board_set_channel(uint8_t channel, int is_on);
 
-/** What the board and its caller share. */
+/** Data shared by the board and its caller. */
 typedef struct {
   double now_us;
   /** The newest pulse of each servo, 0 before the first, and when it ended. */
   double width_us[4];
   double ended_us[4];
-  /** When the IMU took the sample that is wanted, and what the firmware has set it to. */
+  /** Time of the requested IMU sample, and the firmware's settings of the IMU. */
   double sample_us;
   uint8_t imu_registers[128];
   /** The sample, as the registers hold it: accelerometer, temperature, gyro. */
   int16_t sample[7];
   uint8_t eeprom[1024];
 } host_board_view;
-/** The pointer holds for ever. */
+/** The pointer stays valid. */
 host_board_view* host_board_get_view(void);
 
 /** Bytes to the firmware, each when the one before has ended; from it, how many were copied. */

@@ -93,7 +93,7 @@ void run(Cycles moment) {
     if (is_sending && sending_ends <= moment) {
       end_byte();
     } else if (UCSR0B & _BV(UDRIE0) && !is_waiting) {
-      // It was asked for when time stood still last.
+      // It was requested when time stood still last.
       fill(ran_to);
     } else {
       break;

@@ -42,7 +42,7 @@ void cut() {
   noise ^= noise << 13;
   noise ^= noise >> 17;
   noise ^= noise << 5;
-  // Erased first, then written: some bits have come so far, others have not.
+  // Erased first, then written: some bits are complete, others are not.
   contents[address] = static_cast<uint8_t>(value | noise);
   done = NEVER;
 }

@@ -91,7 +91,7 @@ namespace {
 
 constexpr host::Cycles BYTE = 26 * host::PER_US;
 constexpr host::Cycles RECOVERY = 120 * host::PER_US;
-/** As long as the firmware looks away at most; in that, one that hangs is given up. */
+/** Longest time between the firmware's reads; within it, a hanging one is given up. */
 constexpr host::Cycles LOOK = 60 * host::PER_US;
 constexpr uint8_t BYTES_TO_WRITE = 3;
 constexpr uint8_t BYTES_TO_READ = 3;

@@ -76,7 +76,7 @@ void plan(Channel channel, uint16_t rise_ticks) {
 }
 
 void set_width(Channel channel, Ticks width) {
-  // The first of the four comes when control has ended.
+  // The first of the four rises when control has ended.
   if (channel == AILERONS) host::pass(CONTROL);
   outputs[channel].width_ticks = static_cast<uint16_t>(width);
 }

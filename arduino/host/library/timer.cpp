@@ -1,4 +1,4 @@
-/** The chip's clock, and what the firmware's work takes of it. */
+/** The chip's clock, and the time that the firmware's work takes. */
 #include "chip/clock.h"
 #include "chip/reset.h"
 #include "hardware.h"
@@ -15,7 +15,7 @@ constexpr Cycles READING = 2 * PER_US;
  * time is next looked at.
  */
 constexpr Cycles WORK = 35 * PER_US;
-/** From there to the first slot, but for what the EEPROM holds. */
+/** From there to the first slot, without the time for the content of the EEPROM. */
 constexpr Cycles SETUP = 796 * PER_US;
 
 Cycles start;

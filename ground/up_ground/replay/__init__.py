@@ -1,1 +1,1 @@
-"""Flights of the past, shown by the page as if they were of now."""
+"""Recorded flights, shown by the page like live ones."""

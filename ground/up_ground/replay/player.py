@@ -9,19 +9,19 @@ from up.system.clock import Clock, Timer
 
 SLOWEST, FASTEST = 0.25, 64.0
 LEAST_PAUSE_S = 0.04
-"""Frames that come faster are not shown each: no eye sees them."""
+"""Faster frames are thinned out: they could not be seen."""
 LONGEST_PAUSE_S = 0.1
 AGAIN_S = 0.2
-"""So often a frame is shown again, with its age in the flight's time, while no newer one comes."""
+"""Without a newer frame the last one is shown again in this period, with its age in the flight."""
 
 Open = Callable[[float], Iterator[Frame]]
 
 
 class Player:
-    """Goes through the frames that ``open_at(time_s)`` yields, from the one of that moment on.
+    """Plays the frames that ``open_at(time_s)`` yields, from that time on.
 
-    ``show(frame)`` gets the newest frame that is due, ``moved(before_s, now_s)`` hears how far it
-    has gone on, ``changed()`` that it plays, pauses or jumped.
+    ``show(frame)`` gets the newest frame that is due, ``moved(before_s, now_s)`` the progress,
+    ``changed()`` is called when it plays, pauses or jumps.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class Player:
         return min(self.length_s, self._from_s + gone_s)
 
     def play(self) -> None:
-        """Go on, from the beginning when the end was reached."""
+        """Resume, from the beginning when the end was reached."""
         if self.is_playing:
             return
         if self._from_s >= self.length_s:
@@ -71,7 +71,7 @@ class Player:
         self._go_on()
 
     def pause(self) -> None:
-        """Stand still."""
+        """Pause."""
         self._hold()
         self.is_playing = False
         self._changed()
@@ -135,7 +135,7 @@ class Player:
         self._show(frame)
 
     def _due(self, now_s: float) -> Frame | None:
-        """Return the newest frame that has come up to a moment and was not shown yet."""
+        """Return the newest frame before a time that was not shown yet."""
         due = None
         while self._next is not None and self._next.time_s <= now_s + 1e-6:
             due, self._next = self._next, next(self._frames, None)

@@ -1,4 +1,4 @@
-"""What ``replay`` does."""
+"""The verb ``replay``."""
 
 from __future__ import annotations
 
@@ -57,6 +57,6 @@ def _folder(options: argparse.Namespace) -> Path:
 
 
 def aircraft_of(log: FlightLog) -> str:
-    """Return the aircraft's name as the log tells it."""
+    """Return the aircraft's name from the log."""
     name = log.metadata.get("flight", {}).get("aircraft", "")
     return safe_text(name, 32) or "flight"

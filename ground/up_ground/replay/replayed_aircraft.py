@@ -50,7 +50,7 @@ class ReplayedAircraft:
 
     @property
     def summary(self) -> str:
-        """Return whom this is about, in a line."""
+        """Return the aircraft in one line."""
         return f"{self.name}: {self._title}, {self._story.length_s:.0f} s"
 
     def start(self) -> None:
@@ -69,7 +69,7 @@ class ReplayedAircraft:
         return self._frame
 
     def past(self) -> Iterable[dict[str, Any]]:
-        """Return what a page is told that begins to watch."""
+        """Return the messages for a page that starts to watch."""
         now_s = self._player.time_s
         yield self._replay()
         yield self._story.track_until(now_s)
@@ -129,11 +129,11 @@ class ReplayedAircraft:
             self._player.pause()
 
     def on_control(self, page: Page, action: str, to: int | None) -> None:
-        """Refuse: nothing of the past can be controlled."""
+        """Refuse: a recorded flight cannot be controlled."""
         raise PageFault(REPLAY)
 
     def on_command(self, page: Page, message: Reader) -> None:
-        """Refuse: nothing of the past takes Commands."""
+        """Refuse: a recorded flight takes no Commands."""
         page.tell(
             {
                 "type": "answer",
@@ -147,16 +147,16 @@ class ReplayedAircraft:
         )
 
     def on_second(self) -> None:
-        """Hear that a second is over."""
+        """Handle the end of a second."""
 
     def on_away(self, page: Page) -> None:
-        """Hear that a page's link was lost; it may come back."""
+        """Handle the loss of a page's link; the page may return."""
 
     def on_back(self, page: Page) -> None:
-        """Hear that a page is here."""
+        """Handle a new page."""
 
     def on_gone(self, page: Page) -> None:
-        """Hear that it will not come back."""
+        """Handle the final loss of a page."""
 
     def _seek(self, time_s: float) -> None:
         self._player.seek(time_s)
@@ -169,7 +169,7 @@ class ReplayedAircraft:
             since_s = time_s if newest_s is None else newest_s - _BEFORE_S
             yield from frames(self._log, since_s=max(0.0, since_s))
         except FlightLogError:
-            # The file became unreadable while it was played: what was there was shown.
+            # The file became unreadable during playback: keep the part already shown.
             return
 
     def _show(self, frame: Frame) -> None:

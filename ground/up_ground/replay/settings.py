@@ -1,4 +1,4 @@
-"""What an aircraft was said to fly with, at any moment of a flight."""
+"""The reported settings of an aircraft at any moment of a flight."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ class Told:
 
 
 def told_at(told: Sequence[Told], time_s: float) -> Told | None:
-    """Return what had been told last; None: nothing yet."""
+    """Return the last reported value before a time; None without a report."""
     place = bisect_right(told, time_s, key=lambda each: each.time_s)
     return told[place - 1] if place else None
 
 
 def gains_of(log: FlightLog) -> list[Told]:
-    """Return the gains as the board told them, where it never did as it was asked to take them.
+    """Return the gains that the board reported; without a report, those requested from it.
 
-    Raises FlightLogError when a file cannot be read any more.
+    Raises FlightLogError when a file becomes unreadable.
     """
     told = _told(log, GAINS)
     if told:
@@ -41,7 +41,7 @@ def gains_of(log: FlightLog) -> list[Told]:
 
 
 def profile_of(log: FlightLog) -> list[Told]:
-    """Return the airframe's profile as the board told it; raises FlightLogError likewise."""
+    """Return the reported profiles of the airframe; raises FlightLogError likewise."""
     return _told(log, PROFILE)
 
 

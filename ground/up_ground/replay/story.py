@@ -1,4 +1,4 @@
-"""What happened in a flight, worked out once, so that any moment of it can be shown."""
+"""The events of a flight, computed once, so that any moment of it can be shown."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Story:
         self._gains = gains_of(log)
         self._profiles = profile_of(log)
         self._now_s = 0.0
-        # Whoever stands still at a moment wants to see what was wrong then.
+        # A user who stops at a moment wants to see the alarms of that moment.
         self._judge = Judge(aircraft, self._take, over_s=0.0)
         self._read(log)
 
@@ -67,23 +67,23 @@ class Story:
         ]
 
     def alarms_at(self, time_s: float) -> dict[str, Any]:
-        """Return what was wrong at a moment."""
+        """Return the alarms at a moment."""
         place = bisect_right(self._alarm_times_s, time_s)
         if not place:
             return {"type": "alarms", "aircraft": self.aircraft, "active": []}
         return self._alarms[place - 1]
 
     def frame_time_s(self, time_s: float) -> float | None:
-        """Return when the newest frame came that there was at a moment; None: there was none."""
+        """Return the time of the newest frame before a moment; None if there was none."""
         place = bisect_right(self._frame_times_s, time_s)
         return self._frame_times_s[place - 1] if place else None
 
     def gains_at(self, time_s: float) -> Told | None:
-        """Return the gains that flew as far as anybody had told; None: nobody had."""
+        """Return the last reported gains; None if there was no report."""
         return told_at(self._gains, time_s)
 
     def profile_at(self, time_s: float) -> Told | None:
-        """Return the airframe's profile as the board had told it; None: it had not."""
+        """Return the last reported profile of the airframe; None without a report."""
         return told_at(self._profiles, time_s)
 
     def track_until(self, time_s: float) -> dict[str, Any]:
@@ -116,7 +116,7 @@ class Story:
         self._judge.on_frame(telemetry, _link(False), frame.time_s)
 
     def _wait(self, telemetry: Telemetry, until_s: float, marks: list[tuple[float, str]]) -> None:
-        """Let the time between two frames pass, as far as it changes anything."""
+        """Advance the time between two frames to the events that it contains."""
         if not telemetry.frames:
             return
         begin_s = self._now_s
@@ -145,5 +145,5 @@ def _link(is_silent: bool) -> LinkFacts:
 
 
 def past(events: Iterable[dict[str, Any]]) -> Iterable[dict[str, Any]]:
-    """Return events as those are told that were before."""
+    """Return events in the form for past ones."""
     return ({**each, "is_past": True} for each in events)

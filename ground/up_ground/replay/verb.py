@@ -20,7 +20,7 @@ examples
 
 
 def add(verbs: Any) -> None:
-    """Add ``up log replay``, which looks for flights where the other verbs of ``up log`` do."""
+    """Add ``up log replay``, which finds flights as the other verbs of ``up log`` do."""
     from up.cli.verb import add_verb
     from up.flight_log.flight_options import take_folder
 
@@ -32,7 +32,7 @@ def add(verbs: Any) -> None:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what ``up-ground replay`` takes, which knows no application."""
+    """Add the options of ``up-ground replay``, which has no application."""
     _add_flight(parser)
     parser.add_argument(
         "--folder", metavar="DIR", help="where the black box's flights are (default: its usual one)"

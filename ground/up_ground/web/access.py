@@ -1,4 +1,4 @@
-"""Who may look at the page, and which pages may control."""
+"""Access rules: who may see the page, and which pages may control."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _ORIGIN = re.compile(r"https?://([^/?#@\\]{1,300})", re.IGNORECASE)
 class Access:
     """The rules of one server.
 
-    ``names``: what this machine is called, in small letters. ``key``: what a page must know to
-    control; None: nothing. ``is_watch_only``: no page may control at all.
+    ``names``: this machine's host names, in small letters. ``key``: required for control; None:
+    no key. ``is_watch_only``: no page may control at all.
     """
 
     names: frozenset[str] = frozenset({"localhost"})
@@ -26,21 +26,21 @@ class Access:
     is_watch_only: bool = False
 
     def permits_host(self, host: str | None) -> bool:
-        """Say whether a request's Host names this machine by an address or one of its names.
+        """Return whether a request's Host names this machine by an address or one of its names.
 
-        A page of somebody else that lets its own name point here (DNS rebinding) names another.
+        A foreign page whose name resolves to this machine (DNS rebinding) sends another Host.
         """
         return names_this_machine(host, self.names)
 
     def permits_origin(self, origin: str | None, host: str | None) -> bool:
-        """Say whether the page that opens a link came from here; a program names no origin."""
+        """Return whether the page that opens a link is from here; a program sends no origin."""
         if origin is None:
             return True
         match = _ORIGIN.fullmatch(origin)
         return match is not None and host is not None and match[1].casefold() == host.casefold()
 
     def why_not(self, key: object) -> str:
-        """Return why a page that brings ``key`` may not control; empty: it may."""
+        """Return why a page with ``key`` may not control; empty if it may."""
         if self.is_watch_only:
             return "this server was started with --watch-only"
         if self.key is None:
@@ -52,7 +52,7 @@ class Access:
 
 
 def machine_names(more: Iterable[str] = ()) -> frozenset[str]:
-    """Return what this machine is called on its own network, and the names besides."""
+    """Return this machine's host names on its network, and the additional names."""
     own = socket.gethostname().casefold().rstrip(".")
     short = own.partition(".")[0]
     found = {"localhost", own, short, f"{short}.local", *(name.casefold() for name in more)}

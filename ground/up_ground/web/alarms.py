@@ -1,4 +1,4 @@
-"""What is wrong now, as far as somebody must know at once."""
+"""The present alarms: faults that need immediate attention."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from up_ground.telemetry import Telemetry
 from up_ground.web.facts import ALARM, NOT_YET, WARNING, board_state, phone_state
 
 OVER_S = 2.0
-"""An alarm ends when its cause has been away for so long."""
+"""An alarm ends when its cause has been away for this time."""
 BATTERY_LOW = 20.0
 BATTERY_EMPTY = 10.0
 _BATTERY_BACK = 3.0
@@ -26,7 +26,7 @@ class Alarm:
 
 @dataclass(frozen=True, slots=True)
 class LinkFacts:
-    """What the link says at a moment; None: not known."""
+    """State of the link at a moment; None: not known."""
 
     is_open: bool
     reason: str
@@ -34,11 +34,11 @@ class LinkFacts:
     was_heard: bool
     is_silent: bool
     is_late: bool = False
-    """Telemetry comes, but what it says is as old as if it were silent."""
+    """Telemetry arrives, but is as old as if the link were silent."""
 
 
 class Alarms:
-    """The alarms that are on. One begins at once and ends ``over_s`` after its cause."""
+    """The active alarms. One begins immediately and ends ``over_s`` after its cause."""
 
     def __init__(self, over_s: float = OVER_S) -> None:
         self._over_s = over_s
@@ -48,7 +48,7 @@ class Alarms:
         self._known: dict[str, Alarm] = {}
 
     def take(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> bool:
-        """Look at the moment; True: what is wrong has changed."""
+        """Update to this moment; return whether the alarms changed."""
         self._had_board = self._had_board or board_state(telemetry) is True
         wrong = _wrong(telemetry, link, "battery" in self._known, self._had_board)
         found = {each.kind: each for each in wrong}
@@ -63,7 +63,7 @@ class Alarms:
         return has_changed
 
     def message(self, aircraft: str) -> dict[str, Any]:
-        """Return what pages are told."""
+        """Return the message for the pages."""
         return {
             "type": "alarms",
             "aircraft": aircraft,

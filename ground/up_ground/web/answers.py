@@ -1,4 +1,4 @@
-"""Commands that were sent, and what became of them."""
+"""Sent Commands and their outcomes."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ CONTENT_OF = {
     "arduino.pids.tunings": "arduino.pids.values",
     "arduino.profile.request": "arduino.profile.values",
 }
-"""What comes besides the ack when a Command asks for something."""
+"""Data besides the ack, for a Command that requests something."""
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What became of a Command.
+    """Outcome of a Command.
 
-    ``outcome``: ack, nack, timeout (sent, and nothing is known), unsent, refused (here).
+    ``outcome``: ack, nack, timeout (sent, result unknown), unsent, refused (here).
     """
 
     outcome: str
@@ -46,7 +46,7 @@ class _Sent:
 
 
 class Answers:
-    """Matches answers by their id; each Command ends once, whatever comes twice or late."""
+    """Matches answers by their id; each Command ends once, despite duplicate or late answers."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
@@ -57,7 +57,7 @@ class Answers:
         return len(self._sent)
 
     def expect(self, name: str, data: dict[str, Any], tell: Tell) -> str:
-        """Return the id with which to send a Command; ``tell`` hears what becomes of it."""
+        """Return the id with which to send a Command; ``tell`` gets its outcome."""
         id_ = secrets.token_hex(8)
         is_asking = name != "arduino.pids.tunings" or data.get("request") is True
         awaited = CONTENT_OF.get(name, "") if is_asking else ""
@@ -66,7 +66,7 @@ class Answers:
         return id_
 
     def take(self, message: GeneralMessage) -> None:
-        """Take what the aircraft says, where it answers something."""
+        """Take a message of the aircraft, if it is an answer."""
         if message.name in ("up.ack", "up.nack"):
             id_ = message.data.get("id")
             sent = self._sent.get(id_) if isinstance(id_, str) else None
@@ -80,12 +80,12 @@ class Answers:
                     self.end(id_, Answer("ack", round_trip_ms=sent.acked_ms, data=sent.data))
 
     def lost(self) -> None:
-        """Hear that the link is gone: what was sent may or may not have arrived."""
+        """Handle the loss of the link: Commands in flight may or may not have arrived."""
         for id_, sent in list(self._sent.items()):
             self.end(id_, _timed_out(sent, "the link was lost before an answer came"))
 
     def stop(self) -> None:
-        """Wait for nothing any more."""
+        """Stop waiting for all answers."""
         for sent in self._sent.values():
             sent.timer.cancel()
         self._sent.clear()

@@ -1,4 +1,4 @@
-"""What a page is told of the Commands: enough to offer a form for each of them."""
+"""The Commands as pages receive them: enough to offer a form for each."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _command(cls: type[BaseCommand]) -> dict[str, Any]:
     return {
         "name": cls.NAME,
         "aliases": list(cls.ALIASES),
-        # "depends": a field decides who may send it, the aircraft and the server look at it.
+        # "depends": a field decides who may send it, checked by the aircraft and the server.
         "role": role_of(cls),
         "text": about(cls)[:LONGEST_TEXT],
         "needs_beacon": cls.NEEDS_BEACON,

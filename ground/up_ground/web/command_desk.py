@@ -28,10 +28,10 @@ _PROFILE = "arduino.profile.values"
 
 
 class CommandDesk:
-    """Sends what may be sent now or says why it is not; nothing waits for a better moment.
+    """Sends a Command now or refuses it with a reason; nothing is queued.
 
-    ``tell_all`` says something to the pages that watch the aircraft; ``report`` hears of every
-    outcome: its kind, its words, and whether it was what was wanted.
+    ``tell_all`` sends a message to the pages that watch the aircraft; ``report`` receives every
+    outcome: its kind, its text, and whether the Command succeeded.
     """
 
     def __init__(
@@ -63,11 +63,11 @@ class CommandDesk:
         self._gains_holder: Page | None = None
 
     def stop(self) -> None:
-        """Wait for no answer any more."""
+        """Stop waiting for all answers."""
         self._answers.stop()
 
     def on_command(self, page: Page, message: Reader) -> None:
-        """Answer a page's Command, at once or when the aircraft has answered."""
+        """Answer a page's Command, immediately or after the aircraft's answer."""
         number = message.whole("ask")
         name = message.text("name", 128)
         data = message.object("data")
@@ -96,14 +96,14 @@ class CommandDesk:
                 "round_trip_ms": answer.round_trip_ms,
                 "data": answer.data,
             }
-            # A page that was loaded anew since then asks with the same numbers for other things.
+            # A page that was reloaded since then uses the same numbers for other Commands.
             if page.asks is asks:
                 page.tell(ask.answer)
 
         self._carry_out(page, name, data, beacon, is_forced, tell)
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take what the aircraft says besides telemetry."""
+        """Take a message of the aircraft that is not telemetry."""
         self._answers.take(message)
         if message.name == _VALUES:
             self.gains.told(message.data, self._clock.seconds())
@@ -113,16 +113,16 @@ class CommandDesk:
             self._tell_all(self.profile_message())
 
     def on_lost(self) -> None:
-        """Hear that the link is gone."""
+        """Handle the loss of the link."""
         self._answers.lost()
 
     def want_gains(self) -> None:
-        """Ask for the gains as soon as it can be."""
+        """Request the gains as soon as possible."""
         self._are_gains_due = True
         self.on_moment()
 
     def on_moment(self) -> None:
-        """Hear of a frame; ask for the gains when they are due and somebody here has control."""
+        """Take a frame; request the gains when they are due and a page here has control."""
         self._beacons.look()
         holder = self._control.holder
         if holder is not self._gains_holder:
@@ -137,11 +137,11 @@ class CommandDesk:
         self._send(GAINS, {"request": True}, self._telemetry.beacon, lambda answer: None)
 
     def gains_message(self) -> dict[str, Any]:
-        """Return what pages are told of the gains."""
+        """Return the gains message for pages."""
         return self.gains.message(self._name, self._clock.seconds())
 
     def profile_message(self) -> dict[str, Any]:
-        """Return what pages are told of the profile."""
+        """Return the profile message for pages."""
         return {"type": "profile", "aircraft": self._name, "profile": self.profile}
 
     def _carry_out(
@@ -184,13 +184,13 @@ class CommandDesk:
             return Answer("refused", "busy", "too many Commands wait for their answer")
         unsent = self._unsent()
         if unsent is None and checked.needs_control:
-            # The page may hang, or what it shows be late: nobody commands what they do not see.
+            # The page may hang or show late data: a Command needs a page that sees fresh data.
             fault = self._beacons.fault(name, beacon)
             return None if fault is None else Answer("refused", *fault)
         return unsent
 
     def _unsent(self) -> Answer | None:
-        """Return why nothing can be sent now."""
+        """Return why no Command can be sent now."""
         status = self._link.status
         if not status.is_open:
             reason = status.reason or "there is no link"
@@ -226,7 +226,7 @@ class CommandDesk:
         reason = answer.reason
         self.gains.changed(page.name, before, after, answer.outcome, reason, now_s)
         self._show_gains()
-        # After a timeout nobody knows which gains fly, until the aircraft has told.
+        # After a timeout the active gains are unknown until the aircraft reports them.
         if answer.outcome in ("ack", "timeout"):
             self.want_gains()
 

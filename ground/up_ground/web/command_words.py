@@ -1,4 +1,4 @@
-"""What became of a Command, in the words of an event."""
+"""Outcomes of Commands as event texts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MARK = "black_box.mark"
 CALIBRATE = "arduino.calibrate"
 _SHOWN = 4
 _OF_BOARD = "the Arduino refused: "
-# As static/js/panels/words.js calls them; the field stands where the braces are.
+# The same names as in static/js/panels/words.js; the braces stand for the field.
 _WORDS = {
     "up.flight_mode.set": ("Flight mode {}", "mode"),
     "up.arm": ("Arm", ""),
@@ -58,7 +58,7 @@ def _words(name: str, data: Mapping[str, Any]) -> str:
 
 
 def _refusal(answer: Answer) -> tuple[str, str]:
-    """Return who refused and why: the board's own refusal comes with its name."""
+    """Return who refused and why: the board's own refusal includes its name."""
     reason = answer.reason.rstrip(". ")
     if reason.startswith(_OF_BOARD) and reason != _OF_BOARD:
         return "the Arduino", reason.removeprefix(_OF_BOARD)

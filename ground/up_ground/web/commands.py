@@ -1,4 +1,4 @@
-"""What of a page's Command is checked before it is sent."""
+"""The checks of a page's Command before it is sent."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Checked:
 
 
 class Checks:
-    """Refuses what no aircraft of this version would take, with the reason."""
+    """Refuses Commands that no aircraft of this version accepts, with the reason."""
 
     def __init__(self, catalogue: Catalogue) -> None:
         self._catalogue = catalogue
@@ -36,10 +36,10 @@ class Checks:
         role: str | None,
         is_forced: bool = False,
     ) -> Checked | Answer:
-        """Return what to know about a Command, or why it is not sent.
+        """Return a warning about a Command, or why it is not sent.
 
-        ``role`` is what the aircraft's link permits; None: not known, the aircraft decides. A name
-        that is not known here, which an aircraft may have all the same, is only sent when
+        ``role`` is the role that the aircraft's link permits; None: not known, the aircraft
+        decides. A name unknown here, which an aircraft may know all the same, is only sent when
         ``is_forced``.
         """
         cls = self._catalogue.get(name)

@@ -17,17 +17,17 @@ PER_PEER_LIMIT = 48
 HEADER_S = 5.0
 """The first request is complete by then, however its bytes are spread."""
 HTTP_LIMIT_S = 60.0
-"""A connection that has not become a page's link by then is closed: nobody dribbles for ever."""
+"""A connection that is not a page's link by then is closed, which bounds slow requests."""
 
 
 class Connection(ProtocolWrapper):
-    """One connection; what it carries is replaced when it becomes a WebSocket."""
+    """One connection; its protocol is replaced when it becomes a WebSocket."""
 
     transport: Any
     factory: Any
     peer = ""
     has_asked = False
-    """Whether a complete request came."""
+    """Whether a complete request has arrived."""
 
     def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
         """Begin to wait for the first request."""
@@ -36,7 +36,7 @@ class Connection(ProtocolWrapper):
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
 
     def on_request(self) -> None:
-        """Note that a complete request came."""
+        """Note the arrival of a complete request."""
         if not self.has_asked:
             self.has_asked = True
             self._timer.reset(HTTP_LIMIT_S - HEADER_S)
@@ -73,7 +73,7 @@ class Connections(WrappingFactory):
         self._waiting: dict[str, dict[Connection, None]] = {}
 
     def buildProtocol(self, addr: Any) -> ProtocolWrapper:  # noqa: N802 - Twisted's name
-        """Return what carries the connection."""
+        """Return the transport of the connection."""
         made: Any = super().buildProtocol(addr)
         made.peer = neighbourhood(addr.host)
         own = self._waiting.setdefault(made.peer, {})

@@ -1,4 +1,4 @@
-"""Which page controls an aircraft, and the seat at the proxy that goes with it."""
+"""The page that controls an aircraft, and the seat at the proxy behind it."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from up_ground.web.page import Page
 from up_ground.web.page_message import PageFault
 
 ASK_LIMIT_S = 30.0
-"""Who asks for control asks for so long."""
+"""A request for control lasts this long."""
 DENIED_S = 5.0
-"""A ground that was denied asks anew when it has been quiet for so long."""
+"""A denied ground may request again after it has been quiet for this time."""
 
 
 class SeatLink(Protocol):
@@ -21,17 +21,17 @@ class SeatLink(Protocol):
 
     @property
     def standing(self) -> Standing:
-        """Return who has it."""
+        """Return the owner."""
 
     @property
     def holder(self) -> int | None:
         """Return the number of the ground that has it."""
 
     def take_ask(self) -> int | None:
-        """Return which ground has asked for it since the last time."""
+        """Return which ground has requested it since the last call."""
 
     def request(self) -> None:
-        """Ask for it."""
+        """Request it."""
 
     def give(self, to: int) -> None:
         """Hand it to another ground."""
@@ -41,9 +41,9 @@ class SeatLink(Protocol):
 
 
 class Control:
-    """One page at most has control, and the seat is only held while one wants it.
+    """At most one page has control, and the seat is only held while a page wants it.
 
-    ``tell`` hears in words what has changed, ``on_change`` that something has.
+    ``tell`` gets each change in words, ``on_change`` is called at each change.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Control:
         self._asking: Timer | None = None
 
     def stop(self) -> None:
-        """Forget everybody and leave the seat."""
+        """Forget all pages and release the seat."""
         for timer in (self._asking, self._ground_timer, *self._askers.values()):
             _cancel(timer)
         self._askers.clear()
@@ -76,7 +76,7 @@ class Control:
             self._seat.release()
 
     def request(self, page: Page) -> None:
-        """Let a page have control, or ask for it whoever has it."""
+        """Give a page control, or request it from the present owner."""
         if not page.may_control:
             raise PageFault(f"this page may only watch: {page.why_not}")
         if page in (self.holder, self._wanting):
@@ -91,7 +91,7 @@ class Control:
         self._on_change()
 
     def give(self, page: Page, to: Page | None) -> None:
-        """Hand control to ``to``, or to whoever asks first."""
+        """Hand control to ``to``, or to the first page that requested it."""
         self._must_hold(page)
         if to is None and not self._askers:
             if self._ground is None:
@@ -106,7 +106,7 @@ class Control:
             self._grant(to)
 
     def deny(self, page: Page) -> None:
-        """Keep control; whoever asks first is told."""
+        """Keep control; the first page that requested it is notified."""
         self._must_hold(page)
         if self._askers:
             asker = next(iter(self._askers))
@@ -120,7 +120,7 @@ class Control:
         self._on_change()
 
     def release(self, page: Page) -> None:
-        """Leave control to whoever asks, or free; or ask no more."""
+        """Release control, to the first request or free; or withdraw the own request."""
         if page is self.holder:
             self._free()
         elif page is self._wanting:
@@ -132,24 +132,24 @@ class Control:
         self._on_change()
 
     def on_away(self, page: Page) -> None:
-        """Ask no more for a page whose link was lost; control is kept for it."""
+        """Stop requesting for a page whose link was lost; its control is kept for it."""
         if page in self._askers:
             _cancel(self._askers.pop(page))
             self._on_change()
 
     def on_gone(self, page: Page) -> None:
-        """Take control back from a page that is gone."""
+        """Take control back from a lost page."""
         if page in (self.holder, self._wanting) or page in self._askers:
             self.release(page)
 
     def on_seat(self) -> None:
-        """Hear of the link: the seat may have come, gone, or been asked for."""
+        """Handle a change of the link: the seat may be granted, lost or requested."""
         standing = self._seat.standing
         if self._wanting is not None:
             if standing is Standing.OURS:
                 self._grant(self._wanting)
         elif standing is Standing.OURS and self.holder is None:
-            # It came too late, or by its token: nobody here wants it any more.
+            # Granted too late, or by its token: no page here wants it now.
             self._seat.release()
         elif self.holder is not None and standing is Standing.HELD:
             self._tell(f"ground {self._seat.holder} commands, {self.holder.name} has lost control")
@@ -160,7 +160,7 @@ class Control:
         self._hear_ground()
 
     def describe(self, page: Page) -> dict[str, Any]:
-        """Return the part of a status that tells ``page`` who has control."""
+        """Return the control part of the status of ``page``."""
         holder, holder_name = "unknown", ""
         standing = self._seat.standing
         if self.holder is not None:
@@ -183,7 +183,7 @@ class Control:
         }
 
     def _pursue(self) -> None:
-        """Ask for the seat until it is there or the one who wants it has waited long enough."""
+        """Request the seat until it is granted or the request times out."""
         _cancel(self._asking)
         standing = self._seat.standing
         if standing is Standing.OURS:
@@ -248,7 +248,7 @@ class Control:
             self._seat.release()
 
     def _request_next(self) -> None:
-        """Let the first who asks want the seat."""
+        """Request the seat for the first page in the queue."""
         page = next(iter(self._askers))
         _cancel(self._askers.pop(page))
         self.request(page)

@@ -1,4 +1,4 @@
-"""What of a frame is worth an event when it changes, and its words."""
+"""The values of a frame whose changes are events, and the events' texts."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from up_ground.wording import busy_text
 
 INFO, WARNING, ALARM = "info", "warning", "alarm"
 NOT_YET = "not yet"
-"""What is not connected and never told anything is not gone."""
+"""A part that was never connected and never reported anything does not count as lost."""
 
 Words = Callable[[Any, Any], tuple[str, str] | None]
 
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """A value of the frame: ``read`` returns it or None (not known, which is no change).
+    """A value of the frame: ``read`` returns it or None (unknown, does not count as a change).
 
-    ``words(before, now)`` returns level and text of the change, None where it is none; ``before``
+    ``words(before, now)`` returns level and text of the change, or None for no event; ``before``
     is None for the first value.
     """
 
@@ -32,7 +32,7 @@ class Fact:
 
 def _flag(key: str, kind: str, path: str, bad: bool, said_bad: str, said_good: str,
           level: str = WARNING) -> Fact:  # fmt: skip
-    """Return a fact that is said when it becomes bad, and when it is good again."""
+    """Return a fact that is reported when it becomes bad, and when it is good again."""
     steps = path.split(".")
 
     def words(before: Any, now: Any) -> tuple[str, str] | None:
@@ -44,12 +44,12 @@ def _flag(key: str, kind: str, path: str, bad: bool, said_bad: str, said_good: s
 
 
 def board_state(telemetry: Telemetry) -> bool | str | None:
-    """Return whether the board is connected, or ``NOT_YET``; None: nobody says."""
+    """Return whether the board is connected, or ``NOT_YET``; None if not reported."""
     return _state(telemetry, "arduino", ("flight", "rx", "servo"))
 
 
 def phone_state(telemetry: Telemetry) -> bool | str | None:
-    """Return whether the phone is connected, or ``NOT_YET``; None: nobody says."""
+    """Return whether the phone is connected, or ``NOT_YET``; None if not reported."""
     return _state(telemetry, "android", ("battery",))
 
 
@@ -60,7 +60,7 @@ def _state(telemetry: Telemetry, link: str, readings: tuple[str, ...]) -> bool |
 
 
 def _part(key: str, read: Callable[[Telemetry], Any], back: str, level: str) -> Fact:
-    """Return a fact of a part that may come later than the program, and go."""
+    """Return a fact of a part that may connect after the program, and disconnect."""
 
     def words(before: Any, now: Any) -> tuple[str, str] | None:
         if now is False or (now is NOT_YET and before is True):
@@ -112,7 +112,7 @@ def _restored(before: Any, now: Any) -> tuple[str, str] | None:
 
 @dataclass(frozen=True, slots=True)
 class _Busy:
-    """That the Raspberry Pi is busy: all equal, so that another load is no other event."""
+    """The Raspberry Pi is busy: all instances are equal, so a new load figure is not a change."""
 
     words: str = field(compare=False)
 

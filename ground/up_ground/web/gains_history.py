@@ -1,4 +1,4 @@
-"""The gains that fly, and who has changed them."""
+"""The active gains, and the record of their changes."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class _Change:
 
 
 class GainsHistory:
-    """What the aircraft said last of its gains, and the sets that pages of this server sent."""
+    """The aircraft's last report of its gains, and the sets that pages of this server sent."""
 
     def __init__(self) -> None:
         self.flying: dict[str, Any] | None = None
@@ -30,7 +30,7 @@ class GainsHistory:
         self._number = 0
 
     def told(self, values: dict[str, Any], now_s: float) -> None:
-        """Take what the aircraft says that flies."""
+        """Take the active gains that the aircraft reports."""
         self.flying = values
         self._told_s = now_s
 
@@ -43,13 +43,13 @@ class GainsHistory:
         reason: str,
         now_s: float,
     ) -> None:
-        """Remember a set that was sent, and what became of it."""
+        """Record a sent set and its outcome."""
         self._number += 1
         change = _Change(self._number, now_s, by, before, after, outcome, reason)
         self._changes.append(change)
 
     def message(self, aircraft: str, now_s: float) -> dict[str, Any]:
-        """Return what pages are told."""
+        """Return the message for the pages."""
         age_ms = None if self._told_s is None else round((now_s - self._told_s) * 1000)
         return {
             "type": "gains",

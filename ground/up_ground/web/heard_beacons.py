@@ -1,4 +1,4 @@
-"""The beacons that an aircraft's telemetry brought: whether a page has seen what flies now."""
+"""The beacons of an aircraft's recent telemetry: proof that a page has seen fresh data."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from up.system.clock import Clock
 from up_ground.telemetry import Telemetry
 
 KEPT = 512
-"""More frames than this while a beacon is fresh come from no aircraft."""
+"""No aircraft sends more frames than this while a beacon is fresh."""
 
 
 class HeardBeacons:

@@ -32,7 +32,7 @@ class Home:
             self._place = place
 
     def told(self) -> dict[str, float] | None:
-        """Return the place as pages are told it."""
+        """Return the home position in the form sent to pages."""
         if self._place is None:
             return None
         return {"latitude": round(self._place[0], 7), "longitude": round(self._place[1], 7)}

@@ -1,4 +1,4 @@
-"""What happens to an aircraft, in plain words: events, and what is wrong now."""
+"""Events and alarms of an aircraft, in plain words."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Event:
     text: str
 
     def message(self, aircraft: str, now_s: float, is_past: bool) -> dict[str, Any]:
-        """Return what pages are told."""
+        """Return the message for the pages."""
         fields: dict[str, Any] = {
             "type": "event",
             "aircraft": aircraft,
@@ -43,7 +43,7 @@ class Event:
 
 
 class Judge:
-    """Hears frames and the link, and says each change once; what flaps is said seldom.
+    """Takes frames and link states, reports each change once and debounces values that flap.
 
     ``tell`` gets the messages for the pages. An alarm ends ``over_s`` after its cause.
     """
@@ -59,14 +59,14 @@ class Judge:
         self._number = 0
 
     def note(self, kind: str, level: str, text: str, now_s: float, late_s: float = 0.0) -> None:
-        """Say that something happened, ``late_s`` ago."""
+        """Report an event of ``late_s`` ago."""
         self._number += 1
         event = Event(self._number, now_s - late_s, level, kind, text)
         self._events.append(event)
         self._tell(event.message(self._aircraft, now_s, is_past=False))
 
     def on_frame(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> None:
-        """Look at a new frame."""
+        """Process a new frame."""
         for fact in FACTS:
             value = fact.read(telemetry)
             if value is not None:
@@ -74,7 +74,7 @@ class Judge:
         self.on_moment(telemetry, link, now_s)
 
     def on_link(self, link: LinkFacts, now_s: float) -> None:
-        """Look at the link."""
+        """Process the state of the link."""
         state: tuple[bool, bool | None] = (link.is_open, link.is_aircraft_online)
 
         def say(before: Any, now: Any) -> None:
@@ -85,7 +85,7 @@ class Judge:
         self._settled.take("link", state, now_s, say)
 
     def on_moment(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> None:
-        """Look at what time alone has changed."""
+        """Process the changes by time alone."""
         self._settled.on_moment(now_s)
         if self._alarms.take(telemetry, link, now_s):
             kinds = {each.kind for each in self._alarms.active}
@@ -98,7 +98,7 @@ class Judge:
             self._tell(self._alarms.message(self._aircraft))
 
     def past(self, now_s: float) -> Iterator[dict[str, Any]]:
-        """Yield what a page is told that comes later."""
+        """Yield the messages for a page that joins later."""
         for event in self._events:
             yield event.message(self._aircraft, now_s, is_past=True)
         yield self._alarms.message(self._aircraft)

@@ -1,4 +1,4 @@
-"""How often an address may try keys."""
+"""Limits the attempts of an address to guess a key."""
 
 from __future__ import annotations
 

@@ -20,11 +20,11 @@ class ListenAddress:
 
     @property
     def is_loopback(self) -> bool:
-        """Say whether only this machine's own users reach it."""
+        """Return whether only users of this machine reach it."""
         return not is_wildcard(self.host) and ip_address(self.host).is_loopback
 
     def urls(self, port: int, key: str | None) -> list[str]:
-        """Return what to open in a browser; ``port`` is the one that was opened in the end."""
+        """Return the URL for a browser; ``port`` is the one that was opened in the end."""
         hosts = _own_addresses(":" in self.host) if is_wildcard(self.host) else [self.host]
         fragment = f"#key={key}" if key else ""
         return [f"http://{authority(host, port)}/{fragment}" for host in hosts]
@@ -36,7 +36,7 @@ def authority(host: str, port: int) -> str:
 
 
 def parse_listen(text: str) -> ListenAddress:
-    """Return what ``ADDRESS:PORT`` says; raises ValueError with a sentence.
+    """Parse ``ADDRESS:PORT``; raises ValueError with a sentence.
 
     ``localhost`` is the loopback address, ``*`` or nothing before the colon every interface.
     """

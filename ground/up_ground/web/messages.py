@@ -1,4 +1,4 @@
-"""What the server says to pages, as bytes that a WebSocket carries."""
+"""The server's messages to pages, as bytes for a WebSocket."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ _FINAL_TEXT = 0x81
 def text_frame(payload: bytes) -> bytes:
     """Return the one frame of a text message, unmasked as a server's are; ``payload`` is UTF-8.
 
-    Made here so that one message is put together once for all pages, and so that what has not
-    left can still be replaced.
+    Made here so that one message is encoded once for all pages, and so that unsent messages can
+    still be replaced.
     """
     size = len(payload)
     if size < 126:
@@ -31,10 +31,10 @@ def message_bytes(fields: Mapping[str, Any]) -> bytes:
 
 
 class FrameMessage:
-    """A frame of telemetry: put into JSON once for all pages, with the moment it leaves.
+    """A frame of telemetry: encoded to JSON once for all pages, at the time of sending.
 
-    ``age_s`` returns its age at a moment of the monotonic clock ``now_s``. ``time_s``: when it was
-    so in a flight of the past.
+    ``age_s`` returns its age at a time ``now_s`` of the monotonic clock. ``time_s``: its time in
+    a recorded flight.
     """
 
     __slots__ = ("_age_s", "_body", "_now_s")
@@ -61,7 +61,7 @@ class FrameMessage:
         self._now_s = now_s
 
     def __call__(self) -> bytes:
-        """Return the message as it is true now."""
+        """Return the message with its present age."""
         now_s = self._now_s()
         age_ms, sent_ms = self._age_s(now_s) * 1000, now_s * 1000
         return text_frame(b'%b%.1f,"sent_ms":%.1f}' % (self._body, age_ms, sent_ms))

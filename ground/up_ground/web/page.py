@@ -15,7 +15,7 @@ class PageConnection(Interface):
 
     output: PageOutput
     host: str
-    """The address that it comes from."""
+    """Its remote address."""
 
     def admit(self) -> None:
         """Apply the limits of a welcomed page from now on."""
@@ -24,21 +24,21 @@ class PageConnection(Interface):
         """Close it; ``code`` is 4000 to 4999, as RFC 6455 leaves them to us."""
 
     def is_alive(self, within_s: float, tell: Any) -> None:
-        """Ask for a sign of life; ``tell`` hears whether one came in time."""
+        """Ping the page; ``tell`` gets whether the answer came in time."""
 
 
 @dataclass(slots=True)
 class Ask:
-    """A Command that a page has asked for, and its answer as soon as there is one."""
+    """A Command requested by a page, and its answer when it has arrived."""
 
     content: str
     answer: dict[str, Any] | None = None
 
 
 class Page:
-    """A page with its name and what it may do; ``link`` is None while it is away.
+    """A page with its name and its rights; ``link`` is None while it is disconnected.
 
-    ``asks`` holds the Commands of its present link by the numbers that it gave them.
+    ``asks`` holds the Commands of its present link by the page's numbers.
     """
 
     def __init__(self, number: int, name: str, token: str, why_not: str) -> None:
@@ -52,23 +52,23 @@ class Page:
 
     @property
     def may_control(self) -> bool:
-        """Say whether it may ask for control."""
+        """Return whether it may request control."""
         return not self.why_not
 
     def tell(self, message: dict[str, Any]) -> None:
-        """Say something in order; lost while the page is away."""
+        """Send a message in order; lost while the page is disconnected."""
         self.tell_bytes(message_bytes(message))
 
     def tell_bytes(self, message: bytes) -> None:
-        """Say something that is put together already."""
+        """Send an encoded message."""
         if self.link is not None:
             self.link.output.send(message)
 
     def news(self, kind: str, make: Any) -> None:
-        """Say something that only counts until the next of its kind."""
+        """Send a message that the next of its kind replaces."""
         if self.link is not None:
             self.link.output.send_newest(kind, make)
 
     def fault(self, text: str) -> None:
-        """Say what the page did wrong."""
+        """Report an error of the page to it."""
         self.tell({"type": "fault", "text": text})

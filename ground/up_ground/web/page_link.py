@@ -23,20 +23,20 @@ TOO_LONG = 4008
 
 
 class LinkOwner(Interface):
-    """Who hears of the pages' links."""
+    """Receiver of the events of the pages' links."""
 
     def on_opened(self, link: PageLink) -> None:
-        """Hear of a new one."""
+        """Handle a new link."""
 
     def on_said(self, link: PageLink, payload: bytes) -> None:
-        """Hear what it says."""
+        """Handle its message."""
 
     def on_closed(self, link: PageLink) -> None:
-        """Hear that it is gone."""
+        """Handle its loss."""
 
 
 class PageLink(WebSocketServerProtocol):
-    """Text messages both ways; what leaves goes by ``output``, past the library's own queue."""
+    """Text messages both ways; output goes through ``output``, past the library's own queue."""
 
     transport: Any
     host: str
@@ -51,7 +51,7 @@ class PageLink(WebSocketServerProtocol):
 
     def onOpen(self) -> None:  # noqa: N802 - the library's name
         """Take the transport."""
-        # What carried the HTTP request is still registered there.
+        # The transport of the HTTP request is still registered there.
         self.transport.unregisterProducer()
         watch_peer(self.transport, USER_TIMEOUT_MS)
         self.output.start(self.transport)
@@ -78,7 +78,7 @@ class PageLink(WebSocketServerProtocol):
             tell(True)
 
     def onClose(self, wasClean: bool, code: int | None, reason: str | None) -> None:  # noqa: N802, N803
-        """Tell that it is gone."""
+        """Report its loss."""
         self.output.stopProducing()
         asked, self._asked = self._asked, {}
         for tell in asked.values():
@@ -88,7 +88,7 @@ class PageLink(WebSocketServerProtocol):
             self._owner.on_closed(self)
 
     def is_alive(self, within_s: float, tell: Callable[[bool], object]) -> None:
-        """Ask for a sign of life; ``tell`` hears once whether one came in time."""
+        """Ping the page; ``tell`` gets once whether the answer came in time."""
         mark = b"%d" % id(tell)
         self._asked[mark] = tell
 
@@ -100,13 +100,13 @@ class PageLink(WebSocketServerProtocol):
         self.sendPing(mark)
 
     def close(self, code: int, reason: str) -> None:
-        """Say why, and close."""
+        """Send the reason, and close."""
         self.output.finish()
         self.sendClose(code, reason)
 
     def _max_message_size_exceeded(self, msg_size: int, max_msg_size: int, reason: str) -> None:
-        """Say why, where the library would cut the connection without a word."""
-        # It stores nothing of what still comes.
+        """Send the reason, where the library would cut the connection without one."""
+        # Later input is not stored.
         self.failedByMe = True
         self.close(TOO_LONG, f"a message has at most {max_msg_size} bytes")
 
@@ -143,5 +143,5 @@ class _Factory(WebSocketServerFactory):
 
 
 def link_resource(reactor: Any, owner: LinkOwner) -> WebSocketResource:
-    """Return what turns a request for the link into one; Host and Origin are checked before."""
+    """Return the resource that upgrades a request; Host and Origin are checked before."""
     return WebSocketResource(_Factory(reactor, owner))

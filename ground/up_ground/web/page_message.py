@@ -1,4 +1,4 @@
-"""What a page says, read with suspicion."""
+"""Messages of a page, validated."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _LARGEST = 2**53
 
 
 class PageFault(ValueError):  # noqa: N818 - what the page did, the protocol's word
-    """A message that says nothing that is known; the text is one sentence."""
+    """An unknown message; the text is one sentence."""
 
 
 @dataclass(frozen=True, slots=True)

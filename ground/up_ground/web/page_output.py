@@ -1,4 +1,4 @@
-"""What waits to leave for a page: messages in order, of each kind of news only the newest."""
+"""The send buffer of a page: messages in order, of each kind of news only the newest."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ PENDING_LIMIT = 1 << 20
 
 
 class PageOutput(BaseOutput):
-    """The output of a WebSocket.
+    """The send buffer of a WebSocket.
 
-    News (a frame, a status) is put into bytes when it leaves, not when it comes, so that the age
-    in it is true. ``on_overrun`` hears that ``PENDING_LIMIT`` is passed; nothing is sent from then
-    on.
+    A frame or a status is encoded when it is sent, not when it arrives, so that its age is right.
+    ``on_overrun`` is called when ``PENDING_LIMIT`` is exceeded; after that nothing is sent.
     """
 
     def __init__(self, on_overrun: Callable[[], object]) -> None:
@@ -24,7 +23,7 @@ class PageOutput(BaseOutput):
 
     @property
     def waiting_bytes(self) -> int:
-        """Return the size of what waits in order."""
+        """Return the size of the queued messages."""
         return self._size
 
     def send(self, message: bytes) -> None:
@@ -37,10 +36,10 @@ class PageOutput(BaseOutput):
             self._on_overrun()
 
     def send_newest(self, kind: str, make: Make) -> None:
-        """Send what ``make`` returns in place of one of this kind that still waits."""
+        """Send the result of ``make`` in place of a queued one of this kind."""
         if self._transport is not None:
             self._put_news(kind, make, may_leave=self._is_drained)
 
     def forget(self, kind: str) -> None:
-        """Drop what waits of a kind."""
+        """Drop the queued one of a kind."""
         self._news.pop(kind, None)

@@ -1,4 +1,4 @@
-"""All the pages that are open, and what each of them says."""
+"""All open pages and their messages."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from up_ground.web.places import PAGES_LIMIT, WATCHERS_LIMIT, NoPlaceError, make
 from up_ground.web.watched import WatchedAircraft
 
 GREETING_LIMIT = 16
-"""Of so many links that have said no hello yet the oldest goes."""
+"""Maximum number of links without a hello; beyond it the oldest is closed."""
 HELLO_S = 5.0
 KEPT_S = 5.0
-"""A page that vanishes is expected back for so long."""
+"""A lost page is expected back within this time."""
 ALIVE_S = 1.0
 FAULTS_LIMIT = 20
 GOING_AWAY = 4001
@@ -46,7 +46,7 @@ class _Visit:
 
 
 class Pages:
-    """Knows who is there, gives each page what it watches, and hands on what it says."""
+    """Knows the connected pages, sends each the data it watches and dispatches its messages."""
 
     def __init__(
         self,
@@ -72,7 +72,7 @@ class Pages:
         self._all_closed: Deferred[None] | None = None
 
     def start(self) -> None:
-        """Begin to say once a second how things are."""
+        """Start to send the status once a second."""
         self._beat = self._clock.callLater(1.0, self._on_second)
 
     async def stop(self) -> None:
@@ -87,7 +87,7 @@ class Pages:
                 link.close(GOING_AWAY, "the server ends")
             await self._all_closed
 
-    # What an aircraft asks.
+    # Called by an aircraft.
 
     def all(self) -> list[Page]:
         """Return the pages that are here."""
@@ -99,13 +99,13 @@ class Pages:
         return None if page is None or page.link is None else page
 
     def show(self, aircraft: str, kind: str, make: Make) -> None:
-        """Give the pages that watch the aircraft what only counts until the next of its kind."""
+        """Send the pages that watch the aircraft a message that the next of its kind replaces."""
         for page in self._pages.values():
             if page.watched == aircraft:
                 page.news(kind, make)
 
     def tell(self, aircraft: str, message: dict[str, Any]) -> None:
-        """Say something to the pages that watch the aircraft."""
+        """Send a message to the pages that watch the aircraft."""
         encoded = b""
         for page in self._pages.values():
             if page.watched == aircraft:
@@ -117,10 +117,10 @@ class Pages:
         for page in self._pages.values():
             self._show_status(page, self.fleet[aircraft])
 
-    # What a page's link tells.
+    # Called by a page's link.
 
     def on_opened(self, link: PageConnection) -> None:
-        """Wait for the page's hello, which says whether it has a right to a place."""
+        """Wait for the page's hello, which shows whether it has a reserved place."""
         greeting = [each for each, visit in self._visits.items() if visit.page is None]
         if len(greeting) >= GREETING_LIMIT:
             silent = (each for each in greeting if not self._visits[each].is_greeting)
@@ -129,7 +129,7 @@ class Pages:
         self._visits[link] = _Visit(self._clock, timer)
 
     def on_said(self, link: PageConnection, payload: bytes) -> None:
-        """Do what a page says; nonsense is told to it, and after too much of it the page goes."""
+        """Handle a message of a page; bad ones get an error, and too many close the link."""
         visit = self._visits.get(link)
         if visit is None or self._all_closed is not None:
             return
@@ -212,7 +212,7 @@ class Pages:
         elif former.link is None:
             self._welcome_back(link, former, name, why_not)
         else:
-            # A tab that was doubled brings its original's token; a page whose old link hangs too.
+            # A duplicated tab has its original's token; so has a page whose old link hangs.
             old = former.link
 
             def decide(is_alive: bool) -> None:
@@ -274,7 +274,7 @@ class Pages:
         self._forget(page)
 
     def _turn_away(self, link: PageConnection, reason: str) -> None:
-        """Close a link that is nobody's any more."""
+        """Close a link without a page."""
         visit = self._visits.pop(link)
         if visit.timer.active():
             visit.timer.cancel()
@@ -292,7 +292,7 @@ class Pages:
     def _welcome(self, link: PageConnection, page: Page) -> None:
         link.admit()
         page.link = link
-        # A page that was loaded anew begins to count anew; its old numbers mean nothing.
+        # A reloaded page restarts its numbers at one; its old numbers are void.
         page.asks = {}
         self._visits[link].page = page
         page.tell(
@@ -331,7 +331,7 @@ class Pages:
         page.news(f"status {aircraft.name}", lambda: message_bytes(aircraft.status(page)))
 
     def _now_ms(self) -> float:
-        """Return the clock by which pages tell how long the way from here was."""
+        """Return the clock by which pages report the transit time from here."""
         return round(self._clock.seconds() * 1000, 1)
 
     def _forget(self, page: Page) -> None:

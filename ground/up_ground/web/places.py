@@ -1,4 +1,4 @@
-"""How many pages there may be, and who leaves when somebody with a right to a place comes."""
+"""Admission control: the number of pages, and which one leaves for a page with a reserved place."""
 
 from __future__ import annotations
 
@@ -12,14 +12,13 @@ WATCHERS_LIMIT = 12
 
 
 class NoPlaceError(Exception):
-    """There is no place for one more page; the text is the reason it is closed with."""
+    """No place for another page; the text is the close reason."""
 
 
 def make_place(pages: Collection[Page], may_control: bool, watchers_limit: int) -> Page | None:
-    """Return which page must leave for a new one; None: there is a place, nobody must.
+    """Return the page that must leave for a new one; None if there is a free place.
 
-    ``pages`` are those that are here or expected back, which keep their places. Raises
-    NoPlaceError.
+    ``pages`` are connected or reserved; reserved ones keep their places. Raises NoPlaceError.
     """
     watchers = [page for page in pages if not page.may_control]
     is_full = len(pages) >= PAGES_LIMIT

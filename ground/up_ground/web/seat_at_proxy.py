@@ -1,4 +1,4 @@
-"""The seat of a link, as `Control` asks of it."""
+"""The seat of a link, with the interface that `Control` requires."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from up_ground.seat_wait import Standing, standing
 from up_ground.settings import Seat
 
 HELLO_AFTER = 5
-"""Requests between two hellos to an aircraft's own listener, which tells not who has the seat."""
+"""Requests between two hellos to an aircraft's own listener, which does not report the owner."""
 
 
 class SeatAtProxy:
@@ -21,7 +21,7 @@ class SeatAtProxy:
 
     @property
     def standing(self) -> Standing:
-        """Return who has it; one that was left is not ours, whatever the proxy still has to say."""
+        """Return the owner; a released seat is not ours, even before the proxy confirms it."""
         now = standing(self._link.status, self._is_direct)
         if now is not Standing.OURS:
             self._is_left = False
@@ -33,13 +33,13 @@ class SeatAtProxy:
         return self._link.status.holder
 
     def take_ask(self) -> int | None:
-        """Return which ground has asked for it since the last time."""
+        """Return which ground has requested it since the last call."""
         status = self._link.status
         asked, status.asked_by = status.asked_by, None
         return asked
 
     def request(self) -> None:
-        """Ask for it; whoever knows no such request is asked by a new hello."""
+        """Request it; a peer without that request gets a new hello instead."""
         if self.standing is not Standing.LATER:
             self._unheard = 0
         elif self._unheard % HELLO_AFTER == 1:
@@ -51,7 +51,7 @@ class SeatAtProxy:
         self._link.request_seat()
 
     def give(self, to: int) -> None:
-        """Hand it to another ground; it stays ours where that one has gone."""
+        """Hand it to another ground; it stays ours if that one has disconnected."""
         self._link.give_seat(to)
 
     def release(self) -> None:

@@ -1,4 +1,4 @@
-"""``up-ground serve``: what its options mean."""
+"""The options of ``up-ground serve``."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ _ONE = re.compile(
 
 
 def parse_aircraft(text: str, usual: Settings) -> Settings:
-    """Return whom ``NAME[@HOST:PORT[/direct]]`` means; raises ValueError with a sentence.
+    """Return the peer of ``NAME[@HOST:PORT[/direct]]``; raises ValueError with a sentence.
 
-    Without an address it is an aircraft of ``usual``'s proxy. Two aircraft of one name are told
-    apart by nothing, so a name is given once.
+    Without an address it is an aircraft of ``usual``'s proxy. Names must be unique: pages select
+    an aircraft by its name.
     """
     match = _ONE.fullmatch(text)
     port = int(match["port"] or usual.port) if match else 0
@@ -58,7 +58,7 @@ class ServeError(ValueError):
 
 
 def fleet_of(options: argparse.Namespace) -> list[Settings]:
-    """Return whom to watch; raises ServeError."""
+    """Return the aircraft to watch; raises ServeError."""
     usual = Settings(options.host, options.port, options.aircraft, Seat.LISTEN, options.direct)
     try:
         chosen = [parse_aircraft(text, usual) for text in options.fleet or [options.aircraft]]
@@ -75,7 +75,7 @@ def fleet_of(options: argparse.Namespace) -> list[Settings]:
 
 @dataclass(frozen=True, slots=True)
 class PageOptions:
-    """Where the page is served, to whom, and with which map."""
+    """Where the page is served, the allowed clients, and the map."""
 
     listen: ListenAddress
     access: Access
@@ -84,9 +84,9 @@ class PageOptions:
 
     @classmethod
     def of(cls, options: argparse.Namespace, environ: Mapping[str, str]) -> PageOptions:
-        """Return what the options say; raises ServeError."""
+        """Return the parsed options; raises ServeError."""
         try:
-            # What it needs besides is an extra, and every other verb starts without it.
+            # Its further dependencies are an extra; every other verb starts without them.
             importlib.import_module("up_ground.web.server")
         except ModuleNotFoundError as error:
             raise ServeError(
@@ -97,7 +97,7 @@ class PageOptions:
             listen = parse_listen(options.listen)
         except ValueError as error:
             raise ServeError(str(error)) from None
-        # On loopback nobody needs a key unless one is given.
+        # On loopback a key is needed only if one is given.
         key = options.key or (None if listen.is_loopback else secrets.token_urlsafe(12))
         access = Access(machine_names(options.name or ()), key, options.watch_only)
         return cls(listen, access, _tiles_of(options.tiles, environ), options.attribution)

@@ -47,7 +47,7 @@ class Server(Errand):
         told = None
         if tiles is not None:
             told = {"url": "/tiles/{z}/{x}/{y}", "attribution": attribution}
-        # Where nothing can be commanded there is nothing to offer.
+        # Without Commands there is nothing to offer.
         offered = None if catalogue is None else catalogue_message(catalogue)
         self.pages = Pages(reactor, access, tiles=told, catalogue=offered, is_replay=is_replay)
         for aircraft in make_fleet(self.pages):
@@ -63,7 +63,7 @@ class Server(Errand):
         self._port: Any = None
 
     def start(self) -> None:
-        """Open the port, say where the page is, and begin to connect."""
+        """Open the port, print the page's address, and begin to connect."""
         listen = self._listen
         try:
             self._port = self._reactor.listenTCP(listen.port, self._factory, interface=listen.host)

@@ -1,4 +1,4 @@
-"""Values that are told when they change, and not more often than anybody can read."""
+"""Debounces values: a change is reported, but not more often than a person can read."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ class _Value:
 
 
 class Settled:
-    """Tells a change at once, the next one of the same key only after a pause that grows.
+    """Reports a change immediately, the next one of the same key only after a growing pause.
 
-    What flaps is told with its newest value, twice a minute in the long run. A key's first value
-    is told with None before it.
+    A flapping value is reported with its newest value, in the long run twice a minute. A key's
+    first value is reported with None as the value before.
     """
 
     def __init__(self) -> None:
         self._values: dict[str, _Value] = {}
 
     def take(self, key: str, value: Any, now_s: float, tell: Told) -> None:
-        """Take the value of now; ``tell(before, now)`` is called when it is told."""
+        """Take the present value; ``tell(before, now)`` is called when it is reported."""
         known = self._values.get(key)
         if known is None:
             self._values[key] = _Value(value, value, tell, now_s - QUIET_S)
@@ -44,7 +44,7 @@ class Settled:
             self._try(known, now_s)
 
     def on_moment(self, now_s: float) -> None:
-        """Tell what had to wait."""
+        """Report the changes whose pause is over."""
         for known in self._values.values():
             if known.newest != known.told:
                 self._try(known, now_s)

@@ -1,4 +1,4 @@
-"""What the server answers over HTTP: the page's files, the map's tiles, the link."""
+"""The server's HTTP resources: the page's files, the map's tiles, the link."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from up_ground.web.access import Access
 from up_ground.web.static_files import StaticFiles
 
 IDLE_S = 20.0
-"""A connection that sends no line for so long is closed, as are half requests."""
+"""A connection without a line for this time is closed, as are incomplete requests."""
 HEADERS = {
     b"server": b"up-ground",
     b"content-security-policy": (
@@ -37,13 +37,13 @@ _PLAIN = b"text/plain; charset=utf-8"
 
 
 class Tiles(Interface):
-    """Who has the map's pictures."""
+    """Source of the map tiles."""
 
     def render(self, request: Any) -> Any:
         """Answer a request for one."""
 
     def stop(self) -> None:
-        """Fetch nothing any more."""
+        """Stop all fetches."""
 
 
 class GroundResource(Resource):
@@ -118,7 +118,7 @@ class GroundRequest(Request):
         super().gotLength(length)  # type: ignore[no-untyped-call]
 
     def process(self) -> None:
-        """Let the resource answer; Twisted itself answers ``*``, in its own name."""
+        """Let the resource answer; Twisted itself answers ``*`` with its own name."""
         channel: Any = self.channel
         channel.transport.on_request()
         if self.path == b"*":
@@ -134,7 +134,7 @@ class _Site(Site):
 
 
 def make_site(reactor: Any, resource: GroundResource) -> Site:
-    """Return the factory that listens; nothing of it is logged."""
+    """Return the factory that listens, without an access log."""
     make: Any = _Site
     site: Site = make(resource, requestFactory=GroundRequest, timeout=IDLE_S, reactor=reactor)
     site.displayTracebacks = False
@@ -142,14 +142,14 @@ def make_site(reactor: Any, resource: GroundResource) -> Site:
 
 
 def refuse(request: Any, code: int, sentence: str) -> bytes:
-    """Return an answer that says why there is nothing else."""
+    """Return an answer with only a reason."""
     request.setResponseCode(code, _WORDS.get(code))
     request.setHeader(b"content-type", _PLAIN)
     return send(request, f"{sentence}\n".encode())
 
 
 def send(request: Any, content: bytes) -> bytes:
-    """Return an answer's body, or nothing where only its head was asked for."""
+    """Return an answer's body, empty if only its head was requested."""
     request.setHeader(b"content-length", b"%d" % len(content))
     return b"" if request.method == b"HEAD" else content
 
@@ -162,7 +162,7 @@ def finish(request: Any, content: bytes) -> None:
 
 
 def _only(request: Any, name: bytes) -> str | None:
-    """Return a header that came once; None: absent, repeated, or no text."""
+    """Return a header that occurs once; None: absent, repeated, or not text."""
     values = request.requestHeaders.getRawHeaders(name, [])
     if len(values) != 1:
         return None

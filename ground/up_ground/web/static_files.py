@@ -39,9 +39,9 @@ class StaticFile:
 
 
 class StaticFiles:
-    """Reads files below ``folder`` and nothing else; a folder is no file and is never listed.
+    """Serves files below ``folder`` only; a folder is not a file and is never listed.
 
-    What was read is kept as long as the file's time and size stay as they are.
+    A file's content is cached until its time or size changes.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -49,7 +49,7 @@ class StaticFiles:
         self._kept: dict[Path, tuple[tuple[int, int], StaticFile]] = {}
 
     def get(self, path: bytes) -> StaticFile | None:
-        """Return the file of a request's path, such as ``/js/main.js``; None: there is none."""
+        """Return the file of a request's path, such as ``/js/main.js``; None if it is missing."""
         if path == b"/":
             path = b"/index.html"
         segments = unquote_to_bytes(path).split(b"/")

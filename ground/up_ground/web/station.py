@@ -1,4 +1,4 @@
-"""One aircraft of the server: its link, what it says, what the pages make of it."""
+"""One aircraft of the server: its link, its messages, its pages."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ from up_ground.web.track import Track, track_message
 from up_ground.web.watched import Audience
 
 TICK_S = 0.25
-"""So often what time alone changes is looked at."""
+"""Period of the checks for changes by time alone."""
 
 
 class Station:
-    """Forwards telemetry the moment it comes, and keeps what a page that comes later must know."""
+    """Forwards telemetry without delay, and keeps the state that a page needs when it joins."""
 
     def __init__(
         self,
@@ -67,7 +67,7 @@ class Station:
         self.judge = Judge(name, lambda message: audience.tell(name, message))
         self._track = Track()
         self._home = Home()
-        # What pages do is worth an event, but not a flood of them.
+        # Actions of pages are events, but at a limited rate.
         self._notes = TokenBucket(reactor, rate_hz=1.0, burst=20.0)
         self._tick: Timer | None = None
         self._has_board: bool | None = None
@@ -76,7 +76,7 @@ class Station:
 
     @property
     def summary(self) -> str:
-        """Return whom this is about, in a line."""
+        """Return the aircraft in one line."""
         way = "directly" if self._settings.direct else "by way of the proxy"
         return f"{self.name} {way} at {self._settings.address}"
 
@@ -94,7 +94,7 @@ class Station:
         await self.link.stop()
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take what the aircraft says."""
+        """Handle a message of the aircraft."""
         came_s = self._reactor.seconds()
         if self.telemetry.take(message, came_s):
             made_s = came_s - self.telemetry.way_s
@@ -112,7 +112,7 @@ class Station:
             self.desk.on_message(message)
 
     def _look_at(self, now_s: float) -> None:
-        """See what a frame means, after it has left for the pages."""
+        """Evaluate a frame, after it has been sent to the pages."""
         telemetry = self.telemetry
         self._track.take(telemetry, now_s)
         self._home.take(telemetry)
@@ -124,7 +124,7 @@ class Station:
         self.desk.on_moment()
 
     def on_link(self) -> None:
-        """Hear of the link."""
+        """Handle a change of the link."""
         status = self.link.status
         if self._was_open and not status.is_open:
             self.desk.on_lost()
@@ -143,7 +143,7 @@ class Station:
         return self._frame
 
     def past(self) -> Iterable[dict[str, Any]]:
-        """Return what a page is told that begins to watch."""
+        """Return the messages for a page that starts to watch."""
         yield track_message(self.name, self._track.points())
         yield from self.judge.past(self._reactor.seconds())
         yield self.desk.gains_message()
@@ -188,7 +188,7 @@ class Station:
         }
 
     def on_control(self, page: Page, action: str, to: int | None) -> None:
-        """Let a page ask for control, give, deny or release it."""
+        """Let a page request, give, deny or release control."""
         if action == "give":
             taker = None if to is None else self._audience.get(to)
             if to is not None and taker is None:
@@ -202,22 +202,22 @@ class Station:
             }[action](page)
 
     def on_command(self, page: Page, message: Reader) -> None:
-        """Let a page send a Command."""
+        """Send a page's Command."""
         self.desk.on_command(page, message)
 
     def on_replay(self, page: Page, action: str, message: Reader) -> None:
-        """Refuse: this is no replay."""
+        """Refuse: the aircraft is live, not a replay."""
         raise PageFault("this is no replay")
 
     def on_away(self, page: Page) -> None:
-        """Hear that a page's link was lost; it may come back."""
+        """Handle the loss of a page's link; the page may return."""
         self.control.on_away(page)
 
     def on_back(self, page: Page) -> None:
-        """Hear that a page is here."""
+        """Handle a new page."""
 
     def on_gone(self, page: Page) -> None:
-        """Hear that it will not come back."""
+        """Handle the final loss of a page."""
         self.control.on_gone(page)
 
     def _on_tick(self) -> None:

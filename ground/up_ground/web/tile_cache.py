@@ -13,7 +13,7 @@ from threading import Lock
 
 BYTES_LIMIT = 200_000_000
 TILES_LIMIT = 50_000
-"""What the index in memory holds at most."""
+"""Maximum number of tiles in the index in memory."""
 _CHECK_BYTES = hashlib.sha256().digest_size
 
 Tile = tuple[int, int, int]
@@ -27,10 +27,10 @@ def cache_folder(environ: Mapping[str, str]) -> Path:
 
 
 class TileCache:
-    """Tiles of one source, bounded in all; where nothing can be stored nothing is.
+    """Tiles of one source, bounded in number and size; write errors are ignored.
 
-    A file is a checksum and the tile: what a power cut left half written is no tile. Every method
-    may wait for the disk, and may be called from any thread.
+    A file is a checksum and the tile, so a tile half written at a power cut is detected. Every
+    method may block on the disk, and may be called from any thread.
     """
 
     def __init__(
@@ -40,7 +40,7 @@ class TileCache:
         self._limit = limit
         self._tiles_limit = tiles_limit
         self._lock = Lock()
-        # The sizes of the files, what was looked at longest ago first; None: not looked for yet.
+        # The sizes of the files, least recently used first; None: not read yet.
         self._sizes: OrderedDict[Tile, int] | None = None
         self._bytes = 0
 
@@ -55,7 +55,7 @@ class TileCache:
         if hashlib.sha256(content).digest() != check:
             return None
         with contextlib.suppress(OSError):
-            # What is used stays longest, in the next run too.
+            # Used tiles stay longest, in the next run too.
             os.utime(path)
         with self._lock:
             if self._sizes is not None and (z, x, y) in self._sizes:
@@ -85,7 +85,7 @@ class TileCache:
             self._thin(self._sizes)
 
     def _thin(self, sizes: OrderedDict[Tile, int]) -> None:
-        """Delete what has not been looked at for longest."""
+        """Delete the least recently used tiles."""
         while sizes and (self._bytes > self._limit or len(sizes) > self._tiles_limit):
             tile, size = sizes.popitem(last=False)
             self._bytes -= size
@@ -93,7 +93,7 @@ class TileCache:
                 self._path(tile).unlink()
 
     def _look(self) -> OrderedDict[Tile, int]:
-        """Return what is here; what is no tile's file was left by a power cut and goes."""
+        """Return the cached tiles; deletes files that a power cut left incomplete."""
         found = []
         for path in self._folder.glob("*/*/*"):
             with contextlib.suppress(OSError, ValueError):

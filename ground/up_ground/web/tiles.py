@@ -1,4 +1,4 @@
-"""The map's pictures, fetched by the server so that a page never asks anybody else."""
+"""The map's pictures, fetched by the server so that a page contacts no other host."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _KINDS = ((b"\x89PNG\r\n\x1a\n", b"image/png"), (b"\xff\xd8\xff", b"image/jpeg")
 
 
 def source_fault(source: str) -> str:
-    """Return why an address is none of a source of tiles; empty: it is."""
+    """Return why an address is not a tile source; empty if it is one."""
     if not _SOURCE.fullmatch(source) or not source.isascii():
         return f"{source!r} is no address that begins with http:// or https://"
     missing = [each for each in ("{z}", "{x}", "{y}") if each not in source]
@@ -42,9 +42,9 @@ def source_fault(source: str) -> str:
 
 
 class TileSource:
-    """Answers with a tile of the cache or of ``source``; few are fetched at once, each once.
+    """Answers with a tile of the cache or of ``source``; few are fetched in parallel, each once.
 
-    The disk is waited for on other threads: telemetry waits for none of that.
+    Disk access runs on other threads, so that it does not delay telemetry.
     """
 
     def __init__(self, reactor: Any, source: str, cache: TileCache) -> None:
@@ -58,7 +58,7 @@ class TileSource:
         self._busy: dict[Tile, Deferred[Any]] = {}
 
     def stop(self) -> None:
-        """Fetch nothing any more."""
+        """Stop all fetches."""
         self._waiting.clear()
         self._asked.clear()
         for each in list(self._busy.values()):
@@ -98,7 +98,7 @@ class TileSource:
         while self._waiting and len(self._busy) < AT_ONCE:
             tile = self._waiting.popleft()
             if not self._asked.get(tile):
-                # Whoever wanted it has moved the map on.
+                # The page that requested it has moved the map on.
                 self._asked.pop(tile, None)
                 continue
             fetched = Deferred.fromCoroutine(self._fetch(tile))
@@ -122,7 +122,7 @@ class TileSource:
         return content if response.code == http.OK and _kind(content) else None
 
     def _cache_it(self, content: bytes | None, tile: Tile) -> Any:
-        """Keep it, then hand it out: who asks again at once finds it."""
+        """Store the tile, then return it: the next request finds it in the cache."""
         if content is None:
             return None
         kept = self._on_a_thread(self._cache.put, *tile, content)
@@ -139,7 +139,7 @@ class TileSource:
 
 
 def _finish_refused(request: Any) -> None:
-    """Answer that the source gave nothing."""
+    """Answer that the source failed."""
     finish(request, refuse(request, http.BAD_GATEWAY, "the source of the map gave no tile"))
 
 

@@ -1,4 +1,4 @@
-"""The way that the aircraft has come."""
+"""The aircraft's track."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from up_ground.telemetry import Telemetry
 POINTS_LIMIT = 4000
 NEAREST_M = 2.0
 GAP_S = 0.9
-"""Nothing known for longer is a silence, unless places come more seldom than that."""
+"""A longer gap counts as a silence, unless the period of positions is longer."""
 _METRES_A_DEGREE = 111_195.0
 
 _INTERVALS = 5
@@ -21,10 +21,10 @@ Point = tuple[float, float, float | None] | tuple[float, float, float | None, bo
 
 
 class Track:
-    """Points at least ``NEAREST_M`` apart; when there are too many, every second one is left out.
+    """Points at least ``NEAREST_M`` apart; when there are too many, every second one is dropped.
 
-    Degrees, degrees, metres; and true where a silence lies before the point, so that no line leads
-    to it. The newest place is always the last point.
+    Degrees, degrees, metres; and true after a gap, so that no line leads to the point. The newest
+    position is always the last point.
     """
 
     def __init__(self) -> None:
@@ -36,7 +36,7 @@ class Track:
         self._is_after_silence = False
 
     def take(self, telemetry: Telemetry, time_s: float) -> None:
-        """Take the place of a frame, where it has one that is one; time only goes on."""
+        """Take the position of a frame, if it has a valid one; time never runs back."""
         latitude = telemetry.number("location", "latitude")
         longitude = telemetry.number("location", "longitude")
         if latitude is None or longitude is None or abs(latitude) > 90 or abs(longitude) > 180:
@@ -77,7 +77,7 @@ class Track:
         return time_s - known_s > max(GAP_S, 2.5 * period_s)
 
     def _thin(self) -> None:
-        """Leave out every second point; what was told of it, the next one tells."""
+        """Drop every second point; the following point keeps the gap mark of a dropped one."""
         points: list[Point] = []
         times_s: list[float] = []
         is_after_silence = False
@@ -92,7 +92,7 @@ class Track:
 
 
 def track_message(aircraft: str, points: list[Point]) -> dict[str, Any]:
-    """Return what a page is told."""
+    """Return the message for a page."""
     return {"type": "track", "aircraft": aircraft, "points": points}
 
 

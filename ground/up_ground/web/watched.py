@@ -1,4 +1,4 @@
-"""What pages and the aircraft that they watch ask of each other."""
+"""The interface between pages and the aircraft that they watch."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class WatchedAircraft(Protocol):
 
     @property
     def summary(self) -> str:
-        """Return whom this is about, in a line."""
+        """Return the aircraft in one line."""
 
     def start(self) -> None:
         """Begin."""
@@ -27,7 +27,7 @@ class WatchedAircraft(Protocol):
         """End."""
 
     def past(self) -> Iterable[dict[str, Any]]:
-        """Return what a page is told that begins to watch."""
+        """Return the messages for a page that starts to watch."""
 
     def frame(self) -> FrameMessage | None:
         """Return the newest frame."""
@@ -36,35 +36,35 @@ class WatchedAircraft(Protocol):
         """Return the status as this page sees it."""
 
     def on_second(self) -> None:
-        """Hear that a second is over."""
+        """Handle the end of a second."""
 
     def on_control(self, page: Page, action: str, to: int | None) -> None:
-        """Let a page ask for control, give, deny or release it."""
+        """Let a page request, give, deny or release control."""
 
     def on_command(self, page: Page, message: Reader) -> None:
-        """Let a page send a Command."""
+        """Send a page's Command."""
 
     def on_replay(self, page: Page, action: str, message: Reader) -> None:
-        """Let a page play a flight of the past."""
+        """Let a page control the replay."""
 
     def on_away(self, page: Page) -> None:
-        """Hear that a page's link was lost; it may come back."""
+        """Handle the loss of a page's link; the page may return."""
 
     def on_back(self, page: Page) -> None:
-        """Hear that it came back."""
+        """Handle the return of a page."""
 
     def on_gone(self, page: Page) -> None:
-        """Hear that it will not come back."""
+        """Handle the final loss of a page."""
 
 
 class Audience(Protocol):
     """The pages, as an aircraft sees them."""
 
     def show(self, aircraft: str, kind: str, make: Make) -> None:
-        """Give the pages that watch the aircraft what only counts until the next of its kind."""
+        """Send the pages that watch the aircraft a message that the next of its kind replaces."""
 
     def tell(self, aircraft: str, message: dict[str, Any]) -> None:
-        """Say something to the pages that watch the aircraft."""
+        """Send a message to the pages that watch the aircraft."""
 
     def show_status(self, aircraft: str) -> None:
         """Give the aircraft's status to every page."""

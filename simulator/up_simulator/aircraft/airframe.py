@@ -1,4 +1,4 @@
-"""An aircraft to be flown: what its folder says, checked."""
+"""An aircraft from its folder, validated."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ class AirframeError(Exception):
 class Airframe:
     """An aircraft of the simulator.
 
-    ``profile`` and ``gains`` are shaped as ``config/airframe.yml`` and ``config/pids.yml`` are;
-    the profile holds only what is said.
+    ``profile`` and ``gains`` have the shape of ``config/airframe.yml`` and ``config/pids.yml``;
+    the profile holds only the keys that the airframe sets.
     """
 
     name: str
@@ -77,7 +77,7 @@ class Airframe:
 
     @property
     def has_motor(self) -> bool:
-        """Tell whether something drives it."""
+        """Return whether it has a motor."""
         return self.motor.diameter_m > 0
 
 
@@ -139,7 +139,7 @@ def _path_of(name_or_path: str | Path) -> Path:
 
 
 def _said(values: dict[str, Any]) -> dict[str, Any]:
-    """Return a nested map without what is null."""
+    """Return a nested map without its null values."""
     kept = {
         name: _said(value) if isinstance(value, dict) else value for name, value in values.items()
     }
@@ -161,7 +161,7 @@ def _built_mass_of(folder: Path) -> float:
 
 
 def _mass_of(model_path: Path) -> float:
-    """Return the model's mass, kg. Raises ``AirframeError`` for a file that is no model."""
+    """Return the model's mass, kg. Raises ``AirframeError`` for a file that is not a model."""
     try:
         root = ElementTree.parse(model_path).getroot()
     except OSError as error:
@@ -184,7 +184,7 @@ def _mass_of(model_path: Path) -> float:
 
 
 def _check(path: Path, airframe: Airframe) -> None:
-    """Let JSBSim fly a model that is not ours. Raises ``AirframeError`` with what it says."""
+    """Let JSBSim fly a foreign model. Raises ``AirframeError`` with JSBSim's message."""
     servos = airframe.servos
     moved = {node: output for output in _OUTPUTS for node in getattr(servos, output).moves}
     wanted = [*moved, *([MOTOR] if airframe.has_motor else [])]

@@ -57,7 +57,7 @@ class ServosConfig:
 
 @dataclass(frozen=True, slots=True)
 class MotorConfig:
-    """Motor and propeller; a diameter of 0 is none."""
+    """Motor and propeller; a diameter of 0 means no motor."""
 
     kv_rpm_v: float = _number(1000.0, "Turns in a minute by a volt.", "rpm/V", 10, 20000)
     resistance_ohm: float = _number(0.09, "Motor and speed controller.", "ohm", 0.001, 10)
@@ -103,7 +103,7 @@ class LimitsConfig:
     break_g: float = _number(10.0, "Load factor at which it breaks.", "g", 1, 100)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what does not fit together."""
+        """Yield inconsistent values."""
         if self.break_g < self.load_g:
             yield "break_g", f"must not be below load_g, which is {self.load_g:g}"
 
@@ -139,7 +139,7 @@ class AirframeFile:
     gains: GainsConfig = section(GainsConfig)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing."""
+        """Yield the missing keys."""
         if not self.title:
             yield "title", "must be given"
         if self.model and ("/" in self.model or not self.model.endswith(".xml")):

@@ -1,8 +1,8 @@
-"""From a geometry to the coefficients of flight, over every angle that the air can come from.
+"""Derives the flight coefficients from a geometry, for every angle of attack and sideslip.
 
 Attached flow comes from a vortex lattice (``lattice.py``) and a drag build-up, separated flow from
 a flat plate; between them the blend of Beard and McLain (Small Unmanned Aircraft, 4.2). Each
-function says what it assumes.
+function states its assumptions.
 """
 
 from __future__ import annotations
@@ -157,14 +157,14 @@ class Derivation:
 
     @cached_property
     def munk_pitch(self) -> float:
-        """Return what the fuselage adds to the slope of the pitching moment (slender body)."""
+        """Return the fuselage's share of the slope of the pitching moment (slender body)."""
         fuselage = self.geometry.fuselage
         volume_m3 = math.pi / 4 * fuselage.diameter_m**2 * fuselage.length_m
         return 2 * 0.9 * volume_m3 / (self.area_m2 * self.chord_m)
 
     @cached_property
     def munk_yaw(self) -> float:
-        """Return what the fuselage adds to the slope of the yawing moment (slender body)."""
+        """Return the fuselage's share of the slope of the yawing moment (slender body)."""
         fuselage = self.geometry.fuselage
         volume_m3 = math.pi / 4 * fuselage.side_height_m**2 * fuselage.length_m
         return -2 * 0.9 * volume_m3 / (self.area_m2 * self.span_m)
@@ -181,7 +181,7 @@ class Derivation:
         return self.by("pitch").pitch * 2 * self.by("alpha_rad").lift / (math.pi * self.aspect)
 
     def side(self, beta_deg: float) -> float:
-        """Return the side force coefficient of a sideslip; a fuselage goes on as a body."""
+        """Return the side force coefficient of a sideslip; the fuselage contributes as a body."""
         slope = self.by("beta_rad").side
         fuselage = self.geometry.fuselage
         body = _CROSSFLOW_DRAG * fuselage.length_m * fuselage.side_height_m / self.area_m2
@@ -197,7 +197,7 @@ class Derivation:
         )
 
     def _fin_share(self, beta_deg: float) -> float:
-        """Return radians of sideslip that the fin still answers as if attached."""
+        """Return the fin's effective sideslip for attached flow, rad."""
         beta = math.radians(beta_deg)
         steepness = 40.0
         inside = 1 / (
@@ -209,8 +209,8 @@ class Derivation:
     def lateral(self, what: str, alpha_deg: float) -> tuple[float, float]:
         """Return rolling and yawing moment by a rate, a deflection or the sideslip at an angle.
 
-        Past the stall a part of them is left, less the flatter the air comes; the roll damping
-        follows the slope of the lift, so that a stalled wing may turn by itself (strip theory).
+        Past the stall a part of them is left, less at a greater angle; the roll damping follows
+        the slope of the lift, so that a stalled wing may autorotate (strip theory).
         """
         share = self.attached(alpha_deg)
         found = self.by(what, _clipped(alpha_deg))
@@ -239,7 +239,7 @@ class Derivation:
 
     @cached_property
     def crossflow_drag(self) -> float:
-        """Return the drag when the air comes from the side: fuselage and fins."""
+        """Return the drag in a flow from the side: fuselage and fins."""
         geometry = self.geometry
         sides = geometry.fuselage.length_m * geometry.fuselage.side_height_m
         fins = 2 if geometry.tip_fins else 1

@@ -61,8 +61,8 @@ class FlightDynamics:
     """A flight in steps of 2 ms, launched in the air; satisfies ``Flight``.
 
     The same arguments and the same pulses at the same steps fly the same flight to the last
-    digit. ``crash`` says in one sentence what ended the flight; from then on nothing moves but
-    the time. Raises ``FlightUnavailableError`` where JSBSim is missing.
+    digit. ``crash`` is one sentence about the end of the flight; after it only the time advances.
+    Raises ``FlightUnavailableError`` where JSBSim is missing.
     """
 
     STEP_S = 0.002
@@ -108,22 +108,22 @@ class FlightDynamics:
 
     @property
     def motion(self) -> Motion:
-        """Return what an IMU at the airframe's place for it feels."""
+        """Return the motion at the airframe's place of the IMU."""
         if self._motion is None:
             self._motion = self._feel()
         return self._motion
 
     @property
     def servos(self) -> Servos:
-        """Return where the servos stand, us."""
+        """Return the servo positions, us."""
         return self._servos.rounded_us
 
     def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
-        """Ask the servos to go to these pulses; they move at their own speed."""
+        """Command the servos to these pulses; they move at their own speed."""
         self._servos.set(pulses_us)
 
     def advance(self, duration_s: float) -> None:
-        """Step as often as 2 ms fit; what is left is owed to the next call."""
+        """Run all whole steps of 2 ms; the remainder is added to the next call."""
         self._owed_s += duration_s
         while self._owed_s >= self.STEP_S - 1e-9:
             self._owed_s -= self.STEP_S
@@ -155,7 +155,7 @@ class FlightDynamics:
         try:
             is_flying = self._fdm.run()
         except RuntimeError as error:
-            # What JSBSim throws: a property that no longer exists, a table without an answer.
+            # JSBSim's exceptions: a property that no longer exists, a table without an answer.
             self.crash = f"the flight model has given up: {error}"
             return
         if is_flying:
@@ -164,17 +164,17 @@ class FlightDynamics:
             self.crash = "the flight model has given up"
 
     def change_battery(self) -> None:
-        """Put a full battery in, in flight, as nobody else can."""
+        """Swap in a full battery in flight, which only the simulator can do."""
         self._battery.charge()
 
     def launch(self, start: Start) -> None:
-        """Begin the flight again in the air, with a full battery; the time goes on."""
+        """Restart the flight in the air, with a full battery; the time continues."""
         airframe = self.airframe
         self.crash = None
         self._launched_s = self.time_s
         self._state = None
         self._motion = None
-        # A state that is no number survives new initial conditions: build the model anew.
+        # A NaN state survives new initial conditions: rebuild the model.
         self._fdm: Any = load_model(airframe.model_path, self.STEP_S)
         seed = self._seed + self._launches
         set_initial(self._fdm, start, airframe.launch, self.weather, seed)

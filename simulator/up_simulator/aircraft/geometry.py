@@ -1,4 +1,4 @@
-"""geometry.yml: what an aircraft is built like, from which its flight model is derived."""
+"""geometry.yml: the construction of an aircraft, from which its flight model is derived."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _share(comment: str, default: float, most: float = 1.0) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Flap:
-    """A hinged part of a surface; a ``chord_share`` of 0 is none."""
+    """A hinged part of a surface; a ``chord_share`` of 0 means none."""
 
     chord_share: float = _share("Of the chord.", 0.0, 0.9)
     from_share: float = _share("Inner end, of the half span.", 0.0)
@@ -33,7 +33,7 @@ class Flap:
     effectiveness: float = _share("Against thin-aerofoil theory: gaps, thick hinges, foam.", 0.75)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what does not fit together."""
+        """Yield inconsistent values."""
         if self.from_share >= self.to_share:
             yield "to_share", f"must be above from_share, which is {self.from_share:g}"
 
@@ -78,7 +78,7 @@ class Surface:
 
 @dataclass(frozen=True, slots=True)
 class Fuselage:
-    """What does not lift but turns the nose away, and drags."""
+    """A body without lift that destabilises in yaw, and drags."""
 
     length_m: float = _metres("Length.", 0.8, 0.0)
     diameter_m: float = _metres("Mean diameter.", 0.06, 0.0)
@@ -112,7 +112,7 @@ class Stall:
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """An aircraft as it is built: the wing, what is at its tail, its masses."""
+    """The construction of an aircraft: the wing, the tail, its masses."""
 
     notes: tuple[str, ...] = items(_NOTE, "Sentences for the notes of the model.", max_length=40)
     wing: Surface = section(Surface, "Both halves; its flap is the aileron or elevon.")
@@ -127,7 +127,7 @@ class Geometry:
     span_efficiency: float = _share("Oswald's factor of the wing alone.", 0.9, 1.2)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what does not fit together."""
+        """Yield inconsistent values."""
         if self.wing.half_span_m < 0.05:
             yield "wing", "must have a half_span_m of at least 0.05 m"
         if self.span_efficiency < 0.3:

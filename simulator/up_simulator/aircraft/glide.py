@@ -1,4 +1,4 @@
-"""What coefficients mean in the air: where an aircraft trims, stalls and glides best."""
+"""Flight performance from coefficients: trim, stall and best glide."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def stall_speed_m_s(derivation: Derivation) -> float:
 
 
 def describe(derivation: Derivation) -> str:
-    """Return one line for whoever designs it, with the values that airframe.yml wants."""
+    """Return one line for the designer, with the values for airframe.yml."""
     best = best_glide(derivation)
     text = (
         f"stalls at {stall_speed_m_s(derivation):.1f} m/s, glides best {best.ratio:.1f} to 1 at "

@@ -21,8 +21,8 @@ class Panel:
     """A strip of a surface: its bound vortex from ``left`` to ``right``, chord and section.
 
     ``angle_rad`` is the section's incidence from its angle of no lift; ``flaps`` maps the name of
-    a control to what a radian of it adds, and ``flap_moments`` to its moment about the quarter
-    chord.
+    a control to the incidence per radian of it, and ``flap_moments`` to its moment about the
+    quarter chord.
     """
 
     left: Array
@@ -50,7 +50,7 @@ class Panel:
 
 @dataclass(frozen=True, slots=True)
 class Flow:
-    """How the air comes: angles, rates by span or chord over twice the speed, controls (rad)."""
+    """The flow: angles, rates by span or chord over twice the speed, controls (rad)."""
 
     alpha_rad: float = 0.0
     beta_rad: float = 0.0
@@ -92,7 +92,7 @@ class Lattice:
         self._at_bounds = _influences(self._middle, self._left, self._right, bound=False)
 
     def loads(self, flow: Flow) -> Loads:
-        """Return what the flow does to the aircraft."""
+        """Return the forces and moments of the flow on the aircraft."""
         normals = np.array([_normal(each, flow.controls) for each in self._panels])
         stream = self._stream(flow, self._points)
         matrix = np.einsum("ijk,ik->ij", self._at_points, normals)
@@ -167,7 +167,7 @@ def _segment(a: Array, b: Array) -> Array:
 
 
 def _trail(from_start: Array) -> Array:
-    """Return the velocity of a vortex that begins at a point and goes aft for ever."""
+    """Return the velocity of a semi-infinite vortex from a point aft."""
     y, z = from_start[:, :, 1], from_start[:, :, 2]
     distance = np.linalg.norm(from_start, axis=2)
     factor = (1 + from_start[:, :, 0] / (distance + 1e-12)) / (y**2 + z**2 + _CORE_M**2)

@@ -46,18 +46,18 @@ def load_model(path: Path, step_s: float) -> Any:
 
 
 def reader(fdm: Any, name: str) -> Callable[[], float]:
-    """Return what reads a property fast."""
+    """Return a fast reader of a property."""
     found: Callable[[], float] = fdm.get_property_manager().get_node(name).get_double_value
     return found
 
 
 def has_property(fdm: Any, name: str) -> bool:
-    """Tell whether JSBSim or the model knows a property."""
+    """Return whether JSBSim or the model has a property."""
     return bool(fdm.get_property_manager().hasNode(name))
 
 
 def writer(fdm: Any, name: str) -> Callable[[float], None]:
-    """Return what sets a property fast. Raises ``FlightUnavailableError`` where there is none."""
+    """Return a fast setter of a property. Raises ``FlightUnavailableError`` if it is missing."""
     if not has_property(fdm, name):
         raise FlightUnavailableError(f"the model has no property {name}")
     found: Callable[[float], None] = fdm.get_property_manager().get_node(name).set_double_value

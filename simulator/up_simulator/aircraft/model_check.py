@@ -1,4 +1,4 @@
-"""Lets JSBSim read and fly a model that is not ours, in a process of its own: it may end there."""
+"""Loads and flies a foreign JSBSim model in a separate process: JSBSim may abort there."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class ModelRefusedError(Exception):
 
 
 def check_model(path: Path, properties: Sequence[str], airspeed_m_s: float) -> dict[str, str]:
-    """Fly the model for a moment; return the properties it does not know, and the nearest names.
+    """Fly the model for a moment; return its unknown properties, and the nearest names.
 
-    Raises ``ModelRefusedError``. Where JSBSim is not installed nothing is unknown.
+    Raises ``ModelRefusedError``. Without JSBSim the result is empty.
     """
     program = f"from {__name__} import main; main()"
     command = [sys.executable, "-c", program, str(path), str(airspeed_m_s), *properties]
@@ -43,7 +43,7 @@ def check_model(path: Path, properties: Sequence[str], airspeed_m_s: float) -> d
         return {name: near for name, _, near in pairs}
     if done.returncode == _UNAVAILABLE or (not done.returncode and not done.stderr + done.stdout):
         return {}
-    # JSBSim goes on without a function that it does not understand, and says so.
+    # JSBSim only prints a message about a function that it does not understand, and continues.
     said = " ".join((done.stderr + "\n" + done.stdout).split())
     raise ModelRefusedError(said[:500] or f"it ended with status {done.returncode}")
 
@@ -62,7 +62,7 @@ def _fly(path: Path, airspeed_m_s: float, properties: Sequence[str]) -> int:
             if not fdm.run():
                 raise FlightUnavailableError("it gives up within the first steps")
     except FlightUnavailableError as error:
-        # What JSBSim printed itself tells more.
+        # JSBSim's own output has more details.
         sys.stderr.write(f"{error}\n".removeprefix(f"{path}: JSBSim refuses it"))
         return _REFUSED
     except (jsbsim.BaseError, RuntimeError, ValueError) as error:

@@ -225,7 +225,7 @@ def _table(by: str, angles_deg: Sequence[float], value: Callable[[float], float]
 _LEFT, _RIGHT = _property("fcs/left-aileron-pos-rad"), _property("fcs/right-aileron-pos-rad")
 _DIFFERENCE = f"<product><value>0.5</value><difference>{_LEFT}{_RIGHT}</difference></product>"
 _SUM = f"<product><value>0.5</value><sum>{_LEFT}{_RIGHT}</sum></product>"
-# Where the aircraft ends when it meets the ground is not JSBSim's to say.
+# The simulator, not JSBSim, decides where the flight ends at the ground.
 _CONTACTS = " <ground_reactions/>"
 
 
@@ -241,7 +241,7 @@ def _motor(derivation: Derivation) -> str:
 
 
 def derive(folder: Path) -> Derivation:
-    """Return what a folder's geometry gives; raises ``ConfigErrors`` and ``ModelError``."""
+    """Return the model of a folder's geometry; raises ``ConfigErrors`` and ``ModelError``."""
     derivation = Derivation(GEOMETRY.load(folder))
     try:
         slope = derivation.by("alpha_rad").lift

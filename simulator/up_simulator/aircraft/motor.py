@@ -1,4 +1,4 @@
-"""The drive: a battery, a brushless motor and a propeller that folds or stands when it is off."""
+"""The drive: a battery, a brushless motor and a propeller that folds or stops when it is off."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ _AIR_KG_M3 = 1.19
 _IDLE = 0.03
 _OFF_RPM = 400.0
 _RPM = 60 / (2 * math.pi)
-# Open-circuit volts of a LiPo cell by what is left of it.
+# Open-circuit volts of a LiPo cell by its state of charge.
 _CELL_V = ((0.0, 3.2), (0.05, 3.5), (0.1, 3.62), (0.3, 3.74), (0.5, 3.82), (0.8, 4.02), (1.0, 4.18))
 
 
 class Battery:
-    """A LiPo: its volts sag with the current and fall as it is used up."""
+    """A LiPo: its voltage sags with the current and falls with the charge used."""
 
     def __init__(self, config: BatteryConfig) -> None:
         self._config = config
@@ -37,17 +37,17 @@ class Battery:
 
     @property
     def is_empty(self) -> bool:
-        """Tell whether the speed controller has to cut the motor off."""
+        """Return whether the speed controller has to cut the motor off."""
         return self._left_c <= 0.0
 
     @property
     def percent(self) -> float:
-        """Return what is left, percent."""
+        """Return the state of charge, percent."""
         return 100 * self._left_c / self._capacity_c
 
     @property
     def used_mah(self) -> float:
-        """Return what was drawn since it was full, mAh."""
+        """Return the charge drawn since it was full, mAh."""
         return (self._capacity_c - self._left_c) / 3.6
 
     def charge(self) -> None:
@@ -92,7 +92,7 @@ class Motor:
         return self._turns * 60
 
     def spin_up(self, throttle: float, airspeed_m_s: float) -> None:
-        """Let it turn as it does after a while at this throttle; nothing is drawn."""
+        """Set the steady rotation at this throttle; no charge is drawn."""
         for _ in range(1000):
             self._advance(throttle, airspeed_m_s, 0.002)
 

@@ -99,7 +99,7 @@ def _quarter_chord(surface: Surface, at: float) -> Array:
 
 
 def _with_flaps(strip: Panel, surface: Surface, at: float, controls: dict[str, float]) -> Panel:
-    """Return the strip with what a radian of each control does to it.
+    """Return the strip with its response to a radian of each control.
 
     Thin-aerofoil theory of a plain flap (Katz and Plotkin, 5.4).
     """

@@ -14,8 +14,8 @@ class ServoRack:
 
     A servo approaches its pulse as a first-order lag (``lag_s``), at most at ``slew_us_s``: a
     digital 9 g servo takes 0.12 s for 60 degrees, which are about 700 us. It rests while its pulse
-    is within ``dead_band_us``; its surface follows with a play of ``play_us`` altogether.
-    ``positions_us`` is where the surfaces of ailerons, elevator and rudder stand, and the throttle.
+    is within ``dead_band_us``; its surface follows with a total play of ``play_us``.
+    ``positions_us`` has the positions of ailerons, elevator and rudder, and the throttle.
     """
 
     def __init__(
@@ -69,6 +69,6 @@ class ServoRack:
 
     @property
     def rounded_us(self) -> Servos:
-        """Return where they stand, in whole us."""
+        """Return their positions, in whole us."""
         ailerons, elevator, throttle, rudder = (round(each) for each in self.positions_us)
         return ailerons, elevator, throttle, rudder

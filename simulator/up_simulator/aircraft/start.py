@@ -17,10 +17,10 @@ START_LONGITUDE_DEG = 14.5
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """How a flight begins; what is None is the airframe's own.
+    """Initial conditions of a flight; None means the airframe's default.
 
-    ``climb_m_s`` is through the air, up positive. ``throttle`` (0 to 1) is what the motor has run
-    at until now.
+    ``climb_m_s`` is through the air, up positive. ``throttle`` (0 to 1) is the motor's throttle
+    before the start.
     """
 
     height_m: float = 120.0
@@ -50,7 +50,7 @@ def set_initial(fdm: Any, start: Start, launch: LaunchConfig, weather: Weather, 
     fdm["ic/phi-deg"] = start.roll_deg
     fdm["ic/theta-deg"] = pitch_deg
     fdm["ic/psi-true-deg"] = start.heading_deg
-    # Over the ground, and before the wind, which leaves the speed over the ground as it is.
+    # Over the ground; set before the wind, which does not change the speed over the ground.
     alpha = math.radians(alpha_deg)
     air = (airspeed_m_s * math.cos(alpha), 0.0, airspeed_m_s * math.sin(alpha))
     wind = _to_body((*weather.wind_ned_m_s, 0.0), start, pitch_deg)

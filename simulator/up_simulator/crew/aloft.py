@@ -14,11 +14,11 @@ from up_simulator.recorded_flight import read_recording
 
 
 class Aloft(Protocol):
-    """What flies, for a board of either kind: a ``Flight`` that a ``World`` can be made of."""
+    """The flight for a board of either kind: a ``Flight`` that a ``World`` can be made of."""
 
     @property
     def crash(self) -> str | None:
-        """Return in one sentence how it crashed; None while it flies."""
+        """Return one sentence about the crash; None while it flies."""
 
     @property
     def state(self) -> FlightState:
@@ -26,14 +26,14 @@ class Aloft(Protocol):
 
     @property
     def motion(self) -> Motion:
-        """Return what an IMU aboard feels now."""
+        """Return the present motion for an IMU aboard."""
 
     @property
     def servos(self) -> Servos:
-        """Return where the servos stand now, us."""
+        """Return the present servo positions, us."""
 
     def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
-        """Ask the servos to go to these pulses."""
+        """Command the servos to these pulses."""
 
     def advance(self, duration_s: float) -> None:
         """Fly on."""
@@ -46,9 +46,9 @@ class Aloft(Protocol):
 
 
 def put_aloft(options: argparse.Namespace, airframe: Airframe, say: Callable[[str], None]) -> Aloft:
-    """Return what the options ask for, or the recorded flight where nothing else flies.
+    """Return the flight that the options select, or the recorded flight if nothing else is usable.
 
-    ``say`` is told which. Raises ``FlightUnavailableError`` for a recording that is none.
+    ``say`` gets the choice. Raises ``FlightUnavailableError`` for an invalid recording.
     """
     if options.replay is not None:
         say(f"flying the recorded flight {options.replay}: the servos have no effect")

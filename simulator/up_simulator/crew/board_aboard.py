@@ -21,10 +21,10 @@ from up_simulator.firmware.settings_wire import SettingsError
 def board_aboard(
     options: argparse.Namespace, airframe: Airframe, say: Callable[[str], None]
 ) -> FirmwareBoard:
-    """Return the board that the options ask for.
+    """Return the board that the options select.
 
-    ``auto`` is the firmware on its chip, or the same sources built for this computer where the AVR
-    tools are missing, which ``say`` gets in one sentence. Raises ``BoardUnavailableError``.
+    ``auto`` is the firmware on its chip, or, without the AVR tools, the same sources built for
+    this computer, which ``say`` reports in one sentence. Raises ``BoardUnavailableError``.
     """
     if not (ARDUINO / "build" / "raspilot.elf").exists() and options.elf is None:
         say("building the firmware: that takes a minute, the first time")

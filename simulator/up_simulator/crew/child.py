@@ -1,4 +1,4 @@
-"""A program that somebody started, with its output kept in a file, ended whatever happens."""
+"""A child process with its output in a file, ended in every case."""
 
 from __future__ import annotations
 
@@ -24,13 +24,12 @@ _PR_SET_PDEATHSIG = 1
 
 
 class Child:
-    """One process in a session of its own, so that Ctrl-C reaches it through us alone.
+    """One process in its own session, so that Ctrl-C reaches it through us alone.
 
-    Its words are appended to ``<name>.log`` in ``folder``; ``<name>.pid`` there has its process
-    number if it is a program that writes it. On Linux it is told to end, by ``wish``,
-    when we die without a word. ``in_foreground`` leaves it the terminal; its words are not kept.
-    With ``talks`` its standard input and output are ``input`` and ``output``, and only what it
-    writes to its error output is kept.
+    Its output is appended to ``<name>.log`` in ``folder``; ``<name>.pid`` there has its process
+    number if the program writes one. On Linux it gets a signal, by ``wish``, when we die without
+    ending it. ``in_foreground`` leaves it the terminal; its output is not kept. With ``talks`` its
+    standard input and output are ``input`` and ``output``, and only its error output is kept.
     """
 
     def __init__(
@@ -74,7 +73,7 @@ class Child:
 
     @property
     def output(self) -> IO[bytes]:
-        """Return where one that talks is heard."""
+        """Return the output of one that talks."""
         assert self._process.stdout is not None
         return self._process.stdout
 
@@ -113,7 +112,7 @@ class Child:
         while not is_ready(self.lines()):
             status = self.poll()
             if status is not None:
-                # It may have said it with its last breath.
+                # The line may be in its last output.
                 if is_ready(self.lines()):
                     return
                 raise CrewError(self.last_words(status))
@@ -127,7 +126,7 @@ class Child:
         return next(line for line in self.lines() if text in line)
 
     def last_words(self, status: int) -> str:
-        """Return the sentence that says how it ended, and the end of its log if there is any."""
+        """Return the sentence about its end, and the end of its log if there is any."""
         how = f"signal {-status}" if status < 0 else f"status {status}"
         ended = f"{self.name} ended by itself with {how}"
         tail = self.tail()
@@ -144,7 +143,7 @@ class Child:
                 self._process.send_signal(number)
 
     def terminate(self) -> None:
-        """Ask it to end."""
+        """Send it the signal to end."""
         self.signal(signal.SIGTERM)
 
     def wait(self, limit_s: float = STOP_LIMIT_S) -> int:
@@ -159,7 +158,7 @@ class Child:
             self._pid_file.unlink(missing_ok=True)
 
     def end(self) -> int:
-        """Ask it to end and wait until it has; returns its status."""
+        """Send it the signal to end and wait for it; returns its status."""
         self.terminate()
         return self.wait()
 
@@ -173,10 +172,10 @@ def _input_of(in_foreground: bool, talks: bool) -> int | None:
 def dying_wish(
     number: int = signal.SIGTERM, parent: int | None = None
 ) -> Callable[[], None] | None:
-    """Return what a child does before it becomes its program: it asks to go when we go.
+    """Return a function for the child before exec: it requests a signal at our death.
 
-    The child calls it, and gets the signal; ``parent`` is the process that makes it if no other is
-    named. None: only Linux can.
+    The child calls it, and gets the signal; ``parent`` is the process that creates it, by default
+    this one. None: only Linux supports it.
     """
     if not sys.platform.startswith("linux"):
         return None
@@ -185,7 +184,7 @@ def dying_wish(
 
     def wish() -> None:
         ask(_PR_SET_PDEATHSIG, number, 0, 0, 0)
-        # Who went before the wish was heard tells nobody.
+        # A parent that died before this request sends no signal.
         if os.getppid() != awaited:
             os.kill(os.getpid(), number)
 

@@ -21,10 +21,10 @@ BATTERY_PERIOD_S = 1.0
 class FirmwareAircraft:
     """A world with its radio; ``radio_name`` decides whether the pilot arms on the ground.
 
-    A crash is said, and after 3 s the aircraft is in the air again with a board that has just got
-    its power. A battery that is almost empty is changed in flight, and that is said, too: it would
-    end every long look at the aircraft. ``who`` tells the mode and who has the sticks: a crash is
-    said with it. ``say`` takes one line for the user. Raises ``BoardCrashedError``.
+    A crash is reported, and 3 s later the aircraft is in the air again with a freshly powered
+    board. A nearly empty battery is replaced in flight, with a report: it would end every long
+    session. ``who`` returns the mode and the owner of the sticks for the crash report. ``say``
+    takes one line for the user. Raises ``BoardCrashedError``.
     """
 
     def __init__(

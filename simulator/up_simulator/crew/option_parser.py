@@ -17,7 +17,7 @@ class OptionParser(argparse.ArgumentParser):
     """Ends the program with status 2 and one sentence on standard error at a wrong option."""
 
     def error(self, message: str) -> NoReturn:
-        """Say what is wrong, and what may have been meant."""
+        """Report the error, with the probable intention."""
         sys.stderr.write(f"{self.prog}: {message}{self._hint(message)}\n")
         raise SystemExit(WRONG_INPUT)
 

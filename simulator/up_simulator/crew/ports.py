@@ -8,8 +8,8 @@ from dataclasses import astuple, dataclass
 
 _TRIES = 20
 _FIRST, _LAST = 20_000, 32_767
-"""Below what systems give to whoever connects (Linux: from 32768): nobody has one by chance before
-the program that it was chosen for."""
+"""Below the ephemeral ports of systems (Linux: from 32768), which another program could get by
+chance before the intended one."""
 _random = random.SystemRandom()
 
 
@@ -33,7 +33,7 @@ def choose_ports(any_ports: bool = False) -> Ports:
 
 
 def choose_port_sets(count: int) -> tuple[Ports, ...]:
-    """Return so many sets of any free ports, all of them different; raises OSError."""
+    """Return this many sets of free ports, all of them different; raises OSError."""
     return _choose(count, True)
 
 

@@ -1,4 +1,4 @@
-"""What a scenario asks of those who fly with the aircraft, in process or as real programs."""
+"""The interface of a scenario to the aircraft's companions, in process or as real programs."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ class Raspilot(Protocol):
         """Start it, or start it again; raises CrewError with the daemon's own sentences."""
 
     def stop(self) -> None:
-        """Ask it to end, as a service manager does; ``is_running`` tells when it has."""
+        """Send it the signal to end, as a service manager does; ``is_running`` has the result."""
 
     def kill(self) -> None:
-        """End it at once, wherever it is, as ``kill -9`` does."""
+        """Kill it immediately in any state, as ``kill -9`` does."""
 
 
 class Ground(Protocol):
-    """A ground station: what it sees, and what it asks for."""
+    """A ground station: its received data and its requests."""
 
     @property
     def telemetry(self) -> Mapping[str, Any]:
@@ -36,16 +36,16 @@ class Ground(Protocol):
 
     @property
     def frames(self) -> int:
-        """Return how many frames have come."""
+        """Return the number of frames received."""
 
     @property
     def newest_s(self) -> float | None:
-        """Return when the newest frame came, in the crew's time; None before the first."""
+        """Return the arrival of the newest frame, in the crew's time; None before the first."""
 
     def take_latency_s(self) -> float | None:
-        """Return how old what came since the last call was, at most; None where nobody knows.
+        """Return the maximum age of the data since the last call, s; None if unknown.
 
-        Where nothing came it is the newest frame's, which was there before.
+        Without new data it is the age of the newest earlier frame.
         """
 
     @property
@@ -56,7 +56,7 @@ class Ground(Protocol):
         """Connect, and connect again after every loss."""
 
     def stop(self) -> None:
-        """Hang up for good."""
+        """Disconnect permanently."""
 
     def send(self, name: str, **data: Any) -> str:
         """Send a Command and return the id that its answer will carry."""
@@ -74,13 +74,13 @@ class Phone(Protocol):
 
     @property
     def loss(self) -> str | None:
-        """Return in a sentence how it ended by itself; None: it did not."""
+        """Return in a sentence how it ended unexpectedly; None if it has not."""
 
     def plug(self) -> None:
         """Plug it in: it connects within its own retry time."""
 
     def unplug(self) -> None:
-        """Pull the cable: nothing passes, and neither side is told."""
+        """Pull the cable: nothing passes, and neither side is notified."""
 
 
 class CrewError(Exception):

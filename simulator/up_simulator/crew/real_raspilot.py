@@ -1,4 +1,4 @@
-"""The daemon as it is started on a Raspberry Pi: ``python main.py --config DIR``."""
+"""The daemon, started as on a Raspberry Pi: ``python main.py --config DIR``."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class RealRaspilot:
     """Satisfies ``protocols.Raspilot`` by a process.
 
     ``config`` is its configuration folder, ``folder`` gets ``raspilot.log``, one log for all its
-    lives. Nothing here waits for it in flight but ``wait_for_line`` and ``stop``.
+    runs. In flight only ``wait_for_line`` and ``stop`` wait for it.
     """
 
     def __init__(self, config: Path, folder: Path, root: Path = ROOT) -> None:
@@ -45,7 +45,7 @@ class RealRaspilot:
         """Make its process; raises ``CrewError`` when it runs already."""
         if self.is_running:
             raise CrewError("raspilot runs already")
-        # A frozen one hears nothing but this when we are killed.
+        # A frozen daemon receives only this signal when we are killed.
         self._child = Child("raspilot", self._command, self._folder, wish=signal.SIGKILL)
 
     def wait_for_line(self, text: str, limit_s: float = START_LIMIT_S) -> str:
@@ -53,34 +53,34 @@ class RealRaspilot:
         return self._alive().wait_for_line(text, limit_s)
 
     def check(self) -> None:
-        """Raise ``CrewError`` with its last words when it has ended by itself."""
+        """Raise ``CrewError`` with its last log lines if it has ended unexpectedly."""
         if self._child is not None and (status := self._child.poll()) is not None:
             raise CrewError(self._child.last_words(status))
 
     def ask_to_stop(self) -> None:
-        """Ask it to end, as systemd does."""
+        """Send it the signal to end, as systemd does."""
         if self._child is not None:
             self._child.terminate()
             self.thaw()
 
     def stop(self) -> None:
-        """Ask it to end and wait until it has."""
+        """Send it the signal to end and wait for it."""
         if self._child is not None:
             self.ask_to_stop()
             self._child.wait()
 
     def kill(self) -> None:
-        """End it at once, wherever it is, by ``kill -9``."""
+        """Kill it immediately in any state, by ``kill -9``."""
         if self._child is not None:
             self._child.signal(signal.SIGKILL)
             self._child.wait()
 
     def freeze(self) -> None:
-        """Stop it in its tracks: it holds its ports and does nothing, as a hung one."""
+        """Suspend it: it holds its ports and does nothing, as a hung one."""
         self._alive().signal(signal.SIGSTOP)
 
     def thaw(self) -> None:
-        """Let a frozen one go on."""
+        """Resume a frozen one."""
         self._alive().signal(signal.SIGCONT)
 
     def _alive(self) -> Child:

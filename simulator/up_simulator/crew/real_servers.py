@@ -15,7 +15,7 @@ START_LIMIT_S = 30.0
 
 
 class _Server:
-    """A program that says on which port it listens."""
+    """A program that prints the port on which it listens."""
 
     NAME = ""
     MODULE = ""
@@ -37,23 +37,23 @@ class _Server:
         return [] if self._child is None else self._child.lines()
 
     def begin(self) -> None:
-        """Make its process and wait for nothing."""
+        """Start its process without waiting."""
         self._child = Child(self.NAME, self._command, self._folder)
 
     def check(self) -> None:
-        """Raise ``CrewError`` with its last words when it has ended by itself."""
+        """Raise ``CrewError`` with its last log lines if it has ended unexpectedly."""
         if self._child is not None and (status := self._child.poll()) is not None:
             raise CrewError(self._child.last_words(status))
 
     def kill(self) -> None:
-        """End it at once by ``kill -9``."""
+        """Kill it immediately by ``kill -9``."""
         if self._child is not None:
             self._child.signal(signal.SIGKILL)
             self._child.wait()
             self._child = None
 
     def stop(self) -> None:
-        """Ask it to end and wait until it has."""
+        """Send it the signal to end and wait for it."""
         if self._child is not None:
             self._child.end()
             self._child = None
@@ -83,7 +83,7 @@ class RealProxy(_Server):
 class RealRunner(_Server):
     """``up-runner --config DIR``; ``start`` waits for its port.
 
-    Its instances end with it where ``runner.yml`` says ``stop instances on exit: true``.
+    Its instances end with it if ``runner.yml`` has ``stop instances on exit: true``.
     """
 
     NAME, MODULE = "runner", "up_runner.main"

@@ -12,28 +12,28 @@ from up_simulator.world import BYTES_A_STEP, STEP_S, World
 LATEST_S = 0.25
 SAY_AGAIN_S = 5.0
 STICK_STEPS = 10
-"""A receiver sends a frame every 20 ms: nobody sees sticks that are read more often."""
+"""A receiver sends a frame every 20 ms: reading the sticks more often has no effect."""
 STEPS_MOST = 25
 """Steps at a time: a world that has to catch up leaves the sockets their turn."""
 
 
 class SerialLine(Protocol):
-    """What the board's serial line goes through, as ``up_rig.pty_line.PtyLine``."""
+    """The board's serial line, as ``up_rig.pty_line.PtyLine``."""
 
     def read(self, timeout_s: float, most: int) -> bytes:
-        """Return what has come, waiting for it up to a time."""
+        """Return the received bytes, waiting for them up to a time."""
 
     def write(self, data: bytes) -> None:
-        """Send bytes, or drop them where nobody reads."""
+        """Send bytes, or drop them without a reader."""
 
 
 class RealTimeWorld:
-    """Flies a world for as long as a clock ran, and never after it.
+    """Flies a world in step with a clock, never ahead of it.
 
-    What was missed by more than 250 ms is skipped, not flown in a heap: it is counted in
-    ``skipped_s`` and said at most every 5 s. Each step passes the serial line's bytes, every tenth
-    moves the sticks, then ``watchers`` are called. ``clock`` only rises; ``say`` takes one line for
-    the user.
+    A delay beyond 250 ms is skipped instead of flown in a burst: it is added to ``skipped_s`` and
+    reported at most every 5 s. Each step passes the serial line's bytes, every tenth moves the
+    sticks, then ``watchers`` are called. ``clock`` is monotonic; ``say`` takes one line for the
+    user.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class RealTimeWorld:
         return self._clock.seconds() - self._start_s - self.skipped_s - self.world.time_s
 
     def keep(self) -> None:
-        """Fly until now, or for as many steps as others can bear. Raises ``BoardCrashedError``."""
+        """Fly until now, or for a bounded number of steps. Raises ``BoardCrashedError``."""
         late_s = self.late_s
         if late_s > LATEST_S:
             self._skip(late_s)
@@ -73,7 +73,7 @@ class RealTimeWorld:
             self.step()
 
     def step(self) -> None:
-        """Fly for one step, whatever the clock says. Raises ``BoardCrashedError``."""
+        """Fly for one step, regardless of the clock. Raises ``BoardCrashedError``."""
         world = self.world
         if self._steps % STICK_STEPS == 0:
             self._transmitter.send(self.radio.sticks(world.time_s, world.state))
@@ -91,9 +91,9 @@ class RealTimeWorld:
             watch()
 
     def begin_again(self, boot: Callable[[World], None]) -> None:
-        """Let ``boot`` put the aircraft back into the air; the time that it takes is nobody's.
+        """Let ``boot`` put the aircraft back into the air; its duration does not count as delay.
 
-        Before it the sticks are where a pilot has them who switches a board on.
+        Before it the sticks are in the positions for power-on.
         """
         self._transmitter.send(Sticks())
         boot(self.world)

@@ -28,12 +28,12 @@ class ReplayedFlight:
 
     @property
     def servos(self) -> Servos:
-        """Return the pulses asked last, us."""
+        """Return the last commanded pulses, us."""
         return self._flight.servos
 
     @property
     def motion(self) -> Motion:
-        """Return what an IMU feels at this attitude."""
+        """Return an IMU's motion at this attitude."""
         state = self._flight.state
         rates = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)
         return motion_at(state.roll_deg, state.pitch_deg, rates)

@@ -46,7 +46,7 @@ def main(arguments: list[str] | None = None) -> int:
     from twisted.internet import reactor as default_reactor
 
     reactor: Any = default_reactor
-    # The reactor keeps wall-clock time by itself, and a flight must not see that jump.
+    # The reactor's own clock is wall-clock time, and a flight must not see its jumps.
     reactor.seconds = time.monotonic
     failures: list[Any] = []
 
@@ -80,13 +80,13 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _hear(number: int, handler: Callable[[int, Any], object]) -> None:
-    """Hear a signal, unless it is to be ignored, as after ``nohup``."""
+    """Handle a signal, unless it is ignored, as after ``nohup``."""
     if signal.getsignal(number) != signal.SIG_IGN:
         signal.signal(number, handler)
 
 
 def _end_early(_number: int, _frame: object) -> None:
-    """End while everything is still being built, and give back what was taken."""
+    """End during the construction, and release what exists so far."""
     raise SystemExit(0)
 
 

@@ -1,4 +1,4 @@
-"""What the user may ask of ``up-sim start``."""
+"""The options of ``up-sim start``."""
 
 from __future__ import annotations
 

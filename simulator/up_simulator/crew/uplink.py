@@ -10,7 +10,7 @@ from up_simulator.link.relay import LinkRelay
 from up_simulator.link.settings import LinkSettings
 
 USER_TIMEOUT_S = 1.5
-"""What the daemon asks of its sockets (TCP_USER_TIMEOUT)."""
+"""The daemon's socket option TCP_USER_TIMEOUT."""
 _WORDS = {
     "delay": ("delay_ms", 10_000.0),
     "jitter": ("jitter_ms", 10_000.0),

@@ -39,18 +39,18 @@ MODE_WORDS = {
     "SETPOINT": "SETPOINT, the Arduino holds the attitude that Raspilot asks for",
     "OUTPUT": "OUTPUT, Raspilot moves the servos",
 }
-"""What is said when the board flies another mode."""
+"""Printed when the board flies another mode."""
 
 Say = Callable[[str], None]
 
 
 class VirtualAircraft:
-    """Everything that the options ask for, built at once and started by ``start``.
+    """All parts that the options select, built by the constructor and started by ``start``.
 
     ``reactor`` gives time and sockets; its clock must be monotonic. ``say`` takes one line for the
     user, ``on_leave`` is called when the pilot at the keyboard leaves. Raises
     ``FlightUnavailableError``, ``AirframeError``, ``BoardUnavailableError``, ``PtyLineError``,
-    ``RadioError``, ``LinkRelayError``, ``CrewError`` (no phone of the kind asked for) and
+    ``RadioError``, ``LinkRelayError``, ``CrewError`` (the requested phone is unavailable) and
     ``OSError`` (the state log) with messages for the user.
     """
 
@@ -115,7 +115,7 @@ class VirtualAircraft:
     def _board_it(
         self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
     ) -> Callable[[], None]:
-        """Put board, line and radio aboard and return what keeps them flying."""
+        """Build board, line and radio and return the object that runs them."""
         has_motor = airframe.has_motor and options.replay is None
         self._line = line = PtyLine(options.pty_link)
         board = board_aboard(options, airframe, self._say)
@@ -140,7 +140,7 @@ class VirtualAircraft:
         self._radio = radio
         remote: RemoteRadio | None = None
         if options.radio_socket is not None:
-            # Whoever holds a transmitter of his own arms by himself.
+            # A pilot with a transmitter arms with it.
             arms = is_armed if options.radio in ("circle", "script") else None
             remote = RemoteRadio(options.radio_socket, radio, self._say, mode, arms)
             self._radio = radio = remote
@@ -228,7 +228,7 @@ def _make_find(reactor: Any, options: argparse.Namespace) -> Callable[[], Awaita
 
 
 def _place_options(options: argparse.Namespace) -> list[str]:
-    """Return where a phone with links of its own finds Raspilot, as its options."""
+    """Return the options that give a phone with its own links Raspilot's addresses."""
     if options.runner:
         host, port = options.runner
         return ["--runner", f"{host}:{port}", "--aircraft", options.aircraft_name]

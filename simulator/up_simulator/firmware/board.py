@@ -1,4 +1,4 @@
-"""What a simulated flight asks of the board that is aboard."""
+"""The interface of a simulated flight to its board."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ NEUTRAL_US: Pulses = (1500.0, 1500.0, 1000.0, 1500.0)
 
 
 class BoardCrashedError(Exception):
-    """The board's program did what its chip cannot do: the message is one sentence."""
+    """The board's program used a feature that its chip lacks: the message is one sentence."""
 
 
 class BoardImu(Protocol):
-    """The sensor aboard: how it errs and how it fails; both may change in flight.
+    """The sensor aboard: its errors and its fault; both may change in flight.
 
-    ``throttle`` (0 to 1) is how fast the motor turns that shakes it.
+    ``throttle`` (0 to 1) is the speed of the motor that causes its vibration.
     """
 
     errors: ImuErrors
@@ -32,13 +32,13 @@ class BoardImu(Protocol):
 
     @property
     def fault(self) -> ImuFault:
-        """Return what was set last."""
+        """Return the last fault set."""
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Let it fail, or mend it.
+        """Set a fault, or clear it.
 
-        frozen: it answers with the same sample for ever. unplugged: nobody answers. stuck: it
-        holds the bus. garbage: it answers with random numbers.
+        frozen: it repeats the same sample. unplugged: no answer. stuck: it holds the bus.
+        garbage: it answers with random numbers.
         """
 
 
@@ -50,7 +50,7 @@ class FirmwareBoard(Protocol):
 
     @property
     def title(self) -> str:
-        """Return what it is, in a few words."""
+        """Return its description, in a few words."""
 
     @property
     def imu(self) -> BoardImu:
@@ -70,10 +70,10 @@ class FirmwareBoard(Protocol):
         """Switch all channels of the receiver on or off."""
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Let one channel of the receiver send pulses or stay silent."""
+        """Switch the pulses of one channel of the receiver on or off."""
 
     def set_motion(self, motion: Motion) -> None:
-        """Set what the IMU feels from now on."""
+        """Set the IMU's motion from now on."""
 
     def pulses_us(self) -> Pulses:
         """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
@@ -82,7 +82,7 @@ class FirmwareBoard(Protocol):
         """Return how long ago the newest pulse of each servo ended; infinite before the first."""
 
     def read(self) -> bytes:
-        """Return what came on the serial line since the last reading."""
+        """Return the bytes from the serial line since the last call."""
 
     def write(self, data: bytes) -> None:
         """Put bytes on the serial line."""
@@ -92,4 +92,4 @@ class FirmwareBoard(Protocol):
 
     @property
     def eeprom(self) -> bytes:
-        """Return what the EEPROM holds; empty for a board that has none."""
+        """Return the content of the EEPROM; empty for a board without one."""

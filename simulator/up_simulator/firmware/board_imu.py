@@ -1,4 +1,4 @@
-"""The IMU of a board as a flight sees it: what it errs by, and what is broken."""
+"""The IMU of a board as a flight sees it: its errors and its fault."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from up_simulator.firmware.imu_errors import ImuErrors, ImuModel
 
 
 class BoardImu:
-    """What every board's IMU keeps; ``motion`` is what it feels until it is set again."""
+    """State common to every board's IMU; ``motion`` holds until it is set again."""
 
     def __init__(self, errors: ImuErrors, seed: int) -> None:
         self._model = ImuModel(errors, seed)
@@ -17,7 +17,7 @@ class BoardImu:
 
     @property
     def errors(self) -> ImuErrors:
-        """Return how it errs."""
+        """Return its errors."""
         return self._model.errors
 
     @errors.setter
@@ -35,9 +35,9 @@ class BoardImu:
 
     @property
     def fault(self) -> ImuFault:
-        """Return what was set last."""
+        """Return the last fault set."""
         return self._fault
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Let it fail, or mend it."""
+        """Set a fault, or clear it."""
         self._fault = fault

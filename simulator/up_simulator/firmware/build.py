@@ -1,4 +1,4 @@
-"""Chooses what is aboard: the firmware where it can be built, else what can be."""
+"""Chooses the board: the firmware if it can be built, otherwise a substitute."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Program:
     def board(
         self, *, seed: int = 1, imu_errors: ImuErrors | None = None, eeprom: bytes = b""
     ) -> FirmwareBoard:
-        """Return a board that has just got its power; raises ``BoardUnavailableError``."""
+        """Return a freshly powered board; raises ``BoardUnavailableError``."""
         errors = imu_errors or ImuErrors()
         try:
             return self.make(self.path, seed=seed, imu_errors=errors, eeprom=eeprom)
@@ -51,11 +51,11 @@ def choose_board(
     elf: Path | None = None,
     say: Callable[[str], None] = lambda _text: None,
 ) -> FirmwareBoard:
-    """Return a board that has just got its power.
+    """Return a freshly powered board.
 
-    ``auto`` is the firmware on the simulated chip where the AVR tools and simavr are, else the same
-    sources built for this computer, which ``say`` is told in one sentence. ``elf`` is a firmware
-    that is built already, in the place of the project's own. Raises ``BoardUnavailableError``.
+    ``auto`` is the firmware on the simulated chip if the AVR tools and simavr are installed,
+    otherwise the same sources built for this computer, which ``say`` reports in one sentence.
+    ``elf`` is a built firmware that replaces the project's own. Raises ``BoardUnavailableError``.
     """
     if kind == "direct":
         return DirectBoard(seed=seed, imu_errors=imu_errors)
@@ -70,7 +70,7 @@ def aboard(
 ) -> Program:
     """Return the program for a kind of board, built if need be; raises as ``choose_board``.
 
-    Where nothing can be built, what has been built of these sources flies, which ``say`` is told.
+    If the build is impossible, an earlier build is used, which ``say`` reports.
     """
     if kind == "host":
         return _host_program(say)
@@ -125,7 +125,7 @@ def _is_ready(program: Path) -> bool:
 
 
 def _reason(error: Exception) -> str:
-    """Return the line of make's output that says most: the first error, or the last line."""
+    """Return the most informative line of make's output: the first error, or the last line."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     errors = [line for line in lines if "error:" in line or "needs" in line]
     return (errors or lines[-1:] or ["make said nothing"])[0]

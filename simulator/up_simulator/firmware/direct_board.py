@@ -17,10 +17,10 @@ GAP_US = 10.0
 
 
 class DirectBoard:
-    """A ``FirmwareBoard`` without firmware: Black Box mode, and what a flight is without help.
+    """A ``FirmwareBoard`` without firmware: Black Box mode, and an unassisted flight.
 
-    Frames of six pulses, one after the other, come every 20 ms; a servo has the newest whole one.
-    The serial line is silent and nothing resets.
+    Frames of six pulses, one after the other, are sent every 20 ms; a servo has the newest whole
+    one. The serial line is silent and nothing resets.
     """
 
     title = "no flight computer: the receiver moves the servos"
@@ -41,7 +41,7 @@ class DirectBoard:
         return self._now_us
 
     def run_us(self, duration_us: float) -> None:
-        """Let the receiver's pulses come."""
+        """Start the receiver's pulses."""
         self._now_us += duration_us
         while self._frame_us <= self._now_us:
             self._send_frame(self._frame_us)
@@ -60,14 +60,14 @@ class DirectBoard:
         self._silent = set() if is_on else set(CHANNELS)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Let one channel of the receiver send pulses or stay silent."""
+        """Switch the pulses of one channel of the receiver on or off."""
         if is_on:
             self._silent.discard(channel)
         else:
             self._silent.add(channel)
 
     def set_motion(self, motion: Motion) -> None:
-        """Nothing aboard feels it."""
+        """Ignore the motion: there is no IMU aboard."""
 
     def pulses_us(self) -> Pulses:
         """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
@@ -86,14 +86,14 @@ class DirectBoard:
         return b""
 
     def write(self, data: bytes) -> None:
-        """Nobody reads it."""
+        """Drop the data: this board has no serial line."""
 
     def reset(self, cause: ResetCause) -> None:
-        """There is nothing to reset."""
+        """Do nothing: this board has no state to reset."""
 
     @property
     def eeprom(self) -> bytes:
-        """Return nothing: there is none."""
+        """Return nothing: this board has no EEPROM."""
         return b""
 
     def _send_frame(self, start_us: float) -> None:

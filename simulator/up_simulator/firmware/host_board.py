@@ -37,7 +37,7 @@ _TEMPERATURE = round((25.0 - 36.53) * 340)
 
 
 class HostImu(BoardImu):
-    """What the MPU6050 of a host build measures, by the same ``ImuModel`` as the rig's."""
+    """The MPU6050's measurements in a host build, by the same ``ImuModel`` as the rig's."""
 
     def __init__(self, library: HostLibrary, errors: ImuErrors, seed: int) -> None:
         super().__init__(errors, seed)
@@ -47,7 +47,7 @@ class HostImu(BoardImu):
         self._numbers = [0] * SAMPLE_NUMBERS
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Let it fail, or mend it."""
+        """Set a fault, or clear it."""
         super().set_fault(fault)
         self._library.set_imu_fault({"unplugged": 1, "stuck": 2}.get(fault, 0))
 
@@ -119,11 +119,11 @@ class HostBoard:
         self._library.set_receiver(is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Let one channel of the receiver send pulses or stay silent."""
+        """Switch the pulses of one channel of the receiver on or off."""
         self._library.set_channel(_CHANNELS[channel], is_on)
 
     def set_motion(self, motion: Motion) -> None:
-        """Set what the IMU feels from now on."""
+        """Set the IMU's motion from now on."""
         self.imu.motion = motion
 
     def pulses_us(self) -> Pulses:
@@ -143,7 +143,7 @@ class HostBoard:
         return ailerons, elevator, throttle, rudder
 
     def read(self) -> bytes:
-        """Return what came on the serial line since the last reading."""
+        """Return the bytes from the serial line since the last call."""
         parts = []
         while size := self._library.read(self._into, _READ_SIZE):
             parts.append(self._into.raw[:size])
@@ -159,7 +159,7 @@ class HostBoard:
 
     @property
     def eeprom(self) -> bytes:
-        """Return what the EEPROM holds."""
+        """Return the content of the EEPROM."""
         return bytes(self._library.view.eeprom)
 
 

@@ -25,7 +25,7 @@ class HostUnavailableError(RigUnavailableError):
 
 
 class View(ctypes.Structure):
-    """What the library and its caller share; ``host_board_view`` of host_board.h."""
+    """Data shared by the library and its caller; ``host_board_view`` of host_board.h."""
 
     _fields_ = [
         ("now_us", ctypes.c_double),
@@ -69,7 +69,7 @@ class HostLibrary:
 
 
 def _load_copy(path: Path) -> ctypes.CDLL:
-    # A file is loaded once, however often it is asked for: each board gets a file of its own.
+    # The loader loads a file only once: each board gets a separate copy.
     try:
         descriptor, name = tempfile.mkstemp(prefix="firmware-", suffix=".so")
         os.close(descriptor)

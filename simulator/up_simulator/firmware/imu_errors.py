@@ -1,4 +1,4 @@
-"""What spoils the measurements of an IMU: noise, bias, warming up, a motor that shakes it."""
+"""The measurement errors of an IMU: noise, bias, warming up, vibration by a motor."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ DRAWN_DRIFT_DEG_S = 4.0
 
 @dataclass(frozen=True, slots=True)
 class ImuErrors:
-    """How a sensor errs; vectors are x forward, y right, z down.
+    """Errors of a sensor; vectors are x forward, y right, z down.
 
-    Noise is a standard deviation for each sample. ``gyro_drift_deg_s`` is what the bias changes by
-    until the sensor is warm; ``warm_up_s`` is the time constant of that, from its power-on. The
-    vibration is an amplitude as the sensor's own filter passes it, at full throttle and at
-    ``vibration_hz``; frequency goes with the throttle, amplitude with its square, as the force of
-    an unbalanced rotor does.
+    Noise is a standard deviation for each sample. ``gyro_drift_deg_s`` is the change of the bias
+    until the sensor is warm; ``warm_up_s`` is its time constant, from power-on. The vibration is
+    an amplitude behind the sensor's own filter, at full throttle and at ``vibration_hz``;
+    frequency is proportional to the throttle, amplitude to its square, as the force of an
+    unbalanced rotor.
     """
 
     gyro_noise_deg_s: float = NOISE_DEG_S
@@ -38,7 +38,7 @@ class ImuErrors:
 
 
 def drawn_errors(seed: int, **known: Any) -> ImuErrors:
-    """Return the errors of one sensor of many: what is not ``known`` is drawn by the seed.
+    """Return the errors of one individual sensor: those not ``known`` are drawn by the seed.
 
     An MPU6050 may read 20 deg/s at rest (PS-MPU-6000A-00, 6.1). Drawn on each axis: a bias of 2 to
     4 deg/s with either sign, and a drift of up to 4 deg/s with the time constant ``warm_up_s``:
@@ -51,9 +51,9 @@ def drawn_errors(seed: int, **known: Any) -> ImuErrors:
 
 
 class ImuModel:
-    """Turns what moves the aircraft into what its IMU measures; the same seed errs alike.
+    """Turns the aircraft's motion into its IMU's measurements; the same seed gives equal errors.
 
-    ``errors`` may be changed in flight. ``throttle`` (0 to 1) is how fast the motor turns.
+    ``errors`` may be changed in flight. ``throttle`` (0 to 1) is the speed of the motor.
     """
 
     def __init__(self, errors: ImuErrors, seed: int) -> None:
@@ -64,7 +64,7 @@ class ImuModel:
         self._measured_s = 0.0
 
     def measure(self, motion: Motion, time_s: float) -> Motion:
-        """Return the motion as it is measured at a time since power-on, which never falls."""
+        """Return the measured motion at a time since power-on, which never falls."""
         errors = self.errors
         p, q, r = errors.gyro_bias_deg_s
         x, y, z = errors.accel_bias_m_s2

@@ -20,7 +20,7 @@ STEP_US = 10_000.0
 BOOT_US = 1_500_000.0
 ANSWER_STEPS = 50
 QUIET_STEPS = 30
-"""An EEPROM that has not changed for so long holds all that it was to get: a byte takes 3.4 ms."""
+"""An EEPROM unchanged for this time is complete: a byte takes 3.4 ms."""
 WRITE_STEPS = 600
 _ANSWERS = {"c": "C", "G": "G"}
 
@@ -54,8 +54,8 @@ def prepared_eeprom(
 ) -> bytes:
     """Return the EEPROM of a board of this kind that holds an airframe's profile and gains.
 
-    The work is done once for each firmware and each set of values and then kept beside what was
-    built. Raises ``BoardUnavailableError``, ``BoardCrashedError``, ``SettingsError`` and
+    The result is computed once for each firmware and each set of values and cached beside the
+    build. Raises ``BoardUnavailableError``, ``BoardCrashedError``, ``SettingsError`` and
     ``PreparationError``.
     """
     if kind == "direct":
@@ -67,7 +67,7 @@ def prepared_eeprom(
     if kept.is_file():
         return kept.read_bytes()
     eeprom = prepare_eeprom(program.board(), profile, gains)
-    # Where nothing can be written the work is done again the next time.
+    # Without a writable folder the work is repeated the next time.
     with contextlib.suppress(OSError):
         keep(kept, eeprom)
     return eeprom
@@ -76,10 +76,10 @@ def prepared_eeprom(
 def prepare_eeprom(
     board: FirmwareBoard, profile: Mapping[str, Any], gains: Mapping[str, Any]
 ) -> bytes:
-    """Boot a board, write profile and gains, and return what its EEPROM then holds.
+    """Boot a board, write profile and gains, and return its EEPROM afterwards.
 
-    ``profile`` is shaped like airframe.yml, ``gains`` like pids.yml; what is null or missing the
-    board keeps. The values are read back after another power-on. The board ends disarmed, at
+    ``profile`` is shaped like airframe.yml, ``gains`` like pids.yml; for null or missing values
+    the board keeps its own. All are read back after another power-on. The board ends disarmed, at
     rest and level. Raises ``PreparationError``, ``SettingsError`` and ``BoardCrashedError``.
     """
     talk = _Talk(board)

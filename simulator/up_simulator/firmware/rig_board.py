@@ -1,4 +1,4 @@
-"""The firmware as it is compiled, on a simulated ATmega328P."""
+"""The compiled firmware on a simulated ATmega328P."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class RigImu(BoardImu):
         self._imu.motion = self._measure
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Let it fail, or mend it."""
+        """Set a fault, or clear it."""
         imu = self._imu
         imu.mend()
         imu.is_frozen = fault == "frozen"
@@ -95,11 +95,11 @@ class RigBoard:
             self._switch(channel, is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Let one channel of the receiver send pulses or stay silent."""
+        """Switch the pulses of one channel of the receiver on or off."""
         self._switch(channel, is_on)
 
     def set_motion(self, motion: Motion) -> None:
-        """Set what the IMU feels from now on."""
+        """Set the IMU's motion from now on."""
         self.imu.motion = motion
 
     def pulses_us(self) -> Pulses:
@@ -117,7 +117,7 @@ class RigBoard:
         return ailerons, elevator, throttle, rudder
 
     def read(self) -> bytes:
-        """Return what came on the serial line since the last reading."""
+        """Return the bytes from the serial line since the last call."""
         return self._rig.serial.read()
 
     def write(self, data: bytes) -> None:
@@ -138,7 +138,7 @@ class RigBoard:
 
     @property
     def eeprom(self) -> bytes:
-        """Return what the EEPROM holds."""
+        """Return the content of the EEPROM."""
         return self._rig.eeprom.read()
 
     def _age_us(self, channel: str) -> float:
@@ -148,7 +148,7 @@ class RigBoard:
         return self.now_us - (pulse.rise_cycle + pulse.width_cycles) / CYCLES_PER_US
 
     def _switch(self, channel: str, is_on: bool) -> None:
-        # Frames go on unsent meanwhile: one that began anew could run into the one before.
+        # Frames continue without output: a restarted frame could run into the one before.
         if is_on:
             self._rig.receiver.resume(channel)
         else:

@@ -35,7 +35,7 @@ _PLACES = {
     "receiver_lost.rudder_us": 28,
     "receiver_lost.return_with_motor": 29,
 }
-"""Where each key stands among the fields of a profile (protocols 2.6)."""
+"""The position of each key among the fields of a profile (protocols 2.6)."""
 _SWITCH, _ANGLES = 18, range(19, 24)
 _POSITIONS = ("switch.low", "switch.middle", "switch.high")
 _LOOPS, _AXES, _TERMS = ("rate", "stabilize"), ("ailerons", "elevator", "rudder"), "pid"

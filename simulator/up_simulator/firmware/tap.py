@@ -1,4 +1,4 @@
-"""Listens to a board's serial line and keeps the newest of everything that it says."""
+"""Monitors a board's serial line and keeps the newest datum of each kind."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class BoardStatus:
 
     @property
     def is_auto(self) -> bool:
-        """Return whether the switch stands at AUTO."""
+        """Return whether the switch is at AUTO."""
         return bool(self.flags & 2)
 
     @property
@@ -63,18 +63,18 @@ class BoardStatus:
 
     @property
     def has_heard(self) -> bool:
-        """Return whether the Raspberry Pi was heard within a second."""
+        """Return whether the board received from the Raspberry Pi within a second."""
         return bool(self.flags & 128)
 
     @property
     def is_restored(self) -> bool:
-        """Return whether the state of before the reset came back."""
+        """Return whether the state from before the reset was restored."""
         return bool(self.cause & 128)
 
 
 @dataclass(frozen=True, slots=True)
 class BoardOrientation:
-    """What the board takes for its attitude: ``O``, in degrees and degrees per second."""
+    """The board's estimate of its attitude: ``O``, in degrees and degrees per second."""
 
     sequence: int
     yaw_deg: float
@@ -94,11 +94,11 @@ class Inputs:
 
 
 class BoardTap:
-    """Feeds on the bytes that a board sends; each datum has the time at which it was complete.
+    """Decodes the bytes that a board sends; each datum has the time at which it was complete.
 
-    Nothing here is older than what came: a datum that no longer comes stays, and its ``_s`` tells.
-    ``counts`` counts the messages of each type, ``bad_frames`` what was no message, ``missing``
-    what the sequence says was lost. A frame that a reset cuts is a bad one.
+    A datum that no longer arrives keeps its last value, and its ``_s`` shows the age. ``counts``
+    counts the messages of each type, ``bad_frames`` the invalid ones, ``missing`` the gaps in the
+    sequence. A frame cut by a reset is invalid.
     """
 
     def __init__(self) -> None:
@@ -118,7 +118,7 @@ class BoardTap:
         self.answers: list[Command] = []
 
     def feed(self, data: bytes, now_s: float) -> list[Command]:
-        """Take bytes that came until ``now_s``; return the messages that they complete."""
+        """Take bytes received until ``now_s``; return the messages that they complete."""
         if not data:
             return []
         found = list(self._messages(data))
@@ -137,13 +137,13 @@ class BoardTap:
         return self.command_bytes("s")
 
     def take_answers(self) -> list[Command]:
-        """Return the answers that came since the last call: ``K ! m T G C``."""
+        """Return the answers since the last call: ``K ! m T G C``."""
         answers, self.answers = self.answers, []
         return answers
 
     def _messages(self, data: bytes) -> Iterator[Command]:
         *frames, self._buffer = (self._buffer + data).split(b"\0")
-        # What is longer than any frame is counted when it ends; its length need not be kept.
+        # An overlong frame is counted when it ends; its length need not be kept.
         self._buffer = self._buffer[: LONGEST_ENCODED + 1]
         for encoded in frames:
             if not encoded:

@@ -1,4 +1,4 @@
-"""The configuration of a daemon in a simulation: its defaults, and what a scenario changes."""
+"""The configuration of a daemon in a simulation: its defaults, and a scenario's changes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ BASE: Mapping[str, Mapping[str, Any]] = {
 }
 """A wired Arduino, a port for a ground station that may do everything, and no black box.
 
-The recorder writes from a thread of its own, which knows no simulated time.
+The recorder writes from a separate thread, which has no simulated time.
 """
 
 

@@ -1,4 +1,4 @@
-"""What a program logs, as lines with simulated time."""
+"""A program's log, as lines with simulated time."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class DaemonLog:
             globalLogPublisher.removeObserver(cast(ILogObserver, self))
 
     def say(self, text: str) -> None:
-        """Add a line that is no event."""
+        """Add a line that is not an event."""
         self.lines.append(f"{self._seconds():9.3f} {text}")
 
     def __call__(self, event: LogEvent) -> None:

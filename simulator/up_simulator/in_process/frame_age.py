@@ -1,4 +1,4 @@
-"""How old a frame of telemetry is when it comes, as far as its receiver can tell."""
+"""The age of a telemetry frame on arrival, as far as its receiver can compute it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from up.protocols.general_message import GeneralMessage
 
 FrameAge = Callable[[GeneralMessage, float], float | None]
-"""Takes a frame and the time at which it came (s); returns its age (s), None: not known."""
+"""Takes a frame and its arrival time (s); returns its age (s), None: not known."""
 _ONE_LIFE = 1_000_000
 """Beacons of one life of the daemon are nearer: each life draws its first at random below 2**31."""
 
@@ -20,18 +20,18 @@ class _Life:
 
 
 class UptimeAges:
-    """Tells ages by ``system.uptime_s``, for a daemon whose own clock nobody else can read.
+    """Measures ages by ``system.uptime_s``, for a daemon with an unreadable clock.
 
-    Of each life of the daemon the frame that came quickest counts as 0 s old. The uptime has whole
-    seconds: an age is told up to 1 s too great, and too small by no more than that frame's own age
-    and a telemetry period. A life is known by its beacons, so that an old frame stays one.
+    In each run of the daemon the quickest frame counts as 0 s old. The uptime has whole seconds:
+    an age is up to 1 s too great, and too small by at most that frame's own age and a telemetry
+    period. A run is identified by its beacons, so that an old frame stays one.
     """
 
     def __init__(self) -> None:
         self._lives: list[_Life] = []
 
     def age_s(self, message: GeneralMessage, now_s: float) -> float | None:
-        """Return the age of a frame that comes now; None where it has no beacon or uptime."""
+        """Return the age of a frame that arrives now; None without a beacon or uptime."""
         system = message.data.get("system")
         uptime_s = system.get("uptime_s") if isinstance(system, dict) else None
         if message.beacon is None or isinstance(uptime_s, bool):

@@ -30,10 +30,9 @@ OTHERS_KEPT = 64
 class InProcessGround:
     """Connects to the daemon's listener, takes the seat, keeps the newest telemetry, commands.
 
-    Each Command echoes the newest beacon. What can leave only with a link and has none is lost,
-    and never answered. ``others`` keeps the newest other message of each name, as what the
-    aircraft tells of its gains. ``frame_age`` knows how old a frame is; without it the frames
-    themselves tell it.
+    Each Command echoes the newest beacon. A Command without a link is lost and never answered.
+    ``others`` keeps the newest other message of each name, such as the aircraft's gains.
+    ``frame_age`` computes the age of a frame; without it the frames' own field is used.
     """
 
     def __init__(
@@ -66,21 +65,21 @@ class InProcessGround:
 
     @property
     def frames(self) -> int:
-        """Return how many frames have come."""
+        """Return the number of frames received."""
         return self._received.frames
 
     @property
     def lost_frames(self) -> int:
-        """Return how many frames were sent, by their beacons, and did not come."""
+        """Return the number of frames that, by the beacons, were sent and did not arrive."""
         return self._received.lost
 
     @property
     def newest_s(self) -> float | None:
-        """Return when the newest frame came; None before the first."""
+        """Return the arrival of the newest frame; None before the first."""
         return self._newest_s
 
     def take_latency_s(self) -> float | None:
-        """Return the greatest age of what came since the last call, else the newest frame's."""
+        """Return the maximum age of the data since the last call, otherwise the newest frame's."""
         worst_s, self._worst_age_s = self._worst_age_s, None
         found_s = self._newest_age_s if worst_s is None else worst_s
         return None if found_s == math.inf else found_s
@@ -105,7 +104,7 @@ class InProcessGround:
             link.start()
 
     def stop(self) -> None:
-        """Hang up for good."""
+        """Disconnect permanently."""
         link, self._link = self._link, None
         if link is not None:
             Deferred.fromCoroutine(link.stop()).addErrback(lambda _: None)
@@ -123,12 +122,12 @@ class InProcessGround:
         return self._answers.get(command_id)
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take what comes from the aircraft."""
+        """Take a message from the aircraft."""
         now_s = self._reactor.seconds()
         if self._received.take(message, now_s):
             self._newest_s = now_s
             age_s = self._frame_age(message, now_s)
-            # Nobody knows how old: that may be any age.
+            # The age is unknown: it may have any value.
             self._newest_age_s = math.inf if age_s is None else age_s
             self._worst_age_s = max(self._newest_age_s, self._worst_age_s or 0.0)
         elif message.name in ("up.ack", "up.nack"):
@@ -144,7 +143,7 @@ class InProcessGround:
                 self.others.popitem(last=False)
 
     def on_link(self) -> None:
-        """Hear that the link has changed: asked for when it is looked at."""
+        """Ignore a change of the link: its status is polled."""
 
 
 class _TokenInMemory(TokenStore):
@@ -155,7 +154,7 @@ class _TokenInMemory(TokenStore):
         self._token: str | None = None
 
     def hold(self) -> bool:
-        """Nobody else has it."""
+        """Return True: no other program shares this token."""
         return True
 
     def load(self) -> str | None:

@@ -15,15 +15,15 @@ from up_simulator.java_phone_process import JavaPhoneProcess
 from up_simulator.java_phone_program import JavaProgram
 
 THINKS_S = 0.002
-"""How long the phone takes for everything: meanwhile its JVM works beside the simulation."""
+"""Simulated duration of the phone's work, during which the JVM runs beside the simulation."""
 _TINY_S = 1e-6
 
 
 class SteppedJavaHandset(JvmHandset):
-    """A JVM in lock-step: it is asked only when a timer, a reading or its network wants it.
+    """A JVM in lock-step: it runs only when a timer, a reading or its network is due.
 
-    Its sockets are opened on ``machine``, so that the same seed gives the same flight. The JVM is
-    started at once: it is there when the firmware has booted.
+    Its sockets are opened on ``machine``, so that the same seed gives the same flight. The
+    constructor starts the JVM, so that it is up when the firmware has booted.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class SteppedJavaHandset(JvmHandset):
         self._process = JavaPhoneProcess(program, *options)
 
     def start(self) -> None:
-        """Let the phone's time begin."""
+        """Start the phone's time."""
         self._due_s = self._machine.seconds()
 
     def tick(self) -> None:

@@ -1,4 +1,4 @@
-"""One program's reactor: everything that it opened can be cut off at once."""
+"""One program's reactor: all that the program opened can be cut off in one call."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ class TimedCall(DelayedCall):
 
 @implementer(IReactorTime, IReactorTCP, IReactorUDP, IReactorFDSet, IReactorPluggableNameResolver)
 class Machine:
-    """What a program takes for its reactor; sockets stay in this process, at 127.0.0.1.
+    """The reactor that a program sees; its sockets stay in this process, at 127.0.0.1.
 
-    ``cut_off`` is its end without a word: no timer, descriptor or port of it is left. Between
-    ``freeze`` and ``thaw`` it stands still as a stopped process: its system still acknowledges
-    what comes, and it finds everything when it goes on.
+    ``cut_off`` kills the program: no timer, descriptor or port of it is left. Between ``freeze``
+    and ``thaw`` it is suspended like a stopped process: its system still acknowledges arriving
+    data, and the program finds all of it when it resumes.
     """
 
     def __init__(self, reactor: SimulatedReactor, name: str) -> None:
@@ -61,7 +61,7 @@ class Machine:
     def callLater(  # noqa: N802 - Twisted's name
         self, delay: float, callable: Callable[..., object], *args: object, **kw: object
     ) -> TimedCall:
-        """Call later; after the end of this program nothing is called."""
+        """Call later; ignored after the end of this program."""
         call = self.reactor.callLater(delay, callable, *args, **kw)
         call.machine = self
         self._calls.append(call)
@@ -70,23 +70,23 @@ class Machine:
         return call
 
     def callFromThread(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
-        """Make a call at the next step, from whatever thread it was asked for."""
+        """Call at the next step, from any thread."""
         self.reactor.call_from_thread(partial(self.do, partial(callable, *args, **kw)))
 
     def callWhenRunning(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
-        """Make a call at once: time is always running here."""
+        """Call immediately: this reactor is always running."""
         callable(*args, **kw)
 
     def getDelayedCalls(self) -> list[TimedCall]:  # noqa: N802 - Twisted's name
-        """Return what is still to be called."""
+        """Return the pending calls."""
         return [each for each in self._calls if each.active()]
 
     def addSystemEventTrigger(self, *_: object, **__: object) -> object:  # noqa: N802
-        """Keep nothing: this reactor never shuts down by itself."""
+        """Keep nothing: this reactor never shuts down on its own."""
         return object()
 
     def removeSystemEventTrigger(self, _: object) -> None:  # noqa: N802 - Twisted's name
-        """Forget nothing."""
+        """Do nothing: no trigger was kept."""
 
     def addReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name
         """Watch a descriptor of the system, as a serial port's."""
@@ -98,16 +98,16 @@ class Machine:
         self.reactor.remove_reader(reader)
 
     def addWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
-        """Tell when a descriptor of the system takes bytes."""
+        """Watch when a descriptor of the system takes bytes."""
         self._descriptors[writer] = None
         self.reactor.add_writer(writer)
 
     def removeWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
-        """Tell no longer."""
+        """Stop watching it."""
         self.reactor.remove_writer(writer)
 
     def removeAll(self) -> list[Any]:  # noqa: N802 - Twisted's name
-        """Let go of every descriptor and return them."""
+        """Forget every descriptor and return them."""
         descriptors, self._descriptors = list(self._descriptors), {}
         for each in descriptors:
             self.reactor.remove_reader(each)
@@ -125,7 +125,7 @@ class Machine:
     def listenTCP(  # noqa: N802 - Twisted's name
         self, port: int, factory: Any, backlog: int = 50, interface: str = ""
     ) -> TcpPort:
-        """Listen in memory; raises CannotListenError where somebody else does already."""
+        """Listen in memory; raises CannotListenError if the port is in use."""
         listening = TcpPort(self, port, factory, interface)
         listening.startListening()
         return listening
@@ -150,7 +150,7 @@ class Machine:
         interface: str = "",
         maxPacketSize: int = 8192,  # noqa: N803 - Twisted's name
     ) -> UdpPort:
-        """Receive datagrams in memory; raises CannotListenError where somebody else does."""
+        """Receive datagrams in memory; raises CannotListenError if the port is in use."""
         listening = UdpPort(self, port, protocol, interface)
         listening.startListening()
         return listening
@@ -161,24 +161,24 @@ class Machine:
         return before
 
     def do(self, call: Callable[..., Any], *arguments: Any) -> None:
-        """Let something happen to the program now, or when it goes on."""
+        """Call into the program now, or when it resumes."""
         if self.is_frozen:
             self._missed.append((call, arguments))
         elif self.running:
             call(*arguments)
 
     def freeze(self) -> None:
-        """Let the program stand still."""
+        """Suspend the program."""
         if not self.is_frozen and self.running:
             self.is_frozen = True
             self._taken_descriptors = self.reactor.take_descriptors(self._descriptors)
 
     def keep_call(self, call: TimedCall) -> None:
-        """Keep a call whose time came meanwhile."""
+        """Keep a call that became due while frozen."""
         self._late_calls.append(call)
 
     def thaw(self) -> None:
-        """Let the program go on: late timers first, then what has come in the meantime."""
+        """Resume the program: late timers first, then the data that has arrived since."""
         if not self.is_frozen:
             return
         self.is_frozen = False
@@ -197,7 +197,7 @@ class Machine:
             self.reactor.guarded(call, *arguments)
 
     def cut_off(self) -> None:
-        """End at once, as a killed process: its system closes what it leaves behind."""
+        """Kill the program: its system closes all that it leaves behind."""
         self.running = False
         for call in self._calls:
             if call.active():
@@ -223,7 +223,7 @@ class LiteralResolver:
         addressTypes: Any = None,  # noqa: N803 - Twisted's name
         transportSemantics: str = "TCP",  # noqa: N803 - Twisted's name
     ) -> Any:
-        """Answer a literal address by itself at once, anything else by nothing."""
+        """Resolve a literal address to itself, any other name to nothing."""
         resolutionReceiver.resolutionBegan(self)
         try:
             address = ip_address(hostName)

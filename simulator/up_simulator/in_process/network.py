@@ -1,4 +1,4 @@
-"""What carries bytes between the programs of one process."""
+"""The network between the programs of one process."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Pipe = LinkPipe[Delivery]
 
 
 class Route:
-    """One direction between two ports: a link, or none and then nothing is lost or late."""
+    """One direction between two ports: over a link, or without one, loss or delay."""
 
     def __init__(self, network: Network, pipe: Pipe | None) -> None:
         self._network = network
@@ -30,11 +30,11 @@ class Route:
 
     @property
     def is_perfect(self) -> bool:
-        """Return whether there is no link in between."""
+        """Return whether the route has no simulated link."""
         return self.pipe is None
 
     def carry(self, size: int, call: Callable[..., object], *arguments: Any) -> None:
-        """Let ``call`` happen at the other end when a packet of that size arrives there."""
+        """Call at the other end when a packet of that size arrives there."""
         if self.pipe is None:
             self._network.next_step.append((call, arguments))
         else:
@@ -42,7 +42,7 @@ class Route:
 
 
 class Network:
-    """Knows who listens where, and brings every packet when its time has come."""
+    """Holds the listeners, and delivers every packet at its time."""
 
     def __init__(self, clock: Any) -> None:
         self.seconds: Callable[[], float] = clock.seconds
@@ -58,7 +58,7 @@ class Network:
         self._next_port = FIRST_FREE_PORT
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Let what goes to a port pass ``up``, what comes from it ``down``."""
+        """Route data to a port through ``up``, data from it through ``down``."""
         self._links[port] = (up, down)
 
     def routes(self, port: int, *, is_datagram: bool = False) -> tuple[Route, Route]:
@@ -76,7 +76,7 @@ class Network:
         return self.routes(source, is_datagram=True)[1]
 
     def bind(self, table: dict[int, Any], port: int, who: Any, interface: str) -> int:
-        """Give a port to somebody, 0 for any that is free; raises CannotListenError."""
+        """Bind a port, 0 for any free one; raises CannotListenError."""
         if port and port in table:
             error = OSError(EADDRINUSE, strerror(EADDRINUSE))
             raise CannotListenError(interface, port, error)
@@ -104,7 +104,7 @@ class Network:
                 end.on_reset()
 
     def move(self, now_s: float) -> None:
-        """Bring what has arrived by now, then let leave what was written."""
+        """Deliver the data that has arrived, then send the written data."""
         for _ in range(len(self.next_step)):
             call, arguments = self.next_step.popleft()
             call(*arguments)

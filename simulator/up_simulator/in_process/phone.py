@@ -28,10 +28,10 @@ SAID_KEPT = 200
 class InProcessPhone:
     """A phone at the daemon's ports by a cable, which both links share.
 
-    ``plug`` and ``unplug`` move the cable: a connection without it hangs, as one by USB
-    tethering does, until its own timeouts end it. With ``is_told`` both ends are reset at once,
-    as by ``adb``. ``said`` has what the phone speaks and notes. With ``java`` it is the Java
-    phone: in steps where the reactor is a simulated one, in real time with its own sockets else.
+    ``plug`` and ``unplug`` move the cable: a connection without it hangs, as with USB tethering,
+    until its own timeouts end it. With ``is_told`` both ends are reset immediately, as with
+    ``adb``. ``said`` has the phone's messages and notes. With ``java`` it is the Java phone: in
+    steps on a simulated reactor, otherwise in real time with its own sockets.
     """
 
     def __init__(
@@ -67,12 +67,12 @@ class InProcessPhone:
 
     @property
     def loss(self) -> str | None:
-        """Return in a sentence how it ended by itself; None: it did not."""
+        """Return in a sentence how it ended unexpectedly; None if it has not."""
         return self.handset.loss
 
     @property
     def is_awaited(self) -> bool:
-        """Return whether a program of its own has begun and has not connected yet."""
+        """Return whether a separate program has started and has not connected yet."""
         handset = self.handset
         return self._is_started and isinstance(handset, JavaHandset) and not handset.has_connected
 
@@ -94,7 +94,7 @@ class InProcessPhone:
                 self._reactor.network.reset_connections(port)
 
     def set_battery(self, percent: float) -> None:
-        """Let its battery have this level from now on."""
+        """Set the level of its battery."""
         self.handset.set_battery(percent)
 
     def stop(self) -> None:

@@ -12,9 +12,9 @@ BYTES = "latin-1"
 
 
 class PipedSockets:
-    """Does what a stepped virtual phone asks of its network, and keeps what the network brings.
+    """Carries out the network requests of a stepped virtual phone, and collects the events.
 
-    Both are lists of words, as the virtual phone's page has them. ``machine`` is the reactor.
+    Both are lists of words, as on the virtual phone's page. ``machine`` is the reactor.
     """
 
     def __init__(self, machine: Any) -> None:
@@ -25,7 +25,7 @@ class PipedSockets:
         self.is_urgent = False
 
     def take(self) -> list[list[Any]]:
-        """Return what came since the last call."""
+        """Return the events since the last call."""
         for connection in list(self._connections.values()):
             connection.tell_room()
         taken, self._brought = self._brought, []
@@ -77,7 +77,7 @@ class PipedSockets:
 
 @implementer(IPullProducer)
 class _Connection(Protocol):
-    """One connection; as a producer it hears when all that was written has left."""
+    """One connection; as a producer it is notified when all written data has left."""
 
     def __init__(self, sockets: PipedSockets, number: int) -> None:
         self._sockets = sockets
@@ -90,22 +90,22 @@ class _Connection(Protocol):
         self.factory = _Once(self)
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Tell it."""
+        """Report the connection."""
         transport: Any = self.transport
         transport.setTcpNoDelay(True)
         transport.registerProducer(self, False)
         self._sockets.bring("connected", self._number)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Bring bytes."""
+        """Report the bytes."""
         self._sockets.bring("bytes", self._number, data.decode(BYTES))
 
     def connectionLost(self, reason: Any = None) -> None:  # noqa: N802 - Twisted's name
-        """Tell it, unless it was asked for."""
+        """Report the end, unless it was requested."""
         self.fail("the connection was lost")
 
     def fail(self, reason: str) -> None:
-        """Tell that it has ended, once."""
+        """Report its end, once."""
         if not self._has_ended:
             self._has_ended = True
             self._sockets.bring("closed", self._number, reason)
@@ -119,14 +119,14 @@ class _Connection(Protocol):
             transport.write(data)
 
     def tell_room(self) -> None:
-        """Tell how much has left since the last time."""
+        """Report the bytes that have left since the last call."""
         if self._left:
             left, self._left = self._left, 0
             self.is_full = False
             self._sockets.bring("room", self._number, left)
 
     def end(self) -> None:
-        """Cut it off; nobody is told any more."""
+        """Abort the connection without a notification."""
         self._has_ended = True
         if self.transport is not None:
             transport: Any = self.transport
@@ -135,18 +135,18 @@ class _Connection(Protocol):
             self.connector.disconnect()
 
     def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Hear that everything has left."""
+        """Handle that all data has left."""
         self._left += self._waiting
         self._waiting = 0
         if self.is_full and self._left:
             self._sockets.is_urgent = True
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Do nothing: the end of the connection is told besides."""
+        """Do nothing: the end of the connection is reported separately."""
 
 
 class _Once(ClientFactory):
-    """Makes the one protocol, or tells why there is no connection."""
+    """Makes the one protocol, or reports why the connection failed."""
 
     noisy = False
 
@@ -158,7 +158,7 @@ class _Once(ClientFactory):
         return self._connection
 
     def clientConnectionFailed(self, connector: Any, reason: Any) -> None:  # noqa: N802
-        """Tell it."""
+        """Report it."""
         where = connector.getDestination()
         self._connection.fail(
             f"no connection to {where.host}:{where.port} ({reason.type.__name__})"
@@ -173,5 +173,5 @@ class _Datagrams(DatagramProtocol):
         self._number = number
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802
-        """Bring a datagram."""
+        """Report a datagram."""
         self._sockets.bring("datagram", self._number, datagram.decode(BYTES), addr[0], addr[1])

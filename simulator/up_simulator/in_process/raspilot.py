@@ -1,4 +1,4 @@
-"""The daemon as it is, in this process and in simulated time."""
+"""The unmodified daemon, in this process and in simulated time."""
 
 from __future__ import annotations
 
@@ -58,11 +58,11 @@ class InProcessRaspilot:
     """Loads, starts, stops and kills the application as its program does.
 
     The application is found from ``root`` and configured by a folder (``write_config``). Its
-    serial port is a socket in this process, whatever its configuration calls it, which ``pump``
-    connects with a board; ``line`` can be unplugged. ``boot_s`` passes between the
-    start and the first module's. What it draws at random follows ``seed``. Signals, the process's
-    priority, its watchdogs and its garbage collector are the program's, and not part of this. A
-    proxy is to be configured by its address: a name would be looked up by a thread.
+    serial port is a socket in this process, whatever port its configuration names, which ``pump``
+    connects with a board; ``line`` can be unplugged. ``boot_s`` passes between the start and the
+    first module's. Its random numbers follow ``seed``. Signals, the process's priority, its
+    watchdogs and its garbage collector belong to the program, and are not part of this. A proxy
+    must be configured by its address: a name would be resolved by a thread.
     """
 
     log_source = Logger()
@@ -151,7 +151,7 @@ class InProcessRaspilot:
         done.addBoth(lambda _: self.kill() if self._machine is machine else None)
 
     def kill(self) -> None:
-        """Cut everything at once: timers, ports, connections, and the serial line in mid-frame."""
+        """Cut off timers, ports, connections, and the serial line in mid-frame."""
         machine, self._machine = self._machine, None
         if machine is None:
             return
@@ -161,12 +161,12 @@ class InProcessRaspilot:
         self.up = self._life = None
 
     def freeze(self) -> None:
-        """Stop it in its tracks: it holds its ports and does nothing, as a hung one."""
+        """Suspend it: it holds its ports and does nothing, as a hung one."""
         if self._machine is not None:
             self._machine.freeze()
 
     def thaw(self) -> None:
-        """Let a frozen one go on."""
+        """Resume a frozen one."""
         if self._machine is not None:
             self._machine.thaw()
 
@@ -179,7 +179,7 @@ class InProcessRaspilot:
         self.line.write(board.read())
 
     def frame_age_s(self, message: GeneralMessage, _now_s: float) -> float | None:
-        """Return how old a frame of telemetry is, of this life or one before; None: of none."""
+        """Return the age of a telemetry frame, of this run or one before; None: of none."""
         for beacons in reversed(self._beacons):
             if message.beacon is not None:
                 age_s = beacons.age_s(message.beacon)

@@ -1,4 +1,4 @@
-"""A reactor whose time only its owner moves, and what every machine on it shares."""
+"""A reactor whose time only its owner moves, and the parts that all machines on it share."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ _READABLE = select.POLLIN | select.POLLHUP | select.POLLERR | select.POLLNVAL
 class SimulatedReactor(Clock):
     """The time, the network and the descriptors of all programs that fly in this process.
 
-    Each program gets a ``machine``, which is a reactor to it. ``advance`` moves the time in steps
-    of 2 ms: timers first, then descriptors, then what the network brings, then what is to leave.
-    Nothing happens between two calls, and the same calls give the same bytes everywhere, as long
-    as no program uses threads. A call that raises is logged, as by any reactor.
+    Each program gets a ``machine`` as its reactor. ``advance`` moves the time in steps of 2 ms:
+    timers first, then descriptors, then arriving data, then departing data. Nothing happens
+    between two calls, and the same calls give the same bytes everywhere, as long as no program
+    uses threads. A call that raises is logged, as by any reactor.
     """
 
     log = Logger()
@@ -51,22 +51,22 @@ class SimulatedReactor(Clock):
         return Machine(self, name)
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Let connections and datagrams to a port pass a link from now on.
+        """Route connections and datagrams to a port over a link from now on.
 
-        ``up`` is the way to the port, ``down`` the way back. Several ports may share the models.
+        ``up`` is the direction to the port, ``down`` the one back. Ports may share the models.
         """
         self.network.link(port, up, down)
 
     def callLater(  # type: ignore[override]  # noqa: N802 - Twisted's name
         self, when: float, what: Callable[..., object], *a: object, **kw: object
     ) -> TimedCall:
-        """Call ``what`` when the time has come; of equal times the earlier call is first."""
+        """Call ``what`` at its time; of equal times the earlier call is first."""
         call = TimedCall(self.rightNow + when, what, a, kw, self._forget, self._moved, self.seconds)
         self.put_back(call)
         return call
 
     def put_back(self, call: TimedCall) -> None:
-        """Let a call wait for its time again."""
+        """Reschedule a call."""
         insort(self.calls, call, key=DelayedCall.getTime)
 
     def call_from_thread(self, call: Callable[[], Any]) -> None:
@@ -87,7 +87,7 @@ class SimulatedReactor(Clock):
         self._watch(self._readers[reader])
 
     def remove_reader(self, reader: Any) -> None:
-        """Forget a reader; one that is none is no error."""
+        """Forget a reader; an unknown one is ignored."""
         number = self._readers.pop(reader, None)
         if number is not None:
             self._watch(number)
@@ -98,13 +98,13 @@ class SimulatedReactor(Clock):
         self._watch(self._writers[writer])
 
     def remove_writer(self, writer: Any) -> None:
-        """Forget a writer; one that is none is no error."""
+        """Forget a writer; an unknown one is ignored."""
         number = self._writers.pop(writer, None)
         if number is not None:
             self._watch(number)
 
     def take_descriptors(self, of: Iterable[Any]) -> list[Callable[[], None]]:
-        """Watch descriptors no longer; return what each is to be watched by again."""
+        """Stop watching descriptors; return the calls that watch them again."""
         give_back: list[Callable[[], None]] = []
         for each in of:
             if each in self._readers:
@@ -116,7 +116,7 @@ class SimulatedReactor(Clock):
         return give_back
 
     def guarded(self, call: Callable[..., Any], *arguments: Any, **more: Any) -> Any:
-        """Make a call of somebody else's; what it raises is logged and ends nothing."""
+        """Call foreign code; an exception is logged and ends nothing."""
         try:
             return call(*arguments, **more)
         except Exception:  # noqa: BLE001 - a reactor outlives the faults of what it calls
@@ -136,7 +136,7 @@ class SimulatedReactor(Clock):
         self.network.move(now_s)
 
     def _make_calls(self, due_s: float) -> None:
-        """Make what is due; what is asked for meanwhile waits for the next step, however soon."""
+        """Make the calls that are due; calls scheduled by them wait for the next step."""
         count = bisect_right(self.calls, due_s, key=DelayedCall.getTime)
         due, self.calls[:count] = self.calls[:count], []
         for call in due:

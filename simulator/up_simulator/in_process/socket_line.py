@@ -9,8 +9,8 @@ from contextlib import suppress
 class SocketLine:
     """The board's end of a line in this process; ``open`` gives the other end.
 
-    Bytes pass at once and in order, without the system's own time as on a pty. Opening it again
-    hangs up on the end before. ``unplug`` takes the whole adapter away: the port is gone.
+    Bytes pass in order and without the delays of a pty. A second ``open`` hangs up on the end
+    before. ``unplug`` removes the whole adapter: the port is gone.
     """
 
     def __init__(self) -> None:
@@ -19,14 +19,14 @@ class SocketLine:
         self._other: socket.socket | None = None
 
     def open(self) -> socket.socket:
-        """Return the other end, which whoever asked has to close."""
+        """Return the other end, which the caller has to close."""
         self.hang_up()
         self._own, self._other = socket.socketpair()
         self._own.setblocking(False)
         return self._other
 
     def read(self, timeout_s: float, most: int) -> bytes:
-        """Return what has come; nothing is waited for."""
+        """Return the received bytes without waiting."""
         if self._own is None:
             return b""
         try:
@@ -38,17 +38,17 @@ class SocketLine:
             return b""
 
     def write(self, data: bytes) -> None:
-        """Send bytes; what nobody reads is dropped."""
+        """Send bytes; without a reader they are dropped."""
         if self._own is not None:
             with suppress(OSError):
                 self._own.send(data)
 
     def plug(self) -> None:
-        """Let the port be there again."""
+        """Restore the port."""
         self.is_plugged = True
 
     def unplug(self) -> None:
-        """Take the port away: whoever has it open is hung up on."""
+        """Remove the port: an open end is hung up."""
         self.is_plugged = False
         self.hang_up()
 

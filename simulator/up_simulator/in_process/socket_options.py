@@ -10,7 +10,7 @@ _TCP = socket.IPPROTO_TCP
 
 
 class SocketOptions:
-    """Takes what programs set on the handle of a transport; unknown options change nothing."""
+    """Takes socket options from programs; unknown options have no effect."""
 
     def __init__(self) -> None:
         self.keeps_alive = False
@@ -25,7 +25,7 @@ class SocketOptions:
 
     @property
     def keepalive(self) -> tuple[float, float, int]:
-        """Return after what silence a probe is sent, how often, and how many may be unanswered."""
+        """Return the idle time before a probe, the probe interval, and the number of probes."""
         values = self._values
         return (
             float(values.get((_TCP, socket.TCP_KEEPIDLE), 7200)),

@@ -1,4 +1,4 @@
-"""What a system's TCP does for one end of a connection: order, acknowledgement, giving up."""
+"""A system's TCP for one end of a connection: order, acknowledgement, timeouts."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Owner(Protocol):
         """The connection is there."""
 
     def on_bytes(self, data: bytes) -> None:
-        """Bytes have come, in order."""
+        """Handle bytes, in order."""
 
     def on_eof(self) -> None:
         """The other side sends no more."""
@@ -46,8 +46,8 @@ class Owner(Protocol):
 class TcpEnd:
     """One end; ``peer`` is the other, which is only reached through the route.
 
-    Whatever is not acknowledged is sent again. A connection ends by a FIN, by a reset, or by
-    silence: TCP_USER_TIMEOUT for bytes that nobody acknowledges, keepalive for one that is idle.
+    Unacknowledged data is sent again. A connection ends by a FIN, by a reset, or by silence:
+    TCP_USER_TIMEOUT for unacknowledged bytes, keepalive for an idle one.
     """
 
     def __init__(self, clock: Any, route: Route) -> None:
@@ -84,13 +84,13 @@ class TcpEnd:
             self._send(data[at : at + SEGMENT], is_last=False)
 
     def finish(self) -> None:
-        """Send no more: a FIN after what is on its way."""
+        """Send no more: a FIN follows the data in flight."""
         if not self._is_finished and not self.is_closed:
             self._is_finished = True
             self._send(b"", is_last=True)
 
     def close(self) -> None:
-        """Leave the connection to the system: what was sent still arrives, then the FIN."""
+        """Leave the connection to the system: sent data still arrives, then the FIN."""
         self.owner = None
         if self._unread:
             self.reset()
@@ -99,13 +99,13 @@ class TcpEnd:
             self._stop_probing()
 
     def reset(self) -> None:
-        """End it at once and tell the other side."""
+        """Abort it and notify the other side."""
         if not self.is_closed:
             self._route.carry(HEADER, self.peer.on_reset)
             self._end()
 
     def establish(self) -> None:
-        """Be connected: the handshake is done, or bytes say that it must be."""
+        """Establish the connection: by the handshake, or by bytes that imply it."""
         if not self._is_established and not self.is_closed:
             self._is_established = True
             self._heard_s = self._progress_s = self._clock.seconds()
@@ -113,20 +113,20 @@ class TcpEnd:
                 self.owner.on_established()
 
     def set_reading(self, is_reading: bool) -> None:
-        """Let bytes wait in the system, or hand them over again."""
+        """Hold bytes in the system, or hand them over again."""
         self._is_reading = is_reading
         if is_reading:
             self._clock.callLater(0, self._hand_over)
 
     def watch(self) -> None:
-        """Look at the options anew: keepalive begins when it was asked for."""
+        """Apply changed options: keepalive starts when it has been enabled."""
         if self.options.keeps_alive and self._probe is None and not self._route.is_perfect:
             self._schedule_probe(self.options.keepalive[0])
 
     # What arrives from the other end.
 
     def on_segment(self, offset: int, data: bytes, is_last: bool, sent_s: float) -> None:
-        """Take a segment; one that came before is only acknowledged again."""
+        """Take a segment; a duplicate is only acknowledged again."""
         if self.is_closed or (self.owner is None and data):
             self._refuse()
             return
@@ -148,7 +148,7 @@ class TcpEnd:
         self._hand_over()
 
     def on_acknowledged(self, offset: int, sent_s: float) -> None:
-        """Forget what has arrived."""
+        """Forget the arrived data."""
         if self.is_closed:
             return
         self._hear()
@@ -173,7 +173,7 @@ class TcpEnd:
         self._lose(ConnectionLost("the connection was reset"))
 
     def on_probe(self) -> None:
-        """Say that this end is alive."""
+        """Answer a probe."""
         if self.is_closed:
             self._refuse()
         else:
@@ -181,7 +181,7 @@ class TcpEnd:
             self._route.carry(HEADER, self.peer.on_alive)
 
     def on_alive(self) -> None:
-        """Hear that the other end is alive."""
+        """Handle the answer to a probe."""
         if not self.is_closed:
             self._hear()
 
@@ -211,7 +211,7 @@ class TcpEnd:
         self.establish()
 
     def _refuse(self) -> None:
-        """Answer a packet that belongs to no connection any more."""
+        """Answer a packet of a connection that no longer exists."""
         if not self.peer.is_closed:
             self._route.carry(HEADER, self.peer.on_reset)
 

@@ -53,13 +53,13 @@ class TcpPort:
         return IPv4Address("TCP", self.interface or "0.0.0.0", self._number)
 
     def cut_off(self) -> None:
-        """Close it without a word."""
+        """Close it without a notification."""
         self._is_open = False
         self.machine.opened.pop(self, None)
         self.machine.network.tcp.pop(self._number, None)
 
     def accept(self, end: TcpEnd, from_port: int) -> None:
-        """Take a new connection; a factory that builds nothing for it refuses it."""
+        """Take a new connection; it is refused if the factory builds no protocol."""
         transport = TcpTransport(self.machine, end, self._number, from_port)
         self.machine.do(self._build, transport, IPv4Address("TCP", ADDRESS, from_port))
 
@@ -87,14 +87,14 @@ class _Attempt:
         self.is_over = False
 
     def knock(self) -> None:
-        """Ask, and ask again when nobody answers."""
+        """Send a SYN, and again without an answer."""
         if not self.is_over:
             self._up.carry(HEADER, self._asked)
             self._again = self._clock.callLater(self._wait_s, self.knock)
             self._wait_s *= 2
 
     def end(self) -> None:
-        """Ask no more."""
+        """Cancel the attempt."""
         self.is_over = True
         if self._again is not None and self._again.active():
             self._again.cancel()
@@ -109,7 +109,7 @@ class _Attempt:
             there = TcpEnd(self._network.clock, self._down)
             self._here.peer, there.peer = there, self._here
             self._network.note_connection(self._port, (self._here, there))
-            # Before whatever the other side sends: it may cut the connection off at once.
+            # Before any data of the other side, which may cut the connection off immediately.
             self._down.carry(HEADER, self._answered)
             port.accept(there, self._own_port)
         else:
@@ -130,7 +130,7 @@ class _Attempt:
 
 @implementer(IConnector)
 class Connector:
-    """One attempt to connect, and the connection that came of it."""
+    """One attempt to connect, and the resulting connection."""
 
     def __init__(self, machine: Any, host: str, port: int, factory: Any, timeout_s: float) -> None:
         self.factory = factory
@@ -176,7 +176,7 @@ class Connector:
         return IPv4Address("TCP", self._host, self._port)
 
     def cut_off(self) -> None:
-        """End without a word."""
+        """End without a notification."""
         self._stop()
 
     def succeed(self, end: TcpEnd) -> None:
@@ -195,7 +195,7 @@ class Connector:
         end.establish()
 
     def fail(self, error: Exception) -> None:
-        """Tell that there is no connection."""
+        """Report that the connection failed."""
         if self.state == "connecting":
             self._stop()
             self.state = "disconnected"
@@ -204,7 +204,7 @@ class Connector:
                 self.factory.doStop()
 
     def lost(self, reason: Failure) -> None:
-        """Hear that the connection is gone."""
+        """Handle the loss of the connection."""
         self.state = "disconnected"
         self.factory.clientConnectionLost(self, reason)
         if self.state == "disconnected":

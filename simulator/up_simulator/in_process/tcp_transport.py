@@ -17,12 +17,12 @@ from up_simulator.in_process.socket_options import SocketOptions
 from up_simulator.in_process.tcp_end import TcpEnd
 
 BUFFER_LIMIT = 65536
-"""Beyond which a streaming producer is asked to pause, as Twisted's own transports do."""
+"""Above this a streaming producer is paused, as in Twisted's own transports."""
 
 
 @implementer(ITCPTransport)
 class TcpTransport:
-    """Writes as a reactor does: what waits leaves at the end of the step, then more is asked for.
+    """Writes as a reactor does: queued data leaves at the end of the step, then more is requested.
 
     A protocol that raises loses its connection, and the failure is logged.
     """
@@ -68,18 +68,18 @@ class TcpTransport:
         self.write(b"".join(iovec))
 
     def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Send what waits, then close."""
+        """Send the queued data, then close."""
         if self.connected and not self.disconnecting:
             self.disconnecting = True
             self._want_to_write()
 
     def loseWriteConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Send what waits, then a FIN; go on reading."""
+        """Send the queued data, then a FIN; continue to read."""
         self._write_is_closing = True
         self._want_to_write()
 
     def abortConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Cut the connection off; the other side is told by a reset."""
+        """Abort the connection; the other side gets a reset."""
         if not self.disconnected and self._end.owner is self:
             self._end.reset()
             self._machine.callLater(0, self._lost, ConnectionAborted())
@@ -93,15 +93,15 @@ class TcpTransport:
         return self._host
 
     def getHandle(self) -> SocketOptions:  # noqa: N802 - Twisted's name
-        """Return what takes socket options."""
+        """Return the handle for socket options."""
         return self._end.options
 
     def setTcpNoDelay(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
-        """Note it: nothing is delayed here."""
+        """Store the option, which has no effect here."""
         self._end.options.has_no_delay = bool(enabled)
 
     def getTcpNoDelay(self) -> bool:  # noqa: N802 - Twisted's name
-        """Return what was set."""
+        """Return the option's value."""
         return self._end.options.has_no_delay
 
     def setTcpKeepAlive(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
@@ -111,11 +111,11 @@ class TcpTransport:
         self._machine.callLater(0, self._end.watch)
 
     def getTcpKeepAlive(self) -> bool:  # noqa: N802 - Twisted's name
-        """Return what was set."""
+        """Return the option's value."""
         return self._end.options.keeps_alive
 
     def registerProducer(self, producer: Any, streaming: bool) -> None:  # noqa: N802
-        """Ask a producer for more when nothing waits, or tell it to pause when too much does."""
+        """Resume a producer when the queue is empty, or pause it when the queue is long."""
         if self._producer is not None:
             raise RuntimeError(f"there is a producer already: {self._producer!r}")
         if self.disconnected:
@@ -142,13 +142,13 @@ class TcpTransport:
             self._end.set_reading(True)
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Close, as a consumer of what is read asks."""
+        """Close, as the consumer requests."""
         self.loseConnection()
 
     # What the network and the machine call.
 
     def flush(self) -> None:
-        """Let as much leave as the connection takes, and ask the producer for more."""
+        """Send as much as the connection takes, and resume the producer."""
         if self._machine.is_frozen:
             self._machine.do(self._want_to_write)
             return
@@ -181,13 +181,13 @@ class TcpTransport:
             self._end.close()
 
     def refuse(self) -> None:
-        """End a connection that nobody wants."""
+        """Reset a refused connection."""
         self.disconnected = True
         self._machine.opened.pop(self, None)
         self._end.reset()
 
     def on_established(self) -> None:
-        """Tell the protocol that it is connected."""
+        """Notify the protocol of the connection."""
         self._machine.do(self._made)
 
     def on_bytes(self, data: bytes) -> None:
@@ -195,15 +195,15 @@ class TcpTransport:
         self._machine.do(self._received, data)
 
     def on_eof(self) -> None:
-        """Tell that the other side sends no more."""
+        """Notify the protocol of the other side's half-close."""
         self._machine.do(self._ended)
 
     def on_lost(self, error: Exception) -> None:
-        """Tell the protocol that the connection broke."""
+        """Notify the protocol of the lost connection."""
         self._machine.do(self._lost, error)
 
     def on_room(self) -> None:
-        """Go on writing."""
+        """Continue to write."""
         if self._waiting or self.disconnecting or self._producer is not None:
             self._want_to_write()
 

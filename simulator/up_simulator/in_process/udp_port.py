@@ -17,7 +17,7 @@ LARGEST = 65507
 
 @implementer(IListeningPort, IUDPTransport)
 class UdpPort:
-    """A port for datagrams; whatever goes to nobody vanishes."""
+    """A port for datagrams; those without a receiver vanish."""
 
     def __init__(self, machine: Any, port: int, protocol: Any, interface: str) -> None:
         self.protocol = protocol
@@ -74,7 +74,7 @@ class UdpPort:
         return True
 
     def cut_off(self) -> None:
-        """Close it without a word."""
+        """Close it without a notification."""
         self._is_open = False
         self._machine.opened.pop(self, None)
         self._machine.network.udp.pop(self._number, None)

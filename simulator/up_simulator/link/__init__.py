@@ -1,1 +1,1 @@
-"""The link between aircraft, phone and ground, and how it fails."""
+"""The link between aircraft, phone and ground, and its faults."""

@@ -45,7 +45,7 @@ class _Way:
         self._run()
 
     def stop(self) -> None:
-        """Forget what is on its way."""
+        """Drop all datagrams in flight."""
         self._pipe.clear()
         self._cancel()
 
@@ -83,7 +83,7 @@ class _Socket(DatagramProtocol):
         self._on_datagram(datagram, addr)
 
     def connectionRefused(self) -> None:  # noqa: N802
-        # Nobody is told what a link does with a datagram.
+        # Neither end is notified of the link's losses.
         pass
 
     def write(self, data: bytes, address: Address) -> None:
@@ -94,10 +94,10 @@ class _Socket(DatagramProtocol):
 
 
 class DatagramRelay(ListeningRelay):
-    """Takes datagrams and carries them to the target, and its answers back to who sent them.
+    """Takes datagrams and carries them to the target, and its answers back to their senders.
 
-    Each client has a socket of its own towards the target; of more than 64 the one that came first
-    loses its. ``target_host`` is an address, not a name. Otherwise as ``LinkRelay``.
+    Each client has its own socket towards the target; beyond 64 the oldest client loses its.
+    ``target_host`` is an address, not a name. Otherwise as ``LinkRelay``.
     """
 
     def __init__(
@@ -124,13 +124,13 @@ class DatagramRelay(ListeningRelay):
         return self._up.all_lost + self._down.all_lost
 
     async def stop(self) -> None:
-        """Take no more and forget what is on its way."""
+        """Take no more and drop all datagrams in flight."""
         self._up.stop()
         self._down.stop()
         listener, self._listener = self._listener, None
         ports = [port for _socket, port in self._clients.values()]
         self._clients.clear()
-        # All are asked to close before the first is waited for.
+        # Close all of them before waiting for the first.
         for closed in [port.stopListening() for port in (listener, *ports) if port is not None]:
             await closed
 
@@ -139,12 +139,12 @@ class DatagramRelay(ListeningRelay):
 
     def _open(self, number: int, protocol: DatagramProtocol) -> Any:
         port = listen_udp(self._reactor, number, protocol, self._interface)
-        # Twisted would cut what is longer than 8 KiB.
+        # Twisted would cut datagrams longer than 8 KiB.
         port.maxPacketSize = LARGEST
         return port
 
     def _on_client(self, data: bytes, address: Address) -> None:
-        # The socket that sends is looked for on arrival: it may be gone by then.
+        # The sending socket is looked up on arrival: it may be closed by then.
         self._socket_of(address)
         self._up.send(data, lambda arrived: self._to_target(arrived, address))
 

@@ -1,4 +1,4 @@
-"""What every link between real sockets has: where it listens, and where it leads."""
+"""Common to every link between real sockets: its listening address and its target."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ class LinkRelayError(Exception):
 
 
 class ListeningRelay(ABC):
-    """Listens on a port of this machine for what goes on to a target.
+    """Listens on a local port for traffic to a target.
 
-    Port 0 is any free port, which ``port`` tells after ``start``.
+    Port 0 is any free port; ``port`` has it after ``start``.
     """
 
     def __init__(

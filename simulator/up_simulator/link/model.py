@@ -1,4 +1,4 @@
-"""One direction of a link: when what is sent arrives."""
+"""One direction of a link: the arrival times of packets."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from up_simulator.link.settings import LinkSettings
 __all__ = ["LinkModel", "LinkSettings"]
 
 FIRST_RETRY_S = 0.2
-"""The least time after which TCP sends a lost packet again (Linux; RFC 6298 asks for 1 s)."""
+"""The least time after which TCP sends a lost packet again (Linux; RFC 6298 requires 1 s)."""
 LONGEST_RETRY_S = 3.0
 MOST_RETRIES = 12
-"""What is lost more often than this is taken to have come through, so that time goes on."""
+"""A packet lost more often than this counts as arrived, so that time advances."""
 
 
 class LinkModel:
-    """Says when each packet arrives, apart from any socket and any clock.
+    """Computes when each packet arrives, independent of sockets and clocks.
 
-    The same seed, settings and calls give the same times. Times are seconds of whatever clock the
-    caller has, and must not go back. Order is kept, for datagrams as well, as on a cellular link.
+    The same seed, settings and calls give the same times. Times are seconds of the caller's clock
+    and must not go back. Order is kept, for datagrams as well, as on a cellular link.
 
-    ``settings`` may be replaced at any time: it holds for what is sent from then on.
+    ``settings`` may be replaced at any time: new ones hold for later packets.
     """
 
     def __init__(self, settings: LinkSettings | None = None, seed: int = 1) -> None:
@@ -37,7 +37,7 @@ class LinkModel:
 
     @property
     def is_stalled(self) -> bool:
-        """Return whether everything waits, to come in a burst later."""
+        """Return whether all packets are held, to arrive in a burst later."""
         return self._is_stalled
 
     @property
@@ -47,23 +47,23 @@ class LinkModel:
 
     @property
     def blackouts(self) -> int:
-        """Return how many blackouts have begun: what is on its way when one begins is lost."""
+        """Return the number of blackouts so far: packets in flight at the start of one are lost."""
         return self._blackouts
 
     def send(self, size: int, now_s: float, *, is_datagram: bool = False) -> float | None:
         """Return when a packet of ``size`` bytes arrives, or None: it never does.
 
-        A stream's packet is None only in a blackout or at a loss of 100 %: a loss costs it the
-        time of TCP's retransmissions. During a stall the time is that without the stall; ask
-        ``arrival_s`` when it has come.
+        A stream's packet is lost only in a blackout or at a loss of 100 %: otherwise a loss costs
+        it the time of TCP's retransmissions. During a stall the result is the time without the
+        stall; call ``arrival_s`` at that time.
         """
         settings = self.settings
         began_s = max(now_s, self._is_free_s)
         left_s = began_s + (size / settings.rate_bytes_s if settings.rate_bytes_s else 0.0)
-        # Drawn for every packet, lost or not, so that a fault does not shift all that comes later.
+        # Drawn for every packet, lost or not, so that a fault does not shift all later draws.
         jitter_s = self._random.random() * settings.jitter_ms / 1000
         retries = self._retries()
-        # What vanishes may still have filled the narrow place; a blackout is before it.
+        # A lost packet may still have filled the bottleneck; a blackout is before it.
         if self._is_black or retries is None:
             return None
         self._is_free_s = left_s
@@ -79,34 +79,34 @@ class LinkModel:
         return math.inf if self._is_stalled else max(due_s, self._resumed_s)
 
     def stall(self, now_s: float) -> None:
-        """Let everything wait from now on, what is on its way included; nothing is lost."""
+        """Hold all packets from now on, those in flight included; nothing is lost."""
         self._is_stalled = True
 
     def resume(self, now_s: float) -> None:
-        """End a stall: what waited arrives now, all at once."""
+        """End a stall: all held packets arrive now."""
         if self._is_stalled:
             self._is_stalled = False
             self._resumed_s = now_s
 
     def black_out(self) -> None:
-        """Let everything vanish, what is on its way included; nobody is told."""
+        """Lose all packets, those in flight included, without a notification."""
         if not self._is_black:
             self._is_black = True
             self._blackouts += 1
 
     def restore(self) -> None:
-        """End a blackout; what vanished stays lost."""
+        """End a blackout; lost packets stay lost."""
         self._is_black = False
 
     def _retries(self) -> int | None:
-        """Return how often a packet is lost before it comes through; None: always."""
+        """Return how often a packet is lost before it arrives; None: always."""
         loss = self.settings.loss_percent / 100
         draw = self._random.random()
         if loss <= 0:
             return 0
         if loss >= 1:
             return None
-        # One draw tells the number of losses: that of a geometric distribution.
+        # One draw yields the number of losses: that of a geometric distribution.
         return min(MOST_RETRIES, int(math.log(max(draw, 1e-300)) / math.log(loss)))
 
     def _retry_s(self, retries: int) -> float:

@@ -1,4 +1,4 @@
-"""What is on its way through one direction of a link."""
+"""Packets in flight through one direction of a link."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ _T = TypeVar("_T")
 
 
 class LinkPipe(Generic[_T]):
-    """Holds what was sent until the model says that it arrives; the order is kept.
+    """Holds packets until the model's arrival time; the order is kept.
 
-    Several pipes may share a model, as connections share a cable. ``lost`` counts what vanished.
+    Several pipes may share a model, as connections share a cable. ``lost`` counts lost packets.
     """
 
     def __init__(self, model: LinkModel, *, is_datagram: bool = False) -> None:
@@ -42,7 +42,7 @@ class LinkPipe(Generic[_T]):
         return self.model.arrival_s(self._waiting[0][0]) if self._waiting else math.inf
 
     def take(self, now_s: float) -> list[_T]:
-        """Return what has arrived by now; what a blackout met on its way is lost."""
+        """Return the data that has arrived; data that met a blackout in flight is lost."""
         model, waiting = self.model, self._waiting
         while waiting and (model.is_black or waiting[0][1] != model.blackouts):
             waiting.popleft()
@@ -53,5 +53,5 @@ class LinkPipe(Generic[_T]):
         return arrived
 
     def clear(self) -> None:
-        """Forget what is on its way."""
+        """Drop all packets in flight."""
         self._waiting.clear()

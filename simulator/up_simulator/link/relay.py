@@ -1,4 +1,4 @@
-"""A link between real TCP sockets: whoever connects to it reaches the target over the link."""
+"""A link between real TCP sockets: its clients reach the target over the link."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ class _ClientFactory(Factory):
 class LinkRelay(ListeningRelay):
     """Listens, and carries each connection to the target and back by two models.
 
-    ``up`` is the way to the target, ``down`` the way back; all connections share them. What the
-    models do may be changed at any time. In a blackout nothing passes and nobody is told: both
-    ends stay open, and connections that arrive are taken and hang. When it is over, what is still
-    wanted goes on as TCP's retransmissions do, and the peers of those who gave up are closed.
+    ``up`` is the direction to the target, ``down`` the one back; all connections share them. The
+    models' settings may change at any time. In a blackout nothing passes and neither end is
+    notified: both stay open, and new connections are accepted and hang. Afterwards open
+    connections continue as TCP's retransmissions do, and the peers of closed ones are closed.
 
-    ``user_timeout_s`` closes a connection whose bytes have not arrived for so long, as
+    ``user_timeout_s`` closes a connection whose bytes have not arrived within that time, as
     TCP_USER_TIMEOUT does for a peer that has set it: the relay's own sockets hide the link from
-    it. ``clock`` gives the time, of the reactor if there is no other.
+    it. ``clock`` gives the time, by default the reactor's.
     """
 
     def __init__(
@@ -90,7 +90,7 @@ class LinkRelay(ListeningRelay):
         return self._reactor.connectTCP(*self._target, factory, timeout=CONNECT_S)
 
     def forget(self, connection: RelayedConnection) -> None:
-        """Let a connection go that is over."""
+        """Forget a connection that is over."""
         self._connections.discard(connection)
         if self._idle is not None and not self._connections:
             idle, self._idle = self._idle, None

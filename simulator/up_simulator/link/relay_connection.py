@@ -17,11 +17,11 @@ from up_simulator.link.model import LinkModel
 from up_simulator.link.stream import Clock, LinkStream, Signal
 
 SYSTEM_BUFFER = 32 * 1024
-"""What the system may keep for a socket of the relay, so that it is no part of the link."""
+"""The system's buffer for a socket of the relay, small enough not to act as part of the link."""
 
 
 class Road(Interface):
-    """What a connection needs of its relay."""
+    """The interface of a relay to its connections."""
 
     up: LinkModel
     down: LinkModel
@@ -33,7 +33,7 @@ class Road(Interface):
         """Connect to the target."""
 
     def forget(self, connection: RelayedConnection) -> None:
-        """Let a connection go that is over."""
+        """Forget a connection that is over."""
 
 
 @implementer(IHalfCloseableProtocol, IPushProducer)
@@ -68,7 +68,7 @@ class _End(Protocol):
         self.look_at_window()
 
     def look_at_window(self) -> None:
-        """Read on, or no more, by how much is on its way; nothing before it is open."""
+        """Resume or pause reading by the bytes in flight; no reading before it is open."""
         if not self.is_connected or self._has_finished:
             return
         transport: Any = self.transport
@@ -81,7 +81,7 @@ class _End(Protocol):
             transport.pauseProducing()
 
     def take(self, content: bytes | Signal) -> None:
-        """Do what arrives from the other end."""
+        """Carry out a signal from the other end."""
         transport: Any = self.transport
         if not self.is_connected:
             return
@@ -101,7 +101,7 @@ class _End(Protocol):
             transport.loseConnection()
 
     def abort(self) -> None:
-        """Close at once."""
+        """Abort the connection."""
         if self.is_connected:
             transport: Any = self.transport
             transport.abortConnection()
@@ -147,7 +147,7 @@ class _TargetFactory(ClientFactory):
 class RelayedConnection:
     """A client's connection and the relay's own to the target, with a stream each way.
 
-    The target is called when the opening has come through, the client is read when the answer has.
+    The target is called when the opening has arrived, the client is read when the answer has.
     """
 
     def __init__(self, road: Road) -> None:
@@ -175,7 +175,7 @@ class RelayedConnection:
             end.incoming.is_blocked = False
 
     def on_finished(self) -> None:
-        """One end was told that the other sends no more."""
+        """Handle the half-close of one end."""
         self._finished += 1
         if self._finished == 2:
             self.near.close()
@@ -209,7 +209,7 @@ class RelayedConnection:
 
     def _on_up(self, content: bytes | Signal) -> None:
         if content is Signal.OPEN:
-            # Nothing arrives at a target that is not connected yet.
+            # No data arrives at a target that is not connected yet.
             self.near.outgoing.is_blocked = True
             self._connector = self._road.connect(_TargetFactory(self.far, self._on_refused))
         elif content is Signal.RESET and self.far.transport is None:

@@ -1,4 +1,4 @@
-"""What one direction of a link is like."""
+"""The settings of one direction of a link."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class LinkSettings:
-    """One direction of a link; raises ValueError for values that no link has.
+    """One direction of a link; raises ValueError for impossible values.
 
     Every packet takes ``delay_ms`` and up to ``jitter_ms`` more. ``loss_percent`` of the packets
-    are lost, each by itself. ``rate_bytes_s`` is the rate of the narrowest place, before which
-    packets queue; 0 means that nothing is narrow.
+    are lost, independently. ``rate_bytes_s`` is the rate of the bottleneck, before which packets
+    queue; 0 means no bottleneck.
     """
 
     delay_ms: float = 0.0

@@ -1,4 +1,4 @@
-"""One direction of a connection over a link: in order, without loss, when the link lets it."""
+"""One direction of a connection over a link: in order, without loss, as the link permits."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ HEADER = 40
 """Bytes of an IPv4 and a TCP header, which a link carries too."""
 LEAST_RETRY_S, FIRST_RETRY_S, LONGEST_RETRY_S = 0.2, 1.0, 120.0
 LONGEST_RESET_RETRY_S = 1.0
-"""A peer that is gone answers the next packet of the other side with a reset."""
+"""A closed peer answers the next packet of the other side with a reset."""
 LOOK_S = 0.01
-"""How often a stalled link is asked whether it goes on."""
+"""Period of the checks whether a stalled link has resumed."""
 _TINY_S = 1e-9
 
 
 class Signal(enum.Enum):
-    """What a connection carries beside its bytes."""
+    """A connection's signals beside its bytes."""
 
     OPEN = "open"
     OPENED = "opened"
@@ -32,7 +32,7 @@ class Signal(enum.Enum):
 
 
 class Clock(Protocol):
-    """Where the time comes from: a reactor, or ``task.Clock``."""
+    """The source of time: a reactor, or ``task.Clock``."""
 
     def seconds(self) -> float:
         """Return the time, which never falls."""
@@ -43,7 +43,7 @@ class Clock(Protocol):
 
 @dataclass(slots=True)
 class _Packet:
-    """What is on its way, when it arrives (None: it is lost), and how many blackouts ago."""
+    """A packet in flight, its arrival time (None: it is lost), and the blackouts before it."""
 
     content: bytes | Signal
     size: int
@@ -55,10 +55,10 @@ class _Packet:
 class LinkStream:
     """Carries packets by a model and hands each to ``deliver`` when it has arrived.
 
-    What the model loses is sent again, as TCP does: first after 0.2 s or two round trips, then
-    each time after twice as long, up to 120 s. ``is_blocked`` is the receiver that takes no more.
-    With ``user_timeout_s``, ``on_silence`` is called when nothing has arrived for so long although
-    something is on its way.
+    Lost packets are sent again, as TCP does: first after 0.2 s or two round trips, then each time
+    after twice the interval, up to 120 s. ``is_blocked`` means that the receiver takes no more.
+    ``on_silence`` is called when packets are in flight and none has arrived for
+    ``user_timeout_s``.
     """
 
     def __init__(
@@ -88,7 +88,7 @@ class LinkStream:
 
     @property
     def is_blocked(self) -> bool:
-        """Return whether the receiver takes nothing now."""
+        """Return whether the receiver takes no data now."""
         return self._is_blocked
 
     @is_blocked.setter
@@ -98,7 +98,7 @@ class LinkStream:
         self._run()
 
     def send(self, content: bytes | Signal) -> None:
-        """Put bytes or a signal on the way; a reset overtakes what has not arrived."""
+        """Send bytes or a signal; a reset overtakes packets in flight."""
         if self._is_stopped:
             return
         if not self._packets:
@@ -114,7 +114,7 @@ class LinkStream:
         self._run()
 
     def stop(self) -> None:
-        """Forget everything and carry nothing more."""
+        """Forget everything and carry no more."""
         self._is_stopped = True
         self._forget()
         self._cancel()
@@ -140,7 +140,7 @@ class LinkStream:
         return packet.due_s is None or model.is_black or packet.blackouts != model.blackouts
 
     def _run(self) -> None:
-        """Deliver what has arrived; what a delivery causes comes after it."""
+        """Deliver the arrived packets; packets that a delivery causes follow later."""
         if self._is_busy:
             return
         self._is_busy = True
@@ -172,7 +172,7 @@ class LinkStream:
             self._retry_at_s = max(now_s, first.sent_s + self._retry_s)
         if now_s < self._retry_at_s - _TINY_S:
             return False
-        # The receiver keeps nothing that comes before what is missing: all of it goes again.
+        # The receiver keeps nothing beyond a gap: all packets go again.
         for packet in self._packets:
             self._launch(packet, now_s)
         if not self._has_vanished(first):
@@ -208,7 +208,7 @@ class LinkStream:
         self._run()
         silent_s = self._clock.seconds() - self._progress_s
         if self._packets and not self._is_blocked and silent_s >= self._user_timeout_s - _TINY_S:
-            # Who has given up says so once; only a reset is still on its way then.
+            # Report a timeout only once; only a reset may be in flight then.
             self._user_timeout_s = math.inf
             self._on_silence()
 

@@ -1,4 +1,4 @@
-"""The paper that is drawn on: the only place that knows how matplotlib is had and how it saves."""
+"""The drawing surface: the only module that imports and uses matplotlib."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _STYLE: dict[str, Any] = {
 
 
 class PictureError(Exception):
-    """There is no picture: the message is one sentence for the user."""
+    """A picture cannot be drawn: the message is one sentence for the user."""
 
 
 class Sheet:
@@ -111,7 +111,7 @@ def sheet_for(path: Path) -> Iterator[Sheet]:
         try:
             figure.savefig(path, format=suffix[1:], metadata=metadata)
         except OSError as error:
-            # Half a picture is none.
+            # Remove the incomplete picture.
             with contextlib.suppress(OSError):
                 path.unlink()
             reason = error.strerror or error

@@ -1,4 +1,4 @@
-"""The picture of a flight: what was asked, what the aircraft did, what happened, and where."""
+"""The picture of a flight: demands, response, events and track."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ COLUMN = 66
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """An expectation that was not held: its signal, the window it was asked in, a sentence."""
+    """A failed expectation: its signal, its window, a sentence."""
 
     signal: str
     begin_s: float
@@ -61,7 +61,7 @@ def draw_flight(
 ) -> None:
     """Draw a flight from its log into ``path`` (.png or .svg); the same log gives the same bytes.
 
-    Without ``marks`` the events of the log are marked. What the log does not tell is left out.
+    Without ``marks`` the events of the log are marked. Data missing in the log is left out.
     Raises ``PictureError``: no matplotlib, no place to write, or nothing to draw.
     """
     times_s = log.numbers("time_s")
@@ -168,7 +168,7 @@ def _lines(log: Log, failures: Sequence[Failure], left_out: int) -> list[tuple[s
     ):
         values = [value for value in numbers(log, name) or () if math.isfinite(value)]
         if values:
-            # Adding zero to what is rounded makes a minus zero plain.
+            # Adding zero turns a rounded minus zero into zero.
             low, high = (round(each, 2) + 0.0 for each in (min(values), max(values)))
             lines.append((words.format(low, high).replace("-0 ", "0 "), False))
     for name, words in (("error.roll_deg", "roll error"), ("error.pitch_deg", "pitch error")):

@@ -1,4 +1,4 @@
-"""Colours that people who see colours differently can tell apart (Okabe and Ito 2008)."""
+"""Colours distinguishable with every colour vision (Okabe and Ito 2008)."""
 
 from __future__ import annotations
 
@@ -32,4 +32,4 @@ BANDS = {
     "FAILSAFE": "#f3d0e2",
 }
 OTHER_BAND = "#f2f2f2"
-"""A mode that has no colour of its own; its name stands in the strip above the panels."""
+"""For modes without a colour; the name is printed in the strip above the panels."""

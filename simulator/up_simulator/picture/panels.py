@@ -1,4 +1,4 @@
-"""The panels over time: which signals stand together, how they look, what their axis says."""
+"""The panels over time: their signals, styles and axis labels."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A signal and how it is drawn."""
+    """A signal and its style."""
 
     signal: str
     label: str
@@ -209,7 +209,7 @@ def shade_failure(axes: Axes, begin_s: float, end_s: float, *, is_shown: bool) -
 
 
 def _widen(axes: Axes, least: float, series: Sequence[Sequence[float]]) -> None:
-    """Set limits with some air, and never so near that noise looks like movement."""
+    """Set limits with a margin, and wide enough that noise does not look like movement."""
     known = [value for values in series for value in values if math.isfinite(value)]
     if not known:
         return

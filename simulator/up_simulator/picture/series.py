@@ -1,4 +1,4 @@
-"""What is drawn of a log: its columns as numbers, thinned so that a long flight stays drawable."""
+"""Columns of a log as numbers for drawing, thinned so that a long flight stays drawable."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ DEGREE_M = 111_194.9
 
 
 class Log(Protocol):
-    """What a picture and an analysis ask of a flight's log (``scenario.log.FlightLog``)."""
+    """The part of a flight's log that pictures and analyses use (``scenario.log.FlightLog``)."""
 
     def __contains__(self, column: object) -> bool:
         """Return whether there is a column of that name."""
@@ -26,7 +26,7 @@ class Log(Protocol):
 
     @property
     def events(self) -> list[tuple[float, str]]:
-        """Return time and name of what happened."""
+        """Return time and name of the events."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class Span:
 
 
 def numbers(log: Log, name: str) -> list[float] | None:
-    """Return a column, or ``None`` where it is missing or nothing of it is known."""
+    """Return a column, or ``None`` if it is missing or entirely unknown."""
     if name not in log:
         return None
     values = log.numbers(name)
@@ -81,7 +81,7 @@ def mode_spans(log: Log) -> list[Span]:
 
 
 def track(log: Log) -> tuple[list[float], list[float]] | None:
-    """Return metres east and north of the start; ``None`` where the log does not tell."""
+    """Return metres east and north of the start; ``None`` if the log lacks them."""
     north, east = numbers(log, "truth.north_m"), numbers(log, "truth.east_m")
     if north is not None and east is not None:
         return east, north

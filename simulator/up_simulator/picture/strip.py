@@ -74,7 +74,7 @@ def place_marks(
 
 @dataclass(frozen=True, slots=True)
 class _Taken:
-    """Where a label stands, inches, and the line that rises to it."""
+    """Position of a label, inches, and the line that rises to it."""
 
     row: int
     low: float

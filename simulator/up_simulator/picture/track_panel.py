@@ -20,14 +20,14 @@ _STEPS_S = (1, 2, 5, 10, 20, 30, 60, 120, 300, 600)
 
 @dataclass(frozen=True, slots=True)
 class Wind:
-    """Mean wind of the flight: speed, and where it comes from."""
+    """Mean wind of the flight: speed, and the direction from which it blows."""
 
     speed_m_s: float
     from_deg: float
 
 
 def draw_track(axes: Axes, log: Log, wind: Wind | None) -> bool:
-    """Draw where it flew, metres north and east, north up; return whether the log tells."""
+    """Draw the track, metres north and east, north up; return whether the log has it."""
     path = track(log)
     if path is None:
         return False

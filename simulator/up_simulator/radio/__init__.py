@@ -1,1 +1,1 @@
-"""Where the pilot's sticks come from: a script, a keyboard, a game controller, a circling pilot."""
+"""Sources of the pilot's sticks: a script, a keyboard, a game controller, a circling pilot."""

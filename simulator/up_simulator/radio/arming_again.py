@@ -1,4 +1,4 @@
-"""The hands of a pilot who gets the sticks back from somebody who has disarmed."""
+"""The actions of a pilot who gets the sticks back after a remote sender has disarmed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LOW_S, HIGH_S = 0.7, 0.7
 class ArmingAgain:
     """Holds the throttle low and moves AUX2 from low to high, until the board is armed.
 
-    ``is_armed`` tells what the board says, None before it has said anything.
+    ``is_armed`` returns the board's report, None before the first.
     """
 
     def __init__(self, is_armed: Callable[[], bool | None]) -> None:

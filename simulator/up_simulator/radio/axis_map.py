@@ -31,7 +31,7 @@ _SOURCE = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """An axis (or button) and how it is read; ``low``, ``centre``, ``high`` calibrate it."""
+    """An axis (or button) and its conversion; ``low``, ``centre``, ``high`` calibrate it."""
 
     number: int
     is_axis: bool = True
@@ -41,9 +41,9 @@ class Source:
     high: int = FULL
 
     def pulse_us(self, value: int, dead: float) -> int:
-        """Return the pulse of an axis that stands at ``value``.
+        """Return the pulse of an axis at ``value``.
 
-        ``dead`` is the part of the way around the centre in which nothing moves.
+        ``dead`` is the fraction of the travel around the centre that has no effect.
         """
         way = self.high - self.centre if value >= self.centre else self.centre - self.low
         part = max(-1.0, min(1.0, (value - self.centre) / way))

@@ -1,4 +1,4 @@
-"""Chooses the radio that the user has asked for."""
+"""Chooses the radio by the user's option."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from up_simulator.radio.scripted import ScriptedRadio
 from up_simulator.radio.sticks import HIGHEST_US, SWITCH_US, Radio, Sticks
 
 AT_FIRST = Sticks(throttle=1500, aux1=SWITCH_US["FBW"], aux2=HIGHEST_US)
-"""What a keyboard begins with, in the air."""
+"""Initial sticks of a keyboard, in the air."""
 
 
 def choose_radio(
@@ -29,9 +29,9 @@ def choose_radio(
 ) -> Radio:
     """Return the radio of a name: circle, script, keyboard, or a game controller's device.
 
-    ``moves`` is a script for the first two; ``is_armed`` tells that the board is armed before the
-    flight, where ``is_armed_at_first`` wants it; ``on_leave`` is called when the keyboard's pilot
-    leaves; ``mode`` names what the board flies, or nothing. Raises ``RadioError``.
+    ``moves`` is a script for the first two; ``is_armed`` returns whether the board is armed before
+    the flight, if ``is_armed_at_first`` requires it; ``on_leave`` is called when the keyboard's
+    pilot leaves; ``mode`` returns the board's mode, or nothing. Raises ``RadioError``.
     """
     if name == "circle":
         pilot = CirclingPilot(has_motor=has_motor, is_armed=is_armed, mode=mode)

@@ -17,17 +17,17 @@ ARMS_S, CLIMBS_S = 1.0, 2.0
 BANK_MOST_DEG = 28.0
 BANK_PER_COURSE = 0.7
 FULL_BANK_DEG, FULL_UP_DEG, FULL_DOWN_DEG = 50.0, 20.0, 25.0
-"""What a full stick asks for in FBW (a new Arduino's profile)."""
+"""Angle at full stick in FBW (the default profile of an Arduino)."""
 THROTTLE_US_PER_M, THROTTLE_US_PER_M_S = 25.0, 60.0
 THROTTLE_MOST_US = 1900
 PITCH_DEG_PER_M, PITCH_MOST_DEG = 0.3, 4.0
 RATE_PER_ANGLE = 4.0
-"""How fast the pilot goes back to the attitude where the mode does not, deg/s per deg."""
+"""Rate at which the pilot returns to the attitude where the mode does not, deg/s per deg."""
 ROLL_MOST_DEG_S, PITCH_MOST_DEG_S = 60.0, 30.0
 FULL_ROLL_DEG_S, FULL_PITCH_DEG_S = 180.0, 90.0
-"""What a full stick asks for in RATE (firmware, flight_controller.h)."""
+"""Rate at full stick in RATE (firmware, flight_controller.h)."""
 SURFACE_US_PER_DEG_S = 3.0
-"""What the sticks damp in ACRO, where they move the surfaces."""
+"""Damping by the sticks in ACRO, where they move the surfaces."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +45,9 @@ class Circuit:
 class CirclingPilot:
     """Moves the sticks so that the aircraft stays near and high, for as long as it flies.
 
-    The sticks are those of the mode that the board says it flies: ``mode`` names it, and where it
-    names nothing they are those of FBW. The switch stands at ``switch``. Where the board
-    ``is_armed`` already, AUX2 is up from the beginning; else it rises soon, then the throttle.
-    Without a motor the height is what the air leaves of it.
+    The sticks suit the board's reported mode: ``mode`` returns it, and without a report FBW is
+    assumed. The switch stands at ``switch``. If the board ``is_armed`` already, AUX2 is up from the
+    beginning; otherwise it rises soon, then the throttle. Without a motor the height is not held.
     """
 
     def __init__(
@@ -70,7 +69,7 @@ class CirclingPilot:
         self._climb_m_s = 0.0
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return what keeps the aircraft on its circle."""
+        """Return the sticks that keep the aircraft on its circle."""
         if self._home is None:
             self._home = state
         self._watch_climb(state)
@@ -87,7 +86,7 @@ class CirclingPilot:
         )
 
     def close(self) -> None:
-        """There is nothing to give back."""
+        """Do nothing: nothing was taken."""
 
     def _bank_deg(self, home: FlightState, state: FlightState) -> float:
         here = (home.latitude_deg, home.longitude_deg, state.latitude_deg, state.longitude_deg)
@@ -126,7 +125,7 @@ class CirclingPilot:
 def _right_stick(
     mode: str, bank_deg: float, pitch_deg: float, state: FlightState
 ) -> tuple[int, int]:
-    """Return the pulses of ailerons and elevator that ask for an attitude in a mode."""
+    """Return the pulses of ailerons and elevator that demand an attitude in a mode."""
     if mode not in ("RATE", "ACRO"):
         full_deg = FULL_UP_DEG if pitch_deg > 0 else FULL_DOWN_DEG
         return _stick(bank_deg / FULL_BANK_DEG), _stick(pitch_deg / full_deg)

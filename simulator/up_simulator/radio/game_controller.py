@@ -22,8 +22,8 @@ _HEAPS_MOST = 64
 class GameController:
     """Reads Linux's joystick device; while it is unplugged, the receiver gets no pulses.
 
-    A device that is plugged in again goes on. ``say`` takes one line for the user. Raises
-    ``RadioError`` where the device is missing, or may not be read, at the start.
+    A device that is plugged in again is used again. ``say`` takes one line for the user. Raises
+    ``RadioError`` if the device is missing or unreadable at the start.
     """
 
     def __init__(
@@ -37,7 +37,7 @@ class GameController:
         self._file: int | None = _open(device)
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return where its sticks stand now."""
+        """Return the present stick positions."""
         if self._file is None and time_s - self._looked_s >= LOOK_AGAIN_S:
             self._looked_s = time_s
             self._look_again()
@@ -86,7 +86,7 @@ class GameController:
 
 
 def controller_device(name: str) -> Path:
-    """Return the device of ``js0``; a path is taken as it is."""
+    """Return the device of ``js0``; a path stays unchanged."""
     return Path(name) if "/" in name else DEVICES / name
 
 

@@ -1,4 +1,4 @@
-"""What a game controller says: the events of Linux's joystick interface (linux/joystick.h)."""
+"""The events of Linux's joystick interface (linux/joystick.h)."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ class JsEvent:
 
 
 class JsEventReader:
-    """Cuts a stream of bytes into events; unknown kinds are left out.
+    """Splits a stream of bytes into events; unknown kinds are dropped.
 
     An event is u32 time, i16 value, u8 kind, u8 number, in the machine's byte order. The state at
-    the opening of a device comes as events, too, and is taken as such.
+    the opening of a device arrives as events, too, and is treated the same way.
     """
 
     def __init__(self) -> None:

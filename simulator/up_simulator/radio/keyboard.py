@@ -9,7 +9,7 @@ from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_U
 STEP_US = 60
 THROTTLE_STEP_US = 50
 HELD_S = 0.6
-"""A key that is held repeats after up to half a second: so long its stick stays."""
+"""A held key repeats after up to half a second: its stick is kept for that time."""
 RETURN_US_S = 1500
 _STICK_KEYS = {
     "left": ("ailerons", -1),
@@ -42,7 +42,7 @@ class KeyboardSticks:
         self._now_s = float("-inf")
 
     def press(self, key: str, time_s: float) -> bool:
-        """Move what a key moves; False: it moves nothing."""
+        """Move the stick of a key; return False for a key without one."""
         self._centre(time_s)
         sticks = self._sticks
         if key in _STICK_KEYS:
@@ -62,12 +62,12 @@ class KeyboardSticks:
         return True
 
     def sticks(self, time_s: float) -> Sticks:
-        """Return where they stand now."""
+        """Return the present stick positions."""
         self._centre(time_s)
         return self._sticks
 
     def _centre(self, time_s: float) -> None:
-        """Let every stick go back that nobody has held for a while."""
+        """Recentre the sticks whose keys have been released for a while."""
         for channel, pressed_s in self._pressed_s.items():
             released_s = max(pressed_s + HELD_S, self._now_s)
             if time_s <= released_s:

@@ -1,4 +1,4 @@
-"""The keyboard of a terminal as a radio, with a line that shows what flies."""
+"""The keyboard of a terminal as a radio, with a status line of the flight."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SHOWN_S = 0.1
 class KeyboardRadio:
     """Reads the terminal's keys; ``q``, or the end of input, calls ``on_leave``.
 
-    ``mode`` names what the board flies, where somebody knows better than the switch. Raises
+    ``mode`` returns the board's mode, if it is known better than from the switch. Raises
     ``RadioError`` without a terminal.
     """
 

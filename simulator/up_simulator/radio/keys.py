@@ -1,4 +1,4 @@
-"""Turns what a terminal sends into keys."""
+"""Turns a terminal's bytes into keys."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ _LONGEST = 16
 class KeyReader:
     """Names arrows ``up``, ``down``, ``left``, ``right``; other keys are their letter.
 
-    Other escape sequences, control characters and letters beyond ASCII are left out. A sequence
-    may come in pieces; at most 16 bytes of one are kept.
+    Other escape sequences, control characters and letters beyond ASCII are dropped. A sequence
+    may arrive in pieces; at most 16 bytes of one are kept.
     """
 
     def __init__(self) -> None:

@@ -18,12 +18,12 @@ DATAGRAMS_MOST = 16
 
 
 class RemoteRadio:
-    """Passes the sticks of whoever sends to ``path``, else those of ``pilot``.
+    """Passes the sticks of the sender at ``path``, without one those of ``pilot``.
 
     One sender at a time: the first, until it is silent for a second or gives the sticks back.
-    ``mode`` names what the board flies, as far as it is known. Where ``is_armed`` tells whether the
-    board is, ``pilot`` arms it again after somebody who has disarmed it. ``say`` takes one line for
-    the user. Raises ``RadioError`` when the socket cannot be made.
+    ``mode`` returns the board's mode if known. With ``is_armed``, the board's report, ``pilot``
+    arms it again after a sender has disarmed it. ``say`` takes one line for the user. Raises
+    ``RadioError`` when the socket cannot be made.
     """
 
     def __init__(
@@ -55,11 +55,11 @@ class RemoteRadio:
 
     @property
     def is_taken(self) -> bool:
-        """Return whether somebody else has the sticks."""
+        """Return whether a remote sender has the sticks."""
         return self._taken is not None
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return the sticks of who has them."""
+        """Return the sticks of their present owner."""
         own = self._pilot.sticks(time_s, state)
         for _ in range(DATAGRAMS_MOST):
             try:

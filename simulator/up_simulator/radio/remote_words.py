@@ -1,4 +1,4 @@
-"""What a remote radio and its aircraft say to each other: one JSON object a datagram."""
+"""The messages between a remote radio and its aircraft: one JSON object a datagram."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ SEEN = ("roll_deg", "pitch_deg", "height_m", "airspeed_m_s")
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """What the aircraft answers: what a pilot on the ground sees, and where its sticks stand.
+    """The aircraft's answer: the state visible to a pilot on the ground, and the sticks.
 
-    ``is_others``: they are moved by another radio than the one that is answered.
+    ``is_others``: another radio than the one that is answered moves them.
     """
 
     state: FlightState
@@ -29,25 +29,25 @@ class Seen:
 
 
 def write_sticks(sticks: Sticks | None) -> bytes:
-    """Return what the radio sends; None gives the sticks back and asks what is to be seen."""
+    """Return the radio's datagram; None gives the sticks back and requests the state."""
     return json.dumps({"sticks": None if sticks is None else _sticks(sticks)}).encode("ascii")
 
 
 def read_sticks_of(datagram: bytes) -> Sticks | None:
-    """Return the sticks in a datagram, None for none; raises ``ValueError`` for anything else."""
+    """Return the sticks in a datagram, None for none; raises ``ValueError`` if invalid."""
     found = _object(datagram)["sticks"]
     return None if found is None else _read_sticks(found)
 
 
 def write_seen(seen: Seen) -> bytes:
-    """Return what the aircraft answers."""
+    """Return the aircraft's answer."""
     values = {name: round(getattr(seen.state, name), 3) for name in SEEN}
     words = {"sticks": _sticks(seen.sticks), "mode": seen.mode, "is_others": seen.is_others}
     return json.dumps({**values, **words}).encode("ascii")
 
 
 def read_seen(datagram: bytes) -> Seen:
-    """Return an answer; raises ``ValueError`` for anything else."""
+    """Return an answer; raises ``ValueError`` if invalid."""
     found = _object(datagram)
     values: dict[str, Any] = {each.name: 0.0 for each in fields(FlightState)}
     for name in SEEN:
@@ -91,7 +91,7 @@ def _object(datagram: bytes) -> dict[str, Any]:
 
 
 class _Complete(dict[str, Any]):
-    """A mapping in which what is missing is a wrong value, not a bug."""
+    """A mapping in which a missing key is a wrong value, not a bug."""
 
     def __missing__(self, key: str) -> Any:
         raise ValueError(f"{key} is missing")

@@ -13,8 +13,8 @@ from up_simulator.radio.sticks import Radio, Sticks
 class ScriptedRadio:
     """Moves sticks at the times of a script; between them they stay.
 
-    With a ``pilot`` the script is what happens to that pilot's hands: a channel that the script
-    has named follows the script from then on.
+    With a ``pilot`` the script overrides that pilot: a channel that the script has named follows
+    the script from then on.
     """
 
     def __init__(self, moves: list[StickMove], pilot: Radio | None = None) -> None:
@@ -24,7 +24,7 @@ class ScriptedRadio:
         self._is_on = True
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return where the script has them by now."""
+        """Return the sticks of the script at this time."""
         while self._moves and self._moves[0].time_s <= time_s:
             move = self._moves.pop(0)
             if move.channel == "receiver":
@@ -36,6 +36,6 @@ class ScriptedRadio:
         return replace(sticks, **held)
 
     def close(self) -> None:
-        """Let the pilot go, too."""
+        """Close the pilot, too."""
         if self._pilot is not None:
             self._pilot.close()

@@ -1,4 +1,4 @@
-"""What a radio sends: six pulses, or nothing."""
+"""The output of a radio: six pulses, or none."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from up_simulator.flight import FlightState
 
 LOWEST_US, CENTRE_US, HIGHEST_US = 1000, 1500, 2000
 SWITCH_US = {"ACRO": 1000, "FBW": 1500, "AUTO": 2000}
-"""Where the mode switch (AUX1) stands for each mode, as a new Arduino has it."""
+"""The mode switch (AUX1) position of each mode, in the default profile."""
 
 
 CHANNELS: tuple[Channel, ...] = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
@@ -34,7 +34,7 @@ class Sticks:
 
     @property
     def mode(self) -> str:
-        """Return the mode that the switch stands for."""
+        """Return the mode that the switch selects."""
         return min(SWITCH_US, key=lambda mode: abs(SWITCH_US[mode] - self.aux1))
 
     @property
@@ -49,13 +49,13 @@ class Sticks:
 
 
 class Radio(Protocol):
-    """Somebody, or something, that moves the sticks."""
+    """A source of stick positions."""
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return where they stand at a time that only rises; ``state`` is what the pilot sees."""
+        """Return the positions at a monotonic time; ``state`` is visible to the pilot."""
 
     def close(self) -> None:
-        """Give back what was taken: a terminal, a device, a socket."""
+        """Release the terminal, the device or the socket."""
 
 
 class ReceivingBoard(Protocol):
@@ -69,19 +69,19 @@ class ReceivingBoard(Protocol):
 
 
 class Transmitter:
-    """Hands sticks to a receiver; only what has moved is told."""
+    """Sends sticks to a receiver; only changes are sent."""
 
     def __init__(self, receiver: ReceivingBoard) -> None:
         self._receiver = receiver
         self._sent: Sticks | None = None
 
     def send(self, sticks: Sticks) -> None:
-        """Let the receiver get these from now on."""
+        """Send these to the receiver from now on."""
         for channel in CHANNELS:
             pulse_us = getattr(sticks, channel)
             if self._sent is None or getattr(self._sent, channel) != pulse_us:
                 self._receiver.set_stick(channel, pulse_us)
-        # A receiver is on by itself: to switch it on again would begin its frames anew.
+        # A receiver starts switched on: switching it on again would restart its frames.
         was_on = self._sent is None or self._sent.is_on
         if was_on != sticks.is_on:
             self._receiver.set_receiver(sticks.is_on)

@@ -65,7 +65,7 @@ class RadioLink:
         self._heard_s = clock()
 
     def exchange(self, datagram: bytes) -> Seen:
-        """Send sticks and return what is seen by now."""
+        """Send sticks and return the newest state."""
         self._send(datagram)
         while True:
             try:

@@ -1,4 +1,4 @@
-"""A terminal that gives its keys at once, and is given back as it was."""
+"""A terminal with unbuffered keys, restored afterwards."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ _ITEM = re.compile(r"\S+(?: \S+)* {2,}")
 class KeyTerminal:
     """Takes a terminal's keys without echo until ``leave``; Ctrl-C still ends the program.
 
-    Whatever ends the program, but for kill -9, the terminal is given back: ``leave`` is called at
-    exit, too. Raises ``RadioError`` where there is no terminal.
+    The terminal is restored on every exit except kill -9: ``leave`` is called at exit, too. Raises
+    ``RadioError`` without a terminal.
     """
 
     def __init__(self, keys: int = 0, picture: int = 1) -> None:
@@ -44,7 +44,7 @@ class KeyTerminal:
         return self._keys
 
     def read(self) -> bytes:
-        """Return what was typed; empty at the end of input."""
+        """Return the typed bytes; empty at the end of input."""
         try:
             return os.read(self._keys, 256)
         except OSError:
@@ -62,7 +62,7 @@ class KeyTerminal:
         self._is_shown = False
 
     def leave(self) -> None:
-        """Give the terminal back; what was typed for the sticks is not for the shell."""
+        """Restore the terminal; keys typed for the sticks must not reach the shell."""
         saved, self._saved = self._saved, None
         if saved is None:
             return
@@ -84,7 +84,7 @@ class KeyTerminal:
 
 
 def wrapped(line: str, columns: int) -> str:
-    """Return a line in lines of so many columns; under an item's words, not under its name."""
+    """Wrap a line to this many columns; an item's continuation is indented past its name."""
     item = _ITEM.match(line)
     indent = item.end() if item is not None and item.end() < columns // 2 else 0
     return textwrap.fill(line, max(columns, 10), subsequent_indent=" " * indent)

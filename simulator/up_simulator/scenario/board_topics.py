@@ -1,4 +1,4 @@
-"""What the board says, row by row, as the Commands that it is aboard."""
+"""The board's messages, row by row, as the Commands that they are aboard."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ _COUNTS = {
 
 
 class News:
-    """Tells by an age whether there is a new datum: that of an old one grows with the time.
+    """Detects a new datum by its age: that of an old one grows with the time.
 
-    By at least this ``share`` of it, where the way to us takes now more time and now less.
+    An age that grows by less than this ``share`` of the time is new: transit times vary.
     """
 
     def __init__(self, share: float = 0.9) -> None:
@@ -60,9 +60,9 @@ class News:
 
 
 class BoardTopics:
-    """The board's messages, each when it was said: a silent board leaves a gap.
+    """The board's messages at their times: a silent board leaves a gap.
 
-    Without a Raspberry Pi aboard it is only a listener that the board hears.
+    Without a Raspberry Pi aboard the board receives only from a listener: pi_heard is cleared.
     """
 
     def __init__(self, has_raspilot: bool) -> None:
@@ -73,7 +73,7 @@ class BoardTopics:
         self._state_due_s = -math.inf
 
     def messages(self, row: LogRow) -> Iterator[Message]:
-        """Yield what this row tells of the board."""
+        """Yield the board's data in this row."""
         if self._orientation.is_new(row.number("board.orientation_age_s"), row.time_s):
             data: Data = {angle: row.number(f"board.{angle}_deg") for angle in _ANGLES}
             data |= {f"{each}_rate": row.number(f"board.{each}_rate_deg_s") for each in _ANGLES}
@@ -98,7 +98,7 @@ class BoardTopics:
             yield FlightStateCommand.NAME, {**state, ORIGIN: BOARD}
 
     def _told(self, row: LogRow) -> Data:
-        """Return its status; which vetoes it has is no signal, and not in it."""
+        """Return its status, without the vetoes, which the log has no signal for."""
         bits = (bit for name, bit in _FLAGS.items() if row.flag(f"board.{name}"))
         flags = sum(bits) & ~(0 if self._has_raspilot else _FLAGS["pi_heard"])
         causes = (row.word("board.reset_cause") or "").split()

@@ -1,4 +1,4 @@
-"""Puts together what flies a scenario: aircraft, board, crew."""
+"""Builds the participants of a scenario: aircraft, board, crew."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a scenario's flight begins and what it flies through."""
+"""The initial conditions of a scenario's flight and its environment."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ class ImuPart:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what does not fit together."""
+        """Yield inconsistent values."""
         for name in ("gyro_bias_deg_s", "accel_bias_m_s2", "gyro_drift_deg_s"):
             if getattr(self, name) and len(getattr(self, name)) != 3:
                 yield name, "must have three numbers, one for each axis"
@@ -169,7 +169,7 @@ class LinkSettingsPart:
     )
 
     def settings(self) -> LinkSettings:
-        """Return what the link's model is to be set to."""
+        """Return the settings for the link's model."""
         return LinkSettings(self.delay_ms, self.jitter_ms, self.loss_percent, self.rate_bytes_s)
 
 

@@ -1,4 +1,4 @@
-"""Who flies with the aircraft: the daemon, the phone and the ground station, or nobody."""
+"""The aircraft's companions: the daemon, the phone and the ground station, or none."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ AGAIN_S = 0.5
 
 
 class Companions(Protocol):
-    """The crew of a flight as a whole; what is not aboard is None."""
+    """The crew of a flight as a whole; a missing member stays None."""
 
     @property
     def raspilot(self) -> Raspilot | None:
@@ -30,33 +30,33 @@ class Companions(Protocol):
 
     @property
     def phone_title(self) -> str:
-        """Return what the phone is, and why, for the report; empty: there is none."""
+        """Return the phone's kind and its reason, for the report; empty without a phone."""
 
     @property
     def black_boxes(self) -> Mapping[str, bytes]:
         """Return the files, by name, that a real daemon has recorded; there once all have ended."""
 
     def start(self) -> None:
-        """Start everybody; raises CrewError."""
+        """Start all members; raises CrewError."""
 
     def is_ready(self) -> bool:
-        """Return whether the flight may begin: whoever is to connect has connected."""
+        """Return whether the flight may begin: all expected members have connected."""
 
     def exchange(self, step_s: float) -> None:
-        """Let bytes pass and this time go by; raises CrewError when somebody has died."""
+        """Pass bytes and let this time go by; raises CrewError when a member has died."""
 
     def seconds(self) -> float:
         """Return the crew's time."""
 
     def carry_out(self, event: Event) -> None:
-        """Let happen what concerns the crew; raises CrewError."""
+        """Carry out an event that concerns the crew; raises CrewError."""
 
     def stop(self) -> None:
-        """End everybody."""
+        """End all members."""
 
 
 class Nobody:
-    """No Raspberry Pi: a listener on the serial line asks the board to tell what it does."""
+    """No Raspberry Pi: a listener on the serial line requests the board's streams."""
 
     raspilot: Raspilot | None = None
     ground: Ground | None = None
@@ -69,14 +69,14 @@ class Nobody:
         self._asked_s = -AGAIN_S
 
     def start(self) -> None:
-        """Start nothing."""
+        """Do nothing: no member has to start."""
 
     def is_ready(self) -> bool:
-        """Return True: nobody is waited for."""
+        """Return True: no member has to connect."""
         return True
 
     def exchange(self, step_s: float) -> None:
-        """Listen; ask again after a reset, which ends the streams."""
+        """Listen; request again after a reset, which ends the streams."""
         board = self._board
         board.read()
         now_s = board.now_s
@@ -90,7 +90,7 @@ class Nobody:
         return self._board.now_s
 
     def carry_out(self, event: Event) -> None:
-        """Do nothing: nobody of the crew is concerned."""
+        """Do nothing: no member is affected."""
 
     def stop(self) -> None:
-        """End nothing."""
+        """Do nothing: no member has to end."""

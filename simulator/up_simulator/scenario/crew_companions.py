@@ -1,4 +1,4 @@
-"""What the crew of a flight does, whether it is in this process or real programs."""
+"""The parts common to every crew of a flight, in this process or as real programs."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ SETTLED_S = 1.0
 
 
 class Daemon(Raspilot, Protocol):
-    """A daemon that can also stand still."""
+    """A daemon that can be suspended."""
 
     def freeze(self) -> None:
         """Stop it in its tracks."""
 
     def thaw(self) -> None:
-        """Let it go on."""
+        """Resume it."""
 
 
 class AboardPhone(PluggedPhone, Protocol):
@@ -36,7 +36,7 @@ class AboardPhone(PluggedPhone, Protocol):
     sensors: PhoneSensors
 
     def set_battery(self, percent: float) -> None:
-        """Let its battery have this level from now on."""
+        """Set the level of its battery."""
 
     def stop(self) -> None:
         """Switch it off."""
@@ -69,15 +69,15 @@ class CrewCompanions(ABC):
 
     @abstractmethod
     def exchange(self, step_s: float) -> None:
-        """Let bytes pass and this time go by; raises CrewError when somebody has died."""
+        """Pass bytes and let this time go by; raises CrewError when a member has died."""
 
     @abstractmethod
     def plug_serial(self, is_in: bool) -> None:
-        """Let the serial port be there, or be gone."""
+        """Attach or remove the serial port."""
 
     @abstractmethod
     def load(self, percent: float) -> None:
-        """Let the Raspberry Pi be so busy; raises CrewError where that cannot be."""
+        """Simulate this load of the Raspberry Pi; raises CrewError where that is impossible."""
 
     def start(self) -> None:
         """Start the daemon, the ground station and, where it is plugged in, the phone."""
@@ -96,7 +96,7 @@ class CrewCompanions(ABC):
         return self.seconds() - self._ready_s >= SETTLED_S
 
     def carry_out(self, event: Event) -> None:
-        """Let happen what concerns the crew; raises CrewError."""
+        """Carry out an event that concerns the crew; raises CrewError."""
         match event.kinds[0]:
             case "serial":
                 self.plug_serial(event.serial == "back")
@@ -119,7 +119,7 @@ class CrewCompanions(ABC):
                 pass
 
     def stop(self) -> None:
-        """End everybody."""
+        """End all members."""
         self._is_wanted = False
         if self.ground is not None:
             self.ground.stop()
@@ -128,11 +128,11 @@ class CrewCompanions(ABC):
         self.end_raspilot()
 
     def end_raspilot(self) -> None:
-        """End the daemon at once."""
+        """Kill the daemon."""
         self.raspilot.kill()
 
     def ask_raspilot_to_stop(self) -> None:
-        """Ask the daemon to end, and do not wait for it."""
+        """Send the daemon the signal to end, and do not wait for it."""
         self.raspilot.stop()
 
     def look_after_raspilot(self) -> None:
@@ -159,7 +159,7 @@ class CrewCompanions(ABC):
         return status is not None and status.has_heard and not status.vetoes & PI_VETO
 
     def _set_up(self) -> None:
-        """Ask for what the flight is to begin with; a bad link comes only now, with the flight."""
+        """Make the initial requests; a bad link starts only now, with the flight."""
         part = self.scenario.ground
         if self.ground is not None and part is not None and part.period_ms is not None:
             self.ground.send("up.telemetry.frequency", frequency=part.period_ms)

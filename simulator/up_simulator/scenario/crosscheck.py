@@ -1,4 +1,4 @@
-"""What does not fit together in a scenario although each part is right by itself."""
+"""Contradictions between the parts of a scenario, each of which is valid alone."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _PARTS = {
 
 
 def cross_problems(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
-    """Yield each mistake with the node where it stands."""
+    """Yield each mistake with its node."""
     yield from _airframe(scenario, root)
     yield from _sticks(scenario, root)
     yield from _crew(scenario, root)

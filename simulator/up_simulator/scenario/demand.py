@@ -1,4 +1,4 @@
-"""What the sticks, the failsafe or the Raspberry Pi ask of the aircraft in the mode that flies."""
+"""The demands of sticks, failsafe or Raspberry Pi in the active mode."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import Any
 
 CENTRE_US, HALF_TRAVEL_US = 1500.0, 500.0
 ROLL_STICK_DEG_S, PITCH_STICK_DEG_S = 180.0, 90.0
-"""What a full stick asks for in RATE (firmware, flight_controller.h)."""
+"""Rate at full stick in RATE (firmware, flight_controller.h)."""
 ROLL_LIMIT_DEG, PITCH_UP_DEG, PITCH_DOWN_DEG = 50.0, 20.0, 25.0
 GLIDE_PITCH_DEG, CIRCLE_BANK_DEG = -3.0, 20.0
-"""What a new Arduino has (docs/airframe.md)."""
+"""The defaults of an Arduino (docs/airframe.md)."""
 _SETPOINT = struct.Struct(">hhhHH")
 
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """Angles and rates that are asked for; None where nobody asks for one."""
+    """Demanded angles and rates; None without a demand."""
 
     roll_deg: float | None = None
     pitch_deg: float | None = None
@@ -48,7 +48,7 @@ class DemandModel:
             self.setpoint = Demand(roll_cdeg / 100, pitch_cdeg / 100)
 
     def at(self, mode: str, is_failsafe: bool, sticks_us: Mapping[str, float]) -> Demand:
-        """Return what is asked in a mode (``OUTPUT``: the Raspberry Pi flies by the sticks)."""
+        """Return the demand in a mode (``OUTPUT``: the Raspberry Pi flies by the sticks)."""
         if is_failsafe:
             return self._circle
         ailerons = _deflection(sticks_us["ailerons"])

@@ -1,4 +1,4 @@
-"""What happens to the aircraft, its parts and its links at a time."""
+"""Timed events at the aircraft, its parts and its links."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class CommandPart:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing."""
+        """Yield the missing keys."""
         if not self.name:
             yield "name", "must be a Command's name, as up.flight_mode.set"
 
@@ -116,7 +116,7 @@ class Event:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing or too much."""
+        """Yield the missing and the surplus keys."""
         kinds = self.kinds
         if not kinds:
             yield "at_s", "nothing happens: name one of " + ", ".join(EVENT_KINDS)
@@ -129,12 +129,12 @@ class Event:
 
     @property
     def kinds(self) -> list[str]:
-        """Return what happens, which is one thing in an event that has been read."""
+        """Return the key of the event, the only one after a successful read."""
         return [kind for kind in EVENT_KINDS if getattr(self, kind) is not None]
 
     @property
     def title(self) -> str:
-        """Return its name, or words for what happens."""
+        """Return its name, or a description."""
         if self.name or self.mark:
             return self.name or str(self.mark)
         kind = self.kinds[0]

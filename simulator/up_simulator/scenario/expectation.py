@@ -1,4 +1,4 @@
-"""What a scenario expects of a signal in a part of the flight."""
+"""A scenario's expectations of a signal in a part of the flight."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class StepLimits:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing."""
+        """Yield the missing keys."""
         if not self.limits:
             yield "rise_time_s", "sets no limit: name one of " + ", ".join(STEP_FIGURES)
         if self.demand:
@@ -118,7 +118,7 @@ class Expectation:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing, too much or of the wrong kind."""
+        """Yield keys that are missing, surplus or of the wrong kind."""
         if not self.name:
             yield "name", "must be a sentence that says what is expected"
         if self.signal:
@@ -162,12 +162,12 @@ class Expectation:
 
     @property
     def kinds(self) -> list[str]:
-        """Return the attributes that say what is expected: one, when it has been read."""
+        """Return the keys of the expectation: one, after a successful read."""
         return [kind for kind in KINDS if getattr(self, kind) not in (None, ())]
 
     @property
     def kind(self) -> str:
-        """Return what is expected."""
+        """Return the key of the expectation."""
         return self.kinds[0]
 
 
@@ -184,7 +184,7 @@ NULLS = ("null", "~", "")
 
 
 def value_of(text: str, kind: Kind) -> float | str:
-    """Return what a text means for a signal of that kind; a flag is 1.0 or 0.0.
+    """Return the value of a text for a signal of that kind; a flag is 1.0 or 0.0.
 
     Raises ValueError with a sentence.
     """

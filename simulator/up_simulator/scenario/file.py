@@ -38,9 +38,9 @@ ROOT = Path(__file__).resolve().parents[3]
 
 @cache
 def daemon_files() -> dict[str, ConfigFile[Any]]:
-    """Return the files that the daemon reads; none where there is no daemon beside the simulator.
+    """Return the files that the daemon reads; none without a daemon beside the simulator.
 
-    What is none of these is judged by the daemon itself when it starts.
+    The daemon itself validates all other files when it starts.
     """
     try:
         application = Application.find(ROOT)
@@ -83,7 +83,7 @@ def _parse(
             problems.report(1, 1, "must be a map of keys that begins with 'title: ...'")
         problems.raise_if_any()
         raise AssertionError("a problem has been reported")
-    # What is no plain YAML makes no sense as a scenario: nothing is said about that.
+    # Invalid YAML cannot be checked as a scenario: report only the YAML problems.
     problems.raise_if_any()
     apply(overrides, root, problems.report)
     free = _Free(root, problems.report)
@@ -99,7 +99,7 @@ def _parse(
 
 
 def _check_times(root: MapNode, report: Report) -> None:
-    """Refuse what happens at no time: at 0 s is where hardly anybody wants it."""
+    """Refuse an event without a time: the default 0 s is hardly ever intended."""
     for parent, name in ((root, "sticks"), (child(root, "weather"), "gusts"), (root, "events")):
         for at, item in enumerate(items_of(parent, name)):
             if isinstance(item, MapNode) and child(item, "at_s") is None:
@@ -108,7 +108,7 @@ def _check_times(root: MapNode, report: Report) -> None:
 
 
 def _with_airframe_beside(scenario: Scenario, folder: Path) -> Scenario:
-    """Look for an airframe beside the file too, where its path leads nowhere from here."""
+    """Look for an airframe beside the file too, if its path does not exist from here."""
     beside = folder / scenario.airframe
     if scenario.airframe in airframe_names() or is_there(Path(scenario.airframe)):
         return scenario
@@ -116,9 +116,9 @@ def _with_airframe_beside(scenario: Scenario, folder: Path) -> Scenario:
 
 
 class _Free:
-    """The parts that may hold anything: taken out before the rest is checked, put back after.
+    """The parts with free content: taken out before the rest is checked, put back after.
 
-    Values of expectations are read as text here: what they mean depends on the signal.
+    Values of expectations are read as text here: their meaning depends on the signal.
     """
 
     def __init__(self, root: MapNode, report: Report) -> None:
@@ -143,7 +143,7 @@ class _Free:
                     value.plain = False
 
     def fill(self, scenario: Scenario) -> Scenario:
-        """Return the scenario with what had been taken out of its file."""
+        """Return the scenario with the parts that were cut from its file."""
         events = tuple(map(_with_data, scenario.events, self.commands))
         raspilot = replace(scenario.raspilot, config=self.config)
         return replace(

@@ -34,11 +34,11 @@ _HALF_STEP_S = STEP_S / 2
 
 @dataclass(slots=True)
 class FlightRecord:
-    """What came out of a flight: the log, and everything that is no signal.
+    """Result of a flight: the log, and all results that are not signals.
 
-    ``crash`` is a sentence about how it ended on the ground, ``failure`` one about what kept it
-    from being flown to its end, with the lines of the daemon's log behind it. ``settings`` are the
-    configuration files that the board flies by, ``black_boxes`` what a real daemon has recorded.
+    ``crash`` is a sentence about its end on the ground, ``failure`` one about an early end, with
+    the lines of the daemon's log behind it. ``settings`` are the board's configuration files,
+    ``black_boxes`` the recordings of a real daemon.
     """
 
     scenario: Scenario
@@ -65,15 +65,15 @@ class FlightRecord:
 
     @property
     def is_broken_off(self) -> bool:
-        """Return whether something else than a crash ended it before its time."""
+        """Return whether another cause than a crash ended it before its time."""
         return self.is_interrupted or self.failure is not None
 
 
 class ScenarioFlight:
     """Boots the board, then flies: sticks, events, rows of the log.
 
-    ``switch`` gives each position of the mode switch its mode; ``held_mode`` keeps the switch
-    there whatever the scenario says.
+    ``switch`` maps each position of the mode switch to its mode; ``held_mode`` overrides the
+    scenario and keeps the switch there.
     """
 
     def __init__(
@@ -120,13 +120,13 @@ class ScenarioFlight:
 
     @property
     def is_over(self) -> bool:
-        """Return whether nothing more is to be flown."""
+        """Return whether the flight is over."""
         record = self.record
         ended = record.crash is not None or record.failure is not None
         return ended or self._steps >= self._total_steps
 
     def fly(self, progress: Callable[[float], None] = lambda _time_s: None) -> FlightRecord:
-        """Boot and fly to the end as fast as it goes; Ctrl-C ends it with what there is."""
+        """Boot and fly to the end at full speed; Ctrl-C ends it with a partial result."""
         began_s = time.perf_counter()
         try:
             self.boot(progress)
@@ -148,7 +148,7 @@ class ScenarioFlight:
         return self.record
 
     def boot(self, progress: Callable[[float], None] = lambda _time_s: None) -> None:
-        """Switch everything on, on the ground; arm if the sticks say so; begin in the air."""
+        """Switch everything on, on the ground; arm if the sticks do; begin in the air."""
         wanted_us = self._timeline.pulses_us(0.0)
         is_armed = wanted_us["aux2"] > AT_FIRST_US["ailerons"]
         for channel in CHANNELS:

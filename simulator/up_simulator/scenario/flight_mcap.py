@@ -111,7 +111,7 @@ class _FlightFile:
             self._writer.add_attachment(f"config/{file}", "text/yaml", text.encode(), BEGIN_NS)
 
     def _tell_until(self, time_s: float) -> None:
-        """Write what has happened, and which Commands have come up from the ground."""
+        """Write the events, and the Commands from the ground."""
         while self._events and self._events[0][0] <= time_s:
             at_s, event = self._events.pop(0)
             self._message(EVENT_TOPIC, at_s, {"event": event})
@@ -130,7 +130,7 @@ class _FlightFile:
             self._say(question.sent_s, "warn", f"{command.name} from the ground: {answer}")
 
     def _close(self, time_s: float) -> None:
-        """Write how it ended and what is true of it."""
+        """Write the end of the flight and its metadata."""
         record = self._record
         for trouble in (record.failure, record.crash):
             if trouble is not None:

@@ -1,4 +1,4 @@
-"""What a row of a scenario's log is in a flight log: the Commands that meant the same aboard."""
+"""Converts a row of a scenario's log to the Commands of a flight log."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class FlightTopics:
         self._signals_due_s = -math.inf
 
     def messages(self, values: Mapping[str, Value]) -> Iterator[Message]:
-        """Yield topic and data of everything that this row tells."""
+        """Yield topic and data of everything in this row."""
         row = LogRow(values)
         yield TOPIC, _truth(row)
         yield from self._board.messages(row)

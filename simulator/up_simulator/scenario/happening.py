@@ -15,9 +15,9 @@ from up_simulator.scenario.scenario import Scenario
 def happen(
     event: Event, board: LineBoard, companions: Companions, imu: ImuConfig, scenario: Scenario
 ) -> None:
-    """Let one event happen now: to the board and its wires, or to the crew.
+    """Carry out one event now: at the board and its wires, or at the crew.
 
-    ``imu`` is how the airframe carries its IMU. Raises CrewError.
+    ``imu`` is the mounting of the airframe's IMU. Raises CrewError.
     """
     match event.kinds[0]:
         case "mark":

@@ -20,10 +20,9 @@ from up_simulator.scenario.workspace import Workspace
 
 
 class InProcessCompanions(CrewCompanions):
-    """Everybody on one ``SimulatedReactor``, in step with the board: the same flight every time.
+    """All members on one ``SimulatedReactor``, in step with the board: a reproducible flight.
 
-    ``settings`` are the configuration files that the airframe gives; the scenario's own lie over
-    them.
+    ``settings`` are the airframe's configuration files; the scenario's own values override them.
     """
 
     def __init__(
@@ -61,23 +60,23 @@ class InProcessCompanions(CrewCompanions):
         return float(self._reactor.seconds())
 
     def exchange(self, step_s: float) -> None:
-        """Let bytes pass and this time go by."""
+        """Pass bytes and let this time go by."""
         self._daemon.pump(self.board)
         self._reactor.advance(step_s)
         self.look_after_raspilot()
 
     def plug_serial(self, is_in: bool) -> None:
-        """Let the serial port be there, or be gone."""
+        """Attach or remove the serial port."""
         if is_in:
             self._daemon.line.plug()
         else:
             self._daemon.line.unplug()
 
     def load(self, percent: float) -> None:
-        """Let the Load Guard see this load."""
+        """Report this load to the Load Guard."""
         self._daemon.meter.load = percent
 
     def stop(self) -> None:
-        """End everybody and remove the configuration."""
+        """End all members and remove the configuration."""
         super().stop()
         self._workspace.close()

@@ -15,7 +15,7 @@ from up_simulator.scenario.window import NoWindowError, Window, window_of
 
 @dataclass(frozen=True, slots=True)
 class FlightFacts:
-    """What a judge must know: the log, when which event came, how long it was to fly, a crash."""
+    """Input of the evaluation: the log, the times of the events, the planned duration, a crash."""
 
     log: FlightLog
     event_times: Mapping[str, float]
@@ -47,5 +47,5 @@ def _measure(expectation: Expectation, window: Window, log: FlightLog) -> Verdic
 
 
 def _is_done(expectation: Expectation) -> bool:
-    """Return whether what held once cannot cease to hold."""
+    """Return whether an expectation that held once cannot fail later."""
     return expectation.kind in ("becomes", "becomes_below", "becomes_above", "changes_above")

@@ -1,4 +1,4 @@
-"""A board whose serial line is listened to, and spoilt, on its way to whoever speaks with it."""
+"""A board whose serial line is monitored, and disturbed, on its way to the other end."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ SLICE_US = 2000.0
 class LineBoard:
     """A ``FirmwareBoard`` around another one, run in slices of 2 ms.
 
-    After each slice ``after_slice`` is called: there the daemon's bytes are exchanged, in flight
-    and while the board boots. The tap hears what leaves the board before any noise, ``on_command``
-    gets what the board hears after it. Sticks reach the board through a receiver, with its delay.
+    ``after_slice`` is called after each slice: there the daemon's bytes are exchanged, in flight
+    and while the board boots. The tap gets the board's output before any noise, ``on_command`` the
+    board's input after it. Sticks reach the board through a receiver, with its delay.
     """
 
     def __init__(
@@ -38,7 +38,7 @@ class LineBoard:
 
     @property
     def title(self) -> str:
-        """Return what it is."""
+        """Return its description."""
         return self._board.title
 
     @property
@@ -58,7 +58,7 @@ class LineBoard:
 
     @property
     def eeprom(self) -> bytes:
-        """Return what the EEPROM holds."""
+        """Return the content of the EEPROM."""
         return self._board.eeprom
 
     def run_us(self, duration_us: float) -> None:
@@ -79,18 +79,18 @@ class LineBoard:
         return stalest_us
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
-        """Move a stick: the receiver passes it on after its delay, unless it hears no radio."""
+        """Move a stick: the receiver passes it on after its delay, unless its radio is off."""
         self._sticks_us[channel] = width_us
         if self._has_radio:
             self._coming.append((self.now_us + self._receiver_delay_us, channel, width_us))
 
     def lose_radio(self, throttle_us: float) -> None:
-        """Let the receiver hold its pulses and send its own failsafe on the throttle."""
+        """Make the receiver hold its pulses and send its own failsafe on the throttle."""
         self._has_radio = False
         self._coming = [(self.now_us, "throttle", throttle_us)]
 
     def find_radio(self) -> None:
-        """Let the receiver pass all sticks on again."""
+        """Make the receiver pass all sticks on again."""
         self._has_radio = True
         for channel, width_us in self._sticks_us.items():
             self.set_stick(channel, width_us)
@@ -100,11 +100,11 @@ class LineBoard:
         self._board.set_receiver(is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Let one channel of the receiver send pulses or stay silent."""
+        """Switch the pulses of one channel of the receiver on or off."""
         self._board.set_channel(channel, is_on)
 
     def set_motion(self, motion: Motion) -> None:
-        """Set what the IMU feels from now on."""
+        """Set the IMU's motion from now on."""
         self._board.set_motion(motion)
 
     def pulses_us(self) -> Pulses:
@@ -116,7 +116,7 @@ class LineBoard:
         return self._board.pulse_ages_us()
 
     def read(self) -> bytes:
-        """Return what came on the serial line, as it arrives at the other end."""
+        """Return the bytes from the serial line as they arrive at the other end."""
         data = self._board.read()
         self.tap.feed(data, self.now_s)
         return self.wires.pass_on(data, FROM_BOARD, self.now_s)

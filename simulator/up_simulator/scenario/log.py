@@ -20,14 +20,14 @@ Value = float | str
 
 
 class LogError(Exception):
-    """A file is no log of a flight: the message is one sentence with file and line."""
+    """A file is not a flight's log: the message is one sentence with file and line."""
 
 
 class FlightLog:
-    """What every signal was at every row; ``columns`` begin with time_s and end with event.
+    """The value of every signal at every row; ``columns`` begin with time_s and end with event.
 
-    A number is rounded to six decimals when it is taken, so that a log that is read from the disk
-    is the one that was written.
+    A number is rounded to six decimals when it is taken, so that a log read from the disk equals
+    the one that was written.
     """
 
     def __init__(self, columns: Sequence[str]) -> None:
@@ -50,7 +50,7 @@ class FlightLog:
         return column in self._numbers or column in self._words
 
     def append(self, values: Mapping[str, float | bool | str | None]) -> None:
-        """Take a row; what is not in it is not known."""
+        """Take a row; signals missing in it are unknown."""
         for name, words in self._words.items():
             value = values.get(name)
             words.append("" if value is None else sys.intern(str(value)))
@@ -124,7 +124,7 @@ def is_word(name: str) -> bool:
 
 
 def read_log(path: Path) -> FlightLog:
-    """Return the log in a file; raises LogError in one sentence, also where nothing can be read."""
+    """Return the log in a file; raises LogError with one sentence, also for an unreadable file."""
     try:
         with path.open(encoding="utf-8", newline="") as file:
             return _read(path, csv.reader(file))

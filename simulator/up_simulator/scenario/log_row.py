@@ -1,4 +1,4 @@
-"""One row of a flight's log, asked by the names of signals."""
+"""One row of a flight's log, read by the names of signals."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Message = tuple[str, Data]
 
 
 class LogRow:
-    """What every signal was at a moment; what is not known is None."""
+    """The value of every signal at one time; None if unknown."""
 
     def __init__(self, values: Mapping[str, Value]) -> None:
         self._values = values

@@ -54,7 +54,7 @@ def _first_other(
         shown = _shown(expectation, window.values[0])
         return _verdict(expectation, True, f"{shown} all the time", window)
     share = 100 / len(window.values)
-    # nan is not equal to itself; what is shown is.
+    # nan is not equal to itself; its text is.
     (shown, count), *others = Counter(
         _shown(expectation, window.values[at]) for at in wrong
     ).most_common()
@@ -167,7 +167,7 @@ _Measure = Callable[[Expectation, Window], Verdict]
 
 
 def _known(measure: _Measure) -> _Measure:
-    """Let a measure look only at windows in which every value is known."""
+    """Restrict a measure to windows in which every value is known."""
 
     def measure_known(expectation: Expectation, window: Window) -> Verdict:
         unknown_s = window.unknown_s()
@@ -179,7 +179,7 @@ def _known(measure: _Measure) -> _Measure:
 
 
 def _known_once(measure: _Measure) -> _Measure:
-    """Let a measure look only at windows in which at least one value is known."""
+    """Restrict a measure to windows in which at least one value is known."""
 
     def measure_known_once(expectation: Expectation, window: Window) -> Verdict:
         if any(value != "" and value == value for value in window.values):

@@ -31,9 +31,9 @@ class _OverrideProblem(ConfigProblem):
 
 
 class OverriddenProblems(Problems):
-    """Problems of a file of which some values come from elsewhere: those have their own place.
+    """Problems of a file in which overrides replace some values: those have their own place.
 
-    A node of override N has the line -N - 1, so that its problems are told apart.
+    A node of override N has the line -N - 1, which identifies its problems.
     """
 
     def __init__(self, path: Path, overrides: Sequence[Override]) -> None:
@@ -50,7 +50,7 @@ class OverriddenProblems(Problems):
 
 
 def apply(overrides: Sequence[Override], root: MapNode, report: Report) -> None:
-    """Put the values into the tree of a file; what cannot be put anywhere is reported."""
+    """Put the values into the tree of a file; values without a place are reported."""
     for number, override in enumerate(overrides):
         line = -number - 1
 

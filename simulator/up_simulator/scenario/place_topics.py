@@ -1,4 +1,4 @@
-"""Where it was and who was there: what the phone measured, or, without one, what was true."""
+"""Position and links as messages: the phone's measurements or, without a phone, the truth."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _TRUE_PLACE = {
 
 
 class TruePlace:
-    """The true place, five times a second, where no phone flies; its origin says so."""
+    """The true position, five times a second, without a phone; its origin field marks it."""
 
     def __init__(self) -> None:
         self._due_s = -math.inf
@@ -50,7 +50,7 @@ class TruePlace:
 
 
 class SeenByGround:
-    """What the phone measured and what the daemon noted, as far as a ground station was told."""
+    """The phone's measurements and the daemon's notes, as received by a ground station."""
 
     def __init__(self) -> None:
         self._frames: float | None = None
@@ -59,7 +59,7 @@ class SeenByGround:
         self._panic: Data = {}
 
     def messages(self, row: LogRow) -> Iterator[Message]:
-        """Yield what is new in the newest telemetry."""
+        """Yield the new data of the newest telemetry."""
         frames = row.number("ground.frames")
         if frames is None or frames == self._frames:
             return

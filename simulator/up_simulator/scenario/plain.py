@@ -1,4 +1,4 @@
-"""A tree of nodes to plain values, where no shape says what they are."""
+"""Converts a tree of nodes to plain values, where no shape defines their types."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _BOOLS = {"true": True, "false": False}
 
 
 def plain_of(node: Node, report: Report) -> Any:
-    """Return maps, lists, numbers, true, false, None and texts; what is doubtful is reported.
+    """Return maps, lists, numbers, true, false, None and texts; ambiguous scalars are reported.
 
-    Doubtful is what readers of YAML disagree on (``no``, ``12:30``, ``010``): it must be in quotes.
+    Readers of YAML disagree on some scalars (``no``, ``12:30``, ``010``): these must be in quotes.
     """
     if isinstance(node, MapNode):
         return _map(node, report)

@@ -1,4 +1,4 @@
-"""One line on a terminal that tells how far a flight is."""
+"""One line on a terminal with the progress of a flight."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SHOWN_S = 0.2
 
 
 class ProgressLine:
-    """Rewrites one line of a terminal; on anything else it is silent."""
+    """Rewrites one line of a terminal; silent if the output is not a terminal."""
 
     def __init__(
         self, stream: TextIO, is_shown: bool, clock: Callable[[], float] = time.monotonic
@@ -33,7 +33,7 @@ class ProgressLine:
         self._write(f"{what}: the board boots")
 
     def show(self, time_s: float) -> None:
-        """Tell the time of the flight, five times a second at most."""
+        """Show the time of the flight, five times a second at most."""
         now_s = self._clock()
         if not self._is_shown or now_s - self._shown_s < SHOWN_S:
             return
@@ -55,7 +55,7 @@ class ProgressLine:
             self._put("\r" + padded)
 
     def _put(self, text: str) -> None:
-        # The terminal may be gone by now, and the flight must still end in order.
+        # The terminal may be closed already, and the flight must still end in order.
         with suppress(OSError):
             self._stream.write(text)
             self._stream.flush()

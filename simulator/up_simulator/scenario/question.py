@@ -1,4 +1,4 @@
-"""Commands that the ground station sent in a flight, and the answers that they got."""
+"""The ground station's Commands in a flight, and their answers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from up_simulator.scenario.verdict import Verdict
 
 @dataclass(slots=True)
 class Question:
-    """One Command on its way; ``answer`` is None until there is one, empty for an ack."""
+    """One Command in flight; ``answer`` stays None until the answer, which is empty for an ack."""
 
     event: Event
     command: CommandPart

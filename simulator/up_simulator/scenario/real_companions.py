@@ -1,4 +1,4 @@
-"""The daemon, and where it is wanted the proxy, as real programs with real sockets and a pty."""
+"""The daemon, and if required the proxy, as real programs with real sockets and a pty."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ FLIGHTS = "flights"
 class RealCompanions(CrewCompanions):
     """``python main.py`` on a pty; phone and ground station are stand-ins on real sockets.
 
-    The link lies between the daemon and whoever it speaks with: the ground station at its
-    listener, or the proxy. The flight keeps real time, from the boot on. Raises CrewError.
+    The link lies between the daemon and its peer: the ground station at its listener, or the
+    proxy. The flight keeps real time, from the boot on. Raises CrewError.
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class RealCompanions(CrewCompanions):
             self._real.check()
 
     def carry_out(self, event: Event) -> None:
-        """Let happen what concerns the crew; raises CrewError."""
+        """Carry out an event that concerns the crew; raises CrewError."""
         if event.proxy is None:
             super().carry_out(event)
         elif self._proxy is not None:
@@ -111,7 +111,7 @@ class RealCompanions(CrewCompanions):
         return not is_awaited and super()._has_connected()
 
     def plug_serial(self, is_in: bool) -> None:
-        """Let the pty be there, or be gone with all that waits in it."""
+        """Attach the pty, or remove it with all queued bytes."""
         if self._line is not None:
             self._line.close()
             self._line = None
@@ -119,11 +119,11 @@ class RealCompanions(CrewCompanions):
             self._line = self._open_line()
 
     def load(self, percent: float) -> None:
-        """Refuse: what a real daemon measures is the whole machine."""
+        """Refuse: a real daemon measures the load of the whole machine."""
         raise CrewError("a real machine's load is not set by a scenario: use 'runs: in process'")
 
     def stop(self) -> None:
-        """End everybody, and remove what was written."""
+        """End all members, and remove the written files."""
         super().stop()
         if self._proxy is not None:
             self._proxy.stop()
@@ -131,20 +131,20 @@ class RealCompanions(CrewCompanions):
             self._line.close()
             self._line = None
         self._reactor.stop()
-        # An instance of a runner has a folder of its own in the one that it is given.
+        # An instance of a runner has its own folder in the one that it is given.
         found = sorted((self._folder / FLIGHTS).rglob("*.mcap"))
         self.black_boxes = {path.name: path.read_bytes() for path in found}
         self._workspace.close()
 
     def end_raspilot(self) -> None:
-        """End the daemon, or the runner and what it started."""
+        """End the daemon, or the runner and its instances."""
         if isinstance(self._real, RunnerDaemon):
             self._real.end()
         else:
             self._real.kill()
 
     def ask_raspilot_to_stop(self) -> None:
-        """Ask the daemon to end, and do not wait for it."""
+        """Send the daemon the signal to end, and do not wait for it."""
         if isinstance(self._real, RealRaspilot):
             self._real.ask_to_stop()
         else:
@@ -198,7 +198,7 @@ class RealCompanions(CrewCompanions):
         return files
 
     def _black_box(self) -> dict[str, Any]:
-        """Let it record as it does aboard, and nowhere else than here."""
+        """Make it record as aboard, but only into this folder."""
         return {"enabled": True, "folder": str(self._folder / FLIGHTS)}
 
     def _make_ground(self) -> None:
@@ -211,7 +211,7 @@ class RealCompanions(CrewCompanions):
             # The link is the phone's: daemon and proxy are on servers.
             self.ground = InProcessGround(reactor, ports.ground, seed=seed)
         elif self._has_proxy:
-            # From the aircraft's side of the link: what goes up leaves the aircraft.
+            # From the aircraft's side of the link: "up" leaves the aircraft.
             self._reactor.targets[before.airborne] = ports.airborne
             self._reactor.link(before.airborne, up=self.up, down=self.down)
             self.ground = InProcessGround(reactor, ports.ground, seed=seed)

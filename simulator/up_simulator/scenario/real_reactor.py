@@ -17,17 +17,17 @@ LOOPBACK = "127.0.0.1"
 
 
 class RealReactor:
-    """Looks to the stand-ins of phone and ground as the simulated one does.
+    """Has the interface of the simulated reactor for the stand-ins of phone and ground.
 
-    ``link`` puts a relay before a port: who connects to the port passes the link to the
-    ``targets`` entry of it.
+    ``link`` puts a relay before a port: connections to the port pass the link to its ``targets``
+    entry.
     """
 
     def __init__(self) -> None:
         from twisted.internet import reactor as default_reactor
 
         reactor: Any = default_reactor
-        # The reactor keeps wall-clock time by itself, and a flight must not see that jump.
+        # The reactor's own clock is wall-clock time, and a flight must not see its jumps.
         reactor.seconds = time.monotonic
         # Twisted's own resolver has threads, for which the program would wait at its end.
         reactor.installNameResolver(LiteralResolver())

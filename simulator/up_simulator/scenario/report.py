@@ -15,9 +15,9 @@ _NAME_WIDTH = 58
 
 
 def report_lines(name: str, result: Result, files: Iterable[Path] = ()) -> Iterator[str]:
-    """Yield the report: what flew, every expectation with figure and limit, what went wrong.
+    """Yield the report: the participants, every expectation with figure and limit, the errors.
 
-    A line has nothing in it that a terminal would carry out, whatever the scenario's texts hold.
+    Control characters in the scenario's texts never reach the terminal.
     """
     yield from map(printable, _lines(name, result, files))
 

@@ -1,4 +1,4 @@
-"""What a scenario came to: its flight, its verdicts, and those of its control run."""
+"""The result of a scenario: its flight, its verdicts, and those of its control run."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def failed_parts(result: Result) -> Iterator[FailedPart]:
 
 
 def facts_of(record: FlightRecord) -> FlightFacts:
-    """Return what the judge must know."""
+    """Return the input of the evaluation."""
     scenario = record.scenario
     # A crash may end a flight that is allowed to crash; being broken off never may.
     may_end = scenario.may_crash and not record.is_broken_off
@@ -89,7 +89,7 @@ def facts_of(record: FlightRecord) -> FlightFacts:
 
 
 def control_scenario(scenario: Scenario) -> Scenario:
-    """Return the scenario of the control run: the same without what makes it succeed."""
+    """Return the scenario of the control run: the same without the parts that make it succeed."""
     control = scenario.control
     assert control is not None
     sticks = scenario.sticks

@@ -1,4 +1,4 @@
-"""Flies a scenario and its control run, and writes what came of it into a folder."""
+"""Flies a scenario and its control run, and writes the results into a folder."""
 
 from __future__ import annotations
 
@@ -58,13 +58,13 @@ Say = Callable[[str], None]
 
 @dataclass(slots=True)
 class Files:
-    """What has been written of a flight; ``trouble`` is a sentence about what could not be."""
+    """The files written of a flight; ``trouble`` is a sentence about those that failed."""
 
     written: list[Path] = field(default_factory=list)
     trouble: str | None = None
 
     def put(self, path: Path, write: Callable[[Path], object]) -> bool:
-        """Write a file, or nothing of it: half a file would be taken for a whole one."""
+        """Write a file; delete an incomplete one, which could be taken for a whole one."""
         try:
             write(path)
         except OSError as error:
@@ -77,14 +77,14 @@ class Files:
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """Where the files go; None: nowhere. A picture is drawn only where it is wanted."""
+    """The folder of the files; None: no files. Pictures are optional."""
 
     folder: Path | None
     has_picture: bool = True
 
 
 class CannotFlyError(Exception):
-    """What a scenario needs is not here: the message is one sentence for the user.
+    """A requirement of a scenario is missing here: the message is one sentence for the user.
 
     ``is_wrong_input``: the user has named it.
     """
@@ -104,7 +104,7 @@ def fly_scenario(
 ) -> Result:
     """Fly it, and its control run unless it was interrupted, and judge both.
 
-    With ``is_paced`` it is no faster than real time. Raises CannotFlyError.
+    With ``is_paced`` it runs in real time at most. Raises CannotFlyError.
     """
     record = _fly(name, scenario, progress, say, is_paced)
     result = Result(record, verdicts_of(record))
@@ -155,7 +155,7 @@ class _Paced:
 
 
 def try_folder(folder: Path) -> None:
-    """Make a folder and write into it, that nothing is flown in vain; raises OSError."""
+    """Make a folder and check that it is writable before the flight; raises OSError."""
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryFile(dir=folder) as file:
         file.write(bytes(4096))
@@ -193,7 +193,7 @@ def write_files(name: str, result: Result, output: Output, say: Say) -> Files:
 
 
 def _put_black_boxes(found: Mapping[str, bytes], folder: Path, files: Files) -> None:
-    """Keep what a real daemon recorded, and nothing of an earlier flight."""
+    """Keep a real daemon's recordings, and delete those of an earlier flight."""
     with suppress(OSError):
         for old in folder.glob("*.mcap"):
             old.unlink()
@@ -238,7 +238,7 @@ def _draw(result: Result, path: Path, files: Files, say: Say) -> None:
 
 
 def _subtitle(record: FlightRecord) -> str:
-    """Return what flew: nothing that differs from run to run, as the speed does."""
+    """Return the participants, without values that differ from run to run, such as the speed."""
     scenario = record.scenario
     return f"{scenario.airframe}, seed {scenario.seed}, {record.board_title}"
 

@@ -1,4 +1,4 @@
-"""Black Box by runner: the phone asks for a Raspilot on a server, and is its only source."""
+"""Black Box by runner: the phone requests a Raspilot on a server, and is its only source."""
 
 from __future__ import annotations
 
@@ -51,11 +51,11 @@ class RunnerDaemon:
         self._runner.start()
 
     def stop(self) -> None:
-        """Ask the instance to end: the runner leaves it so."""
+        """Send the instance the signal to end: the runner does not restart it."""
         self._signal(signal.SIGTERM)
 
     def kill(self) -> None:
-        """End it at once; the runner starts it again."""
+        """Kill it; the runner restarts it."""
         self._signal(signal.SIGKILL)
 
     def freeze(self) -> None:
@@ -63,11 +63,11 @@ class RunnerDaemon:
         self._signal(signal.SIGSTOP)
 
     def thaw(self) -> None:
-        """Let it go on."""
+        """Resume it."""
         self._signal(signal.SIGCONT)
 
     def check(self) -> None:
-        """Raise CrewError when the runner has ended by itself."""
+        """Raise CrewError if the runner has ended unexpectedly."""
         self._runner.check()
 
     def end(self) -> None:
@@ -94,8 +94,8 @@ class RunnerDaemon:
 class RunnerPhone(InProcessPhone):
     """A phone whose cellular link leads to a runner, and from there to the instance's ports.
 
-    ``relay`` puts the cellular link before a port and returns where to connect. All goes by TCP:
-    a Black Box takes no datagrams.
+    ``relay`` puts the cellular link before a port and returns the address for connections. All
+    links use TCP: a Black Box takes no datagrams.
     """
 
     def __init__(
@@ -132,13 +132,13 @@ class RunnerPhone(InProcessPhone):
             self._door.stop()
 
     def place_options(self) -> list[str]:
-        """Return where the phone in Java asks for a runner: its sockets are its own."""
+        """Return the runner's address for the phone in Java, which has its own sockets."""
         if self._door is None:
             self._door = RunnerDoor(self._real.machine(), self._runner_port, self._by_link)
         return ["--runner", f"{LOOPBACK}:{self._door.start()}", "--aircraft", AIRCRAFT]
 
     async def find(self) -> RaspberryPi:
-        """Ask the runner for an instance; return where the link to it begins."""
+        """Request an instance from the runner; return where the link to it begins."""
         runner = Runner(LOOPBACK, self._runner_port(), AIRCRAFT)
         place = await spawn(self._real.machine(), runner)
         return RaspberryPi(

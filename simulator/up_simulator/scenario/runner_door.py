@@ -1,4 +1,4 @@
-"""A runner as it is seen through the cellular link."""
+"""A runner behind the cellular link."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ LOOPBACK = "127.0.0.1"
 
 
 class RunnerDoor:
-    """Passes requests on to a runner, and its answers back, with other ports in them.
+    """Forwards requests to a runner, and its answers back, with the ports replaced.
 
-    A phone with sockets of its own connects where the answer says: ``by_link`` gives for a port
-    of the instance the one at which the link to it begins.
+    A phone with its own sockets connects to the address in the answer: ``by_link`` maps a port of
+    the instance to the port at which the link to it begins.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class RunnerDoor:
         try:
             place = read_spawn_answer(answer, LOOPBACK)
         except NotFoundError:
-            # What the runner says of it is for the phone to read.
+            # The runner's reason is left to the phone.
             return answer
         ports = {
             "general": self._by_link(place.general_port),

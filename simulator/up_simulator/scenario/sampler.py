@@ -24,7 +24,7 @@ _GAINS_VALID, _RESTORED = 64, 128
 
 
 def columns_of(scenario: Scenario) -> list[str]:
-    """Return the log's columns: those of every part that flies, and what is expected besides."""
+    """Return the log's columns: those of every part that flies, and of the expectations."""
     sources = sources_of(scenario)
     columns = [name for name, signal in SIGNALS.items() if signal.source in sources]
     wanted = [expectation.signal for expectation in scenario.expect]
@@ -47,7 +47,7 @@ def sources_of(scenario: Scenario) -> set[str]:
 
 
 class Sampler:
-    """Gathers rows; ``is_crashed`` is asked of the dynamics, all else of the parts themselves."""
+    """Gathers rows; ``is_crashed`` comes from the dynamics, all else from the parts themselves."""
 
     def __init__(
         self,

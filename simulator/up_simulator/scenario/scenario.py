@@ -1,4 +1,4 @@
-"""A scenario: everything about one flight, as its file says it."""
+"""A scenario: everything in the file of one flight."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class ControlPart:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing."""
+        """Yield the missing keys."""
         if self.mode is None and self.board is None:
             yield "about", "takes nothing away: name 'mode' or 'board'"
         if not self.fails:
@@ -111,7 +111,7 @@ class ControlPart:
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """One flight: how it begins, what happens, what is expected."""
+    """One flight: its start, its events, its expectations."""
 
     title: str = key("", "A few words, for lists and pictures.", max_length=100)
     about: str = key("", "What it shows, in a sentence or two.", max_length=2000)
@@ -164,7 +164,7 @@ class Scenario:
     control: ControlPart | None = section(ControlPart, optional=True)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is missing."""
+        """Yield the missing keys."""
         if not self.title:
             yield "title", "must say in a few words what this flight is"
         if not self.expect:

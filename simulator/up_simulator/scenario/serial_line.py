@@ -10,7 +10,7 @@ TO_BOARD, FROM_BOARD = "to the board", "from the board"
 
 
 class SerialWires:
-    """Passes bytes, or spoils them, or none: the same seed spoils the same bytes.
+    """Passes bytes, corrupts them or drops them: the same seed corrupts the same bytes.
 
     ``spoilt`` counts the bytes that were flipped, inserted or lost.
     """
@@ -23,12 +23,12 @@ class SerialWires:
         self.spoilt = 0
 
     def set_noise(self, noise: SerialNoise, now_s: float) -> None:
-        """Begin to spoil bytes, for as long as the noise lasts."""
+        """Begin to corrupt bytes, for the duration of the noise."""
         self._noise = noise
         self._noise_until_s = now_s + noise.for_s
 
     def pass_on(self, data: bytes, direction: str, now_s: float) -> bytes:
-        """Return what arrives at the other end."""
+        """Return the bytes that arrive at the other end."""
         if not self.is_plugged:
             return b""
         noise = self._noise

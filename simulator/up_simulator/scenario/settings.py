@@ -1,4 +1,4 @@
-"""What a scenario's board is set to: the airframe's own values, and what the scenario changes."""
+"""The settings of a scenario's board: the airframe's values, and the scenario's changes."""
 
 from __future__ import annotations
 

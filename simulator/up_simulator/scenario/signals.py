@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 
 class Kind(enum.Enum):
-    """What the values of a signal are."""
+    """The type of a signal's values."""
 
     NUMBER = "number"
     FLAG = "flag"
@@ -18,7 +18,7 @@ class Kind(enum.Enum):
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """One column of a flight's log: ``source`` tells which part must fly for it to be there."""
+    """One column of a flight's log; it exists only if the part ``source`` flies."""
 
     name: str
     about: str
@@ -27,7 +27,7 @@ class Signal:
 
     @property
     def source(self) -> str:
-        """Return what comes before the first dot: truth, board, ground..."""
+        """Return the part before the first dot: truth, board, ground..."""
         return self.name.partition(".")[0]
 
 
@@ -216,10 +216,10 @@ def _all() -> Iterator[Signal]:
 
 
 EVENT_COLUMN = "event"
-"""The log's last column: what happened since the row before, empty where nothing did."""
+"""The log's last column: the events since the row before, empty without one."""
 SIGNALS = {signal.name: signal for signal in _all()}
 FREE_PREFIX = "ground.counters."
-"""What follows it is whatever the modules count."""
+"""The names behind it are the modules' counters."""
 
 
 def signal_of(name: str) -> Signal:

@@ -1,4 +1,4 @@
-"""The verdict on how a signal followed a step of what was asked of it."""
+"""The verdict on a signal's response to a step of its demand."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from up_simulator.scenario.window import Window
 from up_simulator.tuning.step_response import StepError, StepResponse, analyse_step
 
 LOOK_S = 0.2
-"""The demand is read so long before and after the step: the receiver and the mode need a moment."""
+"""The demand is read this time before and after the step: the receiver and the mode need it."""
 _WORDS = {
     "rise_time_s": ("rise", "s"),
     "overshoot_percent": ("overshoot", "%"),
@@ -60,7 +60,7 @@ def step_limit_text(limits: StepLimits, unit: str) -> str:
 
 
 def _with_lead(name: str, window: Window, log: FlightLog) -> tuple[list[float], list[float]]:
-    """Return the window with the moment before it, which tells where the step came from."""
+    """Return the window with the moment before it, which has the value before the step."""
     pairs = zip(log.numbers("time_s"), log.numbers(name), strict=True)
     begin_s, end_s = window.begin_s - 2 * LOOK_S, window.times_s[-1]
     chosen = [(time_s, value) for time_s, value in pairs if begin_s <= time_s <= end_s]

@@ -1,4 +1,4 @@
-"""What the pilot does with sticks and switches, over time."""
+"""The pilot's moves of sticks and switches, over time."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class StickPoint:
     aux2_us: float | None = _pulse()
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield what is said twice."""
+        """Yield contradictory keys."""
         others = {"aux1": "mode", "aux2": "arm"}
         for channel in CHANNELS:
             other = others.get(channel, channel)
@@ -71,7 +71,7 @@ class StickPoint:
             yield "at_s", "moves nothing: name a stick, 'mode' or 'arm'"
 
     def pulses_us(self, switch: dict[str, str]) -> Iterator[tuple[str, float]]:
-        """Yield channel and pulse of what it moves; ``switch`` gives each position its mode.
+        """Yield channel and pulse of its moves; ``switch`` gives each position its mode.
 
         Raises KeyError for a mode that no position selects.
         """
@@ -115,9 +115,9 @@ class _Move:
 
 
 class StickTimeline:
-    """The pulses of all channels at any time, made from points in whatever order they stand.
+    """The pulses of all channels at any time, made from points in any order.
 
-    A move that begins while another one still runs starts from where the stick is then.
+    A move that begins during another one starts from the stick's position at that time.
     """
 
     def __init__(self, points: tuple[StickPoint, ...], switch: dict[str, str]) -> None:

@@ -1,4 +1,4 @@
-"""What became of one expectation."""
+"""Result of one expectation."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Verdict:
     """Whether it held, with its figure beside the limit; ``why`` adds where and when it did not.
 
-    ``has_figure`` is False where nothing could be measured: that is no visible failure.
+    ``has_figure`` is False without a measurement, which does not count as a visible failure.
     """
 
     name: str
@@ -21,7 +21,7 @@ class Verdict:
 
 
 def number_text(number: float) -> str:
-    """Return a figure with as many digits as tell something."""
+    """Return a figure with its significant digits."""
     if abs(number) >= 1000 or number == int(number):
         return f"{number:.0f}"
     return f"{number:.3g}" if abs(number) < 10 else f"{number:.1f}"

@@ -1,4 +1,4 @@
-"""The part of a flight's log that an expectation looks at."""
+"""The part of a flight's log that an expectation evaluates."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _TURNING = ("yaw_deg", "track_deg", "heading.actual", "heading.required", "home.
 
 
 class NoWindowError(Exception):
-    """The flight does not reach the window: the message says what it lacks."""
+    """The flight does not reach the window: the message names the missing part."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,7 @@ class Window:
         return None
 
     def steady(self) -> Window:
-        """Return it with angles that go round made to go on beyond 360."""
+        """Return it with angles unwrapped, beyond 360 where they wrap."""
         turns = 0.0
         before: float | None = None
         values: list[Value] = []

@@ -21,7 +21,7 @@ _WORDS: dict[str, tuple[str, ...]] = {
     "ground.flight_control.mode": ("ACRO", "RATE", "FBW", "AUTO"),
 }
 _SEVERAL = {"board.reset_cause": " ", "ground.arduino.reset_cause": ", "}
-"""What stands between them where a value may be several at once."""
+"""Separators for signals that may have several values at a time."""
 
 
 def words_of(name: str) -> tuple[str, ...]:
@@ -30,7 +30,7 @@ def words_of(name: str) -> tuple[str, ...]:
 
 
 def word_problem(name: str, text: str) -> str:
-    """Return a sentence where the signal is never that word, with what was probably meant."""
+    """Return a sentence if the signal never has that value, with the probable intention."""
     words = words_of(name)
     parts = text.split(_SEVERAL[name]) if name in _SEVERAL else [text]
     wrong = next((part for part in parts if part not in words), None)

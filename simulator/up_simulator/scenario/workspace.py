@@ -1,4 +1,4 @@
-"""A flight's own temporary folder, which goes with it; what a killed flight left goes, too."""
+"""A flight's temporary folder, removed with the flight, or after a kill by a later one."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ LOCK = "lock"
 
 
 class Workspace:
-    """A folder that is held by a lock while this process lives, whatever ends that.
+    """A folder held by a lock while this process lives, however the process ends.
 
-    Nobody can remove the folder of a flight that was killed (``kill -9``) but a later one: it
-    takes every folder of this kind, of the same user, whose lock is free.
+    After ``kill -9`` only a later flight can remove the folder: it removes every folder of this
+    kind, of the same user, whose lock is free.
     """
 
     def __init__(self) -> None:
         _sweep()
-        # The folder goes when nobody refers to it any more, too.
+        # The folder is also removed when the last reference to it goes.
         self._temporary = tempfile.TemporaryDirectory(prefix=PREFIX, ignore_cleanup_errors=True)
         self.path = Path(self._temporary.name)
-        # It is locked before it has its name: nobody finds it free.
+        # It is locked before it gets its name, so that no other process finds it free.
         fresh = self.path / f"{LOCK}.new"
         self._lock = fresh.open("w")
         fcntl.flock(self._lock, fcntl.LOCK_EX)
@@ -38,7 +38,7 @@ class Workspace:
 
 
 def _sweep() -> None:
-    """Remove what killed flights left; what cannot be removed is left alone."""
+    """Remove the folders of killed flights, as far as possible."""
     for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
         with suppress(OSError):
             if folder.is_symlink() or folder.stat().st_uid != os.getuid():

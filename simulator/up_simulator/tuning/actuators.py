@@ -58,9 +58,9 @@ class Mix:
 class Actuators:
     """Dynamics whose servos get the board's pulses later, larger, or with something added.
 
-    ``delay_s`` and ``factors`` (of an axis's deflection) act from now on; ``added_us`` is asked
-    for what to add to an axis at a time. ``on_step`` hears, at each step, what arrives from the
-    board and what the servos get.
+    ``delay_s`` and ``factors`` (of an axis's deflection) act from now on; ``added_us`` returns the
+    pulse to add to an axis at a time. ``on_step`` gets, at each step, the board's pulses and those
+    of the servos.
     """
 
     def __init__(self, dynamics: Dynamics, mix: Mix) -> None:
@@ -86,12 +86,12 @@ class Actuators:
 
     @property
     def motion(self) -> Motion:
-        """Return what the IMU feels now."""
+        """Return the present motion for the IMU."""
         return self.dynamics.motion
 
     @property
     def crash(self) -> str | None:
-        """Return what ended the flight."""
+        """Return the cause of the flight's end."""
         return self.dynamics.crash
 
     def set_servos(self, pulses_us: Pulses) -> None:

@@ -63,7 +63,7 @@ _SENTENCES = (
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Tune, or look at a log; return the exit status. Raises ``UsageError`` and OSError."""
+    """Tune, or analyse a log; return the exit status. Raises ``UsageError`` and OSError."""
     options = _parser().parse_args(arguments)
     if options.log is not None and options.write is not None:
         raise UsageError("--write needs gains that were flown: leave --log out")
@@ -167,7 +167,7 @@ def _all_axes(
     axes: Sequence[Axis],
     workers: Workers,
 ) -> tuple[GainSet, list[Path], bool]:
-    """Tune one axis after the other, each with what was proposed for those before."""
+    """Tune one axis after the other, each with the proposals for those before."""
     pictures: list[Path] = []
     is_good = True
     for axis in axes:
@@ -218,9 +218,9 @@ def _gains_in(path: Path) -> GainSet:
 
 
 def _write(path: Path, gains: GainSet) -> None:
-    """Write pids.yml whole, with its comments; navigation gains that it has stay.
+    """Write pids.yml whole, with its comments; its navigation gains stay.
 
-    Raises ConfigErrors for a file that is there and is no pids.yml, which is left alone.
+    Raises ConfigErrors if the existing file is not a valid pids.yml; it is left alone.
     """
     values = replace(PIDS.parse(pids_block(gains), path), navigation=_held(path).navigation)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -228,12 +228,12 @@ def _write(path: Path, gains: GainSet) -> None:
 
 
 def _held(path: Path) -> PidsConfig:
-    """Return what a file holds that is to be written; raises ConfigErrors where it is another's."""
+    """Return the content of a file to be overwritten; raises ConfigErrors if it is not ours."""
     return PIDS.parse(path.read_bytes(), path) if path.exists() else PidsConfig()
 
 
 def _is_drawn(draw: Callable[[Path], None], path: Path) -> bool:
-    """Draw into a folder that is made if need be; say why where there is no picture."""
+    """Draw into a folder that is made if need be; print why a picture is missing."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         draw(path)

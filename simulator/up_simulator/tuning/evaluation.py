@@ -17,7 +17,7 @@ D_FILTER_S = 0.007
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """What a proposal has to keep. Margins hold at cruise and in the dive, the rest at cruise."""
+    """The rules for a proposal. Margins hold at cruise and in the dive, the rest at cruise."""
 
     gain_margin_db: float = 6.0
     phase_margin_deg: float = 45.0
@@ -27,7 +27,7 @@ class Rules:
     steady_error_percent: float = 10.0
 
     def broken_by_margins(self, margins: Margins) -> list[str]:
-        """Return what the margins lack, in a few words each."""
+        """Return the rules that the margins break, in a few words each."""
         broken = []
         if margins.gain_margin_db is not None and margins.gain_margin_db < self.gain_margin_db:
             broken.append(f"gain margin {margins.gain_margin_db:.1f} dB")
@@ -41,7 +41,7 @@ class Rules:
         return broken
 
     def broken_by_steps(self, steps: FlownSteps) -> list[str]:
-        """Return what the steps lack, in a few words each."""
+        """Return the rules that the steps break, in a few words each."""
         broken = []
         if steps.crash is not None:
             broken.append(steps.crash)
@@ -63,7 +63,7 @@ class Loop:
     airspeed_m_s: float
 
     def with_gains(self, gains: AxisGains) -> list[LoopPoint]:
-        """Return the loop as it is with other gains: what the board does is known exactly."""
+        """Return the loop with other gains: the board's part of it is known exactly."""
         return [
             LoopPoint(
                 point.frequency_hz,
@@ -75,10 +75,10 @@ class Loop:
         ]
 
     def at_least(self, airspeed_m_s: float) -> Loop:
-        """Return the loop as it is at this airspeed, if it was measured at a lower one.
+        """Return the loop at this airspeed, if it was measured at a lower one.
 
-        Surfaces grip with the square of the airspeed; that the air damps more too is left out,
-        which errs to the safe side.
+        Control forces grow with the square of the airspeed; the greater damping by the air is
+        neglected, which errs to the safe side.
         """
         if self.airspeed_m_s >= airspeed_m_s:
             return self
@@ -91,9 +91,9 @@ class Loop:
 
 
 def compensator(gains: AxisGains, frequency_hz: float) -> complex:
-    """Return what both controllers together make of a rotation rate, 1.25 us per deg/s.
+    """Return the response of both controllers together to a rotation rate, 1.25 us per deg/s.
 
-    The angle is the rate's integral; the rate the Stabilize controller asks for is minus its
+    The angle is the rate's integral; the rate that the Stabilize controller demands is minus its
     answer to the angle.
     """
     s = 2j * math.pi * frequency_hz

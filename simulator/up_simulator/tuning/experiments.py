@@ -1,4 +1,4 @@
-"""The short flights that tell what gains are worth: steps, the loop's response, rough air."""
+"""The short flights that evaluate gains: steps, the loop's response, rough air."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from up_simulator.world import STEP_S
 
 SETTLE_S = 4.0
 FULL_RATE_DEG_S: dict[Axis, float] = {"roll": 180.0, "pitch": 90.0}
-"""What a full stick asks for in RATE (the firmware's flight_controller.h)."""
+"""Rate at full stick in RATE (the firmware's flight_controller.h)."""
 _LIMITS = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
 DIVE_DEG = -20.0
 DIVE_SETTLE_S = 9.0
@@ -76,17 +76,17 @@ STEPS: dict[tuple[Axis, str], StepPlan] = {
 
 @dataclass(frozen=True, slots=True)
 class FlownSteps:
-    """The steps of a plan as they were followed; one that held nothing to measure is left out."""
+    """The responses to the steps of a plan; a step that cannot be measured is left out."""
 
     plan: StepPlan
     responses: tuple[StepResponse, ...]
     recording: Recording
     servo_us_s: float
-    """How far the servo of the axis moved in a second: what the gains cost."""
+    """Travel of the axis's servo in a second: the cost of the gains."""
 
     @property
     def crash(self) -> str | None:
-        """Return what ended the flight."""
+        """Return the cause of the flight's end."""
         return self.recording.crash
 
     @property
@@ -106,14 +106,14 @@ class FlownSteps:
 
     @property
     def steady_error_percent(self) -> float:
-        """Return the mean size of what was missing at the end of a step, in parts of the step."""
+        """Return the mean absolute error at the end of a step, percent of the step."""
         return fmean([abs(each.steady_error_percent) for each in self.responses] or [math.inf])
 
 
 def fly_steps(
     bench: Bench, gains: GainSet, plan: StepPlan, weather: Weather | None = None
 ) -> FlownSteps:
-    """Fly the steps of a plan and measure how they were followed."""
+    """Fly the steps of a plan and measure the responses."""
     trial = bench.trial(gains, weather)
     channel = CHANNELS[plan.axis]
     moves = [] if plan.mode == "FBW" else [StickMove(SETTLE_S - 0.1, "aux1", RATE_US)]
@@ -137,7 +137,7 @@ def fly_steps(
 
 
 def stick_us(airframe: Airframe, plan: StepPlan, demand: float) -> float:
-    """Return the stick pulse that asks for a demand."""
+    """Return the stick pulse of a demand."""
     if plan.mode != "FBW":
         return 1500.0 + 500.0 * demand / FULL_RATE_DEG_S[plan.axis]
     name = "roll_deg" if plan.axis == "roll" else "pitch_up_deg"
@@ -156,10 +156,10 @@ def measure_loop(
     periods: int = 4,
     delay_s: float = 0.0,
 ) -> tuple[list[LoopPoint], float]:
-    """Return the open loop of an axis in FBW and the airspeed, m/s, that it was measured at.
+    """Return the open loop of an axis in FBW and the airspeed of the measurement, m/s.
 
     A sum of sines is added between board and servos. ``dives``: with the nose 20 degrees down, at
-    the speed that comes of it. Raises ``MarginsError``.
+    the resulting speed. Raises ``MarginsError``.
     """
     trial = bench.trial(gains)
     moves = []
@@ -190,7 +190,7 @@ def measure_loop(
 
 @dataclass(frozen=True, slots=True)
 class RoughFlight:
-    """How still the aircraft was held in rough air: rms of the errors, level flight asked."""
+    """Steadiness in rough air: rms of the errors at a demand of level flight."""
 
     roll_rms_deg: float
     pitch_rms_deg: float
@@ -225,9 +225,9 @@ def fly_rough(
 
 
 def yaw_swing(bench: Bench, gains: GainSet) -> float:
-    """Return what is left of a kick of the rudder: yaw rate after it, rms, deg/s.
+    """Return the yaw rate that is left after a kick of the rudder, rms, deg/s.
 
-    The rudder stick goes right for 0.3 s; the rate is looked at for 3 s after that, less its mean.
+    The rudder stick goes right for 0.3 s; the rate is measured for 3 s after that, less its mean.
     """
     trial = bench.trial(gains)
     kick = [

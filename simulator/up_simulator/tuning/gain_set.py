@@ -46,7 +46,7 @@ def with_axis(gains: GainSet, axis: Axis, new: AxisGains) -> GainSet:
 
 
 def gains_of(mapping: Mapping[str, Any]) -> GainSet:
-    """Return the set in a map shaped like pids.yml; what it lacks is zero."""
+    """Return the set in a map shaped like pids.yml; missing gains are zero."""
     loops = []
     for loop in LOOPS:
         axes = mapping.get(loop, {})

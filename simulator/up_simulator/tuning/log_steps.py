@@ -1,4 +1,4 @@
-"""Finds the steps in a flight's log, measures them, and says in plain words what to change."""
+"""Finds the steps in a flight's log, measures them, and recommends changes in plain words."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LONGEST_S = 5.0
 SHORTEST_S = 0.5
 STEADY_S = 0.3
 SAME = 0.1
-"""The demand stays within this part of the step, or it is no step."""
+"""The demand stays within this part of the step, otherwise it does not count as a step."""
 _SIGNALS: tuple[tuple[Axis, str, str, str], ...] = (
     ("roll", "FBW", "roll_deg", "deg"),
     ("pitch", "FBW", "pitch_deg", "deg"),
@@ -32,7 +32,7 @@ class LogStepsError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class LogStep:
-    """A step of the demand in a flight, and how it was followed."""
+    """A step of the demand in a flight, and its response."""
 
     axis: Axis
     mode: str
@@ -43,13 +43,13 @@ class LogStep:
     unit: str
     response: StepResponse | None
     problem: str = ""
-    """Why there is no response."""
+    """Why the response is missing."""
 
 
 def steps_of(log: Log, axes: Sequence[Axis] = ("roll", "pitch")) -> list[LogStep]:
     """Return every step of the demand in FBW and RATE, in order of time.
 
-    What flew is the aircraft's true attitude where the log has it, else the board's estimate.
+    The response is the aircraft's true attitude if the log has it, otherwise the board's estimate.
     Raises ``LogStepsError`` for a log without demands.
     """
     names = [each for each in _SIGNALS if each[0] in axes]
@@ -106,7 +106,7 @@ def _jumps(
 def _arrival(
     times_s: Sequence[float], demands: Sequence[float], at: int, least: float
 ) -> int | None:
-    """Return the row at which a step that begins at a row has come to its end, if one begins."""
+    """Return the row at which a step that begins at a row has ended, if one begins."""
     before = demands[at - 1]
     if not abs(demands[at] - before) > SAME * least:
         return None
@@ -152,7 +152,7 @@ def _measured(
 
 
 def advice(steps: Sequence[LogStep]) -> list[str]:
-    """Return what to change, a sentence for each axis and mode that was flown."""
+    """Return recommendations, a sentence for each axis and mode that was flown."""
     sentences = []
     for axis, mode, _, _ in _SIGNALS:
         chosen = [
@@ -169,7 +169,7 @@ def _advice(mode: str, responses: Sequence[StepResponse]) -> str:
     half = len(responses) / 2
     rings = sum(each.swings > 3 for each in responses)
     over = sum(each.overshoot_percent > 15 for each in responses)
-    # What comes back to level does not fall short: half of the steps do in a flight that does.
+    # A step back to level never falls short, and half of the steps of a flight are such.
     short = 2 * sum(each.steady_error_percent > 10 for each in responses)
     never = sum(each.rise_time_s is None for each in responses)
     if never > half:

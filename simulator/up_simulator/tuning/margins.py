@@ -1,4 +1,4 @@
-"""How far a control loop is from ringing: its margins, from its measured frequency response."""
+"""The stability margins of a control loop, from its measured frequency response."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from statistics import fmean
 WIDEST_SPREAD = 0.35
 """The periods of a measurement agree within this part, or the frequency is left out."""
 MOST_OF_ITS_OWN = 0.7
-"""A servo that moves more than this part at frequencies that nobody excited rings by itself."""
+"""A servo that moves more than this part at unexcited frequencies oscillates on its own."""
 
 
 class MarginsError(ValueError):
-    """The loop cannot be judged from this: the message is one sentence that says why."""
+    """The loop cannot be judged from this: the message is one sentence with the reason."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ class Multisine:
 
 @dataclass(frozen=True, slots=True)
 class LoopPoint:
-    """The loop's response at a frequency: what comes round of what goes in, with its sign."""
+    """The loop's response at a frequency: output over input once around, with its sign."""
 
     frequency_hz: float
     response: complex
@@ -62,9 +62,9 @@ def loop_response(
 ) -> list[LoopPoint]:
     """Return the open loop, cut between board and servo, at the frequencies of the excitation.
 
-    ``given`` is what the board gave to an axis and ``moved`` what its servos got, with the
-    excitation: both from whole periods, and the first one is left out until the flight swings
-    with the excitation. A frequency at which the periods do not agree is left out. Raises
+    ``given`` is the board's output to an axis and ``moved`` the input of its servos, with the
+    excitation: both from whole periods, without the first one, in which the flight settles into
+    the oscillation. A frequency at which the periods do not agree is left out. Raises
     ``MarginsError``.
     """
     period = round(multisine.period_s / step_s)
@@ -99,7 +99,7 @@ def loop_response(
 
 
 def _slope(values: Sequence[float], part: slice) -> float:
-    """Return how much values drift in a step, about a period: sines have no part in its means."""
+    """Return the drift of values in a step, about a period: sines have no part in its means."""
     period: int = part.stop - part.start
     before = values[part.start - period : part.start]
     now = values[part]
@@ -130,12 +130,12 @@ def _at(values: Sequence[float], turns: Sequence[complex]) -> complex:
 
 @dataclass(frozen=True, slots=True)
 class Margins:
-    """What can still go wrong before the loop rings without end; ``None``: however much.
+    """Margins before the loop oscillates without end; ``None``: unlimited.
 
-    The gain margin is what the airspeed (its square), a steeper servo horn or a lighter wing may
-    add to every gain of the axis at once; the delay margin what a slower servo, receiver or
-    program may add. The peak sensitivity says both in one figure: how much the loop makes a
-    disturbance larger at worst; 1.4 is calm, 2 the usual limit, and much beyond 2 it rings.
+    The gain margin is the factor by which airspeed (its square), a steeper servo horn or a lighter
+    wing may raise all gains of the axis together; the delay margin is the delay that a slower
+    servo, receiver or program may add. The peak sensitivity combines both: how much the loop
+    amplifies a disturbance at worst; 1.4 is calm, 2 the usual limit, and much beyond 2 it rings.
     """
 
     gain_margin_db: float | None
@@ -149,7 +149,7 @@ class Margins:
 
     @property
     def is_stable(self) -> bool:
-        """Return whether it does not ring as it is."""
+        """Return whether the loop is stable without changes."""
         gain, phase = self.gain_margin_db, self.phase_margin_deg
         return (gain is None or gain > 0) and (phase is None or phase > 0)
 
@@ -187,7 +187,7 @@ def margins_of(points: Sequence[LoopPoint]) -> Margins:
 
 
 def _excess(fine: Sequence[tuple[float, float, float]]) -> float:
-    """Return the gain margin, below zero, of a loop that rings: what its gain is too high by."""
+    """Return the gain margin, below zero, of a loop that rings: the excess of its gain."""
     above = [
         size_db
         for (_, size_db, angle), (_, _, next_angle) in itertools.pairwise(fine)

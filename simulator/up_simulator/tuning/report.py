@@ -1,4 +1,4 @@
-"""What tuning says: tables and sentences for a terminal."""
+"""The report of tuning: tables and sentences for a terminal."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WIDTH = 98
 
 
 def tuning_lines(tuning: AxisTuning) -> list[str]:
-    """Return the best of what was tried as a table, the proposal marked."""
+    """Return the best candidates as a table, the proposal marked."""
     cruise_m_s, dive_m_s = tuning.cruise.airspeed_m_s, tuning.dive.airspeed_m_s
     lines = [
         f"{tuning.axis} in FBW, steps at cruise ({cruise_m_s:.0f} m/s); margins there and in a"
@@ -42,7 +42,7 @@ def tuning_lines(tuning: AxisTuning) -> list[str]:
 
 
 def yaw_lines(tuning: YawTuning | None) -> list[str]:
-    """Return what the yaw damper was found to do."""
+    """Return the measured effect of the yaw damper."""
     if tuning is None:
         return ["yaw: the rudder does nothing here that a damper could use; its gain is 0"]
     swings = ", ".join(f"{gain:g}: {swing:.1f}" for gain, swing in tuning.swings)
@@ -75,7 +75,7 @@ def rough_lines(air: RoughAir) -> list[str]:
 
 
 def rules_lines(rules: Rules) -> list[str]:
-    """Return what a proposal keeps."""
+    """Return the rules that a proposal keeps."""
     text = (
         f"A proposal keeps, at cruise and in the dive, {rules.gain_margin_db:g} dB of gain,"
         f" {rules.phase_margin_deg:g} deg of phase, {rules.delay_margin_ms:g} ms of delay and a"
@@ -87,7 +87,7 @@ def rules_lines(rules: Rules) -> list[str]:
 
 
 def log_lines(steps: Sequence[LogStep]) -> list[str]:
-    """Return the steps of a log as a table, and what to change."""
+    """Return the steps of a log as a table, and recommendations."""
     lines = [
         f"{'at':>8}  {'axis':<6} {'mode':<5} {'from':>6} {'to':>6} {'':<6} {'rise':>6} {'over':>5}"
         f" {'settled':>8} {'lacks':>6}",

@@ -43,7 +43,7 @@ SHOWN_STEPS = 2
 
 
 def draw_tuning(tuning: AxisTuning, path: Path, *, title: str) -> None:
-    """Draw what was proposed, the loop's response with its margins, and all that was tried.
+    """Draw the proposal, the loop's response with its margins, and all candidates.
 
     Raises ``PictureError``.
     """
@@ -143,7 +143,7 @@ def _draw_comparison(axes: Axes, tuning: AxisTuning) -> None:
 
 
 def _draw_loop(size_axes: Axes, phase_axes: Axes, tuning: AxisTuning) -> None:
-    """Draw size and phase of the open loop with the proposed gains, and what is left."""
+    """Draw size and phase of the open loop with the proposed gains, and the margins."""
     curves: tuple[tuple[Loop, str, str, str], ...] = (
         (tuning.cruise, "cruise", BLUE, "-"),
         (tuning.dive, "dive", PURPLE, "--"),

@@ -1,4 +1,4 @@
-"""What an aircraft made of a step: how fast it followed, how far it overshot, when it was still."""
+"""An aircraft's response to a step: rise time, overshoot, settling time."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from statistics import fmean, median
 FEWEST_SAMPLES = 10
 SETTLED_SHARE = 0.05
 TAIL_SHARE = 0.25
-"""The last quarter of the time looked at tells where the response came to rest."""
+"""The last quarter of the window gives the final value of the response."""
 LEAD_S = 0.2
-"""So long before the step tells where the response came from."""
+"""This time before the step gives the initial value of the response."""
 LEAST_WAY_SHARE = 0.1
-"""Who goes less of the way that was asked did not follow: then that way is what is measured by."""
+"""A response below this part of the demanded step did not follow: it is measured by the demand."""
 STILL_SHARE = 0.01
 SMOOTHING_SHARE = 0.15
 """The mean that takes out noise is this part of the rise wide: it lengthens the rise by 1 %."""
 
 
 class StepError(ValueError):
-    """These samples hold no step response: the message is one sentence that says why."""
+    """These samples hold no step response: the message is one sentence with the reason."""
 
 
 @dataclass(frozen=True, slots=True)
 class StepResponse:
     """The figures of one step, in the unit of the values; times are seconds after the step.
 
-    Rise, overshoot and settling are measured by the way that the response itself went, from
-    ``begin`` to ``final``; ``steady_error`` is what it lacks of the end that was asked. A time that
-    never came is ``None``.
+    Rise, overshoot and settling are relative to the travel of the response itself, from ``begin``
+    to ``final``; ``steady_error`` is its final error to the demand. A time is ``None`` if the
+    event never occurs.
     """
 
     begin: float
@@ -46,15 +46,15 @@ class StepResponse:
     settling_time_s: float | None
     """After this it stays within 5 % of the way from ``final``; ``None``: it rings or drifts."""
     steady_error: float
-    """What was asked less ``final``."""
+    """Demand less ``final``."""
     steady_error_percent: float
-    """The same in parts of the step: positive falls short, negative goes too far."""
+    """The same in parts of the step: positive falls short, negative overshoots."""
     swings: int
-    """How often it crossed ``final`` after it first came there and went more than 5 % beyond."""
+    """How often it crossed ``final`` after it first reached it and overshot by more than 5 %."""
 
     @property
     def is_settled(self) -> bool:
-        """Return whether it came to rest in the time that was looked at."""
+        """Return whether it settled within the window."""
         return self.settling_time_s is not None
 
 
@@ -66,10 +66,10 @@ def analyse_step(
     end: float,
     until_s: float | None = None,
 ) -> StepResponse:
-    """Return how ``values`` followed a demand that stepped from ``start`` to ``end`` at ``at_s``.
+    """Measure the response of ``values`` to a demand stepped from ``start`` to ``end`` at ``at_s``.
 
-    Samples after ``until_s`` are not looked at. Single wild samples and noise are taken out first.
-    Raises ``StepError`` where there is nothing to measure.
+    Samples after ``until_s`` are ignored. Single outliers and noise are removed first. Raises
+    ``StepError`` where there is nothing to measure.
     """
     _check(times_s, values, at_s, start, end, until_s)
     first = bisect_left(times_s, at_s)
@@ -108,7 +108,7 @@ def analyse_step(
 
 @dataclass(frozen=True, slots=True)
 class _Shape:
-    """A curve measured as parts of its own way: 0 where it began, 1 where it came to rest."""
+    """A curve normalised to its travel: 0 at its beginning, 1 at rest."""
 
     final: float
     peak: float
@@ -168,7 +168,7 @@ def _check(
 
 
 def _without_spikes(values: Sequence[float]) -> list[float]:
-    """Return the running median of five: what lasts a sample or two is no movement."""
+    """Return the running median of five: it removes spikes of one or two samples."""
     if len(values) < 5:
         return list(values)
     middle = [median(values[at - 2 : at + 3]) for at in range(2, len(values) - 2)]
@@ -176,7 +176,7 @@ def _without_spikes(values: Sequence[float]) -> list[float]:
 
 
 def _smoothed(after_s: Sequence[float], curve: Sequence[float], width_s: float) -> list[float]:
-    """Return the running mean of ``width_s``, as much before as after, so that nothing is late."""
+    """Return the running mean of ``width_s``, centred, so that it adds no delay."""
     sums = [0.0, *accumulate(curve)]
     smooth = []
     low = high = 0
@@ -192,7 +192,7 @@ def _smoothed(after_s: Sequence[float], curve: Sequence[float], width_s: float) 
 
 
 def _reached_s(after_s: Sequence[float], parts: Sequence[float], level: float) -> float | None:
-    """Return when the curve first comes to ``level``, between two samples."""
+    """Return when the curve first reaches ``level``, between two samples."""
     for at, part in enumerate(parts):
         if part >= level:
             if at == 0:

@@ -34,7 +34,7 @@ class TrialError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class StickMove:
-    """A stick or switch goes to a pulse at a time."""
+    """A stick or switch moves to a pulse at a time."""
 
     at_s: float
     channel: str
@@ -43,7 +43,7 @@ class StickMove:
 
 @dataclass(slots=True)
 class Recording:
-    """What a trial recorded, every 10 ms, in columns named as those of a flight's log."""
+    """The record of a trial, every 10 ms, in columns named as those of a flight's log."""
 
     times_s: list[float] = field(default_factory=list)
     columns: dict[str, list[float]] = field(default_factory=dict)
@@ -65,7 +65,7 @@ class Trial:
 
     The airframe's own settings are in the EEPROM; the gains go over the serial line while it is
     disarmed, as the Raspberry Pi sends them. The mode switch selects RATE, FBW and AUTO. Raises
-    ``TrialError`` and what choosing and preparing a board raise.
+    ``TrialError`` and the exceptions of choosing and preparing a board.
     """
 
     def __init__(
@@ -123,7 +123,7 @@ class Trial:
     def fly(
         self, duration_s: float, moves: Iterable[StickMove] = (), *, sample_s: float = SAMPLE_S
     ) -> Recording:
-        """Fly on with these stick moves (times of the whole flight) and return what happened.
+        """Continue with these stick moves (times of the whole flight) and return the record.
 
         A crash ends it. Raises ``BoardCrashedError``.
         """

@@ -1,4 +1,4 @@
-"""Looks for the gains of an axis: the fastest that keep their margins at cruise and in a dive."""
+"""Searches the gains of an axis: the fastest that keep their margins at cruise and in a dive."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ MOST_RATE_P = 20.0
 GENTLE_SENSITIVITY = 3.5
 """A loop that is measured with a peak beyond this is measured again with half the gains."""
 DIVE_FACTOR = 1.6
-"""The dive counts as at least so many times as fast as cruise."""
+"""The airspeed of the dive counts as at least this multiple of cruise."""
 NEARLY_AS_GOOD = 1.1
 WORTH_AN_INTEGRAL = 0.75
 HALF = 0.5
@@ -49,7 +49,7 @@ class TuneError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """Gains of one axis, what was measured with them, and what is wrong with them."""
+    """Gains of one axis, their measurements, and the rules that they break."""
 
     gains: AxisGains
     cruise: Margins
@@ -59,7 +59,7 @@ class Candidate:
 
     @property
     def score(self) -> float:
-        """Return how good it is, s: the settling time, longer by what is missing at the end."""
+        """Return its score, s: the settling time, longer by the error at the end."""
         settling_s = self.steps.settling_time_s
         if settling_s is None:
             return math.inf
@@ -68,7 +68,7 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class AxisTuning:
-    """What was tried on an axis, the proposal among it, and the loops it was judged by."""
+    """The candidates for an axis, the proposal among them, and the loops that judged them."""
 
     axis: Axis
     candidates: tuple[Candidate, ...]
@@ -80,7 +80,7 @@ class AxisTuning:
 
     @property
     def keeps_the_rules(self) -> bool:
-        """Return whether the proposal breaks none of the rules."""
+        """Return whether the proposal keeps all rules."""
         return not self.proposal.broken
 
 
@@ -103,10 +103,10 @@ def tune_axis(
     is_quick: bool = False,
     say: Say = lambda _text: None,
 ) -> AxisTuning:
-    """Return what roll or pitch flies best with; the other axes keep their gains.
+    """Return the best gains for roll or pitch; the other axes keep their gains.
 
-    ``loops`` of the axis, at cruise and in the dive, are measured where they are not given.
-    Raises ``TuneError``.
+    ``loops`` of the axis, at cruise and in the dive, are measured if they are not given. Raises
+    ``TuneError``.
     """
     rules = rules or Rules()
     cruise, dive = loops or measure_loops(bench, gains, axis, workers, say)
@@ -141,10 +141,10 @@ def tune_axis(
 def tune_yaw(
     bench: Bench, gains: GainSet, workers: Workers, *, is_quick: bool = False
 ) -> YawTuning | None:
-    """Return the yaw damper that is worth its rudder; ``None`` where the rudder does nothing.
+    """Return the best yaw damper; ``None`` where the rudder has no effect.
 
-    It is the weakest one that leaves half of the swing that is there without: a damper works
-    against every turn, and shakes the rudder.
+    It is the weakest one that halves the swing without a damper: a damper works against every
+    turn, and shakes the rudder.
     """
     grid = QUICK_YAW_P if is_quick else YAW_P
     sets = [with_axis(gains, "yaw", AxisGains(Gains(each), Gains(0.0))) for each in grid]
@@ -292,5 +292,5 @@ def _fly(
 
 
 def _round(gain: float) -> float:
-    """Return two digits of it: nobody sets more, and no aeroplane feels more."""
+    """Round to two digits: a user sets no more, and an aeroplane shows no difference."""
     return float(f"{gain:.2g}")

@@ -1,4 +1,4 @@
-"""Flies many trials in a few processes, and says how far it has come."""
+"""Flies many trials in a few processes, and reports the progress."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ MOST_PROCESSES = 2
 
 
 class Workers:
-    """A place for trials to be flown; one process is this one. Use it with ``with``.
+    """A pool of processes for trials, this one included. Use it with ``with``.
 
-    ``on_flown`` hears after each how many are flown of all that were asked for so far.
+    ``on_flown`` gets after each trial the number flown and the number requested so far.
     """
 
     def __init__(
@@ -30,7 +30,7 @@ class Workers:
         self._flown = self._asked = 0
         self._pool: ProcessPoolExecutor | None = None
         if processes > 1:
-            # A fresh interpreter: a copy of this one would share what JSBSim and simavr hold.
+            # A fresh interpreter: a fork would share the state of JSBSim and simavr.
             context = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(
                 min(processes, MOST_PROCESSES), context, _begin_worker, (os.getpid(),)
@@ -46,7 +46,7 @@ class Workers:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """End the processes; after an error, or when the end is asked for, in mid-flight."""
+        """End the processes; after an error or an interrupt, in mid-flight."""
         if self._pool is not None:
             if kind is not None:
                 for process in multiprocessing.active_children():
@@ -54,7 +54,7 @@ class Workers:
             self._pool.shutdown(cancel_futures=kind is not None)
 
     def fly(self, trial: Callable[..., T], arguments: Sequence[tuple[Any, ...]]) -> list[T]:
-        """Return what ``trial`` returns for each of the arguments, in their order."""
+        """Return the results of ``trial`` for each of the arguments, in their order."""
         self._asked += len(arguments)
         if self._pool is None:
             results = []
@@ -80,7 +80,7 @@ class Workers:
 
 
 def _begin_worker(parent: int) -> None:
-    """Leave Ctrl-C and a closed terminal to the parent, and go when it goes."""
+    """Leave Ctrl-C and a closed terminal to the parent, and end with it."""
     for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)

@@ -42,7 +42,7 @@ examples:
 
 @dataclass(slots=True)
 class Job:
-    """One scenario in a process of its own; ``memory_mib`` is the most that it took."""
+    """One scenario in a separate process; ``memory_mib`` is its peak memory."""
 
     path: Path
     is_real: bool
@@ -81,7 +81,7 @@ class Job:
         return True
 
     def summary(self) -> dict[str, object]:
-        """Return what it wrote about itself; empty where it did not get so far."""
+        """Return its own output; empty if it did not get so far."""
         try:
             found = json.loads((self.folder / SUMMARY).read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -111,7 +111,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _jobs(options: argparse.Namespace) -> list[Job] | None:
-    """Return what is to be flown, the longest first; None: a file has mistakes, which are told."""
+    """Return the flights, the longest first; None if a file has mistakes, which are printed."""
     jobs: list[tuple[float, Job]] = []
     has_mistakes = False
     tags: set[str] = set()
@@ -160,8 +160,8 @@ class Fleet:
         self._clear()
 
     def end(self) -> None:
-        """End what flies; what a terminal tells has reached it already."""
-        # Not by SIGINT: a shell's background job and what it starts ignore that.
+        """End the running flights; a signal from the terminal has reached them already."""
+        # Not by SIGINT: a shell's background job and its children ignore that.
         for job in self._flying:
             if job.process is not None and not job.is_over():
                 job.process.send_signal(signal.SIGTERM)
@@ -190,7 +190,7 @@ class Fleet:
             self._write("\r\x1b[K")
 
     def _write(self, text: str) -> None:
-        # The terminal may be gone by now.
+        # The terminal may be closed already.
         with suppress(OSError):
             self._stream.write(text)
             self._stream.flush()

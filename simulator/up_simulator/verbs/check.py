@@ -1,4 +1,4 @@
-"""``up-sim check``: look for mistakes in scenario files without flying."""
+"""``up-sim check``: validate scenario files without flying."""
 
 from __future__ import annotations
 

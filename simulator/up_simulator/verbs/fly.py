@@ -1,4 +1,4 @@
-"""``up-sim fly``: fly scenarios and report what held."""
+"""``up-sim fly``: fly scenarios and report the results."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ been flown until then is reported. Exit status: 0 all held, 1 something did not,
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Fly what is named; return the exit status."""
+    """Fly the named scenarios; return the exit status."""
     options = _parser().parse_args(arguments)
     flights = [(path, _read(path, options)) for path in map(find, options.scenarios)]
     try_output(options.output, [name_of(path) for path, _ in flights])
@@ -120,7 +120,7 @@ def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> tuple[Re
 
 
 def _note(text: str) -> None:
-    # The terminal may be gone by now.
+    # The terminal may be closed already.
     with suppress(OSError):
         sys.stderr.write(f"up-sim: {text}\n")
 

@@ -1,4 +1,4 @@
-"""``up-sim list``: what is there to fly."""
+"""``up-sim list``: the available scenarios."""
 
 from __future__ import annotations
 

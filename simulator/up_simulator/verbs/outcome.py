@@ -1,4 +1,4 @@
-"""What a verb comes to: its exit status, or a sentence about what the user asked for."""
+"""The outcome of a verb: its exit status, or a sentence about the user's request."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ HELD, NOT_HELD, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
 class FailedError(Exception):
-    """What the user asked for cannot be done here: one sentence, exit status 1."""
+    """The request cannot be carried out here: one sentence, exit status 1."""
 
 
 class UsageError(Exception):
-    """The user asked for something that is not there: one sentence, exit status 2."""
+    """The request names a missing thing: one sentence, exit status 2."""

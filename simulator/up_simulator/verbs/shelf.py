@@ -18,9 +18,9 @@ def shipped_paths() -> list[Path]:
 
 
 def find(name: str) -> Path:
-    """Return the file of a shipped scenario, or a path as it is.
+    """Return the file of a shipped scenario, or a path unchanged.
 
-    Raises UsageError for a name that nothing has, with the nearest one.
+    Raises UsageError for an unknown name, with the nearest one.
     """
     path = Path(name)
     if path.suffix in SUFFIXES or path.is_file():
@@ -40,7 +40,7 @@ def _hint(name: str) -> str:
 
 
 def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
-    """Return what to raise where no scenario has the tags that were asked for."""
+    """Return the exception for tags that no scenario has."""
     names = sorted(set(known))
     asked = " and ".join(f"'{tag[:80]}'" for tag in wanted)
     unknown = [tag for tag in wanted if tag not in names]
@@ -50,5 +50,5 @@ def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
 
 
 def name_of(path: Path) -> str:
-    """Return what reports and folders call a scenario."""
+    """Return the name of a scenario in reports and folders."""
     return path.stem

@@ -1,4 +1,4 @@
-"""``up-sim signals``: list what can be expected and logged."""
+"""``up-sim signals``: list the signals for expectations and logs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-/* What the caller may ask of a rig, beside running it; each part's own questions are in its file. */
+/* The caller's queries to a rig, beside running it; those of each part are in its file. */
 #include <string.h>
 
 #include "rig.h"
@@ -54,7 +54,7 @@ uint8_t rig_pin_level(const rig_t *rig, uint8_t pin) {
     return rig->ports[pin / 8].level >> pin % 8 & 1;
 }
 
-/* What was recorded since the last forgetting; the pointer holds until the chip runs on. */
+/* The records since the last forgetting; the pointer holds until the chip runs on. */
 const edge_t *rig_edges(const rig_t *rig, uint64_t *count) {
     *count = rig->edges.count;
     return rig->edges.items;

@@ -25,7 +25,7 @@ static unsigned access_cycles(const avr_t *avr) {
     return (opcode(avr) & 0xF000) == 0xB000 ? 1 : 2; /* IN and OUT; SBI, CBI, loads, stores */
 }
 
-/* What a register does may concern the next instruction: the run of instructions ends here. */
+/* A register access may concern the next instruction: the run of instructions ends here. */
 static cycle_t end_run(const rig_t *rig) {
     rig->avr->run_cycle_count = 1;
     return rig->avr->cycle + access_cycles(rig->avr);
@@ -61,7 +61,7 @@ uint32_t next_random(rig_t *rig) {
     return rig->random = x;
 }
 
-/* simavr goes on after what it only logs: here such a program is stopped. */
+/* simavr only logs some faults and continues: here such a program is stopped. */
 static void on_log(avr_t *avr, const int level, const char *format, va_list arguments) {
     (void)format, (void)arguments;
     if (avr && avr->custom.data && level <= LOG_ERROR)
@@ -134,7 +134,7 @@ static void reset(rig_t *rig) {
 
 /* ---- running ---- */
 static void note_stack(rig_t *rig, uint16_t code) {
-    /* Where the stack pointer moves down; one half of a pair that is being written is no stack. */
+    /* Where the stack pointer moves down; a half-written pair does not count as a stack. */
     bool is_push = (code & 0xFE0F) == 0x920F, is_call = (code & 0xFE0E) == 0x940E;
     bool is_relative = (code & 0xF000) == 0xD000, is_indirect = code == 0x9509;
     bool is_low_byte = (code & 0xFE0F) == 0xBE0D;
@@ -244,7 +244,7 @@ static int on_ioctl(avr_io_t *io, uint32_t request, void *parameter) {
     return 0;
 }
 
-/* simavr tells a RETI by the number of the interrupt that goes on, 0 as it knows of none. */
+/* simavr reports a RETI with an interrupt number, here always 0 because it knows of none. */
 static void on_return(avr_irq_t *irq, uint32_t value, void *parameter) {
     (void)irq, (void)value;
     interrupt_leave(parameter);
@@ -256,7 +256,7 @@ rig_t *rig_new(uint32_t seed) {
     if (!avr) return NULL;
     avr_init(avr);
     avr->frequency = CYCLES_PER_US * 1000000;
-    /* A wild pointer reaches 64 KB of data and 128 KB of flash; simavr says so, and then goes on. */
+    /* A wild pointer reaches 64 KB of data and 128 KB of flash; simavr logs it and continues. */
     avr->data = realloc(avr->data, 0x10100);
     avr->flash = realloc(avr->flash, 0x20100);
     memset(avr->data, 0, 0x10100);

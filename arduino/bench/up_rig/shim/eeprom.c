@@ -23,7 +23,7 @@ void eeprom_run(rig_t *rig, cycle_t now) {
     if (rig->eeprom.done <= now) finish(rig);
 }
 
-/* What a write leaves behind that power did not last for: some bits changed, others did not. */
+/* Result of a write cut by a power failure: some bits changed, others did not. */
 void eeprom_power_cut(rig_t *rig, cycle_t now) {
     eeprom_t *eeprom = &rig->eeprom;
     if (eeprom->done == NEVER) return;

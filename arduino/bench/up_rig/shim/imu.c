@@ -33,7 +33,7 @@ bool imu_holds_sda(const rig_t *rig) {
 
 bool imu_holds_scl(const rig_t *rig) { return rig->imu.fault == IMU_SCL_LOW; }
 
-/* A slave that hangs in the middle of a byte lets go when the master has clocked it out. */
+/* A slave that hangs in mid-byte releases the bus when the master has clocked the byte out. */
 void twi_gpio_clock(rig_t *rig, cycle_t now) {
     imu_t *imu = &rig->imu;
     if (imu->fault != IMU_RELEASES_AFTER_CLOCKS || !imu->clocks_left) return;
@@ -50,7 +50,7 @@ void imu_start(rig_t *rig) {
     if (imu->fault_transfers) imu->fault_transfers--;
 }
 
-/* Counts a byte of the transfer; the planned fault begins with it when its turn has come. */
+/* Counts a byte of the transfer; the planned fault begins with it at its position. */
 static void count_byte(rig_t *rig, cycle_t now) {
     imu_t *imu = &rig->imu;
     if (imu->state != IMU_OK && !imu->fault_transfers && imu->transfer_bytes >= imu->fault_after) {
@@ -152,7 +152,7 @@ void rig_imu_plug(rig_t *rig, bool is_present) {
     twi_bus_changed(rig, rig->avr->cycle);
 }
 
-/* Plans a fault for byte `after` of the transfer after the next `transfers`; kind 0 mends. */
+/* Plans a fault for byte `after` of the transfer after the next `transfers`; kind 0 clears it. */
 void rig_imu_fault(rig_t *rig, uint8_t kind, uint32_t after, uint32_t transfers, bool at_once) {
     imu_t *imu = &rig->imu;
     imu->fault = IMU_OK;

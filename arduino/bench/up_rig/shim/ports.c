@@ -1,4 +1,4 @@
-/* Pins (data sheet 14, 13.2): what drives them, what they show, what servos see. */
+/* Pins (data sheet 14, 13.2): their drivers, their levels, the servos' view. */
 #include "rig.h"
 
 /* A level passes the synchronizer before PIN shows it, and some cycles more until its change sets
@@ -28,7 +28,7 @@ void port_update(rig_t *rig, uint8_t number, cycle_t now) {
     out = (uint8_t)((out & ~port->override) | (port->latch & port->override));
     uint8_t level = (uint8_t)((out & direction) | (outside & ~direction));
     if (number == PORT_C) {
-        /* Both lines of the bus are pulled up on the IMU's board, and anybody may hold them. */
+        /* Both lines of the bus are pulled up on the IMU's board, and any device may hold them. */
         bool has_pins = twi_has_pins(rig);
         uint8_t bus = 1 << SDA | 1 << SCL;
         uint8_t held = (uint8_t)(has_pins ? 0 : direction & ~out);
@@ -79,7 +79,7 @@ void ports_reset(rig_t *rig, cycle_t now) {
 static uint8_t on_pin_read(avr_t *avr, avr_io_addr_t address, void *param) {
     rig_t *rig = param;
     (void)avr;
-    /* What changed in the last cycle is not through the synchronizer yet. */
+    /* A change in the last cycle is not through the synchronizer yet. */
     run_events(rig, read_time(rig) - SYNCHRONIZER);
     return rig->ports[port_of(address)].level;
 }

@@ -1,9 +1,9 @@
-/* Instructions that concern nothing but registers, RAM and flash, run without simavr.
+/* Instructions that use only registers, RAM and flash, run without simavr.
  *
- * Most of what a program does is of that kind, and simavr takes long for it, as it must look after
- * every address. Here the flash is decoded once (decode.c). What touches a peripheral, lets an
- * interrupt in or leaves the RAM is left to simavr, which the rig asks alone while it measures:
- * both must come to the same cycles (tests/arduino/rig/test_quick.py). From the instruction set
+ * Most instructions are of that kind, and simavr takes long for them, as it must check every
+ * address. Here the flash is decoded once (decode.c). Instructions that access a peripheral, enable
+ * an interrupt or leave the RAM are left to simavr, which alone runs while the rig measures: both
+ * must arrive at the same cycles (tests/arduino/rig/test_quick.py). From the instruction set
  * manual (DS40002198), times of the ATmega328P.
  */
 #include "quick.h"
@@ -33,8 +33,8 @@ static inline void push_return(uint8_t *data, unsigned stack, unsigned pc) {
     set_pair(data, SPL, stack - 2);
 }
 
-/* Flags are kept as what they are computed from: the result for Z, bit 7 for N, V and S, bit 4 for
- * H. Most are never looked at. */
+/* Flags are kept as the values from which they are computed: the result for Z, bit 7 for N, V and
+ * S, bit 4 for H. Most are never used. */
 #define ADD_TO(carry) do { \
         unsigned old = D, with = R, sum = old + with + (carry); \
         half = old ^ with ^ sum, over = (old ^ sum) & (with ^ sum); \
@@ -68,7 +68,7 @@ static inline void push_return(uint8_t *data, unsigned stack, unsigned pc) {
 
 /* Runs on until a cycle; true when simavr is to run the next instruction before.
  *
- * Each operation must end in a jump of its own: gcc would lead all to one, which nothing predicts.
+ * Each operation must end in a separate jump: one merged by gcc would be mispredicted.
  */
 __attribute__((optimize("no-gcse", "no-crossjumping")))
 bool quick_run(rig_t *rig, cycle_t end) {
@@ -177,7 +177,7 @@ DO_ST_MINUS:
     NEXT(1, 2);
 DO_LDS: D = data[K]; NEXT(2, 2);
 DO_STS: data[K] = D; NEXT(2, 2);
-/* Programs that wait look at Timer1 all the time; to look changes nothing but TEMP. */
+/* Programs that wait read Timer1 all the time; a read changes only TEMP. */
 DO_LDS_COUNT: {
     cycle_t now = avr->cycle + (cycle_t)(all - left);
     D = timers_read_count(rig, R_TCNT1L, now + 1);
@@ -251,7 +251,7 @@ DO_OUT_SREG: {
     NEED(!lets_in || !rig->pending);
     c = value & 1, zero = !(value & 2), minus = value << 5, over = value << 4, sign = value << 3;
     half = value >> 1, t = value >> 6 & 1, i = value >> 7;
-    /* One more instruction runs before an interrupt comes, also one that is due now. */
+    /* One more instruction runs before an interrupt, also before one that is due now. */
     if (lets_in && left <= 1) avr->interrupt_state = -1;
     NEXT(1, 1);
 }

@@ -1,4 +1,4 @@
-/* What quick.c runs without simavr, as decode.c has read it from the flash. */
+/* The instructions that quick.c runs without simavr, decoded by decode.c from the flash. */
 #pragma once
 
 #include "rig.h"
@@ -6,7 +6,7 @@
 enum { RAM_FIRST = 0x100, RAM_LAST = 0x8FF, SPL = 0x5D, SPH = 0x5E };
 enum { XL = 26, YL = 28, ZL = 30 };
 
-/* ASK is what is left to simavr. The branches stand in the order of the flags. */
+/* ASK is left to simavr. The branches stand in the order of the flags. */
 #define OPERATIONS(DO) \
     DO(ASK) DO(NOP) DO(MOVW) DO(MULS) DO(MULSU) DO(MUL) DO(CPC) DO(SBC) DO(ADD) DO(CPSE) DO(CP) \
     DO(SUB) DO(ADC) DO(AND) DO(EOR) DO(OR) DO(MOV) DO(CPI) DO(SBCI) DO(SUBI) DO(ORI) DO(ANDI) \

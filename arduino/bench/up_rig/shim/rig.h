@@ -41,7 +41,7 @@ enum { RESET_POWER = 1, RESET_EXTERNAL = 2, RESET_BROWN_OUT = 4, RESET_WATCHDOG 
 
 typedef struct rig rig_t;
 
-/* ---- what is recorded for the caller ---- */
+/* ---- records for the caller ---- */
 typedef struct { cycle_t cycle; uint8_t pin, level; } edge_t;
 typedef struct { cycle_t cycle; uint8_t value; } sent_t;
 typedef struct { cycle_t rise, fall; } pulse_t; /* fall is 0 before the first has ended */
@@ -93,7 +93,7 @@ typedef struct {
 
 enum { IMU_OK, IMU_NACK, IMU_SDA_LOW, IMU_SCL_LOW, IMU_RELEASES_AFTER_CLOCKS };
 
-/* Asks for a new sample: temperature is out[3], the order is that of the registers. */
+/* Requests a new sample: temperature is out[3], the order is that of the registers. */
 typedef void (*imu_sample_t)(cycle_t cycle, int16_t *out);
 
 typedef struct {
@@ -106,9 +106,9 @@ typedef struct {
     cycle_t ready;            /* NACKs until then */
     cycle_t sampled, epoch;
     imu_sample_t sample;
-    uint8_t state, fault;     /* fault that will come, fault that is there */
+    uint8_t state, fault;     /* planned fault, present fault */
     uint32_t fault_after;     /* bytes of a transfer, its address is byte 0 */
-    uint32_t fault_transfers; /* transfers left to go until it may come */
+    uint32_t fault_transfers; /* transfers left before it may begin */
     uint32_t transfer_bytes;
     uint8_t clocks_left;
     uint64_t samples, transfers;
@@ -152,8 +152,8 @@ typedef uint64_t quick_op_t;
 struct rig {
     avr_t *avr;
     quick_op_t *quick;       /* of each word that the program counter can point to */
-    bool is_decoded;         /* it is that of the flash as it is now */
-    const char *trouble;     /* why the chip stopped, for good */
+    bool is_decoded;         /* it matches the present flash */
+    const char *trouble;     /* why the chip stopped, permanently */
     char trouble_text[96];
     cycle_t next_due;
     bool is_planned;
@@ -171,7 +171,7 @@ struct rig {
     watchdog_t watchdog;
     meter_t meter;
     record_t edges, sent;
-    bool drops_edges;        /* nobody asks for them: newest pulses are kept alone */
+    bool drops_edges;        /* unused by the caller: only the newest pulses are kept */
     cycle_t rises[8 * PORTS];
     pulse_t pulses[8 * PORTS];
     uint8_t reset_wanted;    /* its cause, 0 for none */
@@ -213,7 +213,7 @@ void interrupt_leave(rig_t *rig);
 /* ---- the parts ---- */
 void ports_hook(rig_t *rig);
 void ports_reset(rig_t *rig, cycle_t now);
-void port_drive(rig_t *rig, uint8_t pin, uint8_t how, cycle_t now); /* 0, 1, or 2: let go */
+void port_drive(rig_t *rig, uint8_t pin, uint8_t how, cycle_t now); /* 0, 1, or 2: release */
 void port_update(rig_t *rig, uint8_t port, cycle_t now);
 void port_take(rig_t *rig, uint8_t pin, bool is_taken, bool latch, cycle_t now);
 void pin_flag(rig_t *rig, uint8_t port);

@@ -1,8 +1,8 @@
 /* Timers 0, 1 and 2 in normal mode (data sheet 15 to 18).
  *
- * A match is seen at the tick that leaves the compare value, whatever was written before: a value
+ * A match occurs at the tick that leaves the compare value, whatever was written before: a value
  * that the counter has passed matches in the next round, one that is written while the counter
- * stands on it matches at once. simavr shifts matches when a register is written between them,
+ * stands on it matches immediately. simavr shifts matches when a register is written between them,
  * moves pins at overflows, reads counts that rounding made wrong, and has no shared TEMP.
  * Other modes only count; that is reported when something depends on them.
  */

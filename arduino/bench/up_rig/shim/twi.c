@@ -1,9 +1,9 @@
 /* The two-wire interface as master (data sheet 22), at the rate of TWBR and bit by bit exact.
  *
- * simavr takes 1 us for a bit whatever TWBR says and answers an address with the codes of data.
- * Here the bus may be held by the slave: a start then waits for ever, a byte whose clock is held
- * never ends, and neither sets TWINT. A data line that is held while the master sends a one is a
- * lost arbitration (0x38), as the chip cannot tell it from another master.
+ * simavr takes 1 us for a bit at any TWBR and answers an address with the codes of data.
+ * Here the slave may hold the bus: a start then waits without end, a byte whose clock is held
+ * never ends, and neither sets TWINT. A data line held while the master sends a one is a lost
+ * arbitration (0x38), as the chip cannot distinguish it from another master.
  */
 #include "rig.h"
 
@@ -76,7 +76,7 @@ static void byte(rig_t *rig, cycle_t now) {
     if (imu_holds_scl(rig)) plan(rig, NEVER), twi->is_waiting = true;
 }
 
-/* The bus is let go, or held: what waits goes on, what runs may stop. */
+/* The bus is released, or held: a waiting transfer resumes, a running one may stop. */
 void twi_bus_changed(rig_t *rig, cycle_t now) {
     twi_t *twi = &rig->twi;
     if (!twi->is_waiting || !twi_has_pins(rig)) return;
@@ -160,7 +160,7 @@ static void on_control(avr_t *avr, avr_io_addr_t address, uint8_t value, void *p
     run_events(rig, now);
     uint8_t old = avr->data[R_TWCR];
     bool is_new = !(old & TWEN);
-    /* Writing one to TWINT clears it and starts what the other bits say; TWSTO clears itself. */
+    /* Writing one to TWINT clears it and starts the other bits' action; TWSTO clears itself. */
     uint8_t kept = value & TWINT ? 0 : old & TWINT;
     avr->data[R_TWCR] = (uint8_t)((value & 0x75) | kept | (old & TWSTO) | (old & TWWC));
     if (!(value & TWEN)) {
@@ -169,7 +169,7 @@ static void on_control(avr_t *avr, avr_io_addr_t address, uint8_t value, void *p
         begin(rig, DO_NOTHING, NEVER);
     } else if (twi->doing == DO_NOTHING && (value & TWINT || !(old & TWINT))) {
         if (value & TWSTO && twi->state == TWI_FOREIGN) {
-            /* No stop is sent on a bus that is another's; the lines are just let go (22.7.5). */
+            /* No stop is sent on another master's bus; the lines are just released (22.7.5). */
             avr->data[R_TWCR] &= (uint8_t)~TWSTO;
             twi->state = TWI_IDLE;
             if (value & TWSTA) start(rig, now);

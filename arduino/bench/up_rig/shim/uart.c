@@ -1,7 +1,7 @@
 /* USART 0, asynchronous, 8N1 (data sheet 20).
  *
  * simavr counts 11 bits a byte and receives into 64 places; here a frame has 10 bits, the receiver
- * two places and its shift register, and a byte that comes to a full one is lost (20.7.4, DOR).
+ * two places and its shift register, and a byte for a full one is lost (20.7.4, DOR).
  */
 #include <stdlib.h>
 
@@ -61,7 +61,7 @@ void rig_uart_write(rig_t *rig, const uint8_t *bytes, uint32_t size, uint8_t fla
     plan_line(rig);
 }
 
-/* Bytes on the line that the chip has not got yet. */
+/* Bytes on the line that the chip has not received yet. */
 uint32_t rig_uart_waiting(const rig_t *rig) { return (uint32_t)rig->uart.line_count; }
 
 static void receive(rig_t *rig) {

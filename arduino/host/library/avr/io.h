@@ -1,6 +1,6 @@
 /**
- * The registers that the sources of src/chip name, as far as they are compiled here: plain memory,
- * at which the hardware of this folder looks. Numbers of bits are those of the data sheet.
+ * The registers used by the sources of src/chip, as far as they are compiled here: plain memory,
+ * read by the hardware of this folder. Numbers of bits are those of the data sheet.
  */
 #pragma once
 

@@ -1,4 +1,4 @@
-/** The watchdog's times (data sheet 10.9.2) and what feeds it. */
+/** The watchdog's times (data sheet 10.9.2) and its reset. */
 #pragma once
 
 #include <stdint.h>

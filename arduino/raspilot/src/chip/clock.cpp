@@ -36,7 +36,7 @@ uint32_t now_us() {
     is_pending = TIFR1 & _BV(TOV1);
     note_waiting_edge();
   }
-  // An overflow that was not served yet belongs to a count that has just begun anew.
+  // An overflow that was not served yet belongs to a count that has just restarted.
   if (is_pending && low < 0x8000) high++;
   return high << 15 | low >> 1;
 }

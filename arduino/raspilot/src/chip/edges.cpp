@@ -6,7 +6,7 @@
 namespace raspilot {
 namespace edges {
 
-/** In a slot six inputs make twelve edges at most, some of which come twice. */
+/** In a slot six inputs make twelve edges at most, some of which occur twice. */
 static constexpr uint8_t STAMPS = 18;
 static constexpr uint8_t STAMP_SIZE = 3;
 static constexpr uint8_t RING_SIZE = STAMPS * STAMP_SIZE;
@@ -24,7 +24,7 @@ static constexpr uint8_t INTERRUPTS = (ON_D ? _BV(PCIE2) : 0) | (ON_B ? _BV(PCIE
 static_assert((ON_D & ON_B) == 0 && ((ON_D | ON_B) & LATE) == 0, "the inputs fit one byte");
 static_assert(bit_on_c(PIN_RX_AILERONS) == 0, "no input on port C");
 
-/** Stamp low, stamp high, levels; GPIOR2 is where the next goes. */
+/** Stamp low, stamp high, levels; GPIOR2 is the index of the next entry. */
 static volatile uint8_t ring[RING_SIZE];
 static volatile uint8_t oldest;
 
@@ -80,11 +80,11 @@ void drain(PwmReader& receiver, uint32_t now_us) {
 }  // namespace edges
 
 /**
- * An input changed. One routine reads both ports, so that edges that come together share one
- * stamp. Flags are cleared before the ports are read: what comes later asks again.
+ * An input changed. One routine reads both ports, so that simultaneous edges share one stamp.
+ * Flags are cleared before the ports are read: a later edge requests the interrupt again.
  *
  * In assembler, as the next edge often follows within microseconds: 5 us from edge to edge, with
- * the stamp 1.4 us after the edge. In C it would be, with `late` as said in interrupts_off.h:
+ * the stamp 1.4 us after the edge. In C it would be, with `late` as in interrupts_off.h:
  *   PCIFR = INTERRUPTS; ring[GPIOR2] = {TCNT1, (PIND & ON_D) | (PINB & ON_B) | late};
  *   if (after(GPIOR2) == oldest) { GPIOR0 |= 1 << NOTE_LOST; PCICR = 0; }
  *   else GPIOR2 = after(GPIOR2);

@@ -10,8 +10,8 @@ namespace edges {
 void begin();
 
 /**
- * Gives what was stamped to the reader. A ring that was full stops the interrupts until here, so
- * that no noise takes more than 18 of them each slot.
+ * Passes the stamped edges to the reader. A full ring stops the interrupts until here, so that
+ * noise takes at most 18 of them each slot.
  */
 void drain(PwmReader& receiver, uint32_t now_us);
 

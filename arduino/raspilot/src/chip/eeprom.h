@@ -4,7 +4,7 @@
 namespace raspilot {
 namespace eeprom {
 
-/** Waits, at most 10 ms, for a write that a reset left going on. */
+/** Waits, at most 10 ms, for a write still in progress after a reset. */
 void begin();
 
 }  // namespace eeprom

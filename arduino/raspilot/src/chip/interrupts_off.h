@@ -21,7 +21,7 @@ enum Note : uint8_t {
   NOTE_RISES_RUDDER = 5
 };
 
-/** What an interrupt takes from its note to its end, and the next from there to its stamp. */
+/** Time of an interrupt from its note to its end, and of the next from there to its stamp. */
 constexpr uint8_t AFTER_INTERRUPT_TICKS = 8;
 
 /**

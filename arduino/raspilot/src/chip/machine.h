@@ -4,7 +4,7 @@
 namespace raspilot {
 namespace machine {
 
-/** Takes the chip over from the Arduino core and starts everything; waits for nothing. */
+/** Takes the chip over from the Arduino core and starts everything; never waits. */
 void setup();
 
 /**

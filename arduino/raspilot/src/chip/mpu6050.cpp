@@ -17,7 +17,7 @@ static constexpr uint8_t ACCEL_XOUT_H = 59;
 static constexpr uint8_t PWR_MGMT_1 = 107;
 static constexpr uint8_t REGISTER_WHO_AM_I = 117;
 
-/** DEVICE_RESET; the register map asks for 100 ms after it. */
+/** DEVICE_RESET; the register map requires 100 ms after it. */
 static constexpr uint8_t RESET = 0x80;
 static constexpr uint8_t RESET_SLOTS = 50;
 /** PWR_MGMT_1 on the gyro's clock; 0x40, asleep, after power-on. */

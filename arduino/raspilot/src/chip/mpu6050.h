@@ -1,4 +1,4 @@
-/** The MPU6050 at the bus: set up, read once each slot, set up again when it was gone. */
+/** The MPU6050 at the bus: set up, read once each slot, set up again after a failure. */
 #pragma once
 
 #include "../control/attitude_filter.h"
@@ -10,18 +10,18 @@ namespace raspilot {
  * +-1000 deg/s, +-8 g, low-pass of 98 Hz, 1000 samples a second (register map RM-MPU-6000A-00).
  *
  * Each slot holds one transfer: begin_transfer(), pump() while it lasts, end_transfer(). Any
- * failure begins again with freeing the bus and asking who answers; so do 25 samples that are
- * equal. An IMU that kept its power goes on at once, one that fell asleep is set up anew.
+ * failure restarts with freeing the bus and reading the identity; so do 25 equal samples. An IMU
+ * that kept its power continues immediately, one that fell asleep is set up again.
  */
 class Mpu6050 {
  public:
   void begin();
   void begin_transfer();
-  /** Whether this slot's transfer still goes on. */
+  /** Whether this slot's transfer is still in progress. */
   bool pump() { return twi_.pump() == Twi::State::BUSY; }
-  /** Ends this slot's transfer; one that has not ended by itself has failed. */
+  /** Ends this slot's transfer; one that has not completed has failed. */
   void end_transfer();
-  /** The sample of the newest transfer; null when that brought none. */
+  /** The sample of the newest transfer; null if that has none. */
   const ImuSample* sample() const { return has_sample_ ? &sample_ : nullptr; }
 
  private:
@@ -35,7 +35,7 @@ class Mpu6050 {
   void start_over(uint8_t rest_slots);
 
   Twi twi_;
-  /** What is read comes here as the bus brings it, and is put in order in place. */
+  /** Data as it arrives from the bus, then put in order in place. */
   union {
     ImuSample sample_;
     uint8_t bytes_[14];

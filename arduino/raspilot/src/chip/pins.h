@@ -1,5 +1,5 @@
 /**
- * Which wire goes where, as the numbers printed on the board (A0 is 14); docs/wiring.md.
+ * The wiring, as the numbers printed on the board (A0 is 14); docs/wiring.md.
  *
  * D0 and D1 are the serial line, A4 and A5 the IMU's bus on either board.
  */

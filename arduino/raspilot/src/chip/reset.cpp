@@ -50,7 +50,7 @@ bool restore(SavedState& state) {
 void keep(const SavedState& state) { states.write(state); }
 
 void feed() {
-  // With interrupts off for ever the servos stand still, though the slots go on.
+  // With interrupts off permanently the servos stand still, though the slots continue.
   if (SREG & _BV(SREG_I)) wdt_reset();
   overflows_without_slot = 0;
   if (marker != 0) marker = 0;

@@ -13,11 +13,11 @@ uint8_t cause();
 
 /**
  * The state from before the reset, into `state`; false after power-on, and when memory lost it.
- * Only after a watchdog reset it holds who flew: any other reset, and the next one, find it
- * disarmed.
+ * Only after a watchdog reset it holds the flying authority: any other reset, and the next one,
+ * find it disarmed.
  *
- * optiboot clears MCUSR before it starts this program; then the marker tells of a watchdog reset,
- * which on_overflow() leaves when the loop stands still, and memory that is whole of any other.
+ * optiboot clears MCUSR before it starts this program; then a watchdog reset is recognised by the
+ * marker that on_overflow() leaves when the loop stands still, any other by intact memory.
  */
 bool restore(SavedState& state);
 

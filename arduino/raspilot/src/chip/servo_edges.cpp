@@ -26,7 +26,7 @@ static inline uint8_t interrupt_of(uint8_t side) { return side ? _BV(OCIE1B) : _
 static_assert(OCIE1A == OCIE2A && OCIE1B == OCIE2B && OCF1A == OCIE1A && OCF1B == OCIE1B &&
               OCF2A == OCIE2A && OCF2B == OCIE2B, "one bit for all");
 
-/** COMnx1 alone lets a match clear the pin, COMnx0 beside it lets it set it. */
+/** COMnx1 alone makes a match clear the pin, COMnx0 beside it makes it set the pin. */
 void begin() {
   PORTB &= static_cast<uint8_t>(
       ~(pin_bit(PIN_SERVO_AILERONS) | pin_bit(PIN_SERVO_ELEVATOR) | pin_bit(PIN_SERVO_RUDDER)));
@@ -93,7 +93,7 @@ ISR(TIMER1_COMPB_vect) {
 }
 
 /**
- * A round of Timer2 has ended for this output. `force` strobes its pin to what a match would do:
+ * A round of Timer2 has ended for this output. `force` strobes its pin to the level of a match,
  * only if this interrupt was held up for more than a round, so that no edge is ever missed.
  */
 __attribute__((always_inline)) static inline void on_round(

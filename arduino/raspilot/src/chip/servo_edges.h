@@ -3,7 +3,7 @@
  *
  * Ailerons and elevator are OC1A and OC1B: the compare register holds the edge's time. Throttle
  * and rudder are OC2B and OC2A of the eight bit Timer2, whose matches recur each 128 us: the pin
- * is told to change only in the last of these rounds, and the edge is as exact as the others.
+ * is set to change only in the last of these rounds, and the edge is as exact as the others.
  */
 #pragma once
 

@@ -69,7 +69,7 @@ void set_width(Channel channel, Ticks width) {
 
 }  // namespace servo_edges
 
-/** The pin itself tells which edge it was. */
+/** The pin's level distinguishes the edges. */
 #define RASPILOT_EDGE_OF_TIMER1(VECTOR, PIN, COMPARE, CHANNEL, ENABLE)   \
   ISR(VECTOR) {                                                          \
     if (PORTC & bit_on_c(PIN)) {                                         \

@@ -8,7 +8,7 @@ namespace raspilot {
 /** Pulse, up to one slot until it is read, and its control fit in. */
 static constexpr uint16_t LATENCY_TICKS = 10000;
 #ifdef RASPILOT_PROTOTYPE_BOARD
-/** Edges made by interrupts must not come together, nor with a round of Timer2: 20 us apart. */
+/** Edges made by interrupts must not coincide, nor with a round of Timer2: 20 us apart. */
 static constexpr uint16_t STAGGER_TICKS = 40;
 #else
 static constexpr uint16_t STAGGER_TICKS = 0;
@@ -64,7 +64,7 @@ void Servos::plan_channel(Channel channel, uint16_t now) {
   }
   const int16_t left = static_cast<int16_t>(rise - now);
   if (left > LEAD_TICKS) return;
-  // A slot that came too late has made this one late too; better late than not at all.
+  // A late slot has made this one late too; better late than not at all.
   if (left < LEAST_LEAD_TICKS) rise = now + LEAST_LEAD_TICKS;
   plan.has_next = false;
   if (plan.slots < SILENT_SLOTS && static_cast<uint16_t>(rise - plan.rise) < LEAST_PERIOD_TICKS)

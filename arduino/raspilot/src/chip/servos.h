@@ -7,14 +7,14 @@
 namespace raspilot {
 
 /**
- * An output rises 5 ms after its channel of the receiver did, with the pulse that holds then: a
- * constant latency at the receiver's own rate, which its servos bear. Without pulses it runs
+ * An output rises 5 ms after its channel of the receiver did, with the pulse valid at that time: a
+ * constant latency at the receiver's own rate, which its servos tolerate. Without pulses it runs
  * freely, every 20 ms. Two rises are never closer than 6 ms, whatever the inputs do.
  */
 class Servos {
  public:
   void begin();
-  /** Plans the rises that come before the next slot has ended; when a slot begins. */
+  /** Plans the rises until the end of the next slot; when a slot begins. */
   void plan(PwmReader& receiver);
   /** Takes the pulses over: each holds from its output's next rise. */
   void set(const Outputs& outputs);

@@ -15,9 +15,9 @@ class Twi {
   void begin_write(uint8_t device, uint8_t at, uint8_t value);
   /** `bytes` stays the caller's until the transfer has ended. */
   void begin_read(uint8_t device, uint8_t at, uint8_t* bytes, uint8_t count);
-  /** Goes on if the hardware has; a few microseconds. */
+  /** Continues if the hardware has finished a step; takes a few microseconds. */
   State pump();
-  /** Ends a transfer that did not end by itself, and lets go of the lines. */
+  /** Aborts a transfer that has not ended, and releases the lines. */
   void abandon();
   State state() const { return state_; }
 

@@ -7,7 +7,7 @@
 namespace raspilot {
 namespace uart {
 
-/** Two of the longest Commands in a row come faster than a full slot reads them: 11 ms of bytes. */
+/** Two of the longest Commands arrive faster than a full slot reads them: 11 ms of bytes. */
 static constexpr uint8_t RX_SIZE = 128;
 /** The longest message that is ever sent, and one place that stays empty. */
 static constexpr uint8_t TX_SIZE = LONGEST_COMMAND + FRAME_OVERHEAD + COBS_OVERHEAD + 1;

@@ -12,7 +12,7 @@ namespace uart {
 
 void begin();
 
-/** Takes the oldest byte received; false when there is none. */
+/** Takes the oldest byte received; false without one. */
 bool read(uint8_t& byte);
 /** Whether the oldest byte received is zero: in checked framing it ends a frame. */
 bool is_next_zero();

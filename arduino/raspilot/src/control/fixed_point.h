@@ -1,7 +1,7 @@
 /**
- * Arithmetic in whole numbers that reads the same on the chip and on a PC. `Qn` says that 2^n is 1.
- * On the chip `int` has 16 bits: a product of two of them is widened here, before it is too late.
- * What the chip needs many instructions for is kept out of line.
+ * Integer arithmetic with the same results on the chip and on a PC. `Qn` means that 2^n is 1.
+ * On the chip `int` has 16 bits: a product of two of them is widened here before it overflows.
+ * Operations that take the chip many instructions are kept out of line.
  */
 #pragma once
 
@@ -18,7 +18,7 @@ inline int32_t scaled(uint16_t gain, int16_t value) {
 
 /** The vector product of `a` and `b`. */
 void cross(const int16_t* a, const int16_t* b, int32_t* result);
-/** Sum of the products of three pairs; none of the sums may leave 32 bits. */
+/** Sum of the products of three pairs; no partial sum may leave 32 bits. */
 int32_t dot(const int16_t* a, const int16_t* b);
 
 /** Products of which one factor is a fraction, to the nearest, where that fits in 16 bits. */

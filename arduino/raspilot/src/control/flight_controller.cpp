@@ -21,11 +21,11 @@ constexpr int16_t STICK_TO_Q15 = 16776;
 // A hundredth of a degree per second in sixteenths, Q15.
 constexpr int16_t CDEG_TO_16THS = 5243;
 
-// Rates come in 2^-4, so a Rate PID answers in 2^-14. Its 400 units of 1.25 us are half a servo's
-// way; a unit is 2.5 ticks.
+// Rates are in 2^-4, so a Rate PID answers in 2^-14. Its 400 units of 1.25 us are half a servo's
+// travel; a unit is 2.5 ticks.
 constexpr int32_t RATE_LIMIT = 400L << 14;
 constexpr int32_t UNIT_TO_UPPER_HALF = 10;
-// Angles come in 2^-7, so a Stabilize PID answers in 2^-17 of a deg/s: 2^13 make a sixteenth.
+// Angles are in 2^-7, so a Stabilize PID answers in 2^-17 of a deg/s: 2^13 make a sixteenth.
 constexpr int32_t ROLL_RATE_LIMIT = static_cast<int32_t>(ROLL_RATE_LIMIT_DEG_S) << 17;
 constexpr int32_t PITCH_RATE_LIMIT = static_cast<int32_t>(PITCH_RATE_LIMIT_DEG_S) << 17;
 constexpr int32_t RATE_TO_UPPER_HALF = 8;
@@ -84,7 +84,7 @@ Hold FlightController::hold_of(const Demand& demand) {
   return is_level ? Hold::ANGLES : Hold::NOTHING;
 }
 
-/** From FBW to SETPOINT or into the circle nothing is forgotten: the surfaces do not jump. */
+/** From FBW to SETPOINT or into the circle the state is kept: the surfaces do not jump. */
 void FlightController::engage(Hold hold) {
   if (hold == hold_) return;
   if (hold_ == Hold::NOTHING) {
@@ -137,7 +137,7 @@ OUT_OF_LINE void FlightController::hold_rates(const Demand& demand, const Attitu
   demands[RUDDER] = sum_of(demands[RUDDER], deflection(YAW, yaw_16, swinging));
 }
 
-/** By the stick in RATE, else by the Stabilize PID; `channel` is AILERONS or ELEVATOR. */
+/** By the stick in RATE, otherwise by the Stabilize PID; `channel` is AILERONS or ELEVATOR. */
 int16_t FlightController::wanted_rate_16(Channel channel, const Demand& demand,
                                                      const Attitude& attitude) {
   const bool is_roll = channel == AILERONS;
@@ -185,7 +185,7 @@ int16_t FlightController::wanted_angle_cdeg(Channel channel,
   return is_asked ? clamped16(asked, limit) : times_q15(limit, stick);
 }
 
-/** The yaw rate less its mean: a steady turn is none of the damper's business. */
+/** The yaw rate less its mean: the damper must not act on a steady turn. */
 int16_t FlightController::swinging_16(int16_t yaw_rate_16) {
   if (!has_steady_) {
     has_steady_ = true;
@@ -196,7 +196,7 @@ int16_t FlightController::swinging_16(int16_t yaw_rate_16) {
   return swinging;
 }
 
-/** What a Rate PID answers, ticks. */
+/** The output of a Rate PID, ticks. */
 OUT_OF_LINE Ticks FlightController::deflection(uint8_t axis, int16_t wanted_16, int16_t rate_16) {
   const int32_t units = rate_[axis].update(difference_of(wanted_16, rate_16), rate_16, RATE_LIMIT);
   return upper_half(units * UNIT_TO_UPPER_HALF);

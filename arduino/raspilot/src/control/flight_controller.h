@@ -8,14 +8,14 @@
 
 namespace raspilot {
 
-/** The fastest rotations that sticks ask for in RATE, deg/s. */
+/** The rotation rates at full stick in RATE, deg/s. */
 constexpr int16_t ROLL_STICK_DEG_S = 180;
 constexpr int16_t PITCH_STICK_DEG_S = 90;
-/** The fastest rotations that an angle asks for, deg/s, as in the Raspberry Pi's controller. */
+/** The fastest rotations that an angle demands, deg/s, as in the Raspberry Pi's controller. */
 constexpr int16_t ROLL_RATE_LIMIT_DEG_S = 120;
 constexpr int16_t PITCH_RATE_LIMIT_DEG_S = 80;
 
-/** What the controller is to do in this slot. */
+/** The controller's demand in this slot. */
 struct Demand {
   Mode mode;
   /** Receiver failsafe: circle when the IMU is valid, preset surfaces otherwise. */
@@ -30,10 +30,10 @@ struct Demand {
   Outputs asked;
 };
 
-/** Which controllers are in the loop; what they remember ends when they leave it. */
+/** Which controllers are in the loop; their state is cleared when they leave it. */
 enum class Hold : uint8_t { NOTHING, RATES, ANGLES };
 
-/** What the controller remembers; all of it zero at first. */
+/** The controller's state; all of it zero at first. */
 struct ControllerMemory {
   Outputs outputs_;
   Hold hold_;
@@ -47,7 +47,7 @@ struct ControllerMemory {
 /**
  * Stick 2000 us on ailerons rolls right, on elevator raises the nose, on rudder yaws right, before
  * the servos' own directions. Every mode passes the servo stage (mix, direction, trim, end points),
- * the Raspberry Pi's Outputs too: it sends what a pilot's sticks would say and knows no airframe.
+ * the Raspberry Pi's Outputs too: they equal a pilot's sticks and are independent of the airframe.
  *
  * ACRO and OUTPUT pass through. RATE: the stick is a rate. FBW: the stick is a bank and a pitch.
  * SETPOINT: both come from the Raspberry Pi, within the limits of FBW. In the last three the rudder

@@ -1,4 +1,4 @@
-/** What the inertial sensor measures, as the MPU6050's registers hold it. */
+/** The inertial sensor's measurements, as in the MPU6050's registers. */
 #pragma once
 
 #include <stdint.h>
@@ -24,7 +24,7 @@ bool is_garbage(const ImuSample& sample);
 /** Whether a gyro axis is at its end stop: the aircraft turns faster than 1000 deg/s. */
 bool is_saturated(const ImuSample& sample);
 
-/** Sixteen bits that differ when samples differ, but for one noisy pair in a hundred or so. */
+/** Sixteen bits that differ when samples differ, except for about one noisy pair in a hundred. */
 uint16_t fingerprint(const ImuSample& sample);
 
 }  // namespace raspilot

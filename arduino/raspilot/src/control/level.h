@@ -8,7 +8,7 @@ namespace raspilot {
 /** Turns (a, b) in their plane by the angle of sine and cosine, Q14. */
 void turn(int16_t& a, int16_t& b, int16_t sine, int16_t cosine);
 
-/** The roll and pitch that the sensor shows while the airframe is level; `set` comes first. */
+/** The sensor's roll and pitch while the airframe is level; call `set` first. */
 class Level {
  public:
   static constexpr int16_t GREATEST_CDEG = 1500;

@@ -51,7 +51,7 @@ OUT_OF_LINE int32_t Pid::update(int16_t error, int16_t measured, int32_t limit) 
       clamped(integral_ + (scaled(i_, error) >> 3), limit << INTEGRAL_BITS);
   const int32_t sum = output + (integral >> INTEGRAL_BITS);
   const int32_t limited = clamped(sum, limit);
-  // What the limit cuts off is not summed up any further.
+  // Output beyond the limit is not integrated any further.
   if (limited == sum || (limited < sum) != (error > 0)) integral_ = integral;
   return limited;
 }

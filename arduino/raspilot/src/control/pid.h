@@ -17,9 +17,9 @@ namespace raspilot {
  */
 class Pid {
  public:
-  /** Takes gains in units per unit; the integral keeps what it gives, unless I is 0. */
+  /** Takes gains in units per unit; the integral keeps its output, unless I is 0. */
   void tune(const PidGains& gains);
-  /** Forgets the past: after a pause it means nothing. */
+  /** Clears the state, which means nothing after a pause. */
   void reset();
   /** `limit` is at most 2^24. */
   int32_t update(int16_t error, int16_t measured, int32_t limit);
@@ -27,7 +27,7 @@ class Pid {
  private:
   int32_t derivative(int16_t measured);
 
-  // All zero at first, by whoever owns it.
+  // Initialised to zero by the owner.
   int32_t integral_;  // 2^-6 of an output
   int16_t measured_;
   int16_t change_q4_;  // of the measurement a slot, after the low-pass

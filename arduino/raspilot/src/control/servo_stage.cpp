@@ -8,7 +8,7 @@ namespace {
 
 constexpr Ticks NEUTRAL = us_to_ticks(1500);
 constexpr Ticks MOTOR_OFF = us_to_ticks(1000);
-// No demand asks for more, and no sum of two and a trim leaves 16 bits.
+// No demand exceeds this, and no sum of two and a trim leaves 16 bits.
 constexpr int16_t GREATEST_DEFLECTION = 4000;
 
 OUT_OF_LINE Ticks within(const ServoSetup& servo, Ticks ticks) {

@@ -1,4 +1,4 @@
-/** From what is asked of the aircraft to pulses of its servos: mix, direction, trim, end points. */
+/** From the demands on the aircraft to servo pulses: mix, direction, trim, end points. */
 #pragma once
 
 #include "../core/types.h"

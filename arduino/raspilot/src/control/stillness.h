@@ -1,4 +1,4 @@
-/** Finds seconds in which the aircraft does not turn, and what the gyro reads in them. */
+/** Finds seconds in which the aircraft does not turn, and the gyro's reading in them. */
 #pragma once
 
 #include <stdint.h>
@@ -6,14 +6,14 @@
 namespace raspilot {
 
 /**
- * Looks at windows of 256 samples, every other slot's one: 1.02 s. A window begins anew with the
- * first sample that differs from the window's first one by more than 1.2 deg/s.
+ * Checks windows of 256 samples, every other slot's one: 1.02 s. A window restarts with the first
+ * sample that differs from the window's first one by more than 1.2 deg/s.
  */
 class Stillness {
  public:
   /** Takes a gyro sample, chip counts; true when a still window ends with it. */
   bool on_sample(const int16_t* gyro);
-  /** Samples are missing: nothing is known. */
+  /** Samples are missing: clears the state. */
   void forget();
   /** Whether a window was still and nothing has moved since. */
   bool is_still() const { return is_still_; }
@@ -21,7 +21,7 @@ class Stillness {
   const int16_t* mean_q4() const { return mean_q4_; }
 
  private:
-  // All zero at first, by whoever owns it.
+  // Initialised to zero by the owner.
   int16_t first_[3];
   int16_t sums_[3];
   int16_t mean_q4_[3];

@@ -34,7 +34,7 @@ class Autopilot {
   void begin(const SavedState* kept, uint8_t reset_cause, uint32_t now_us);
   /** One slot of 2000 us: receiver, authority, attitude, control. `sample` is null without one. */
   void control(const ImuSample* sample, uint32_t now_us);
-  /** One piece of background work of at most 100 us; false when nothing is due. */
+  /** One piece of background work of at most 100 us; false without work. */
   bool background(uint32_t now_us);
 
   SavedState state() const;

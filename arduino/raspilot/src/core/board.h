@@ -1,6 +1,6 @@
 /**
- * What the portable part asks of the board. The chip (src/chip) answers it on an ATmega328P; the
- * host build answers it with fakes. Nothing here waits.
+ * The interface of the portable part to the board. The chip (src/chip) implements it on an
+ * ATmega328P; the host build implements it with fakes. Nothing here waits.
  */
 #pragma once
 
@@ -11,7 +11,7 @@ namespace board {
 
 /** Bytes that the serial line's output buffer takes now. */
 uint8_t serial_room();
-/** Queues one byte; the caller asked serial_room() before. */
+/** Queues one byte; the caller has checked serial_room() before. */
 void serial_write(uint8_t byte);
 
 /** Whether EEPROM takes a write now (a byte takes 3.4 ms, data sheet 8.6.3). */

@@ -1,4 +1,4 @@
-/** What the chip's compiler needs to be told where flash is short; nothing on a PC. */
+/** Hints to the chip's compiler that save flash; empty on a PC. */
 #pragma once
 
 #ifdef __AVR__

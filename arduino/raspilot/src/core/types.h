@@ -58,7 +58,7 @@ struct Attitude {
   int16_t cos_pitch;
 };
 
-/** What the Raspberry Pi asks for in `S`; throttle 0 is the stick's. */
+/** The Raspberry Pi's demand in `S`; throttle 0 is the stick's. */
 struct Setpoint {
   int16_t roll_cdeg;
   int16_t pitch_cdeg;

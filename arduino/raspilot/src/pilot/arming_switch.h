@@ -13,13 +13,13 @@ class ArmingSwitch {
 
   /**
    * Takes the pulse of a valid receiver; `passed_units` (lifetime.h) since the last one. A position
-   * counts after 300 ms. ROSE needs a low that counted before it; what it stands at first is no
+   * counts after 300 ms. ROSE needs a low that counted before it; the initial position is not an
    * edge.
    */
   Event take(Ticks pulse, uint16_t passed_units);
-  /** The receiver is lost: whatever it says afterwards begins anew. */
+  /** The receiver is lost: its later pulses start from the beginning. */
   void forget();
-  /** Stands at high, and has for 300 ms. */
+  /** At high, and has been for 300 ms. */
   bool is_high() const { return settled_ == HIGH && now_ == HIGH; }
 
  private:

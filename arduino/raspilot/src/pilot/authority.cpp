@@ -62,7 +62,7 @@ void Authority::follow_receiver(uint16_t passed_units) {
   if (is_auto()) {
     away_.start();
   } else {
-    // One bad pulse does not end the mode that was selected, though nothing flies by it meanwhile.
+    // One bad pulse suspends the selected mode but does not end it.
     away_.pass(passed_units);
     if (away_.units() >= LEFT_UNITS) asked_mode_ = 0;
     lives_[ASKED].end();
@@ -195,7 +195,7 @@ Reason Authority::take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint3
   for (uint8_t i = 0; i < OUTPUTS; ++i) {
     asked_outputs_.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
   }
-  // They lie where a Setpoint lay: none may be read there any more.
+  // They share memory with a Setpoint, which must not be read from here on.
   lives_[DEMAND].end();
   lives_[OUTPUT].start(OUTPUT_LIVES_UNITS);
   return Reason::NONE;

@@ -24,7 +24,7 @@ enum Veto : uint8_t {
   VETO_PROFILE = 64
 };
 
-/** What survives a watchdog reset. */
+/** State that survives a watchdog reset. */
 struct AuthorityState {
   bool is_armed;
   uint8_t switch_position;
@@ -35,36 +35,36 @@ struct AuthorityState {
 
 /**
  * A receiver is valid when all six channels have been for 30 ms (a whole frame, so that no channel
- * still shows what it showed while lost) and the throttle is not below the profile's threshold,
- * which is the receiver's own failsafe. That failsafe acts at once, any other loss after 500 ms, in
- * which the sticks hold still. Neither the loss nor the return of a receiver is a
- * switch that moved: it neither arms nor disarms nor ends the mode that the ground asked for.
+ * still shows a value from the loss) and the throttle is not below the profile's threshold, which
+ * indicates the receiver's own failsafe. That failsafe acts immediately, any other loss after
+ * 500 ms, during which the sticks hold still. Neither the loss nor the return of a receiver counts
+ * as a switch movement: it neither arms nor disarms nor ends the mode requested by the ground.
  *
- * Before the receiver was heard for the first time nothing flies: FBW holds level with centred
- * sticks, and this is no failsafe. Lifetimes end with the slot in which they run out.
+ * Before the first valid receiver no mode acts: FBW holds level with centred sticks, and this does
+ * not count as failsafe. Lifetimes end with the slot in which they run out.
  */
 class Authority {
  public:
   Authority(const Profile& profile, const PwmReader& receiver);
 
-  /** Looks at the receiver and at the lifetimes; each slot. */
+  /** Checks the receiver and the lifetimes; each slot. */
   void update(bool is_imu_valid, bool is_calibrating, bool is_profile_broken, uint32_t now_us);
 
   /**
-   * What the Raspberry Pi is told: flown_mode(), but OUTPUT also for 500 ms after `M` asked for
-   * it, so that a Raspberry Pi that waits for it learns that it may begin.
+   * The mode reported to the Raspberry Pi: flown_mode(), but OUTPUT also for 500 ms after `M`
+   * requested it, so that a Raspberry Pi that waits for it learns that it may begin.
    */
   Mode mode() const;
   /**
-   * What flies now, after switch, asked mode, lifetimes, failsafe and IMU: FBW at AUTO without a
-   * living Setpoint or Output; ACRO instead of all that needs the IMU while that is invalid.
+   * The mode in effect, after switch, requested mode, lifetimes, failsafe and IMU: FBW at AUTO
+   * without a valid Setpoint or Output; ACRO instead of modes that need an IMU that is invalid.
    */
   Mode flown_mode() const;
   bool is_armed() const { return is_armed_; }
   bool is_auto() const;
   /**
    * Whether settings must not change: armed, or an aircraft without a motor, which flies disarmed,
-   * unless it has been on for 5 s and its transmitter was never heard.
+   * unless it has been on for 5 s and its receiver was never valid.
    */
   bool is_in_flight(uint16_t uptime_s) const;
   /** 0 low, 1 middle, 2 high, 255 not known yet; holds while the receiver is lost. */
@@ -91,7 +91,7 @@ class Authority {
   Reason ask_mode(char letter, uint32_t now_us);
   /**
    * `u`; `age_us` is that of the orientation that it was computed from. Holds for 250 ms. Values
-   * are in range, here and in a Setpoint: whoever reads them from the wire refuses others.
+   * are in range, here and in a Setpoint: the reader of the wire refuses others.
    */
   Reason take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t now_us);
   Reason take_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t now_us);
@@ -103,7 +103,7 @@ class Authority {
   void restore(const AuthorityState& state, uint32_t now_us);
 
  private:
-  /** What holds for a while. */
+  /** States with a lifetime. */
   enum Life : uint8_t { ASKED, OUTPUT, DEMAND, PI_VETO, LIVES };
 
   void follow_receiver(uint16_t passed_units);
@@ -125,7 +125,7 @@ class Authority {
   Stopwatch sound_;
   Stopwatch lost_;
   Stopwatch away_;
-  // The newer of the two: which it is, flown_mode() says.
+  // The newer of the two: flown_mode() returns which it is.
   union {
     Setpoint setpoint_ ZEROED;
     Outputs asked_outputs_;

@@ -9,9 +9,9 @@
 namespace raspilot {
 
 /**
- * A pulse counts when the line was low for 2.5 ms before it, as it is between two pulses of any
+ * A pulse counts when the line was low for 2.5 ms before it, the case between two pulses of any
  * receiver. One that is followed by another edge within these 2.5 ms was a piece of a pulse, cut
- * by noise: it is taken back. Edges shorter than 300 us are noise.
+ * by noise: it is withdrawn. Edges shorter than 300 us are noise.
  *
  * Stamps are Timer1 (0.5 us, wrapping at 32.768 ms), units those of lifetime.h.
  */
@@ -19,13 +19,13 @@ class InputChannel {
  public:
   enum Fall : uint8_t { NOISE, OUT_OF_RANGE, GOOD };
 
-  /** What it shows before its first pulse. */
+  /** Its value before its first pulse. */
   void begin(Ticks pulse);
 
   /** True when it proves the pulse before it: that one was followed by a rest. */
   bool on_rise(uint16_t stamp, bool is_late);
   Fall on_fall(uint16_t stamp, bool is_late);
-  /** Edges were lost before `stamp`: nothing is known but the level. */
+  /** Edges were lost before `stamp`: only the level is known. */
   void begin_again(uint16_t stamp);
   /** Ages it, and shows its newest pulse; each slot. */
   void check(bool is_high, uint16_t now_stamp, uint8_t passed_units, const ChannelRange& range);

@@ -1,6 +1,6 @@
 /**
- * Times of at most 67 s that nothing wraps, moved on by whoever owns them. They are counted in
- * units of 1024 us, because a shift is what a microcontroller divides by.
+ * Durations of at most 67 s that never wrap, advanced by their owners. They are counted in units
+ * of 1024 us, because a microcontroller divides by a shift.
  */
 #pragma once
 
@@ -12,11 +12,11 @@ namespace raspilot {
 
 /** The clock in units. */
 constexpr uint16_t to_units(uint32_t now_us) { return static_cast<uint16_t>(now_us >> 10); }
-/** So many units have passed no sooner than `ms`, and at most 2 units later. */
+/** Units that last at least `ms`, and at most 2 units more. */
 constexpr uint16_t units_at_least(uint16_t ms) {
   return static_cast<uint16_t>(ms * 1000UL / 1024 + 2);
 }
-/** So many units have passed when `ms` have, and at most 3 units sooner. */
+/** Units that last at most `ms`, and at most 3 units less. */
 constexpr uint16_t units_at_most(uint16_t ms) {
   return static_cast<uint16_t>(ms * 1000UL / 1024 - 1);
 }

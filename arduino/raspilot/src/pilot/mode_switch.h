@@ -12,7 +12,7 @@ class ModeSwitch {
  public:
   /** 0 low, 1 middle, 2 high, SWITCH_UNKNOWN before the first pulse. */
   uint8_t position() const { return position_; }
-  /** Follows the pulse at once; moves at 1300 and 1700 us, each way 20 us beyond them. */
+  /** Follows the pulse immediately; moves at 1300 and 1700 us, each way 20 us beyond them. */
   void take(Ticks pulse);
   void restore(uint8_t position) { position_ = position <= 2 ? position : SWITCH_UNKNOWN; }
 

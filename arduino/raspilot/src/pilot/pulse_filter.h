@@ -10,14 +10,14 @@ namespace raspilot {
  * Still sticks give a still output, moving ones pass unchanged.
  *
  * y += (x - y) / 2. A change of 20 us or more bypasses it (thesis 4.4.4). So does one that soon
- * follows another of at least 1.5 us, when it goes on in its direction or turns back by 3 us: noise
+ * follows another of at least 1.5 us, when it continues in its direction or reverses by 3 us: noise
  * does neither, a stick does. The output follows y with a play of 3/8 us, like a gear.
  */
 class PulseFilter {
  public:
   /** Takes a measured pulse; one whose stamps are uncertain only moves it by more than 6 us. */
   void take(Ticks measured, bool is_uncertain);
-  /** Goes to a pulse as if there had been no other. */
+  /** Jumps to a pulse, as if there had been no other. */
   void reset(Ticks pulse);
   Ticks pulse() const { return pulse_; }
 

@@ -4,7 +4,7 @@ namespace raspilot {
 
 namespace {
 
-// Stamps have 16 bits of 0.5 us: only half of their 32.768 ms is told apart from the other.
+// Stamps have 16 bits of 0.5 us: only half of their range of 32.768 ms is unambiguous.
 constexpr uint16_t STALL_UNITS = 15;
 constexpr uint8_t MOST_AGED = 127;
 constexpr uint16_t MOST_AGE_UNITS = 64000;

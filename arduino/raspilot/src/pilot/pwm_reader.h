@@ -22,7 +22,7 @@ class PwmReader {
    * whether the stamp may be a few microseconds late. `now_us` is the clock now.
    */
   void on_edge(uint16_t stamp_ticks, uint8_t levels, bool is_late, uint32_t now_us);
-  /** Edges were lost (the ring was full): what is being measured is forgotten. */
+  /** Edges were lost (the ring was full): pulses being measured are discarded. */
   void on_lost_edges() { is_lost_ = true; }
   /** Shows the newest pulses, forgets channels without a good one for 100 ms; each slot. */
   void check(uint32_t now_us);
@@ -44,7 +44,7 @@ class PwmReader {
    */
   bool take_rise(Channel channel, uint16_t& stamp_ticks);
 
-  /** End points are learned from here to there; false, and nothing kept, as RangeLearner says. */
+  /** End points are learned from here to there; false, and nothing kept, as in RangeLearner. */
   void begin_range_learning() { learner_.begin(); }
   bool end_range_learning(Calibration& learned);
   bool is_learning() const { return learner_.is_learning(); }
@@ -53,7 +53,7 @@ class PwmReader {
   uint16_t passed_units(uint32_t now_us) const;
 
   const Calibration& calibration_;
-  // What is small lies where one instruction reaches it.
+  // Small members lie where one instruction reaches them.
   Stopwatch age_;
   uint16_t checked_at_ ZEROED;
   uint8_t levels_ ZEROED;

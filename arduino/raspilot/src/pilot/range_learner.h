@@ -10,14 +10,14 @@ namespace raspilot {
 /**
  * Keeps the smallest and the greatest pulse of each channel from begin() to end().
  *
- * The pilot moves all sticks and switches through, then centres ailerons, elevator and rudder
- * before end(): where these stand is their centre. Throttle and the switches rest nowhere: the
- * middle of their range is their centre.
+ * The pilot moves all sticks and switches to their ends, then centres ailerons, elevator and rudder
+ * before end(): their positions then are their centres. Throttle and the switches have no rest
+ * position: the middle of their range is their centre.
  */
 class RangeLearner {
  public:
   void begin();
-  /** A good pulse; nothing while not learning. */
+  /** Takes a good pulse; ignored while not learning. */
   void take(uint8_t channel, uint16_t width_ticks);
   /**
    * Ends learning; `resting` are the newest pulses, ticks. False, and `ranges` untouched, when
@@ -35,7 +35,7 @@ class RangeLearner {
   bool is_learning_ ZEROED;
 };
 
-/** The pulse on the scale 1000, 1500, 2000 us, ticks; beyond the ends the lines go on. */
+/** The pulse on the scale 1000, 1500, 2000 us, ticks; extrapolated beyond the ends. */
 Ticks calibrated(const ChannelRange& range, Ticks pulse);
 
 }  // namespace raspilot

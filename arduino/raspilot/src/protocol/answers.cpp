@@ -40,7 +40,7 @@ bool RefusalLimit::allows(char type, uint32_t now_us) {
 }
 
 void RefusalLimit::check(uint32_t now_us) {
-  // The oldest comes first, so that what is left behind it is younger.
+  // The oldest comes first, so that the rest is younger.
   while (count_ != 0 && static_cast<uint8_t>(stamp_of(now_us) - refused_[0].stamp) > SECOND) {
     forget_oldest();
   }

@@ -1,4 +1,4 @@
-/** Answers that wait for room on the line, and how often a type may be refused. */
+/** Answers that wait for room on the line, and the rate limit of refusals. */
 #pragma once
 
 #include <stdint.h>
@@ -10,7 +10,7 @@ namespace raspilot {
 
 /** One answer to send: a confirmation, a refusal, or a Command that sends its own. */
 struct PendingAnswer {
-  /** `K`, ASK for a handler that answers itself, else a Reason. */
+  /** `K`, ASK for a handler that sends its own answer, otherwise a Reason. */
   uint8_t what;
   uint8_t type;
   uint8_t sequence;
@@ -36,14 +36,14 @@ class Answers {
 };
 
 /**
- * Lets each type be refused once a second (docs/protocols.md 2.5). It knows eight types at a time, one
+ * Limits refusals of each type to one a second (docs/protocols.md 2.5). It holds eight types, one
  * more than there are streams; when more are refused within a second it forgets the oldest.
  */
 class RefusalLimit {
  public:
   /** True, and the second begins, when the type was not refused within the last one. */
   bool allows(char type, uint32_t now_us);
-  /** Forgets what is a second old; at least every ten seconds. */
+  /** Forgets refusals a second old; call at least every ten seconds. */
   void check(uint32_t now_us);
 
  private:

@@ -1,4 +1,4 @@
-/** Finds checked frames in what the line brings (docs/protocols.md 2.1). */
+/** Finds checked frames in the bytes of the line (docs/protocols.md 2.1). */
 #pragma once
 
 #include <stdint.h>

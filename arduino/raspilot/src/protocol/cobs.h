@@ -7,7 +7,7 @@
 
 namespace raspilot {
 
-/** Takes the bytes of one frame without its closing zero, as they come from the line. */
+/** Takes the bytes of one frame without its closing zero, as they arrive. */
 class CobsDecoder {
  public:
   enum class Step : uint8_t { NOTHING, BYTE };

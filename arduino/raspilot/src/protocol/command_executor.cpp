@@ -22,7 +22,7 @@ bool CommandExecutor::find(char type, CommandDefinition& found) {
     for (uint8_t left = group->count_; left != 0; --left, ++at) {
       if (static_cast<char>(pgm_read_byte(&at->type)) != type) continue;
       memcpy_P(&found, at, sizeof found);
-      // A longer one would not fit into what is received.
+      // A longer one would not fit into the receive buffer.
       return found.size <= LONGEST_COMMAND;
     }
   }

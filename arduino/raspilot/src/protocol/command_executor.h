@@ -14,14 +14,14 @@ namespace raspilot {
 
 class Autopilot;
 
-/** One Command as it came, its size already right. */
+/** One Command as received, its size already right. */
 struct Request {
   const uint8_t* payload;
   uint8_t sequence;
   uint32_t now_us;
 };
 
-/** Carries a Command out; Reason::NONE, or why it is refused (then nothing of it was used). */
+/** Carries a Command out; Reason::NONE, or why it is refused (then it had no effect). */
 typedef Reason (*Handler)(Autopilot& autopilot, const Request& request);
 
 /** Which framings take the Command: BOTH only for those of the thesis. */
@@ -34,7 +34,7 @@ enum class Framing : uint8_t { CHECKED, BOTH };
  */
 enum class Answer : uint8_t { CONFIRMED, UNANSWERED, OWN };
 
-/** What is known of a Command's type; tables of these lie in flash (PROGMEM). */
+/** Description of a Command's type; tables of these lie in flash (PROGMEM). */
 struct CommandDefinition {
   char type;
   uint8_t size;
@@ -67,7 +67,7 @@ class CommandGroup {
 
 class CommandExecutor {
  public:
-  /** Looks a type up; false when nobody registered it with at most LONGEST_COMMAND bytes. */
+  /** Looks a type up; false unless it is registered with at most LONGEST_COMMAND bytes. */
   static bool find(char type, CommandDefinition& found);
   /** How many Commands are registered for this type: one, unless two files name the same. */
   static uint8_t count(char type);

@@ -9,7 +9,7 @@ namespace raspilot {
 class Crc16 {
  public:
   void put(uint8_t byte) {
-    // Byte-wise form of the polynomial 0x1021 in 8-bit steps, as an 8-bit CPU is quick with them.
+    // Byte-wise form of the polynomial 0x1021 in 8-bit steps, which are fast on an 8-bit CPU.
     uint8_t mixed = static_cast<uint8_t>(high_ ^ byte);
     mixed = static_cast<uint8_t>(mixed ^ (mixed >> 4));
     high_ = static_cast<uint8_t>(low_ ^ static_cast<uint8_t>(mixed << 4) ^ (mixed >> 3));

@@ -16,7 +16,7 @@ constexpr uint32_t STREAMED_BYTES = 19 + 32 + 14;
 constexpr uint32_t LEAST_PERIOD_US = STREAMED_BYTES * 1000000UL / (LOAD_BYTES_S - STATUS_BYTES_S);
 constexpr uint8_t STEP_BITS = 5;
 
-/** At least so long. */
+/** Steps that last at least `us`. */
 constexpr uint16_t steps_of(uint32_t us) {
   return static_cast<uint16_t>((us + (1 << STEP_BITS) - 1) >> STEP_BITS);
 }
@@ -55,7 +55,7 @@ bool Forwarder::send_next(uint32_t now_us) {
   for (uint8_t tried = 0; tried < STREAMS; ++tried) {
     const uint8_t stream = next_;
     const bool is_now = is_due(stream, now);
-    // What does not fit stays due and is sent with newer values; nothing overtakes it.
+    // A stream that does not fit stays due and is sent with newer values; nothing overtakes it.
     if (is_now && !send(stream, now_us)) return false;
     next_ = static_cast<uint8_t>((stream + 1) % STREAMS);
     if (!is_now) continue;
@@ -83,19 +83,19 @@ OUT_OF_LINE Forwarder::Steps Forwarder::period(uint8_t stream) const {
 OUT_OF_LINE bool Forwarder::is_due(uint8_t stream, Steps now) {
   const int16_t left = static_cast<int16_t>(static_cast<Steps>(due_[stream] - now));
   if (left <= 0) return true;
-  // A shorter period holds at once, not after the long one that was waited for.
+  // A shorter period holds immediately, not after the long one that was running.
   const Steps most = period(stream);
   if (static_cast<Steps>(left) > most) due_[stream] = static_cast<Steps>(now + most);
   return false;
 }
 
-/** Sends it, or finds that it has nothing to say; false when it does not fit. */
+/** Sends it, or has nothing to send; false when it does not fit. */
 bool Forwarder::send(uint8_t stream, uint32_t now_us) {
   const bool is_thesis = autopilot_.link.is_thesis();
   switch (stream) {
     case INPUTS_STREAM: return is_thesis || send_inputs();
     case ORIENTATION_STREAM:
-      // An attitude that is none is not said: who listens sees it grow old.
+      // An invalid attitude is not sent: receivers see the last one age.
       if (!autopilot_.attitude.is_valid()) return true;
       return is_thesis ? send_attitude() : send_orientation(to_steps(now_us));
     case OUTPUTS_STREAM: return send_outputs();
@@ -110,7 +110,7 @@ bool Forwarder::send_inputs() {
   WireWriter writer(payload);
   for (uint8_t channel = 0; channel < INPUTS; ++channel) {
     const Channel each = static_cast<Channel>(channel);
-    // A pulse out of range is told as it is, so that it can be understood.
+    // A pulse out of range is sent unchanged, so that it can be diagnosed.
     writer.u16((validity >> channel & 1) != 0 ? ticks_to_us(receiver.pulse(each))
                                               : receiver.measured_us(each));
   }

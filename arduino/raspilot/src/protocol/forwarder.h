@@ -1,5 +1,5 @@
 /**
- * What goes to the Raspberry Pi unasked: receiver inputs, orientation, outputs, status
+ * The streams to the Raspberry Pi: receiver inputs, orientation, outputs, status
  * (docs/protocols.md 2.4), each at its period; the newest wins.
  */
 #pragma once
@@ -21,7 +21,7 @@ class Forwarder {
  public:
   explicit Forwarder(Autopilot& autopilot) : autopilot_(autopilot) {}
 
-  /** Forwarding begins; a second call changes nothing. */
+  /** Forwarding begins; a second call has no effect. */
   void start(uint32_t now_us);
   bool is_started() const { return is_started_; }
   /** Panic: the period of all but the status, 10 to 1000 ms. */

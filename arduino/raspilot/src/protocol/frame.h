@@ -8,7 +8,7 @@
 
 namespace raspilot {
 
-/** What a frame may carry at most, and what any Command or answer of ours does (`g` and `G`). */
+/** Maximum payload of a frame, and that of any Command or answer of ours (`g` and `G`). */
 constexpr uint8_t LONGEST_PAYLOAD = 96;
 constexpr uint8_t LONGEST_COMMAND = 72;
 /** Sequence, type, payload, CRC. */
@@ -17,7 +17,7 @@ constexpr uint8_t LONGEST_FRAME = LONGEST_PAYLOAD + FRAME_OVERHEAD;
 /** The one byte that COBS adds, and the zero that ends a frame. */
 constexpr uint8_t COBS_OVERHEAD = 2;
 
-/** When the first byte of a message came: what is unfinished 100 ms later is dropped. */
+/** When the first byte of a message came: an unfinished message is dropped after 100 ms. */
 class Beginning {
  public:
   void note(uint32_t now_us) { units_ = to_units(now_us); }

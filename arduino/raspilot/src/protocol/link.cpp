@@ -87,7 +87,7 @@ void Link::on_frame(uint32_t now_us) {
   carry_out(command, request);
 }
 
-/** A frame whose check is right did arrive, whatever else is wrong with it. */
+/** A frame with a valid check did arrive, whatever else is wrong with it. */
 void Link::count_sequence(uint8_t sequence) {
   if (has_expected_) {
     const uint8_t missed = static_cast<uint8_t>(sequence - expected_);
@@ -123,7 +123,7 @@ void Link::carry_out(const CommandDefinition& command, const Request& request) {
   heard_units_ = to_units(request.now_us);
   const bool is_stream = command.answer == Answer::UNANSWERED;
   if (!is_stream && !answers_.has_place()) {
-    // Carried out without a word would be worse: who asked asks again.
+    // To execute it without an answer would be worse: the sender would repeat it.
     on_dropped();
     return;
   }
@@ -168,7 +168,7 @@ bool Link::send_answer(uint32_t now_us) {
   return true;
 }
 
-/** Lets a handler answer by itself; false when there is no room. A refusal replaces the request. */
+/** Lets a handler send its own answer; false without room. A refusal replaces the request. */
 bool Link::ask(PendingAnswer& pending, uint32_t now_us) {
   CommandDefinition command;
   if (!has_room(LONGEST_COMMAND)) return false;

@@ -24,21 +24,21 @@ class Link {
 
   /** Takes one byte from the line; at most ~10 us unless a frame ends with it. */
   void on_byte(uint8_t byte, uint32_t now_us);
-  /** Drops what is unfinished for 100 ms; no further byte is needed. At least every ten seconds. */
+  /** Drops messages unfinished for 100 ms, without a further byte. At least every ten seconds. */
   void check(uint32_t now_us);
   /** Sends an answer that waited for room, or a stream message that is due; false for none. */
   bool background(uint32_t now_us);
   /** Sends the extra zero that opens checked framing. */
   void open();
 
-  /** Sends one whole message in the framing that is spoken, or nothing when it does not fit. */
+  /** Sends one whole message in the present framing, or nothing when it does not fit. */
   bool send(char type, const uint8_t* payload, uint8_t size);
-  /** Whether a message with so many bytes of payload fits now. */
+  /** Whether a message with this number of payload bytes fits now. */
   bool has_room(uint8_t size) const;
 
   /** The Start Command: forwarding begins. */
   void start(uint32_t now_us) { forwarder_.start(now_us); }
-  /** Panic: the period of what is forwarded, 10 to 1000 ms. */
+  /** Panic: the period of forwarded data, 10 to 1000 ms. */
   void set_period_ms(uint16_t period_ms) { forwarder_.set_period_ms(period_ms); }
   /** Age of the orientation frame with this sequence, us; very great when it is not known. */
   uint32_t orientation_age_us(uint16_t sequence, uint32_t now_us) const {
@@ -47,7 +47,7 @@ class Link {
 
   bool is_thesis() const { return is_thesis_; }
   bool is_started() const { return forwarder_.is_started(); }
-  /** Whether the Raspberry Pi was heard within 1 s. */
+  /** Whether the Raspberry Pi has sent a valid message within 1 s. */
   bool has_heard(uint32_t now_us) const;
   /** Frames dropped, and frames missing by sequence, since reset; they stay at 65535. */
   uint16_t dropped() const { return dropped_; }
@@ -81,7 +81,7 @@ class Link {
   bool is_thesis_ ZEROED;
   /** A valid checked frame closes the door to thesis framing until reset. */
   bool is_door_closed_ ZEROED;
-  // What is small lies before it, where one instruction reaches it.
+  // Small members lie before it, where one instruction reaches them.
   ReceiveBuffer buffer_ ZEROED;
   CheckedReader reader_;
   CommandReceiver receiver_;

@@ -62,7 +62,7 @@ void ThesisDoor::expire(uint32_t now_us) {
   if (left_ != 0 && beginning_.is_too_old(now_us)) break_run();
 }
 
-/** Looks at the field that ended with the newest byte; true in the middle of one. */
+/** Checks the field that ended with the newest byte; true in the middle of one. */
 bool ThesisDoor::is_field_good() const {
   const int16_t number = static_cast<int16_t>(window_);
   switch (type_) {

@@ -12,10 +12,10 @@
 namespace raspilot {
 
 /**
- * Counts an unbroken run of complete thesis Commands in range. Points say how little a Command can
- * be chance, in units of about 5 bits: a bare `T` or any three bytes that begin with `h` say
- * nothing, forty-eight bytes that are twelve gains say all. A run of random bytes reaches the eight
- * points needed about once in 10^10 beginnings.
+ * Counts an unbroken run of complete thesis Commands in range. Points measure how improbable a
+ * Command is by chance, in units of about 5 bits: a bare `T` or any three bytes that begin with `h`
+ * count nothing, forty-eight bytes that are twelve gains count all. A run of random bytes reaches
+ * the eight points needed about once in 10^10 beginnings.
  */
 class ThesisDoor {
  public:

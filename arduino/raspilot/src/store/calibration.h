@@ -1,4 +1,4 @@
-/** What calibrating found, kept in EEPROM beside profile and gains. */
+/** The results of calibration, kept in EEPROM beside profile and gains. */
 #pragma once
 
 #include <stdint.h>

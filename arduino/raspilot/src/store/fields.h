@@ -1,9 +1,9 @@
 /**
- * Structs of small numbers to wire bytes and back by a table, which takes a third of the flash that
- * a statement a field would.
+ * Converts structs of small numbers to wire bytes and back by a table, which takes a third of the
+ * flash of one statement per field.
  *
- * A table says the kind of each field in the order of struct and wire alike; both must have the
- * same order, and the struct holds nothing but bool, char, one-byte enums and 16-bit integers.
+ * A table lists the kind of each field in the order of struct and wire alike; both must have the
+ * same order, and the struct holds only bool, char, one-byte enums and 16-bit integers.
  */
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace raspilot {
 
-/** What a field may be; 16 bits from TRIM on, big-endian on the wire. */
+/** Kinds of fields; 16 bits from TRIM on, big-endian on the wire. */
 enum Field : uint8_t {
   FLAG,    ///< 0 or 1
   MIX,     ///< 0 to 2

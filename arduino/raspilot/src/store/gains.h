@@ -23,7 +23,7 @@ struct Gains {
 /** Whether a gain of these IEEE 754 bits is 0 to 50. */
 bool is_gain(uint32_t bits);
 
-/** For an aircraft that nobody has tuned, as in pids.yml. In flash: copy with memcpy_P. */
+/** For an untuned aircraft, as in pids.yml. In flash: copy with memcpy_P. */
 extern const Gains DEFAULT_GAINS;
 
 /** Reads the 72 bytes of `g`; false and `gains` untouched unless all are finite and 0 to 50. */

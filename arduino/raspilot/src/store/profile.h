@@ -24,7 +24,7 @@ struct Profile {
   ServoSetup servos[OUTPUTS];
   Mix mix;
   bool has_motor;
-  /** What AUX1 low, middle and high select: `a`, `r`, `f` or `A` (AUTO). */
+  /** The modes of AUX1 low, middle and high: `a`, `r`, `f` or `A` (AUTO). */
   char switch_modes[3];
   int16_t roll_limit_cdeg;
   int16_t pitch_up_limit_cdeg;

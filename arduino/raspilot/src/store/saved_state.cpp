@@ -7,7 +7,7 @@ namespace raspilot {
 
 namespace {
 
-/** What was stored stands in memory before what follows: a reset may come at any instruction. */
+/** Compiler barrier: orders stores in memory, as a reset may come at any instruction. */
 inline void settle() { __asm__ volatile("" ::: "memory"); }
 
 }  // namespace
@@ -34,7 +34,7 @@ OUT_OF_LINE void SavedStates::write(const SavedState& state) {
   const uint8_t newer = newest();
   Copy& copy = copies_[newer ^ 1];
   // A reset from here on finds the other copy, which is as old as one write. The sequence changes
-  // last, so that what is torn counts as the older and is the next to be written.
+  // last, so that a torn copy counts as the older and is the next to be written.
   copy.crc = static_cast<uint16_t>(~copy.crc);
   settle();
   copy.state = state;

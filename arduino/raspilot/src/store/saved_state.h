@@ -1,4 +1,4 @@
-/** What survives a reset in RAM that start-up does not clear. */
+/** State that survives a reset in RAM that start-up does not clear. */
 #pragma once
 
 #include <stdint.h>
@@ -17,7 +17,7 @@ struct SavedState {
 class SavedStates {
  public:
   void write(const SavedState& state);
-  /** The newest copy whose CRC is right; false when there is none. */
+  /** The newest copy whose CRC is right; false without one. */
   bool read(SavedState& state) const;
   /** Makes both copies unreadable. */
   void forget();

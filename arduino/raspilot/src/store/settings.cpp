@@ -9,9 +9,9 @@ namespace raspilot {
 
 namespace {
 
-/** What is stored changes its meaning with this number. */
+/** Version of the stored format. */
 constexpr uint8_t VERSION = 1;
-/** A cell that will not take its value is given up after so many saves. */
+/** A cell that will not take its value is given up after this number of saves. */
 constexpr uint8_t MOST_ATTEMPTS = 3;
 constexpr uint8_t LARGEST_SIZE = GAINS_SIZE;
 
@@ -86,7 +86,7 @@ bool Settings::background(bool is_armed) {
   return true;
 }
 
-/** Whether the newest copy already holds what is to be saved: cells of EEPROM wear. */
+/** Whether the newest copy already holds the values to be saved: cells of EEPROM wear. */
 bool Settings::is_kept() const {
   const KindState& state = kinds_[kind_];
   if (!state.is_stored) return false;
@@ -142,7 +142,7 @@ void Settings::finish() {
   begin_save();
 }
 
-/** The byte that belongs at `offset_`; moves on, and keeps the CRC of what went before. */
+/** The byte that belongs at `offset_`; moves on, and keeps the CRC of the bytes before. */
 uint8_t Settings::next_byte() {
   const uint8_t at = offset_++;
   if (at == 0) {

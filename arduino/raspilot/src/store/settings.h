@@ -1,5 +1,5 @@
 /**
- * Profile, gains and calibration: what flies now, and its two CRC'd copies each in EEPROM.
+ * Profile, gains and calibration: the active values, and two CRC'd copies of each in EEPROM.
  *
  * Each kind has two slots; the newer valid one is loaded, a save goes into the other, byte by byte
  * in the background, so that a power cut leaves the older. Saving waits while armed.
@@ -19,18 +19,18 @@ class Settings {
   Gains gains;
   Calibration calibration;
 
-  /** Reads EEPROM; what is missing or broken becomes the default. */
+  /** Reads EEPROM; missing or damaged values become the defaults. */
   void load();
   /**
    * Marks a kind for saving; saving begins at the next background() while disarmed. A kind that
-   * changes while it is being saved is marked again and its save begins anew.
+   * changes during its save is marked again and the save restarts.
    */
   void save_profile() { save(PROFILE); }
   void save_gains() { save(GAINS); }
   void save_calibration() { save(CALIBRATION); }
   /**
    * Writes or checks at most one byte of EEPROM; never waits; false when there is nothing to do
-   * now. A save that arming interrupts, or whose slot does not read back, begins anew.
+   * now. A save that arming interrupts, or whose slot does not read back, restarts.
    */
   bool background(bool is_armed);
   bool is_saving() const;
@@ -70,7 +70,7 @@ class Settings {
   KindState kinds_[KINDS];
   /** The kind that is being saved, if any is pending. */
   Kind kind_;
-  /** Reads back what was written. */
+  /** Reads the written bytes back. */
   bool is_checking_;
   uint8_t offset_;
   uint8_t attempts_;

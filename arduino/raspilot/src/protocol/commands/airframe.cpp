@@ -27,7 +27,7 @@ Reason on_profile_asked(Autopilot& autopilot, const Request&) {
   return Reason::NONE;
 }
 
-/** Whoever ends what was not begun is out of range; so are end points too close to each other. */
+/** Ending without a beginning is out of range; so are end points too close to each other. */
 Reason end_learning(Autopilot& autopilot) {
   PwmReader& receiver = autopilot.receiver;
   return receiver.is_learning() && receiver.end_range_learning(autopilot.settings.calibration)

@@ -1,4 +1,4 @@
-/** `a` `d` `v` `M` `m`: arming, the Raspberry Pi's veto, the flight mode that it asks for. */
+/** `a` `d` `v` `M` `m`: arming, the Raspberry Pi's veto, the flight mode that it requests. */
 #include "../../core/autopilot.h"
 #include "../command_executor.h"
 

@@ -1,4 +1,4 @@
-/** `u` and `S`: the Raspberry Pi flies, by servo positions or by the attitude that it asks for. */
+/** `u` and `S`: the Raspberry Pi flies, by servo positions or by an attitude demand. */
 #include "../../core/autopilot.h"
 #include "../../store/wire_bytes.h"
 #include "../command_executor.h"

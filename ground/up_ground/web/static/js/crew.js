@@ -1,38 +1,38 @@
 import { html, setAttribute, setText } from "./readout.js";
 
-/** A part that failed so often in a row is left as it is; with the waits that is half a minute. */
+/** Failures in a row until a part is given up; with the waits that takes half a minute. */
 const MOST_FAULTS = 16;
 /** Between two tries pass 1, 2, 4 updates and so on, but not more than these. */
 const LONGEST_WAIT = 64;
-/** After so many good updates in a row what was is forgotten. */
+/** Successful updates in a row that clear the failure count. */
 const GOOD_UPDATES = 50;
 
 /**
- * The parts of the page: one that fails keeps none of the others from what they do.
+ * The parts of the page: an exception in one does not stop the others.
  *
- * What a part that fails had shown is of before, and it may not look as if it were of now: its
- * element is greyed, takes no press, and none of its values says that it is live. It is tried again
- * at the next updates, ever more seldom, and stands as before when one succeeds.
+ * The display of a failed part is outdated and must not look live: its element is greyed out and
+ * inert, and none of its values is marked live. The part is retried at later updates, with growing
+ * waits, and is restored when one succeeds.
  */
 export class Crew {
   #members = [];
   #place;
 
-  /** @param {HTMLElement} place where is said what is missing */
+  /** @param {HTMLElement} place that lists the missing parts */
   constructor(place) {
     this.#place = place;
   }
 
   /**
    * @param {string} name
-   * @param {{update: () => void, fail?: () => void}} part fail: takes back what is shown elsewhere
+   * @param {{update: () => void, fail?: () => void}} part fail: undoes the part's display elsewhere
    * @param {HTMLElement} element that it draws into
    */
   add(name, part, element) {
     this.#members.push({ name, part, element, faults: 0, wait: 0, good: 0, line: null });
   }
 
-  /** Let every part show what is. */
+  /** Update every part. */
   update() {
     for (const member of this.#members.filter(({ faults }) => faults < MOST_FAULTS)) {
       if (member.wait > 0) {
@@ -49,7 +49,7 @@ export class Crew {
   }
 
   /**
-   * @param {string} sentence what is not there
+   * @param {string} sentence that names the missing part
    * @returns {HTMLElement} its line
    */
   say(sentence) {

@@ -1,7 +1,7 @@
 /**
- * Ask before something that matters.
+ * Confirm an important action.
  * @param {{title: string, text: string, yes?: string, no?: string, isDanger?: boolean}} question
- * @returns {Promise<boolean>} false also for Escape, and while another question stands open
+ * @returns {Promise<boolean>} false also for Escape, and while another dialog is open
  */
 export function confirm({ title, text, yes = "Yes", no = "No", isDanger = false }) {
   const dialog = document.getElementById("confirm");

@@ -1,12 +1,12 @@
 const PERIOD_S = 0.2;
 
-/** Lets figures of ages change five times a second: faster ones cannot be read. */
+/** Limits displayed ages to five changes a second: faster ones cannot be read. */
 export class Pace {
   #next_s = -Infinity;
 
   /**
    * @param {number} now_s
-   * @returns {boolean} whether it is time to write them anew
+   * @returns {boolean} whether it is time to write them again
    */
   isTime(now_s) {
     if (now_s < this.#next_s) {

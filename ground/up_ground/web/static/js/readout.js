@@ -47,16 +47,16 @@ export function html(tag, attributes = {}, ...children) {
  * @param {object} store
  * @param {string|null} reading
  * @param {string} freshness
- * @param {string} [otherwise] what stands there while it is not old
- * @returns {string} how old a stale reading is
+ * @param {string} [otherwise] text while the reading is not stale
+ * @returns {string} age of a stale reading
  */
 export function oldText(store, reading, freshness, otherwise = "") {
   return freshness === "stale" ? ageText(store.age_s(reading) ?? store.age_s(null)) : otherwise;
 }
 
 /**
- * One value of the telemetry in an element: `data-key`, `data-freshness`, `--` when there is
- * none, and its age in `ageElement` while it is stale.
+ * One value of the telemetry in an element: `data-key`, `data-freshness`, `--` without a value,
+ * and its age in `ageElement` while it is stale.
  */
 export class Readout {
   #path;
@@ -69,7 +69,7 @@ export class Readout {
    * @param {string} path of the value
    * @param {(value: any) => string} [format]
    * @param {Element|null} [ageElement]
-   * @param {"value"|"number"|"flag"|"text"} [kind] another type is no value
+   * @param {"value"|"number"|"flag"|"text"} [kind] a value of another type is ignored
    */
   constructor(element, path, format = String, ageElement = null, kind = "value") {
     this.element = element;

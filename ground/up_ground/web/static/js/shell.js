@@ -73,7 +73,7 @@ export function mountShell(store, connection) {
       showLink();
       showState();
     },
-    /** What stands outside of the bar's states and is not of now any more. */
+    /** Reset stale text outside of the bar's states. */
     fail() {
       setAttribute(document.documentElement, "data-aircraft-state", "none");
       setAttribute(at("bar-alarm"), "data-level", "warning");
@@ -85,7 +85,7 @@ export function mountShell(store, connection) {
 /**
  * @param {object} store
  * @param {"silent"|"none"} state
- * @returns {string} what stands over the instruments
+ * @returns {string} the text over the instruments
  */
 export function silenceText(store, state) {
   return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
@@ -93,8 +93,8 @@ export function silenceText(store, state) {
 
 /**
  * @param {string} reason with which the connection was closed
- * @param {boolean} isFull whether the server is there and takes no more pages
- * @returns {string} why there is none
+ * @param {boolean} isFull whether the server is reached but takes no more pages
+ * @returns {string} why the page is disconnected
  */
 export function lostText(reason, isFull) {
   if (isFull) {

@@ -10,16 +10,16 @@ const TONES = {
 const AGAIN_S = 6;
 const LOOK_S = 0.5;
 
-/** Decides when to ring: when something new is wrong, and every 6 s while an alarm stands. */
+/** Decides when to ring: at a new alarm, and every 6 s while one is active. */
 export class Bell {
   #known = new Set();
   #rang_s = -Infinity;
 
   /**
-   * @param {{level: string, text: string|null}} alarm the worst, as the bar says it
+   * @param {{level: string, text: string|null}} alarm the worst, as shown in the bar
    * @param {{kind: string, level: string}[]} all
    * @param {number} now_s
-   * @returns {"warning"|"alarm"|null} what to ring
+   * @returns {"warning"|"alarm"|null} the sound to play
    */
   ring(alarm, all, now_s) {
     const now = new Set(all.map((each) => `${each.kind} ${each.level}`));
@@ -39,7 +39,7 @@ export class Bell {
 
 /**
  * Tones and vibration for alarms; silent until the user switches them on, because browsers play
- * nothing before a gesture. Looks by a timer, so that a page in the background is heard too.
+ * nothing before a gesture. Driven by a timer, so that a page in the background rings too.
  * @param {HTMLButtonElement} button
  * @param {object} store
  * @param {object} connection

@@ -72,7 +72,7 @@ export function mount(place, store, connection) {
     }
   }
 
-  // The store has taken the frame before: it hears every message first.
+  // The store has processed the frame already: it gets every message first.
   function take(message) {
     if (message.aircraft !== store.aircraft) {
       return;
@@ -94,7 +94,7 @@ export function mount(place, store, connection) {
     if (message.type === "frame") {
       take(message);
     } else if (message.type === "track" && store.replay !== null) {
-      // It comes after each jump: what follows is of another time.
+      // Sent after each jump: the samples that follow belong to another time.
       clear();
     }
   });

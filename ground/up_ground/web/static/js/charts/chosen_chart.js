@@ -21,7 +21,7 @@ export class ChosenChart {
     this.#follow();
   }
 
-  /** Draw no line from what came before to what comes next. */
+  /** Draw no line between the samples before and after this call. */
   clear() {
     this.#history.clear();
   }

@@ -1,12 +1,12 @@
 import { GAP_S, Silence } from "../state/silence.js";
 
-/** How much of the past a chart shows. */
+/** The time span of a chart. */
 export const WINDOW_S = 60;
 
 /**
- * The last minute of some values, with holes where nothing came.
+ * The last minute of some values, with gaps for silences.
  *
- * Times are seconds of one clock; they rise. A value that is null or stale is a hole as well.
+ * Times are seconds of one clock; they rise. A value that is null or stale is a gap as well.
  */
 export class History {
   #names;
@@ -41,22 +41,22 @@ export class History {
     this.#forget(time_s - WINDOW_S - GAP_S);
   }
 
-  /** Draw no line from what came before to what comes next: another flight, another time. */
+  /** Draw no line between the samples before and after: another flight, another time. */
   clear() {
     this.#times_s = [];
     this.#values = this.#names.map(() => []);
     this.#silence.clear();
   }
 
-  /** @returns {number} the silence in seconds across which no line goes */
+  /** @returns {number} the silence in seconds that interrupts the line */
   get gap_s() {
     return this.#silence.limit_s;
   }
 
   /**
    * @param {number} now_s
-   * @returns {(number|null)[][]} seconds before now (negative), then the values of each name; where
-   *   nothing came up to now a hole ends it
+   * @returns {(number|null)[][]} seconds before now (negative), then the values of each name; a
+   *   silence up to now ends it with a gap
    */
   columns(now_s) {
     const first = this.#times_s.findIndex((time_s) => time_s >= now_s - WINDOW_S);

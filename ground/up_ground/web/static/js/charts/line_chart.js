@@ -85,7 +85,7 @@ export class LineChart {
       width: 1.5,
       dash: line.dash,
       spanGaps: false,
-      // A single frame between two silences is a point, else it would not be seen.
+      // A single frame between two silences is a point, otherwise it would be invisible.
       points: { show: (plot, index, from, to) => to - from < 4, size: 3 },
     }));
     return new this.#UPlot(
@@ -133,7 +133,7 @@ export class LineChart {
  * @param {number|null} least
  * @param {number|null} most
  * @param {number|null} leastSpan null: a fiftieth of the values
- * @returns {[number, number]} what the axis shows: all values, and never a sliver
+ * @returns {[number, number]} range of the axis: all values, with a minimum span
  */
 export function span(least, most, leastSpan) {
   if (least === null || most === null || !Number.isFinite(least) || !Number.isFinite(most)) {
@@ -145,7 +145,7 @@ export function span(least, most, leastSpan) {
   return [least - margin - missing, most + margin + missing];
 }
 
-// A canvas knows no light-dark(): the element tells what the colour is now.
+// A canvas does not support light-dark(): read the present colour from the element.
 function colourOf(place, name) {
   const probe = element("span");
   probe.style.setProperty("color", `var(${name})`);

@@ -12,7 +12,7 @@ const MEANINGS = {
   RTH: "flies home by itself",
 };
 
-/** Who flies, how, and what forbids it: mode, armed, vetoes, load, failsafe. */
+/** State of control: mode, armed, vetoes, load, failsafe. */
 export function mount(element, store) {
   const mode = html("span", { id: "flight-mode" });
   const meaning = html("p", { id: "flight-meaning" });
@@ -88,7 +88,7 @@ function showVetoes(place, store) {
     return;
   }
   place.shownVetoes = shown;
-  // In the air a veto is no warning: it tells what would have to be so to arm once more.
+  // In the air a veto is information, not a warning: it names the condition for arming again.
   place.classList.toggle("is-warning", !isArmed && all !== null && all.length > 0);
   const title = vetoTitle(all, isArmed);
   const items = (all ?? []).map((each) => html("li", {}, each));

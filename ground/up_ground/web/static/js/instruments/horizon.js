@@ -62,7 +62,7 @@ export function mount(element, store) {
   };
 }
 
-/** Where the pointer of the roll scale will stand when the bank is the one asked for. */
+/** Where the pointer of the roll scale will stand at the demanded bank. */
 function showBug(bug, demand_deg) {
   setAttribute(bug, "visibility", demand_deg === null ? "hidden" : "visible");
   if (demand_deg !== null) {

@@ -1,6 +1,6 @@
 import { short } from "./svg.js";
 
-/** How far apart one degree of pitch is drawn. */
+/** Distance of one degree of pitch in the drawing. */
 export const UNITS_PER_DEG = 5;
 
 /**

@@ -51,7 +51,7 @@ export function mount(element, store, connection) {
   };
 }
 
-/** A proxy that hangs is connected as far as the server knows: what it says is of before. */
+/** A proxy that hangs still counts as connected at the server: its reports are outdated. */
 function saysMoreThanIsHeard(link, store) {
   return store.isSilent && link.state === "connected" && link.aircraft_online !== false;
 }

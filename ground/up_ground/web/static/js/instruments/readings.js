@@ -6,7 +6,7 @@ import { ageText, UNKNOWN } from "../state/format.js";
 const NAMES = { rx: "receiver", servo: "servos", flight: "flight state" };
 const WORDS = { live: "live", stale: "old", none: "never came" };
 
-/** Each reading on board: who brings it, how old it is, and whether one may trust it. */
+/** Each reading on board: its source, its age, and whether it can be trusted. */
 export function mount(element, store) {
   const body = html("tbody");
   const head = ["Reading", "From", "Age", "State"].map((name) =>

@@ -12,10 +12,9 @@ export class Row {
    * @param {HTMLElement} list a `dl`
    * @param {string} name
    * @param {string} path
-   * @param {"value"|"number"|"flag"|"text"} kind another type is no value
+   * @param {"value"|"number"|"flag"|"text"} kind a value of another type is ignored
    * @param {(value: any) => string} [format]
-   * @param {(value: any) => string} [judge] says how it looks while it is live: "" plain,
-   *   "warning" or "alarm"
+   * @param {(value: any) => string} [judge] style of a live value: "" plain, "warning" or "alarm"
    */
   constructor(list, name, path, kind, format = String, judge = () => "") {
     const value = html("span", { class: "row-value" });

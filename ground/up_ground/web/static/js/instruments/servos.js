@@ -5,7 +5,7 @@ import { beyond, share } from "./stick_geometry.js";
 
 const CHANNELS = ["ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"];
 
-/** What the receiver says and what the servos get, channel by channel, 1000 to 2000 us. */
+/** Receiver inputs and servo outputs, channel by channel, 1000 to 2000 us. */
 export function mount(element, store) {
   const table = html("div", { class: "channel-table" });
   const heads = { rx: headOf("in"), servo: headOf("out") };

@@ -15,7 +15,7 @@ const MODES = {
   ],
 };
 
-/** The two sticks as the receiver hears them, in mode 2 or 1. */
+/** The two sticks as received, in mode 2 or 1. */
 export function mount(element, store) {
   const memory = keepsakeOf("localStorage");
   let mode = memory.get("stick-mode") === "1" ? 1 : 2;

@@ -28,7 +28,7 @@ export function drawing(viewBox, label, ...children) {
 }
 
 /**
- * Slanting lines that lie over what is old; shown by the style sheet.
+ * Hatch over stale values; shown by the style sheet.
  * @param {string} id of the pattern, one for the whole page
  * @param {{x: number, y: number, width: number, height: number}} place
  * @returns {SVGElement}

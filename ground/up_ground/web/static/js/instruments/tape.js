@@ -67,7 +67,7 @@ export class Tape {
    * @param {number|null} value
    * @param {"live"|"stale"|"none"} freshness
    * @param {string} text of the window
-   * @param {string} age what says how old it is, "" while it is not
+   * @param {string} age of a stale value as text, otherwise ""
    */
   show(value, freshness, text, age) {
     setAttribute(this.element, "data-freshness", freshness);

@@ -1,8 +1,8 @@
 /**
  * A scale that moves past a pointer, greater values above.
  *
- * Only what changes is told: `first` is the lowest mark drawn, and it stays the same until the
- * value has moved by a whole step; in between only `shift` moves.
+ * Only changes are reported: `first` is the lowest mark drawn and stays the same until the value
+ * has moved by a whole step; in between only `shift` changes.
  */
 export class TapeScale {
   /**

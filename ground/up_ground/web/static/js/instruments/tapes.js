@@ -84,7 +84,7 @@ function heightText(height_m) {
     : `${numberText(height_m / 1000, 1, { sign: true })} km`;
 }
 
-/** Over the place where the track begins: nothing tells the altitude of home itself. */
+/** Above the start of the track: the altitude of home itself is not reported. */
 function heightOverStart_m(store) {
   const start_m = store.track.startAltitude_m;
   const here_m = store.number("location.altitude");

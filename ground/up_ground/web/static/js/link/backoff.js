@@ -17,7 +17,7 @@ export class Backoff {
     return wait_s;
   }
 
-  /** Begin anew: the server was reached. */
+  /** Reset: the server was reached. */
   reset() {
     this.#attempts = 0;
   }

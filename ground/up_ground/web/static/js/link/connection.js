@@ -14,11 +14,11 @@ const FULL_S = 5;
 const LOST = "the connection to the ground server was lost before an answer came";
 
 /**
- * The page's line to the ground server: opens, comes back by itself, asks and gets answers.
+ * The page's connection to the ground server: opens, reconnects, sends requests and gets answers.
  *
- * `on(type, call)` hears every message of the server by its type, and besides
- * `open` ({welcome}), `closed` ({reason, retry_s}) and `message` (each one, first of all).
- * Who throws keeps nobody else from hearing it.
+ * `on(type, call)` subscribes to the server's messages of a type, and also to
+ * `open` ({welcome}), `closed` ({reason, retry_s}) and `message` (each one, before all others).
+ * An exception in one listener does not stop the others.
  */
 export class Connection {
   #url;
@@ -41,13 +41,13 @@ export class Connection {
   #hello_s = null;
   #way = new Way();
 
-  /** The server's `welcome`, null while there is no connection. */
+  /** The server's `welcome`, null while disconnected. */
   welcome = null;
-  /** Whether there is none because the server takes no more pages. */
+  /** Whether the server refuses the connection because it has the maximum number of pages. */
   isFull = false;
   /** The page's own round trip in seconds, null until measured. */
   roundTrip_s = null;
-  /** How long the message that is being heard was on its way, in seconds. */
+  /** Transit time of the message being processed, in seconds. */
   way_s = 0;
   /** Which frame the page has shown: set by the page, echoed in Commands. */
   shownBeacon = () => null;
@@ -67,7 +67,7 @@ export class Connection {
     this.#asks = new PendingAsks(this.#timers);
   }
 
-  /** @returns {boolean} whether the server has welcomed this page and the line stands */
+  /** @returns {boolean} whether the server has welcomed this page and the connection is open */
   get isOpen() {
     return this.welcome !== null;
   }
@@ -120,7 +120,7 @@ export class Connection {
   }
 
   /**
-   * Send a Command to an aircraft; the promise never fails, its outcome says what happened.
+   * Send a Command to an aircraft; the promise never fails, the result has the outcome.
    * @param {string} name of the Command
    * @param {object} data
    * @param {{aircraft?: string, isForced?: boolean}} [more] isForced: sent although the server does
@@ -163,7 +163,7 @@ export class Connection {
 
   #hello(socket) {
     const token = this.#memory.get("token");
-    // Without a name of its own the server gives it one.
+    // Without a name the server chooses one.
     const name = this.#memory.get("name") ?? keepsakeOf("localStorage").get("name") ?? "";
     this.#hello_s = this.#now_s();
     socket.send(JSON.stringify({ type: "hello", name, key: this.#key, token }));
@@ -203,7 +203,7 @@ export class Connection {
     this.#tell("open", { welcome: message });
   }
 
-  /** A server that tells no clock leaves half of the round trip. */
+  /** Without a clock from the server, half of the round trip. */
   #timeWay(message) {
     const asked_s = message.type === "welcome" ? this.#hello_s : this.#pings.get(message.ping);
     const way_s = this.#way.take(message.sent_ms, this.#heard_s, asked_s ?? null);
@@ -251,7 +251,7 @@ export class Connection {
     this.roundTrip_s = null;
     this.#pings.clear();
     this.#asks.giveUp(LOST);
-    // A place becomes free when somebody goes: who asks at every moment only keeps it busy.
+    // A place becomes free when a page leaves: fast retries only keep the server busy.
     this.isFull = code === FULL;
     const retry_s = this.isFull ? FULL_S : this.#backoff.next_s();
     this.#retryAt_s = this.#now_s() + retry_s;

@@ -1,5 +1,5 @@
 /**
- * What this tab remembers over a reload; a browser that keeps nothing forgets politely.
+ * Data that this tab keeps over a reload; without storage in the browser nothing is kept.
  */
 export class Keepsake {
   #storage;

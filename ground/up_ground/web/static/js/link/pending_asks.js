@@ -13,7 +13,7 @@ export class PendingAsks {
     this.#timers = timers;
   }
 
-  /** @returns {{ask: number, answer: Promise<object>}} a new number and its answer to come */
+  /** @returns {{ask: number, answer: Promise<object>}} a new number and its future answer */
   add() {
     this.#last += 1;
     const ask = this.#last;
@@ -27,7 +27,7 @@ export class PendingAsks {
     return { ask, answer };
   }
 
-  /** @param {object} message the server's `answer`; one that nobody waits for is dropped */
+  /** @param {object} message the server's `answer`; dropped if no request waits for it */
   take(message) {
     const waiting = this.#waiting.get(message.ask);
     if (waiting === undefined) {
@@ -38,7 +38,7 @@ export class PendingAsks {
     waiting.resolve({ code: null, reason: "", round_trip_ms: null, data: null, ...message });
   }
 
-  /** @param {string} reason why no answer can come any more: what became of them is unknown */
+  /** @param {string} reason why no answer can arrive now: the outcome of the requests is unknown */
   giveUp(reason) {
     for (const ask of [...this.#waiting.keys()]) {
       this.take({ ask, outcome: "timeout", reason });

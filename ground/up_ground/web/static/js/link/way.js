@@ -5,13 +5,13 @@ const DOUBT_S = 0.1;
 const ROUNDING_S = 0.005;
 
 /**
- * How long messages of the server are on their way to this page, by the clock of each.
+ * Transit time of the server's messages to this page, by the clock of each.
  *
- * The quickest message bounds what lies between the two clocks from one side, a question and its
- * answer from the other. Where the bounds are near, the truth is taken to be in their middle; where
- * they are far apart, something stands in a queue, and it is taken to be the way here. So no
- * message is told younger than it is by more than 0.1 s, nor older by more than the quickest
- * question took. Nothing is forgotten but the drift of the clocks: a queue may stand for hours.
+ * The quickest message bounds the offset of the two clocks on one side, a request and its answer
+ * on the other. If the bounds are close, their middle is taken; if they are far apart, something
+ * is queued, and the whole delay is attributed to the way here. So the computed age of a message
+ * is at most 0.1 s too small, and too great by at most the time of the quickest request. Only the
+ * drift of the clocks is forgotten: a queue may stand for hours.
  */
 export class Way {
   #most_s = null;
@@ -19,10 +19,10 @@ export class Way {
   #now_s = 0;
 
   /**
-   * @param {unknown} sent_ms the server's clock when the message left
-   * @param {number} now_s the page's clock when it came
-   * @param {number|null} asked_s the page's clock when it asked for this message, if it did
-   * @returns {number|null} how long it was on its way, in seconds; null: it tells no clock
+   * @param {unknown} sent_ms the server's clock at departure
+   * @param {number} now_s the page's clock at arrival
+   * @param {number|null} asked_s the page's clock at the request for this message, if any
+   * @returns {number|null} transit time in seconds; null: the server sends no clock
    */
   take(sent_ms, now_s, asked_s = null) {
     const stamp_ms = number(sent_ms);
@@ -38,7 +38,7 @@ export class Way {
       this.#least_s = Math.max(this.#least_s, asked_s - stamp_ms / 1000);
     }
     if (this.#least_s > this.#most_s + ROUNDING_S) {
-      // A clock stood still, as in sleep: what was known is of other clocks.
+      // A clock stood still, as in sleep: the bounds belong to other clocks.
       this.#most_s = apart_s;
       this.#least_s = asked_s === null ? -Infinity : asked_s - stamp_ms / 1000;
     }

@@ -40,7 +40,7 @@ export function linesBetween(from_m, to_m, step_m) {
 }
 
 /**
- * What part of the plane a picture shows so that all points lie in it with a margin.
+ * The part of the plane in the picture, so that all points lie in it with a margin.
  * @param {{east_m: number, north_m: number}[]} points
  * @param {{width_px: number, height_px: number}} size
  * @param {number} [least_m] the least that is shown across

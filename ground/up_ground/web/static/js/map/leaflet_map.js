@@ -28,8 +28,8 @@ export class LeafletMap {
    * @param {object} L Leaflet
    * @param {HTMLElement} place
    * @param {{tiles: ?{url: string, attribution: string}, onFree: () => void,
-   *   onTiles: (areThere: boolean) => void}} options onFree: the user moved the map; onTiles: the
-   *   pictures of the ground stopped coming, or come
+   *   onTiles: (areThere: boolean) => void}} options onFree: the user moved the map; onTiles: map
+   *   tiles have become unavailable, or available
    */
   constructor(L, place, { tiles, onFree, onTiles }) {
     this.#L = L;
@@ -128,7 +128,7 @@ export class LeafletMap {
     this.#track.show(picture.track);
   }
 
-  // Another aircraft flies elsewhere: nothing of the first stays, not even what the grid counts from.
+  // Another aircraft flies elsewhere: reset everything, including the origin of the grid.
   #forget(picture) {
     this.#showAircraft({ ...picture, aircraft: null });
     this.#showHome(null);

@@ -66,7 +66,7 @@ export function mount(place, store, connection) {
       "-": () => map?.zoom(-1),
       f: () => setFollow(!map?.isFollowing),
     };
-    // Leaflet itself hears + and - while it has the focus.
+    // Leaflet itself handles + and - while it has the focus.
     const isLeaflets = event.target === canvas && event.key !== "f";
     if (Object.hasOwn(keys, event.key) && !isLeaflets) {
       keys[event.key]();
@@ -90,7 +90,7 @@ export function mount(place, store, connection) {
     showFollow();
   }
 
-  // What tiles there are is known with the welcome.
+  // The welcome message names the available tiles.
   if (connection.isOpen) {
     begin();
   } else {

@@ -98,7 +98,7 @@ function line(pen, ink, [x0, y0, x1, y1], isAxis) {
 }
 
 function inkOf(root) {
-  // A canvas knows no light-dark(): an element that uses the colours tells what they are now.
+  // A canvas does not support light-dark(): read the present colours from an element.
   const probe = document.createElement("span");
   root.append(probe);
   const colour = (name) => {

@@ -2,7 +2,7 @@ import { bearing_deg, distance_m, distanceText, placeOf } from "./earth.js";
 import { ageText, headingText } from "../state/format.js";
 
 /**
- * What a map draws: the name of the aircraft, where it was seen last, home, the track.
+ * Content of a map: the name of the aircraft, its last position, home, the track.
  * @typedef {{name: ?string, aircraft: ?{latitude: number, longitude: number}, heading_deg: ?number,
  *   freshness: "live"|"stale"|"none", age: string, home: ?{latitude: number, longitude: number},
  *   track: object}} Picture
@@ -31,7 +31,7 @@ export function pictureOf(store) {
 
 /**
  * @param {Picture} picture
- * @returns {string} how far away it is and where to walk
+ * @returns {string} distance and direction to walk
  */
 export function homeWords(picture) {
   if (picture.aircraft === null) {
@@ -47,7 +47,7 @@ export function homeWords(picture) {
   return `${distance} from home at ${from}°, the way back ${back}°${age}`;
 }
 
-// A place of the track alone: nobody told when that was.
+// A position from the track alone: its time is unknown.
 function ageWords(age_s) {
   return age_s === null ? "some time" : ageText(age_s);
 }

@@ -6,7 +6,7 @@ import { AircraftSymbol } from "./aircraft_symbol.js";
 import { piecesOf } from "./track_line.js";
 
 const MOST_POINTS = 1500;
-/** What the line of words below the map covers. */
+/** Height covered by the line of text below the map. */
 const FOOT_PX = 40;
 
 /** A map of our own: track, home and aircraft in metres on a grid. It always shows everything. */
@@ -69,7 +69,7 @@ export class PlainMap {
     }
   }
 
-  /** It always shows all: nothing to do. */
+  /** Does nothing: this map always shows everything. */
   follow() {}
 
   /** It has no other scale. */

@@ -5,7 +5,7 @@ const PARTS = [
   { upTo: Infinity, opacity: 0.35, weight: 2 },
 ];
 
-/** So many new points make it worth to draw the old parts again. */
+/** Number of new points after which the old parts are redrawn. */
 const AGAIN = 50;
 
 /** The track on Leaflet's map, the older the fainter. */

@@ -1,7 +1,7 @@
 import { drawn, element } from "../panels/element.js";
 import { setAttribute, setText } from "../readout.js";
 
-/** The wind beside the map, where an aircraft tells it: an arrow that flies with it, and words. */
+/** The wind beside the map, if the aircraft reports it: an arrow along the wind, and text. */
 export class Wind {
   #arrow = drawn("path", { d: "M0 -7 V7 M-4 3 L0 7 L4 3" });
   #words = element("span");

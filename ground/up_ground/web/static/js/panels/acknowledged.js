@@ -1,7 +1,7 @@
 const known = new Set();
 
 /**
- * Silence an alarm until it is over and comes again.
+ * Silence an alarm until it is over and returns.
  * @param {{kind: string, level: string}} alarm
  */
 export function acknowledge(alarm) {
@@ -10,15 +10,15 @@ export function acknowledge(alarm) {
 
 /**
  * @param {{kind: string, level: string}} alarm
- * @returns {boolean} whether somebody has seen it and said so
+ * @returns {boolean} whether the user has acknowledged it
  */
 export function isAcknowledged(alarm) {
   return known.has(keyOf(alarm));
 }
 
 /**
- * Forget what is over: when it comes again, it sounds again.
- * @param {{kind: string, level: string}[]} alarms that stand now
+ * Forget alarms that are over: when one returns, it sounds again.
+ * @param {{kind: string, level: string}[]} alarms that are active now
  */
 export function forgetOthers(alarms) {
   const standing = new Set(alarms.map(keyOf));

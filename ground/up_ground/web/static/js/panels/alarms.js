@@ -4,7 +4,7 @@ import { element } from "./element.js";
 import { awayWords } from "./why.js";
 
 /**
- * The alarms that stand: a bar each, until it is over. Acknowledging silences it.
+ * The active alarms: a bar each, until it is over. Acknowledging silences it.
  * @param {HTMLElement} place
  * @param {object} store
  * @param {object} connection
@@ -15,7 +15,7 @@ export function mount(place, store, connection) {
   const away = element("div.alarm", { id: "aircraft-away", role: "alert", "data-level": "warning" }, element("strong"));
   let aircraft = store.aircraft;
 
-  // The alarm of an aircraft that was heard before says so itself.
+  // If the aircraft had sent telemetry before, its own alarm already reports this.
   function showAway(standing) {
     const isSaid = standing.some(({ text }) => text.includes("not connected to the proxy"));
     const words = isSaid || !connection.isOpen ? "" : awayWords(store);
@@ -45,7 +45,7 @@ export function mount(place, store, connection) {
   return {
     update() {
       const standing = store.alarms.filter((each) => typeof each?.text === "string");
-      // What was acknowledged of one aircraft is not of another.
+      // An acknowledgement for one aircraft does not hold for another.
       forgetOthers(store.aircraft === aircraft ? standing : []);
       aircraft = store.aircraft;
       const keys = new Set(standing.map(keyOf));

@@ -1,16 +1,16 @@
 import { setAttribute, setText } from "../readout.js";
 import { agoWords } from "./words.js";
 
-/** From then on an answer tells its age. */
+/** From then on an answer shows its age. */
 const AGED_S = 5;
 /** From then on it is grey. */
 const OLD_S = 15;
-/** Then it goes: what was asked stands among the events. */
+/** Then it is removed: the request is listed among the events. */
 const GONE_S = 120;
 
 /**
- * The answers of Commands on the page: each with its age, grey after a while, then gone. They go at
- * once with what they were about: the connection, control, the aircraft.
+ * The answers of Commands on the page: each with its age, grey after a while, then removed. They
+ * are removed immediately when their subject goes: the connection, control, the aircraft.
  */
 export class AnswerNotes {
   #store;
@@ -25,7 +25,7 @@ export class AnswerNotes {
   constructor(store, connection) {
     this.#store = store;
     this.#aircraft = store.aircraft;
-    // What was under way is told afterwards: that nobody knows what became of it.
+    // Requests in flight get a note afterwards: their outcome is unknown.
     connection.on("closed", () => this.clear());
     store.subscribe(() => this.look());
   }
@@ -41,7 +41,7 @@ export class AnswerNotes {
     showAge(note, "", false);
   }
 
-  /** Look what has become old, and what is over. */
+  /** Grey out stale answers, and remove those that are over. */
   look() {
     const { aircraft, now_s } = this.#store;
     const isHolder = this.#store.status?.control?.holder === "you";
@@ -53,7 +53,7 @@ export class AnswerNotes {
     for (const [note, { text, at_s }] of this.#notes) {
       const age_s = now_s - at_s;
       if (note.textContent !== text) {
-        // Something else stands there now: what is wrong with what was written, say.
+        // The note has another text now, for instance an error of the input.
         this.#forget(note);
       } else if (age_s >= GONE_S) {
         this.#empty(note);

@@ -52,7 +52,7 @@ export function mount(place, store, connection) {
   function list() {
     const { commands } = store.catalogue;
     const words = JSON.stringify(commands);
-    // After a lost connection the same ones come again: what was written stays.
+    // After a lost connection the same ones arrive again: the input stays.
     if (words !== offeredWords && commands.length > 0) {
       offeredWords = words;
       names.replaceChildren(...commands.map(({ name }) => element("option", { value: name })));
@@ -85,7 +85,7 @@ export function mount(place, store, connection) {
     return ruleAgainst(store, asker, name === "" ? "up.flight_mode.set" : name, data);
   }
 
-  // What was written was meant for the aircraft that was looked at.
+  // The input was meant for the aircraft watched before.
   function follow() {
     if (store.aircraft !== aircraft) {
       aircraft = store.aircraft;
@@ -159,8 +159,8 @@ function aboutWords(name, command) {
 /**
  * @param {string} name
  * @param {object} data
- * @param {object|null} command null: nobody here knows it
- * @param {string} [warning] what is to be known before
+ * @param {object|null} command null: unknown here
+ * @param {string} [warning] shown before sending
  * @returns {{title: string, text: string, yes: string, no: string, isDanger: boolean}}
  */
 export function questionOf(name, data, command, warning = "") {

@@ -3,14 +3,14 @@ import { gainsObjection, gainsWarning } from "./gains_why.js";
 
 const GAINS = "arduino.pids.tunings";
 
-/** What takes more than a question is done where it is asked for as it must be. */
+/** Actions that need more than a confirmation are offered only in their own panel. */
 const ELSEWHERE = {
   "up.arm": "Arming takes the button that is held, under Commands.",
   "up.disarm": "Disarming takes the button that is held, under Commands.",
 };
 
 /**
- * Why a Command is not sent by its name: no way around what its own panel asks for.
+ * Why a Command is not sent by its name: its own panel's conditions cannot be bypassed.
  * @param {object} store
  * @param {import("./asker.js").Asker} asker
  * @param {string} name of the Command itself, not an alias
@@ -32,13 +32,13 @@ export function ruleAgainst(store, asker, name, data = null) {
  * @param {object} store
  * @param {string} name of the Command
  * @param {object} data
- * @returns {string} what is to be known before it is sent; empty: nothing
+ * @returns {string} warning before it is sent; empty: none
  */
 export function warningOf(store, name, data) {
   return setsGains(name, data) ? gainsWarning(store) : "";
 }
 
-// A request that brings gains as well is none to this page, whatever the aircraft makes of it.
+// A request that carries gains too counts as a change of gains, whatever the aircraft makes of it.
 function setsGains(name, data) {
   return name === GAINS && (!isOnlyRequest(name, data) || Object.hasOwn(data, "pids"));
 }

@@ -3,7 +3,7 @@ import { element } from "./element.js";
 import { heading } from "./flight_modes.js";
 import { HeldButton } from "./held_button.js";
 
-/** Arm and disarm, each by a held press: nothing happens by a slip of the hand. */
+/** Arm and disarm, each by a held press, which prevents accidents. */
 export class Arming {
   #store;
   #asker;
@@ -70,7 +70,7 @@ export class Arming {
     return "";
   }
 
-  /** Whether the motor is armed, null while that is not known of now. */
+  /** Whether the motor is armed, null without a fresh value. */
   #armed() {
     return this.#store.freshnessAt("armed") === "live" ? this.#store.flag("armed") : null;
   }

@@ -6,8 +6,8 @@ import { objection } from "./why.js";
 export { tell } from "./answer_notes.js";
 
 /**
- * Sends Commands as a person does: asks back where it matters, says that it is under way and
- * what became of it, beside the button and in `#last-answer`.
+ * Sends Commands for the user: confirms where it matters, and shows progress and outcome beside
+ * the button and in `#last-answer`.
  */
 export class Asker {
   #store;
@@ -29,8 +29,8 @@ export class Asker {
    * @param {string} name of the Command
    * @param {object} data
    * @param {{note: HTMLElement, question?: object|null, isForced?: boolean}} where
-   *   note: says how it goes; question: for dialog.js, null: nothing is asked; isForced: a name that
-   *   the server does not know is sent all the same
+   *   note: shows the progress; question: for dialog.js, null: no confirmation; isForced: a name
+   *   that the server does not know is sent all the same
    * @returns {Promise<object|null>} the answer; null: it was not sent
    */
   async ask(name, data, { note, question = null, isForced = false }) {
@@ -39,7 +39,7 @@ export class Asker {
       this.#notes.tell(note, "not sent: you said no", "plain");
       return null;
     }
-    // While the question stood there, control may have gone elsewhere.
+    // While the dialog was open, control may have changed.
     const why = this.#moved(aircraft) || this.objection(name, data);
     if (why) {
       this.#notes.tell(note, `not sent: ${why}`, "bad");
@@ -50,7 +50,7 @@ export class Asker {
     this.#notes.tell(note, "sent, waiting for the answer", "plain");
     this.#tellLast(words, "sent, waiting for the answer", "plain");
     const answer = await this.#connection.command(name, data, { aircraft, isForced });
-    // An answer of another aircraft than the one that is looked at is no news of this one.
+    // An answer of another aircraft than the watched one is not shown.
     if (!this.#moved(aircraft)) {
       this.#notes.tell(note, answerWords(answer), answerLook(answer));
       this.#tellLast(words, answerWords(answer), answerLook(answer));

@@ -2,7 +2,7 @@ import { setText } from "../readout.js";
 import { element } from "./element.js";
 import { fieldValue, wanted } from "./field_value.js";
 
-/** One field of any Command: its input, what it must be, and what is wrong with what stands in it. */
+/** One field of any Command: its input, its type and bounds, and the error of its content. */
 export class CommandField {
   #field;
   #input;
@@ -40,7 +40,7 @@ export class CommandField {
     return this.#field.name;
   }
 
-  /** @returns {{problem: string, isLeftOut?: boolean, value?: any}} what stands there */
+  /** @returns {{problem: string, isLeftOut?: boolean, value?: any}} its content */
   read() {
     return fieldValue(this.#field, this.#input.value, this.#null?.checked === true);
   }

@@ -18,7 +18,7 @@ export class KnownFields {
     this.#fields.forEach((each) => each.offer(isOffered));
   }
 
-  /** @returns {object|null} the data of the Command; null: a field is wrong, which it says itself */
+  /** @returns {object|null} the data of the Command; null: a field is wrong and shows its error */
   read() {
     const data = {};
     let firstWrong = null;
@@ -36,7 +36,7 @@ export class KnownFields {
   }
 }
 
-/** The fields of a Command that nobody here knows: one text of JSON. */
+/** The fields of an unknown Command: one text of JSON. */
 export class UnknownFields {
   #input;
   #note = element("p.note", { id: "any-json-note", role: "status" });
@@ -68,7 +68,7 @@ export class UnknownFields {
     this.#input.disabled = !isOffered;
   }
 
-  /** @returns {object|null} the data of the Command; null: it is no object */
+  /** @returns {object|null} the data of the Command; null: not an object */
   read() {
     const { problem, value } = jsonFields(this.#input.value);
     this.#say(problem);

@@ -6,7 +6,7 @@ import { FlightModes } from "./flight_modes.js";
 import { Wishes } from "./wishes.js";
 
 /**
- * What can be asked of the aircraft, and what became of the last thing asked.
+ * The requests to the aircraft, and the outcome of the last one.
  * @param {HTMLElement} place
  * @param {object} store
  * @param {object} connection
@@ -21,7 +21,7 @@ export function mount(place, store, connection) {
   return {
     update() {
       place.hidden = connection.welcome?.is_replay === true;
-      // What needs most tells most: a role that forbids one thing says so here too.
+      // The action with the most conditions has the fullest reason: a missing role shows here too.
       const words = asker.objection("up.flight_mode.set") || asker.objection("up.arm");
       setText(why, words);
       why.hidden = words === "";

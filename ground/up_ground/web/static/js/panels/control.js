@@ -14,7 +14,7 @@ const BUTTONS = [
 ];
 
 /**
- * Who holds control of the aircraft, and how it changes hands.
+ * The owner of control of the aircraft, and the actions that change it.
  * @param {HTMLElement} place
  * @param {object} store
  * @param {object} connection
@@ -39,7 +39,7 @@ export function mount(place, store, connection) {
   const notice = new ControlNotice(store, connection, send);
   document.body.append(notice.element);
   let isWaiting = false;
-  // A wish that was denied is told so.
+  // A denied request is reported.
   connection.on("fault", (message) => wishes.fault(String(message.text ?? ""), store.aircraft, store.now_s));
   connection.on("closed", () => wishes.forget());
 

@@ -1,7 +1,7 @@
 import { setText } from "../readout.js";
 import { element } from "./element.js";
 
-/** Somebody asks this page for control: said where it is seen wherever the page is scrolled to. */
+/** Another page requests control from this one: shown in view at every scroll position. */
 export class ControlNotice {
   #store;
   #connection;
@@ -38,7 +38,7 @@ export class ControlNotice {
     this.element.hidden = asked === null;
   }
 
-  // The aircraft that is looked at comes first, but another one may be asked for as well.
+  // The watched aircraft has precedence, but another one may be requested as well.
   #asked() {
     const all = [this.#store.status, ...this.#store.statuses.values()];
     return all.find((each) => each?.control?.holder === "you" && each.control.asked_by) ?? null;
@@ -46,7 +46,7 @@ export class ControlNotice {
 }
 
 /**
- * @param {{aircraft: string, control: object}} status in which this page is asked
+ * @param {{aircraft: string, control: object}} status with the request to this page
  * @param {number} count of aircraft on this page
  * @returns {string}
  */

@@ -1,17 +1,17 @@
 const LIMIT_S = 30;
-/** The server tells when a wish is over; a page that does not hear it gives it up a little later. */
+/** The server reports the end of a request; without a report the page ends it a little later. */
 const LATE_S = 3;
-/** So long it is told what became of a wish. */
+/** How long the outcome of a request is shown. */
 const TOLD_S = 30;
 
-/** What this page has asked of those who have control, and what became of it: by aircraft. */
+/** This page's requests for control, with their outcomes, by aircraft. */
 export class ControlWishes {
   #wishes = new Map();
   #notes = new Map();
 
   /**
    * @param {string} aircraft
-   * @param {string} holder who was asked; empty: nobody in particular
+   * @param {string} holder the page asked; empty: none in particular
    * @param {number} now_s
    */
   asked(aircraft, holder, now_s) {
@@ -19,16 +19,16 @@ export class ControlWishes {
     this.#wishes.set(aircraft, { holder, at_s: now_s });
   }
 
-  /** @param {string} aircraft of which nothing is asked any more */
+  /** @param {string} aircraft for which no request is pending now */
   withdraw(aircraft) {
     this.#wishes.delete(aircraft);
     this.#notes.delete(aircraft);
   }
 
   /**
-   * A wish was denied, or something else went wrong.
+   * A request was denied, or something else went wrong.
    * @param {string} text
-   * @param {string} aircraft that is looked at: of others, what is under way is meant
+   * @param {string} aircraft the watched one; without a request for it the first pending one is meant
    * @param {number} now_s
    */
   fault(text, aircraft, now_s) {
@@ -67,7 +67,7 @@ export class ControlWishes {
   /**
    * @param {string} aircraft
    * @param {number} now_s
-   * @returns {string} what is to be known of it; empty: nothing
+   * @returns {string} its present state; empty: none
    */
   words(aircraft, now_s) {
     const wish = this.#wishes.get(aircraft);
@@ -82,7 +82,7 @@ export class ControlWishes {
 /**
  * @param {object|null} control of a status
  * @param {number|null} page this page's number
- * @returns {boolean} whether it is this page that asks
+ * @returns {boolean} whether this page has the pending request
  */
 export function isAsker(control, page) {
   return typeof page === "number" && control?.asked_by?.page === page;

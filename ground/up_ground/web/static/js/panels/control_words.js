@@ -2,10 +2,10 @@ import { isAsker } from "./control_wishes.js";
 import { sentence } from "./why.js";
 
 /**
- * Who has control, in words.
+ * The owner of control, in words.
  * @param {object|null} control of the server's `status`
- * @param {object|null} welcome null: there is no connection
- * @returns {{holder: string, asked: string, pages: string}} empty: nothing to say
+ * @param {object|null} welcome null: disconnected
+ * @returns {{holder: string, asked: string, pages: string}} empty: no text
  */
 export function controlWords(control, welcome) {
   if (welcome === null) {
@@ -24,7 +24,7 @@ export function controlWords(control, welcome) {
 /**
  * @param {object|null} control
  * @param {object|null} welcome
- * @returns {Set<string>} of request, give, deny, release: what a page may do now
+ * @returns {Set<string>} of request, give, deny, release: the actions available to a page now
  */
 export function offeredActions(control, welcome) {
   if (welcome === null || welcome.is_replay || welcome.may_control === false || control === null) {
@@ -60,7 +60,7 @@ function watchWords(control, welcome) {
 }
 
 function askedWords(control, welcome) {
-  // What this page asks itself is told beside its button.
+  // This page's own request is shown beside its button.
   if (!control?.asked_by || isAsker(control, welcome.page)) {
     return "";
   }

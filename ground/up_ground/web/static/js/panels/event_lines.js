@@ -13,7 +13,7 @@ export class EventLines {
 
   /**
    * @param {HTMLElement} list
-   * @param {HTMLElement} window what shows a part of it
+   * @param {HTMLElement} window the scrolling viewport
    */
   constructor(list, window) {
     this.#list = list;
@@ -26,7 +26,7 @@ export class EventLines {
     return scrollHeight - scrollTop - clientHeight < 24;
   }
 
-  /** Bring the newest line into sight. */
+  /** Scroll the newest line into view. */
   toNewest() {
     this.#window.scrollTop = this.#window.scrollHeight;
   }
@@ -60,7 +60,7 @@ export class EventLines {
     }
   }
 
-  /** Write the ages anew, once a second. */
+  /** Rewrite the ages, once a second. */
   showAges(now_s) {
     if (Math.abs(now_s - this.#agesAt_s) < 1) {
       return;
@@ -81,7 +81,7 @@ export class EventLines {
   }
 }
 
-// Another aircraft, and a server that was started anew, count from one again.
+// Another aircraft and a restarted server count from one again.
 function keyOf({ number, level, text }) {
   return JSON.stringify([number, level, text]);
 }

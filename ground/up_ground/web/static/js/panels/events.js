@@ -12,7 +12,7 @@ const ORDER = ["info", "warning", "alarm"];
 const MARK = "black_box.mark";
 
 /**
- * What happened, in plain words, the newest last.
+ * The events in plain words, the newest last.
  * @param {HTMLElement} place
  * @param {object} store
  * @param {object} connection

@@ -1,7 +1,7 @@
 import { setText } from "../readout.js";
 import { element } from "./element.js";
 
-/** A field with its label, its button, and what is wrong with what stands in it. */
+/** A field with its label, its button, and the error of its content. */
 export class Field {
   #read;
   #send;
@@ -10,7 +10,7 @@ export class Field {
   /**
    * @param {{id: string, label: string, button: string, input: object,
    *   read: (text: string) => {value: any, problem: string}, send: (value: any) => void}} parts
-   *   input: attributes; read: judges what was written; send: called with a good value
+   *   input: attributes; read: validates the text; send: called with a valid value
    */
   constructor({ id, label, button, input, read, send }) {
     this.#read = read;
@@ -30,20 +30,20 @@ export class Field {
     this.offer(false);
   }
 
-  /** @param {boolean} isOffered what is not is out of the way of the keyboard too */
+  /** @param {boolean} isOffered otherwise the keyboard cannot reach it either */
   offer(isOffered) {
     this.#isOffered = isOffered;
     this.input.disabled = !isOffered;
     this.button.disabled = !isOffered;
   }
 
-  /** @returns {any} the value that stands there; null: none that could be sent */
+  /** @returns {any} its value; null: not valid for sending */
   get value() {
     const { value, problem } = this.#read(this.input.value);
     return problem ? null : value;
   }
 
-  /** Be as at first: what was written was meant for something else. */
+  /** Reset: the input was meant for something else. */
   clear() {
     this.input.value = "";
     this.#say("");

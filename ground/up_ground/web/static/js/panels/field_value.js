@@ -1,7 +1,7 @@
 const NAME = /^[A-Za-z0-9_.-]{1,128}$/;
 
 /**
- * What a person wrote into a field of a Command, judged by its type and bounds.
+ * The user's input for a field of a Command, validated by its type and bounds.
  * @param {object} field of Catalogue.get()
  * @param {string} text empty: left out; for a field with choices and for true or false: JSON
  * @param {boolean} [isNull] whether null was chosen
@@ -24,14 +24,14 @@ export function fieldValue(field, text, isNull = false) {
 
 /**
  * @param {object} field of Catalogue.get()
- * @returns {string} what it must be, as `up-ground commands` says it
+ * @returns {string} its type and bounds, as in `up-ground commands`
  */
 export function wanted(field) {
   return field.text === "" ? "is missing or not what it must be" : `must be ${field.text}`;
 }
 
 /**
- * The fields of a Command that nobody here knows, written as JSON.
+ * The fields of an unknown Command, written as JSON.
  * @param {string} text empty: none
  * @returns {{problem: string, value?: object}}
  */

@@ -3,11 +3,11 @@ import { element } from "./element.js";
 import { switchMode } from "./switch.js";
 import { modeWords } from "./words.js";
 
-/** What the ground may select; the switch of the pilot alone selects ACRO. */
+/** Modes that the ground may select; only the pilot's switch selects ACRO. */
 const MODES = ["RATE", "FBW", "AUTO"];
 const NAME = "up.flight_mode.set";
 
-/** What the board flies when AUTO is selected: the Raspberry Pi's attitude or its servo positions. */
+/** The board's modes while AUTO is selected: the Raspberry Pi's attitude or its servo positions. */
 const FLOWN_AT_AUTO = ["SETPOINT", "OUTPUT"];
 
 /** The buttons of the flight modes; the one that is flown is marked. */

@@ -1,12 +1,12 @@
-/** What surrounds a frame's tree in its message: its name, the beacon, the line's end. */
+/** Overhead of a frame's message around its tree: its name, the beacon, the line's end. */
 const AROUND_BYTES = 52;
 const EVERY = 20;
 
-/** How many bytes a telemetry frame has as it comes from the aircraft: measured now and then. */
+/** Bytes of a telemetry frame as received from the aircraft: measured now and then. */
 export class FrameSize {
   #nextAt = 0;
 
-  /** @type {number|null} the mean of the last ones; null: none came */
+  /** @type {number|null} the mean of the last ones; null: no frame yet */
   bytes = null;
 
   /**

@@ -17,7 +17,7 @@ export const AXES = [
 /**
  * @param {{key: string}} loop
  * @param {{key: string}} axis
- * @returns {boolean} whether a controller uses its gains; the others are sent as they came
+ * @returns {boolean} whether a controller uses its gains; the others are sent as received
  */
 export function isUsed(loop, axis) {
   return loop.key !== "stabPIDs" || axis.key !== "rudder";
@@ -47,7 +47,7 @@ export function cellsOf(set) {
 
 /**
  * @param {Map<string, number>} cells
- * @returns {object} the set, whole as it is sent
+ * @returns {object} the complete set, in the form in which it is sent
  */
 export function setOf(cells) {
   const set = {};
@@ -71,7 +71,7 @@ export function cellWords(path) {
 }
 
 /**
- * @param {number} value single precision comes with figures that nobody wrote
+ * @param {number} value single precision has digits beyond those entered
  * @returns {string} six figures at most, one decimal at least
  */
 export function gainText(value) {
@@ -81,7 +81,7 @@ export function gainText(value) {
 
 /**
  * @param {string} written
- * @returns {{value: number, problem: string}} problem: why it is no gain, empty when it is one
+ * @returns {{value: number, problem: string}} problem: why it is not a gain, empty when it is one
  */
 export function readGain(written) {
   const text = written.trim();
@@ -102,7 +102,7 @@ export function readGain(written) {
 /**
  * @param {Map<string, number>} before
  * @param {Map<string, number>} after
- * @returns {{path: string, before: number, after: number, words: string}[]} what differs
+ * @returns {{path: string, before: number, after: number, words: string}[]} the differences
  */
 export function difference(before, after) {
   const found = [];

@@ -68,13 +68,13 @@ class GainsPanel {
     send.disabled = why !== "" || this.#editor.wanted === null;
     discard.hidden = !this.#editor.isEdited;
     undo.disabled = why !== "" || this.#before() === null;
-    // Nothing of the past can be changed.
+    // A recorded flight cannot be changed.
     ask.hidden = undo.hidden = send.hidden = store.replay !== null;
     ask.disabled = this.#asker.objection(NAME, { request: true }) !== "";
     this.#history.show(store.gains, store.flight_s - this.#came_s);
   }
 
-  // What flies elsewhere never touches what is being written here.
+  // Gains that change elsewhere never overwrite the input here.
   #take() {
     const { aircraft, gains } = this.#store;
     if (aircraft !== this.#shownAircraft) {

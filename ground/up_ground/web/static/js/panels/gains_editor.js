@@ -1,10 +1,10 @@
 import { cellsOf, cellWords, difference, gainText, readGain, setOf } from "./gain_set.js";
 
 /**
- * What is being edited, beside what is flying.
+ * The edited gains beside the active ones.
  *
- * An edited cell remembers the flying value that its writer saw. When another value flies from
- * then on, the cell keeps what was written and the two are a conflict.
+ * An edited cell remembers the active value at the time of the edit. When the active value changes
+ * after that, the cell keeps the input and the two are a conflict.
  */
 export class GainsEditor {
   #flying = new Map();
@@ -20,7 +20,7 @@ export class GainsEditor {
     return this.#edits.size > 0;
   }
 
-  /** @param {object|null} set what flies now; a value that was written and flies now is no edit */
+  /** @param {object|null} set the active gains; an input equal to the active value is not an edit */
   takeFlying(set) {
     this.#flying = cellsOf(set);
     for (const [path, edit] of this.#edits) {
@@ -52,20 +52,20 @@ export class GainsEditor {
     this.#edits.clear();
   }
 
-  /** Say that the conflicts have been seen: what flies now is what the writer starts from. */
+  /** Accept the conflicts as seen: the present active values become the base of the edits. */
   accept() {
     for (const [path, edit] of this.#edits) {
       edit.seen = this.#flying.get(path);
     }
   }
 
-  /** @returns {string} what stands in a cell */
+  /** @returns {string} the content of a cell */
   textOf(path) {
     const flying = this.#flying.get(path);
     return this.#edits.get(path)?.written ?? (flying === undefined ? "" : gainText(flying));
   }
 
-  /** @returns {boolean} whether a cell holds something else than what flies */
+  /** @returns {boolean} whether a cell differs from the active value */
   isCellEdited(path) {
     return this.#edits.has(path);
   }
@@ -78,7 +78,7 @@ export class GainsEditor {
       .map(({ path, problem }) => ({ path, words: `${cellWords(path)} ${problem}` }));
   }
 
-  /** @returns {{path: string, words: string}[]} cells whose flying value changed meanwhile */
+  /** @returns {{path: string, words: string}[]} edited cells whose active value has changed */
   get conflicts() {
     const found = [];
     for (const [path, { written, seen }] of this.#edits) {
@@ -91,17 +91,17 @@ export class GainsEditor {
     return found;
   }
 
-  /** @returns {ReturnType<typeof difference>} what sending would change; cells without a gain left out */
+  /** @returns {ReturnType<typeof difference>} the changes to send; cells without a gain left out */
   get difference() {
     return difference(this.#flying, this.#wanted());
   }
 
-  /** @returns {object|null} the whole set to send; null: nothing to send, or a cell holds no gain */
+  /** @returns {object|null} the whole set to send; null: no changes, or a cell without a gain */
   get wanted() {
     return this.isEdited && this.problems.length === 0 ? setOf(this.#wanted()) : null;
   }
 
-  // What was not touched goes back exactly as it came, with every figure.
+  // Untouched values go back exactly as received, with every digit.
   #wanted() {
     const cells = new Map(this.#flying);
     for (const [path, { written }] of this.#edits) {

@@ -5,7 +5,7 @@ import { agoWords } from "./words.js";
 
 const OUTCOMES = { ack: "carried out", nack: "refused", timeout: "no answer", unsent: "not sent", refused: "refused" };
 
-/** Which sets were sent: when, by whom, what they changed, what became of them. */
+/** The sent sets: time, sender, changes and outcome. */
 export class GainsHistory {
   #list = element("ol.gains-history", { id: "gains-history" });
   #ages = [];
@@ -17,7 +17,7 @@ export class GainsHistory {
 
   /**
    * @param {object|null} message the server's `gains`
-   * @param {number} since_s seconds since it came
+   * @param {number} since_s seconds since its arrival
    */
   show(message, since_s) {
     if (message !== this.#shown) {

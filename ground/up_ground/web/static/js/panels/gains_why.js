@@ -3,10 +3,10 @@ import { switchMode } from "./switch.js";
 const NAME = "arduino.pids.tunings";
 
 /**
- * Why gains are not sent now, as far as it is known before trying.
+ * Why gains cannot be sent now, as far as the page can tell before trying.
  * @param {object} store
  * @param {import("./asker.js").Asker} asker
- * @returns {string} one sentence; empty: nothing is known against it
+ * @returns {string} one sentence; empty: no known reason
  */
 export function gainsObjection(store, asker) {
   const why = asker.objection(NAME);
@@ -38,7 +38,7 @@ export function gainsObjection(store, asker) {
 
 /**
  * @param {object} store
- * @returns {string} what is to be known before changing gains in flight; empty: nothing
+ * @returns {string} warning before gains are changed in flight; empty: none
  */
 export function gainsWarning(store) {
   if (store.flag("armed") !== true && store.flag("in_flight") !== true) {

@@ -7,11 +7,11 @@ const ROUND = 2 * Math.PI * 15;
 const KEYS = new Set([" ", "Enter"]);
 
 /**
- * A button that does what it says only when it is held, by pointer, touch or key.
+ * A button that acts only when it is held, by pointer, touch or key.
  *
- * `objection()` tells why it may not be pressed now; it is asked all the while it is held, and a
- * button that is disabled is not pressed either: browsers give pointers to it all the same. `fire()`
- * is called once when the press has lasted. What became of a press that did not is said in `note`.
+ * `objection()` returns why it may not be pressed now; it is called throughout the press. A
+ * disabled button ignores presses too: browsers deliver pointer events to it all the same. `fire()`
+ * is called once when the press has lasted long enough. `note` shows why a press did not.
  */
 export class HeldButton {
   #press = new HeldPress();
@@ -52,7 +52,7 @@ export class HeldButton {
     this.#show();
   }
 
-  /** Take a press under way back when something speaks against it, and show how it stands. */
+  /** Cancel a press under way when there is an objection, and show the state. */
   update() {
     if (this.#press.state === "pressed") {
       this.#look();
@@ -68,7 +68,7 @@ export class HeldButton {
         this.#begin(`pointer ${event.pointerId}`, now_s());
       }
     });
-    // A finger is captured by what it touched first: that it left only its place tells.
+    // A finger is captured by the first element it touched: only its position shows that it left.
     button.addEventListener("pointermove", (event) => {
       if (this.#press.state === "pressed" && !isWithin(event, button)) {
         this.#end(() => this.#press.void("the pointer left the button"));
@@ -92,7 +92,7 @@ export class HeldButton {
         event.preventDefault();
       }
     });
-    // What presses may be let go elsewhere: a button that became disabled hears no key any more.
+    // The release may happen elsewhere: a button that became disabled gets no more key events.
     window.addEventListener("pointerup", ({ pointerId }) => this.#release(`pointer ${pointerId}`), true);
     window.addEventListener("keyup", ({ key }) => this.#release(`key ${key}`), true);
     button.addEventListener("blur", () => this.#abandon("the focus went elsewhere"));

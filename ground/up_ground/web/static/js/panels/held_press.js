@@ -1,14 +1,14 @@
 /** How long a press must last. */
 export const HOLD_S = 1.5;
 
-/** Between two looks at the clock of one press: a page that hung must not fire when it wakes. */
+/** Maximum time between two updates of a press: a page that hung must not fire when it wakes. */
 const LONGEST_LOOK_S = 0.5;
 
 /**
- * A press that does something only when it is held: idle -> pressed -> done, or void.
+ * A press that acts only when it is held: idle -> pressed -> done, or void.
  *
- * Nothing leads back to idle but letting go of everything that presses, so one press fires once,
- * and a press that became void stays void however long it is still held.
+ * Only the release of all inputs leads back to idle, so one press fires once, and a void press stays
+ * void for the rest of its duration.
  */
 export class HeldPress {
   #by = new Set();
@@ -21,7 +21,7 @@ export class HeldPress {
   why = "";
 
   /**
-   * @param {string} by what presses: a pointer or a key, by name
+   * @param {string} by the input: a pointer or a key, by name
    * @param {number} now_s
    * @param {string} [objection] why it may not be pressed now
    */
@@ -42,7 +42,7 @@ export class HeldPress {
     }
   }
 
-  /** @param {string} by what lets go */
+  /** @param {string} by the input that is released */
   release(by) {
     if (!this.#by.delete(by)) {
       return;
@@ -53,14 +53,14 @@ export class HeldPress {
     }
   }
 
-  /** Let go of everything: the pointer was taken away, the focus went elsewhere. */
+  /** Release all inputs: the pointer was cancelled, the focus was lost. */
   abandon(why) {
     this.void(why);
     this.#by.clear();
     this.state = "idle";
   }
 
-  /** @param {string} why a press under way counts no more; any other stays as it is */
+  /** @param {string} why a press under way is cancelled; any other state stays */
   void(why) {
     if (this.state === "pressed") {
       this.state = "void";
@@ -69,10 +69,10 @@ export class HeldPress {
   }
 
   /**
-   * Look at the clock.
+   * Update to the present time.
    * @param {number} now_s
    * @param {string} [objection] why it may not be pressed now
-   * @returns {boolean} true once, when the press has lasted
+   * @returns {boolean} true once, when the press has lasted long enough
    */
   look(now_s, objection = "") {
     if (this.state !== "pressed") {
@@ -93,7 +93,7 @@ export class HeldPress {
 
   /**
    * @param {number} now_s
-   * @returns {number} how much of the press is done, 0 to 1
+   * @returns {number} completed part of the press, 0 to 1
    */
   progress(now_s) {
     if (this.state === "done") {

@@ -32,7 +32,7 @@ export class PageName {
     }
   }
 
-  // The server hears the name in the page's first words: the page comes anew, with its token.
+  // The name is part of the page's hello: the page reconnects, with its token.
   #set(name) {
     this.#memory.set("name", name);
     this.element.open = false;

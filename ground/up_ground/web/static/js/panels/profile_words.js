@@ -11,9 +11,9 @@ const MIXES = {
 };
 
 /**
- * A profile of the airframe as a person reads it.
- * @param {object} profile as `arduino.profile.values` tells it (docs/protocols.md 5)
- * @returns {{title: string, rows: [string, string][]}[]} what is not told has no row
+ * A profile of the airframe as readable text.
+ * @param {object} profile the form of `arduino.profile.values` (docs/protocols.md 5)
+ * @returns {{title: string, rows: [string, string][]}[]} missing values have no row
  */
 export function profileParts(profile) {
   const isElevon = profile.mix === "elevon";

@@ -1,9 +1,9 @@
-/** What the positions select while no profile says otherwise: the firmware's own (docs/airframe.md). */
+/** The positions' modes without a profile: the firmware's defaults (docs/airframe.md). */
 const SELECTS = { low: "ACRO", middle: "FBW", high: "AUTO" };
 
 /**
- * What the pilot's switch selects where it stands: the aircraft tells the position, its profile
- * what the position means.
+ * The mode that the pilot's switch selects: the aircraft reports the position, its profile the
+ * meaning of the position.
  * @param {object} store
  * @returns {string|null} ACRO, RATE, FBW or AUTO; null: not known
  */
@@ -18,7 +18,7 @@ export function switchMode(store) {
 
 /**
  * @param {object} store
- * @returns {string} the position and what it selects; where no profile was told, the default
+ * @returns {string} the position and what it selects; without a profile, the default
  */
 export function switchText(store) {
   const position = store.text("arduino.switch");

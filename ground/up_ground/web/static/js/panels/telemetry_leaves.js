@@ -5,12 +5,12 @@ export const MOST_LEAVES = 1000;
 const DEEPEST = 24;
 const LONGEST_TEXT = 160;
 const LONGEST_PATH = 200;
-// What is not seen, or turns the direction of what is: shown by its number.
+// Invisible characters and those that change the text direction: shown by their number.
 const UNSEEN = /[\p{Cc}\p{Cf}\p{Cs}\p{Co}\p{Zl}\p{Zp}]/gu;
 
 /**
  * Every value of a tree of telemetry, in its order; an empty object or list is a value.
- * @param {unknown} tree as it came
+ * @param {unknown} tree as received
  * @param {number} [most]
  * @returns {{leaves: {path: string, keys: string[], value: unknown}[], isCut: boolean}}
  */

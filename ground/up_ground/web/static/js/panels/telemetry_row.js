@@ -6,7 +6,7 @@ import { pathWords, valueWords } from "./telemetry_leaves.js";
 
 const CHANGED_S = 1;
 
-/** One value of the telemetry in the list: path, value, whether it changed, how old it is. */
+/** One value of the telemetry in the list: path, value, whether it changed, its age. */
 export class TelemetryRow {
   #value;
   #age = element("span.age");
@@ -44,11 +44,11 @@ export class TelemetryRow {
   show(value, store, isDrawn) {
     const words = valueWords(value);
     if (words !== this.#words) {
-      // What is listed for the first time has not changed.
+      // A value listed for the first time has not changed.
       this.#changedAt_s = this.#words === null ? -Infinity : store.now_s;
       this.#words = words;
     }
-    // A value whose reading never came is in the frame all the same: it is not of now.
+    // A value whose reading never arrived is in the frame all the same: it is not fresh.
     const isLive = store.freshness(null) === "live" && store.freshness(this.#reading) === "live";
     setText(this.#value, words);
     setAttribute(this.#value, "data-freshness", isLive ? "live" : "stale");

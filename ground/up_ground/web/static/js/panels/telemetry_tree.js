@@ -47,7 +47,7 @@ export function mount(place, store) {
     }
   }
 
-  // What is closed says nothing: not even what it said last.
+  // A closed branch shows nothing, not even its last value.
   function clear() {
     rows.clear();
     list.replaceChildren();
@@ -94,7 +94,7 @@ export function mount(place, store) {
         rows.delete(key);
       }
     }
-    // Only what is out of place moves, so that a button keeps the focus.
+    // Only misplaced rows move, so that a button keeps the focus.
     let next = list.firstElementChild;
     leaves.forEach((leaf, index) => {
       const row = rows.get(keys[index]) ?? new TelemetryRow(leaf, draw);

@@ -1,5 +1,5 @@
 /**
- * Say on the page what is not installed, once.
+ * Show once on the page that a library is not installed.
  * @param {string} sentence
  */
 export function sayMissing(sentence) {
@@ -15,8 +15,8 @@ export function sayMissing(sentence) {
 }
 
 /**
- * @param {string} address of a style sheet of what npm brought
- * @returns {Promise<void>} fails when it is not there
+ * @param {string} address of a style sheet of an npm package
+ * @returns {Promise<void>} fails when it is missing
  */
 export function styleSheet(address) {
   return new Promise((resolve, reject) => {

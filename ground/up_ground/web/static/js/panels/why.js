@@ -34,7 +34,7 @@ export function objection(store, connection, name, data = {}) {
 
 /**
  * @param {object} store
- * @returns {string} that the aircraft cannot be reached at all; empty: nothing says so
+ * @returns {string} why the aircraft cannot be reached at all; empty: no known reason
  */
 export function awayWords(store) {
   return store.status?.link?.aircraft_online === false ? `the aircraft ${store.aircraft} is not connected to the proxy` : "";

@@ -6,7 +6,7 @@ const MODES = {
 
 /**
  * @param {string} mode
- * @returns {string} what a flight mode does, in a few words; empty for one that is not known
+ * @returns {string} the effect of a flight mode, in a few words; empty for an unknown one
  */
 export function modeWords(mode) {
   return Object.hasOwn(MODES, mode) ? MODES[mode] : "";
@@ -15,7 +15,7 @@ export function modeWords(mode) {
 /**
  * @param {string} name of a Command
  * @param {object} [data]
- * @returns {string} what a Command asks for, as a heading
+ * @returns {string} the request of a Command, as a heading
  */
 export function commandWords(name, data = {}) {
   switch (name) {
@@ -44,7 +44,7 @@ export function commandWords(name, data = {}) {
 
 /**
  * @param {{outcome: string, code?: ?string, reason?: ?string, round_trip_ms?: ?number}} answer
- * @returns {string} what became of a Command, in plain words
+ * @returns {string} the outcome of a Command, in plain words
  */
 export function answerWords(answer) {
   const reason = String(answer.reason ?? "")
@@ -75,14 +75,14 @@ export function answerWords(answer) {
 
 /**
  * @param {{outcome: string}} answer
- * @returns {"good"|"bad"} how it looks
+ * @returns {"good"|"bad"} its style
  */
 export function answerLook(answer) {
   return answer.outcome === "ack" ? "good" : "bad";
 }
 
 /**
- * What a period of telemetry costs.
+ * Data rate of a telemetry period.
  * @param {number} period_ms
  * @param {number|null} frame_bytes measured; null: unknown
  * @returns {string}
@@ -129,7 +129,7 @@ export function clockWords(time_s) {
     : `${minutes}:${seconds}`;
 }
 
-// The board's own refusal comes with its name: it is said once who refused.
+// The board's own refusal already has its name: do not repeat it.
 function refusalWords(reason) {
   const [, ofBoard] = /^the Arduino refused: (.+)$/s.exec(reason) ?? [];
   return ofBoard ? `refused by the Arduino: ${ofBoard}` : `refused by the aircraft: ${reason || "no reason given"}`;

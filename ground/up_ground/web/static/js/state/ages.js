@@ -1,10 +1,10 @@
-/** A frame that is older looks old on the page, before the second is over. */
+/** An older frame is shown as stale, before the second is over. */
 export const SILENT_S = 0.9;
 
-/** Readings that come once a second or more seldom are stale later than SILENT_S. */
+/** Readings with a period of a second or more become stale later than SILENT_S. */
 const STALE_S = { location: 1.9, altitude: 1.9, heading: 1.9, battery: 120 };
 
-/** The readings whose ages telemetry tells (its `age_ms`). */
+/** The readings with ages in telemetry (its `age_ms`). */
 export const READINGS = [
   "orientation",
   "rx",
@@ -30,7 +30,7 @@ const READING_OF = {
   in_flight: "flight",
   arduino: "flight",
 };
-/** What the Raspberry Pi knows of the Arduino by itself. */
+/** Values about the Arduino that the Raspberry Pi determines, not the Arduino. */
 const KNOWN_BESIDES = new Set(["arduino.connected", "arduino.framing"]);
 
 /**
@@ -50,7 +50,7 @@ export function readingOf(path) {
 
 /**
  * @param {number|null} frameAge_s age of the newest frame; null: there was none
- * @returns {boolean} whether nothing on the page can be trusted to be of now
+ * @returns {boolean} whether every value on the page may be stale
  */
 export function isSilent(frameAge_s) {
   return frameAge_s === null || frameAge_s > SILENT_S;
@@ -60,7 +60,7 @@ export function isSilent(frameAge_s) {
  * The freshness of a reading, or of the frame itself.
  * @param {string|null} reading null: the frame's own
  * @param {number|null} frameAge_s
- * @param {number|null|undefined} aboard_ms its `age_ms`; null: never came; undefined: not told
+ * @param {number|null|undefined} aboard_ms its `age_ms`; null: no reading yet; undefined: missing
  * @returns {"live"|"stale"|"none"}
  */
 export function freshnessOf(reading, frameAge_s, aboard_ms) {

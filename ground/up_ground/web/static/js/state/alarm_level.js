@@ -10,7 +10,7 @@ export function worstLevel(alarms) {
 }
 
 /**
- * What there is to be alarmed about; what the page notices itself stands before what it was told.
+ * The worst alarm; alarms that the page detects come before those from the server.
  * @param {{alarms: object[], aircraftState: string}} store
  * @param {{isOpen: boolean, isFull: boolean}} connection
  * @returns {{level: string, text: string|null}} text: in two words; null: not known

@@ -8,7 +8,7 @@ const TYPES = ["boolean", "integer", "number", "text", "object", "list"];
 export class Catalogue {
   #byName = new Map();
 
-  /** @param {unknown} [commands] of the server's `catalogue`; what is no Command is left out */
+  /** @param {unknown} [commands] of the server's `catalogue`; malformed entries are dropped */
   constructor(commands = []) {
     const all = Array.isArray(commands) ? commands.slice(0, MOST_COMMANDS) : [];
     this.commands = all.map(commandOf).filter((each) => each !== null);

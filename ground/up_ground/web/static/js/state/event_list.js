@@ -3,7 +3,7 @@ import { number } from "./judge.js";
 const MOST = 500;
 const LEVELS = new Set(["info", "warning", "alarm"]);
 
-/** What happened to the aircraft, in order of the server's numbers, each once, the newest last. */
+/** The aircraft's events, in order of the server's numbers, each once, the newest last. */
 export class EventList {
   /**
    * @type {{number: number, at_s: number, level: string, kind: string, text: string,

@@ -1,10 +1,10 @@
-/** What stands where nothing is known. */
+/** Placeholder of an unknown value. */
 export const UNKNOWN = "--";
 
 /**
  * @param {number|null} value
  * @param {number} decimals
- * @param {{sign?: boolean}} [options] sign: + before what is not negative
+ * @param {{sign?: boolean}} [options] sign: + before values that are not negative
  * @returns {string}
  */
 export function numberText(value, decimals = 0, { sign = false } = {}) {
@@ -19,8 +19,8 @@ export function numberText(value, decimals = 0, { sign = false } = {}) {
 }
 
 /**
- * @param {number} value of which nothing is known but itself
- * @returns {string} with as many figures as mean something, 9 at most
+ * @param {number} value of unknown precision
+ * @returns {string} with its significant digits, 9 at most
  */
 export function plainNumber(value) {
   if (!Number.isFinite(value)) {
@@ -29,7 +29,7 @@ export function plainNumber(value) {
   if (Number.isSafeInteger(value)) {
     return String(value);
   }
-  // What was measured in single precision has no more figures than tell it from its neighbours.
+  // Single precision: show only the digits that distinguish the value from its neighbours.
   const isSingle = Math.fround(value) === value;
   const figures = [6, 7, 8].find((each) => isSingle && Math.fround(Number(value.toPrecision(each))) === value);
   return String(Number(value.toPrecision(figures ?? 9)));

@@ -4,7 +4,7 @@ const MOST_TEXTS = 32;
 
 /**
  * @param {unknown} found
- * @returns {number|null} a finite number of sane size; null: anything else
+ * @returns {number|null} a finite number of sane size; null: any other value
  */
 export function number(found) {
   return typeof found === "number" && Number.isFinite(found) && Math.abs(found) < GREATEST
@@ -45,7 +45,7 @@ export function texts(found) {
 /**
  * @param {unknown} tree
  * @param {string} path keys with dots between
- * @returns {unknown} what lies there of its own, undefined where nothing does
+ * @returns {unknown} the value at the path among own properties, undefined if missing
  */
 export function at(tree, path) {
   return atKeys(tree, path.split("."));

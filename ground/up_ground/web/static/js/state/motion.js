@@ -7,9 +7,9 @@ const JITTER_S = 0.05;
 const AGAIN_S = 0.3;
 
 /**
- * Ground speed and vertical speed, worked out from the positions and altitudes that telemetry
- * brings: it carries neither. Null until two different fixes came. Times are the flight's: in a
- * replay not those of the page.
+ * Ground speed and vertical speed, derived from the positions and altitudes in telemetry, which
+ * has neither. Null until the second fix. Times are the flight's: in a replay not those of the
+ * page.
  */
 export class Motion {
   #places = [];
@@ -45,7 +45,7 @@ export class Motion {
   }
 }
 
-/** A fix is told in many frames; only a newer one counts, and ages jitter by a few ms. */
+/** Many frames repeat a fix; only a newer one counts, and ages jitter by a few ms. */
 function keep(list, fix, isSame) {
   const last = list.at(-1);
   const since_s = last === undefined ? Infinity : fix.at_s - last.at_s;

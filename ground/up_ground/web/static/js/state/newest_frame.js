@@ -1,20 +1,20 @@
 import { freshnessOf, isSilent, readingOf } from "./ages.js";
 import * as judge from "./judge.js";
 
-/** The newest telemetry of an aircraft, read with suspicion, and how old each part of it is. */
+/** The newest telemetry of an aircraft, validated, and the age of each part of it. */
 export class NewestFrame {
   #clock_s;
   #frameAt_s = null;
   #frameAge_s = 0;
   #heldAt_s = null;
 
-  /** The tree as it came, not judged. */
+  /** The tree as received, not validated. */
   data = {};
-  /** How many came. */
+  /** Number of frames received. */
   frames = 0;
-  /** Its number, null while there is none. */
+  /** Its number, null without a frame. */
   beacon = null;
-  /** When it was so in a flight of the past, seconds; null: it is of now. */
+  /** Its time in a recorded flight, seconds; null: live. */
   frameTime_s = null;
 
   /** @param {() => number} clock_s seconds that never jump */
@@ -41,12 +41,12 @@ export class NewestFrame {
     return true;
   }
 
-  /** Let no age grow: the flight itself stands still, as a replay does while it is paused. */
+  /** Freeze all ages: the flight stands still, as in a paused replay. */
   hold() {
     this.#heldAt_s ??= this.now_s;
   }
 
-  /** Let the ages grow from where they were held. */
+  /** Resume the ages from their frozen values. */
   release() {
     if (this.#heldAt_s !== null && this.#frameAt_s !== null) {
       this.#frameAt_s += this.now_s - this.#heldAt_s;
@@ -54,7 +54,7 @@ export class NewestFrame {
     this.#heldAt_s = null;
   }
 
-  /** Know nothing again. */
+  /** Reset to unknown. */
   forgetFrame() {
     this.data = {};
     this.beacon = null;
@@ -66,17 +66,17 @@ export class NewestFrame {
     return this.#clock_s();
   }
 
-  /** @returns {boolean} whether nothing shown can be trusted to be of now */
+  /** @returns {boolean} whether every value shown may be stale */
   get isSilent() {
     return isSilent(this.age_s(null));
   }
 
-  /** @returns {"live"|"silent"|"none"} none: not one frame came yet */
+  /** @returns {"live"|"silent"|"none"} none: no frame yet */
   get aircraftState() {
     return this.#frameAt_s === null ? "none" : this.isSilent ? "silent" : "live";
   }
 
-  /** @returns {number|null} a number at that path; null: absent, or something else */
+  /** @returns {number|null} a number at that path; null: absent, or of another type */
   number(path) {
     return judge.number(judge.at(this.data, path));
   }
@@ -96,7 +96,7 @@ export class NewestFrame {
     return judge.texts(judge.at(this.data, path));
   }
 
-  /** @returns {number|boolean|string|string[]|null} what is there, judged */
+  /** @returns {number|boolean|string|string[]|null} the value, validated */
   value(path) {
     return this.number(path) ?? this.flag(path) ?? this.text(path) ?? this.texts(path);
   }
@@ -132,7 +132,7 @@ export class NewestFrame {
 
   /**
    * @param {string} path of a value
-   * @returns {"live"|"stale"|"none"} none: there is no such value
+   * @returns {"live"|"stale"|"none"} none: not in the frame
    */
   freshnessAt(path) {
     return this.value(path) === null ? "none" : this.freshness(readingOf(path));

@@ -1,6 +1,6 @@
 const RANK = { observer: 0, operator: 1, pilot: 2 };
 
-/** The least role that each Command needs (docs/protocols.md 5); what is not here: an operator. */
+/** The least role for each Command (docs/protocols.md 5); Commands not listed: an operator. */
 const NEEDED = {
   "arduino.profile.request": "observer",
   "up.arm": "pilot",
@@ -10,9 +10,9 @@ const NEEDED = {
 };
 
 /**
- * @param {string|null} role what the aircraft's link allows; null: unknown, the aircraft refuses
+ * @param {string|null} role allowed by the aircraft's link; null: unknown, the aircraft refuses
  * @param {string} name of the Command
- * @param {string|null} [least] role as the server's catalogue has it; null: the table above decides
+ * @param {string|null} [least] role in the server's catalogue; null: the table above decides
  * @returns {boolean} whether to offer it
  */
 export function roleAllows(role, name, least = null) {
@@ -26,7 +26,7 @@ export function roleAllows(role, name, least = null) {
 /**
  * @param {string} name
  * @param {object} [data]
- * @returns {boolean} whether it only asks, and needs no control
+ * @returns {boolean} whether it only requests data, and needs no control
  */
 export function isOnlyRequest(name, data = {}) {
   return (

@@ -1,15 +1,15 @@
-/** Where nothing came for longer than this, no line is drawn; a slow period makes it longer. */
+/** Longer gaps interrupt a line; a slow period extends the limit. */
 export const GAP_S = 0.9;
 
-/** How many intervals tell the period; a silence among them does not change their median. */
+/** Number of intervals for the median period; a silence among them does not change it. */
 const INTERVALS = 5;
 
-/** Tells a silence from the period in which something comes. */
+/** Detects a silence from the period of the arrivals. */
 export class Silence {
   #last_s = null;
   #intervals_s = [];
 
-  /** @returns {number} how long nothing must come to be a silence, seconds */
+  /** @returns {number} minimum duration of a silence, seconds */
   get limit_s() {
     const known = this.#intervals_s;
     const period_s = known.length < INTERVALS ? 0 : known.toSorted((a, b) => a - b)[INTERVALS >> 1];
@@ -17,7 +17,7 @@ export class Silence {
   }
 
   /**
-   * Something has come.
+   * Take an arrival.
    * @param {number} time_s
    * @returns {boolean} whether there was a silence before it
    */
@@ -32,8 +32,8 @@ export class Silence {
   }
 
   /**
-   * Forget what came.
-   * @param {number|null} from_s a silence counts from then on; null: from what comes next
+   * Forget all arrivals.
+   * @param {number|null} from_s a silence counts from then on; null: from the next arrival
    */
   clear(from_s = null) {
     this.#last_s = from_s;

@@ -12,10 +12,10 @@ const LOOK_S = 0.04;
 const JUMP_S = 1.5;
 
 /**
- * What the page knows of the aircraft watched, and how old it is.
+ * The page's data on the watched aircraft, and its age.
  *
  * Fields to read: `aircraft` (the name watched), `names` (all), `data` (the newest frame's tree,
- * not judged), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
+ * not validated), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
  * (by name), `catalogue` (the Commands that the server knows), `alarms` ([{kind, level, text}]),
  * `gains`, `profile`, `replay`, `fault` (text), `track` (points, version, startAltitude_m),
  * `motion` (groundSpeed_m_s, climb_m_s), `events` (list, the newest last), `eventsVersion`.
@@ -58,8 +58,8 @@ export class Store extends NewestFrame {
   }
 
   /**
-   * Repaint for the ages five times a second, whether or not a frame comes, and at once when a
-   * reading has become old.
+   * Repaint for the ages five times a second, whether or not a frame arrives, and immediately
+   * when a reading becomes stale.
    */
   start() {
     this.#timers.each(() => this.#change(), REPAINT_S);
@@ -73,7 +73,7 @@ export class Store extends NewestFrame {
     }, LOOK_S);
   }
 
-  /** @param {string} name of the aircraft to look at from now on */
+  /** @param {string} name of the aircraft to watch from now on */
   watch(name) {
     if (name !== this.aircraft) {
       this.aircraft = name;
@@ -102,7 +102,7 @@ export class Store extends NewestFrame {
     return this.statuses.get(this.aircraft) ?? null;
   }
 
-  /** @returns {number} seconds: now in the flight that is replayed, else on the page's clock */
+  /** @returns {number} seconds: now in the replayed flight, otherwise on the page's clock */
   get flight_s() {
     const time_s = judge.number(this.replay?.time_s);
     if (time_s === null) {
@@ -166,7 +166,7 @@ export class Store extends NewestFrame {
     return true;
   }
 
-  /** Comes first after `watch` and after a jump in a replay: what was known is of another time. */
+  /** First message after `watch` and after a jump in a replay: earlier data is of another time. */
   #takeTrack(message) {
     this.track.replace(message.points, this.now_s);
     this.#events.clear();

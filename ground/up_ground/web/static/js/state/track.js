@@ -5,8 +5,8 @@ const MOST = 20000;
 const STEP_DEG = 0.00001;
 
 /**
- * Where the aircraft flew: [latitude, longitude, altitude|null] each, the oldest first. A fourth
- * that is true: before it nothing was known for a while, and no line leads to it.
+ * The track: [latitude, longitude, altitude|null] each, the oldest first. A fourth element true
+ * marks a gap before the point: no line leads to it.
  */
 export class Track {
   #silence = new Silence();
@@ -19,7 +19,7 @@ export class Track {
   startAltitude_m = null;
 
   /**
-   * @param {unknown} points the server's, taken in place of what was here
+   * @param {unknown} points the server's, which replace the present ones
    * @param {number|null} now_s a silence counts from then on
    */
   replace(points, now_s = null) {
