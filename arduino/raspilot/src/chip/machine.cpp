@@ -28,8 +28,8 @@ static constexpr int16_t IMU_TICKS = 2 * 490;
 static constexpr int16_t TRANSFER_TICKS = 2 * 430;
 static constexpr int16_t GRACE_TICKS = 2 * 470;
 /** Background work begins only when the longest of its kind ends before that. */
-static constexpr int16_t PIECE_TICKS = 2 * 500;
-static constexpr int16_t KEEP_TICKS = 2 * 300;
+static constexpr int16_t PIECE_TICKS = 2 * 560;
+static constexpr int16_t KEEP_TICKS = 2 * 340;
 static constexpr int16_t BYTE_TICKS = 2 * 150;
 static constexpr int16_t COMMAND_TICKS = 2 * 390;
 /** After so many slots without time for background work a slot's sample gives way to it. */
