@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import fcntl
+import math
 import signal
 import sys
 from collections.abc import Callable, Sequence
@@ -35,8 +36,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     folder = (options.folder or ROOT / "run" / "showcase").resolve()
     if not (ROOT / "main.py").is_file():
         return _fail("the showcase runs from a clone of the project: make run", WRONG_INPUT)
-    folder.mkdir(parents=True, exist_ok=True)
-    with (folder / "lock").open("w") as lock:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = (folder / "lock").open("w")
+    except OSError as error:
+        return _fail(f"--folder {folder}: {error.strerror}", WRONG_INPUT)
+    with lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -129,7 +134,9 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
         help="what the phone is: java, the app's own Up Library; python, a stand-in; default auto",
     )
     parser.add_argument("--folder", type=Path, help="for configuration and logs (run/showcase)")
-    parser.add_argument("--seconds", type=float, help="end after so long; default: Ctrl-C")
+    parser.add_argument(
+        "--seconds", type=_seconds, help="stop after this many seconds; default: at Ctrl-C"
+    )
     parser.add_argument("--no-watch", action="store_true", help="do not show the telemetry")
     parser.add_argument("--no-page", action="store_true", help="no ground station for a browser")
     parser.add_argument(
@@ -151,6 +158,13 @@ def _text_of(read: Callable[[str], object]) -> Callable[[str], str]:
         return text
 
     return take
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0 < seconds < math.inf:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds above 0")
+    return seconds
 
 
 def _who(text: str) -> str:

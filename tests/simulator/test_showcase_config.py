@@ -68,6 +68,20 @@ def test_two_showcases_do_not_share_a_folder(tmp_path, capsys):
     assert "another 'make run' flies with" in said and "make run ARGS='--folder " in said
 
 
+@pytest.mark.parametrize(
+    "words",
+    [["--folder", "/proc/x"], ["--folder", __file__], ["--seconds", "nan"], ["--seconds", "0"]],
+)
+def test_a_wrong_folder_or_time_is_one_sentence_and_status_2(words, capsys):
+    try:
+        status = main(words)
+    except SystemExit as end:
+        status = end.code
+    assert status == 2
+    told = capsys.readouterr().err
+    assert words[0] in told and told.count("\n") == 1
+
+
 def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
     import subprocess
     import sys

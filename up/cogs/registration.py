@@ -33,7 +33,7 @@ def register(cog: str, application: Application, source: Source, tell: Say = say
             registrant.register(application, source)
         else:
             _register_old(found, cog, application, source, tell)
-    except (CogError, ConfigErrors):
+    except (CogError, ConfigErrors, BrokenPipeError):
         raise
     except OSError as error:
         raise CogError(f"the cog {cog} cannot be registered: {error}") from error

@@ -75,6 +75,14 @@ def test_configuration_is_never_overwritten(application, alpha):
     assert said == ["alpha_cog: registered", "alpha_cog: is registered"]
 
 
+def test_a_closed_pipe_is_not_a_fault_of_the_cog(application, alpha):
+    def tell(text):
+        raise BrokenPipeError
+
+    with pytest.raises(BrokenPipeError):
+        register("alpha_cog", application, "manual", tell)
+
+
 def test_unregistering_leaves_the_configuration(application, alpha):
     register("alpha_cog", application, "manual", lambda text: None)
     assert unregister("alpha_cog", application, lambda text: None)

@@ -125,6 +125,6 @@ def _topics(log: FlightLog) -> list[str]:
 
 
 def _pairs(pairs: Iterable[tuple[str, str]]) -> list[str]:
-    rows = [(printable(key), value) for key, value in pairs]
+    rows = [(printable(key), printable(value)) for key, value in pairs]
     width = max((len(key) for key, _ in rows), default=0)
     return [f"{key:<{width}}  {value}" for key, value in rows]

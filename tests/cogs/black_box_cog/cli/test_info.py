@@ -40,6 +40,8 @@ def test_what_a_terminal_would_carry_out_is_escaped(log, flights):
     write_flight(flights, 1, fill, aircraft="kite\x1b]0;title\x07")
     out = log("info", 1).out
     assert "\x1b" not in out and "\x07" not in out
+    # A line break would forge a row.
+    assert "\\nnext" in out
     assert "kite\\x1b]0;title\\x07" in out
 
 
