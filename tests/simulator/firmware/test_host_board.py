@@ -197,7 +197,8 @@ def test_a_lost_receiver_and_its_return_are_seen_alike(pair):
     pair.agree_on_pulses(within_us=2.0)
     # Its frames went on unsent, and are in step with themselves.
     host, chip = (each.board.pulse_ages_us() for each in (pair.host, pair.chip))
-    assert host == pytest.approx(chip, abs=3)
+    # Another interrupt delays a rise on the chip by up to 6 us.
+    assert host == pytest.approx(chip, abs=6)
 
 
 def test_one_silent_channel_is_no_receiver(pair):
