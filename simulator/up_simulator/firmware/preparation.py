@@ -6,7 +6,6 @@ import contextlib
 import hashlib
 import json
 from collections.abc import Callable, Mapping
-from enum import IntEnum
 from typing import Any
 
 from up_rig.imu import motion_at
@@ -23,23 +22,8 @@ QUIET_STEPS = 30
 """An EEPROM unchanged for this time is complete: a byte takes 3.4 ms."""
 WRITE_STEPS = 600
 _ANSWERS = {"c": "C", "G": "G"}
-
-
-class Reason(IntEnum):
-    """Why a board refuses a Command: the third byte of ``!`` (protocols 2.5)."""
-
-    UNKNOWN_TYPE = 1
-    WRONG_SIZE = 2
-    OUT_OF_RANGE = 3
-    ONLY_DISARMED = 4
-    NOT_IN_THESIS_FRAMING = 5
-    TOO_OLD = 6
-    NOT_AUTO = 7
-    THROTTLE_NOT_LOW = 8
-    RECEIVER_INVALID = 9
-    IMU_INVALID = 10
-    VETO = 11
-    NOT_STILL = 12
+_REASONS = {1: "unknown type", 2: "wrong size", 3: "out of range", 4: "only disarmed"}
+"""Reasons for which a board refuses settings (docs/protocols.md 2.5)."""
 
 
 class PreparationError(Exception):
@@ -112,7 +96,9 @@ class _Talk:
         if answer is None:
             raise PreparationError(f"the board does not answer to {what}")
         if answer[0] == "!":
-            raise PreparationError(f"the board refuses {what}: {_reason(answer[1][2])}")
+            code = answer[1][2]
+            reason = _REASONS.get(code, f"reason {code}")
+            raise PreparationError(f"the board refuses {what}: {reason}")
 
     def ask(self, letter: str) -> bytes:
         answer = self._exchange(letter, b"", _ANSWERS[letter])
@@ -142,10 +128,3 @@ def _wait_for_eeprom(board: FirmwareBoard) -> None:
         if quiet >= QUIET_STEPS:
             return
     raise PreparationError("the board writes its EEPROM without end")
-
-
-def _reason(code: int) -> str:
-    try:
-        return Reason(code).name.lower().replace("_", " ")
-    except ValueError:
-        return f"reason {code}"

@@ -43,7 +43,7 @@ constexpr float SPEED_SIGMA = 12;      // m/s, about its mean
 constexpr float EARLY_SPEED_SIGMA = 19;
 constexpr float FIRST_SPEED_SHARE = 0.1F;
 constexpr float MEAN_SPEED_SHARE = CYCLE_S / 500;
-constexpr float LOAD_SIGMA = 0.078F;          // g, along down
+constexpr float LOAD_FACTOR_SIGMA = 0.078F;   // g, along down
 constexpr float STRAIGHT_SIGMA = 3 * RAD;     // rad/s: in straight flight a turn is mostly bias
 constexpr float STRAIGHT_LIMIT = 5.5F * RAD;  // a faster one is a turn
 
@@ -58,7 +58,7 @@ constexpr int16_t TWO_G_Q13 = 16383;
 /** A force beyond 1 g by more than this is no change of airspeed: a launch, a loop. */
 constexpr int16_t MAX_EXCESS_Q13 = 1434;
 /** More load than this is a pull-up: it does not end within a cycle or two. */
-constexpr int16_t MAX_LOAD_Q13 = 2048;
+constexpr int16_t MAX_LOAD_FACTOR_ERROR_Q13 = 2048;
 /** A force of 1 g that differs by 30 degrees is a gust; for 3 s it is an attitude that is lost. */
 constexpr int16_t FAR_OFF_Q13 = 4096;
 constexpr uint8_t LOST_CYCLES = 10;
@@ -147,7 +147,7 @@ OUT_OF_LINE void TiltFilter::find_turn(const Attitude& attitude) {
   roll_error_ = force(Y, product(yaw_rate, per_rate));
   pitch_error_ = force(Z, -product(pitch_rate, per_rate));
   turn(yaw_rate, pitch_rate, attitude.sin_roll, attitude.cos_roll);
-  load_error_ = to_int16(shifted(product(pitch_rate, per_rate), 9));
+  load_factor_error_ = to_int16(shifted(product(pitch_rate, per_rate), 9));
   turn_rate_ = from_fixed(yaw_rate, RAD / 16);
 }
 
@@ -160,7 +160,7 @@ OUT_OF_LINE void TiltFilter::find_errors(const Attitude& attitude) {
   roll_error_ = y;
   turn(x, z, attitude.sin_pitch, attitude.cos_pitch);
   pitch_error_ = negative(x);
-  load_error_ = sum_of(load_error_, z);
+  load_factor_error_ = sum_of(load_factor_error_, z);
   // Half of what the square of the force exceeds 1 g by: a tilt error does not change it.
   const int16_t parts[3] = {static_cast<int16_t>(x / 2), static_cast<int16_t>(y / 2),
                             static_cast<int16_t>(z / 2)};
@@ -239,11 +239,11 @@ OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& 
     const float steep = square(turn_rate_ * (1 / STRAIGHT_LIMIT));
     if (steep > 1) {
       // The wings carry 1 g on average: more of it shows a roll error as part of the turn's force.
-      if (clamped16(load_error_, MAX_LOAD_Q13) == load_error_) {
+      if (clamped16(load_factor_error_, MAX_LOAD_FACTOR_ERROR_Q13) == load_factor_error_) {
         weights_[ROLL] = turn_rate_ * speed_ * (1 / GRAVITY_M_S2);
       }
-      innovation_ = from_fixed(load_error_, FORCE_UNIT);
-      variance_ = LOAD_SIGMA * LOAD_SIGMA;
+      innovation_ = from_fixed(load_factor_error_, FORCE_UNIT);
+      variance_ = LOAD_FACTOR_SIGMA * LOAD_FACTOR_SIGMA;
       return;
     }
     innovation_ = turn_rate_;
@@ -325,7 +325,7 @@ OUT_OF_LINE bool TiltFilter::finish(uint8_t piece, const Attitude& attitude,
   if (piece <= 3) {
     const uint8_t axis = static_cast<uint8_t>(piece - 1);
     const float* const change = &change_[BIAS_X + axis];
-    if (piece == 3) drift_[axis] *= YAW_DRIFT_KEPT;
+    if (piece == 3) drift_[axis] *= YAW_DRIFT_KEPT;  // yaw
     add_product(&drift_[axis], change, is_early ? EARLY_DRIFT_SHARE : DRIFT_SHARE);
     correction.bias_q28[axis] = to_fixed(*change + drift_[axis], BIAS_TO_Q28);
     return true;

@@ -69,7 +69,7 @@ class TiltFilter {
   uint8_t groups_;
   int16_t roll_error_;  // Q13
   int16_t pitch_error_;
-  int16_t load_error_;
+  int16_t load_factor_error_;
   uint8_t far_off_cycles_;
   bool is_one_g_;
   uint8_t cycles_;
