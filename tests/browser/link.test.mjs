@@ -59,7 +59,13 @@ function watchSilence([ofThePage, ofTheProxy]) {
     last_ms = now_ms;
     if (root.dataset.aircraftState !== "live") {
       const online = document.querySelector('[data-key="link.aircraft"]').textContent;
-      const ofNow = online === "not at the proxy" ? [...ofThePage, ...ofTheProxy] : ofThePage;
+      const proxy = document.querySelector('[data-key="link.proxy"]').textContent;
+      const ofNow = [...ofThePage];
+      if (online === "not at the proxy") {
+        ofNow.push(...ofTheProxy);
+      } else if (!proxy.startsWith("connected")) {
+        ofNow.push("link.proxy"); // the server's own: it looks for the proxy
+      }
       for (const element of document.querySelectorAll('[data-freshness="live"]')) {
         if (!ofNow.includes(element.dataset.key)) {
           found.liveWhileSilent.push(element.dataset.key);
