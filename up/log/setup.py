@@ -5,22 +5,26 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TextIO, cast
 
+from constantly import NamedConstant
 from twisted.logger import (
     ILogObserver,
     LogBeginner,
+    LogEvent,
     LogLevel,
     LogPublisher,
     globalLogBeginner,
     globalLogPublisher,
 )
 
-from up.log.json_lines import JsonLinesObserver, RotatingFile
+from up.log.json_lines import JsonLinesObserver, RotatingFile, line_of
 from up.log.levels import level_named
-from up.log.text import TextObserver, is_journal
+from up.log.text import TextObserver, is_journal, journal_lines, terminal_lines
+
+FORMAT_VARIABLE = "UP_LOG_FORMAT"
 
 
 class Logging:
@@ -58,12 +62,17 @@ def start_logging(
     """Send events of `level` and above to `stream` (stderr) and, as JSON lines, to `json_path`.
 
     At `rotate_bytes` the file is renamed and a new one started; `keep` old ones stay. Raises
-    ValueError for an unknown level. Write errors are not raised: after one the file is no longer
+    ValueError for an unknown level. A program that reads another one's log starts it with
+    UP_LOG_FORMAT=json: `stream` gets JSON lines, too. Write errors are not raised: after one the file is no longer
     written, which the stream reports once. `beginner` and `publisher` belong together.
     """
     least = level_named(level)
     stream = sys.stderr if stream is None else stream
-    text = TextObserver(stream, least, is_journal(stream, environ))
+    if environ.get(FORMAT_VARIABLE) == "json":
+        lines_of = json_lines_of
+    else:
+        lines_of = journal_lines if is_journal(stream, environ) else terminal_lines
+    text = TextObserver(stream, least, lines_of)
     observers = [cast(ILogObserver, text)]
     json_lines = None
     if json_path is not None:
@@ -73,6 +82,11 @@ def start_logging(
         json_lines.start()
     beginner.beginLoggingTo(observers, redirectStandardIO=False)
     return Logging(publisher, observers, json_lines)
+
+
+def json_lines_of(event: LogEvent, least: NamedConstant) -> Iterator[str]:
+    """Format an event as the line of JSON that the log file gets."""
+    yield line_of(event, least).decode("ascii").rstrip("\n")
 
 
 def _say(observer: TextObserver, what: str) -> None:

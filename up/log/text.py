@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TextIO
 
 from constantly import NamedConstant
@@ -73,28 +73,23 @@ class TextObserver:
     was started with its stderr closed.
     """
 
-    def __init__(self, stream: TextIO | None, least: NamedConstant, journal: bool) -> None:
+    def __init__(
+        self,
+        stream: TextIO | None,
+        least: NamedConstant,
+        lines_of: Callable[[LogEvent, NamedConstant], Iterator[str]],
+    ) -> None:
         self._stream = stream
         self._least = least
-        self._journal = journal
+        self._lines_of = lines_of
         self._lock = threading.Lock()
 
     def __call__(self, event: LogEvent) -> None:
         """Write the event if it is severe enough."""
         if self._stream is not None and level_of(event) >= self._least:
-            self._write(self._stream, "".join(f"{line}\n" for line in self._lines(event)))
-
-    def _lines(self, event: LogEvent) -> Iterator[str]:
-        level = level_of(event)
-        said = f"{source_of(event)}: {text_of(event)}"
-        if self._journal:
-            head = f"<{priority_of(level)}>"
-            yield head + said
-        else:
-            head = ""
-            yield f"{_clock_text(event)} {word_of(level):<8} {said}"
-        for line in traceback_of(event, self._least).splitlines():
-            yield f"{head}    {printable(line)}"
+            self._write(
+                self._stream, "".join(f"{line}\n" for line in self._lines_of(event, self._least))
+            )
 
     def _write(self, stream: TextIO, text: str) -> None:
         with self._lock:
@@ -107,6 +102,22 @@ class TextObserver:
             except (OSError, ValueError):
                 # The stream is full, broken or closed: the error cannot be reported.
                 return
+
+
+def terminal_lines(event: LogEvent, least: NamedConstant) -> Iterator[str]:
+    """Format an event for a terminal: time, level, source, text."""
+    head = f"{_clock_text(event)} {word_of(level_of(event)):<8}"
+    yield f"{head} {source_of(event)}: {text_of(event)}"
+    for line in traceback_of(event, least).splitlines():
+        yield f"    {printable(line)}"
+
+
+def journal_lines(event: LogEvent, least: NamedConstant) -> Iterator[str]:
+    """Format an event for systemd's journal, which adds the time: priority, source, text."""
+    head = f"<{priority_of(level_of(event))}>"
+    yield f"{head}{source_of(event)}: {text_of(event)}"
+    for line in traceback_of(event, least).splitlines():
+        yield f"{head}    {printable(line)}"
 
 
 def _clock_text(event: LogEvent) -> str:

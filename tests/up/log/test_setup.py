@@ -134,3 +134,11 @@ def test_after_stop_nothing_is_logged(begin):
 def test_a_logger_has_the_name_it_was_asked_for():
     assert UpLogger.get_logger("gps").namespace == "gps"
     assert UpLogger.get_logger().namespace == "up"
+
+
+def test_a_program_that_reads_the_log_gets_json_with_codes(begin):
+    log, stream, _ = begin(environ={"UP_LOG_FORMAT": "json"})
+    log.warn("port {port} is in use", code="port_in_use", port=3003)
+    record = json.loads(stream.getvalue())
+    assert record["fields"] == {"code": "port_in_use", "port": 3003}
+    assert (record["level"], record["source"]) == ("warning", "app")

@@ -8,13 +8,13 @@ from twisted.logger import Logger, LogLevel, LogPublisher
 from twisted.python.failure import Failure
 
 from up.log.levels import level_named
-from up.log.text import TextObserver, is_journal
+from up.log.text import TextObserver, is_journal, journal_lines, terminal_lines
 
 
 def logged(say, least=LogLevel.info, journal=False, namespace="serial_cog.port"):
     """Return the output of `say(log)`."""
     stream = io.StringIO()
-    observer = TextObserver(stream, least, journal)
+    observer = TextObserver(stream, least, journal_lines if journal else terminal_lines)
     say(Logger(namespace=namespace, observer=LogPublisher(observer)))
     return stream.getvalue()
 
@@ -127,14 +127,14 @@ class AsciiStream(io.StringIO):
 
 def test_a_stream_that_only_takes_ascii_gets_escapes():
     stream = AsciiStream()
-    observer = TextObserver(stream, LogLevel.info, False)
+    observer = TextObserver(stream, LogLevel.info, terminal_lines)
     Logger(namespace="x", observer=observer).info("žluť")
     assert stream.getvalue().endswith("x: \\u017elu\\u0165\n")
 
 
 def test_a_full_or_closed_stream_raises_nothing():
     with Path("/dev/full").open("w") as full:
-        observer = TextObserver(full, LogLevel.info, False)
+        observer = TextObserver(full, LogLevel.info, terminal_lines)
         observer({"log_format": "x", "log_time": 0.0, "log_level": LogLevel.info})
         # Data still in the stream's buffer must have a destination when it closes.
         with Path(os.devnull).open("w") as null:
