@@ -61,10 +61,10 @@ def start_logging(
 ) -> Logging:
     """Send events of `level` and above to `stream` (stderr) and, as JSON lines, to `json_path`.
 
-    At `rotate_bytes` the file is renamed and a new one started; `keep` old ones stay. Raises
-    ValueError for an unknown level. A program that reads another one's log starts it with
-    UP_LOG_FORMAT=json: `stream` gets JSON lines, too. Write errors are not raised: after one the file is no longer
-    written, which the stream reports once. `beginner` and `publisher` belong together.
+    At `rotate_bytes` the file is renamed and a new one started; `keep` old ones stay. A program
+    that reads another one's log starts it with UP_LOG_FORMAT=json: `stream` gets JSON lines, too.
+    Raises ValueError for an unknown level. Write errors are not raised: after one the file is no
+    longer written, which the stream reports once. `beginner` and `publisher` belong together.
     """
     least = level_named(level)
     stream = sys.stderr if stream is None else stream
