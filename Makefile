@@ -76,7 +76,8 @@ test-browser: $(VENV)/.dev-ready $(WEB)
 check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy main.py tools/import_contracts.py tools/phone_commands.py $(PACKAGES)
+	$(BIN)/mypy main.py tools/import_contracts.py tools/phone_commands.py \
+		tools/plain_english.py $(PACKAGES)
 	@for cog in $(COGS); do echo "mypy $$cog"; \
 		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
 	MYPYPATH=android/tools $(BIN)/mypy android/tools/*.py
