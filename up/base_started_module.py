@@ -12,7 +12,7 @@ from up.start_result import StartResult
 class BaseStartedModule(BaseModule):
     """A module with ports, links or timers.
 
-    Override ``_execute_start`` and ``_execute_stop``; both may be ``async def``. A start returns a
+    Override ``on_start`` and ``on_stop``; both may be ``async def``. A start returns a
     StartResult, True (or nothing) for started, or False for failed; an exception also means failed.
     A failed start stops the boot if the class is ``REQUIRED``. An absent peer is not a failure.
     """
@@ -43,7 +43,7 @@ class BaseStartedModule(BaseModule):
 
     async def start(self) -> StartResult:
         """Enter the start phase; the framework calls this once."""
-        outcome = self._execute_start()
+        outcome = self.on_start()
         if isinstance(outcome, Awaitable):
             outcome = await outcome
         result = self._judge(outcome)
@@ -53,15 +53,15 @@ class BaseStartedModule(BaseModule):
     async def stop(self) -> None:
         """Enter the stop phase; the framework calls this once, also after a failed start."""
         self._started = False
-        outcome = self._execute_stop()
+        outcome = self.on_stop()
         if isinstance(outcome, Awaitable):
             await outcome
 
-    def _execute_start(self) -> Any:
+    def on_start(self) -> Any:
         """Open ports and connect links."""
         return True
 
-    def _execute_stop(self) -> Any:
+    def on_stop(self) -> Any:
         """Close what the start opened, also after a partial start."""
 
     def _judge(self, outcome: Any) -> StartResult:
@@ -71,7 +71,7 @@ class BaseStartedModule(BaseModule):
             return StartResult.STARTED
         if outcome is False:
             return self.failure_result
-        raise TypeError(f"{self.class_name}._execute_start returned {outcome!r}")
+        raise TypeError(f"{self.class_name}.on_start returned {outcome!r}")
 
     @property
     def failure_result(self) -> StartResult:

@@ -57,7 +57,7 @@ class BaseThreadModule(BaseStartedModule):
             except CancelledError:
                 break
         if self._is_thread_alive:
-            self._log_warning("its thread did not end in time and is left behind")
+            self.log.warn("its thread did not end in time and is left behind")
         await super().stop()
 
     def call_in_reactor(self, call: Callable[..., Any], *arguments: Any) -> None:
@@ -79,7 +79,7 @@ class BaseThreadModule(BaseStartedModule):
 
     def _log_fault(self, fault: Failure) -> None:
         self.up.command_executor.limited.log(
-            self.logger.failure,
+            self.log.failure,
             "{name} failed in its thread",
             key=(self.path, repr(fault.type)),
             failure=fault,

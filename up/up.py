@@ -8,6 +8,7 @@ from typing import Any, TypeVar, cast
 from twisted.logger import Logger
 
 from up.base_module import BaseModule
+from up.cleanup import CleanupStack, add_cleanup
 from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.beacon import Beacons
 from up.commands.builtin import BUILTIN_COMMANDS
@@ -19,7 +20,6 @@ from up.context import Context
 from up.loading.order import forget_wanted, needed_by
 from up.loading.plan import Plan
 from up.log.limits import Limited
-from up.registrations import Registrations, note_undo
 from up.vetoes import Vetoes
 
 LOG_INTERVAL_S = 30.0
@@ -55,7 +55,7 @@ class Up:
         self._counted: dict[str, Mapping[str, int]] = {}
         self.on_ports_changed: Callable[[], object] = lambda: None
         self._modules = list(plan.modules)
-        self._registrations = {id(module): Registrations() for module in self._modules}
+        self._cleanups = {id(module): CleanupStack() for module in self._modules}
         self._excluded: list[BaseModule] = []
         self._handlers: Sequence[BaseCommandHandler] = plan.handlers
         self.started_at_s = context.reactor.seconds()
@@ -127,7 +127,7 @@ class Up:
     def advertise_port(self, name: str, port: int) -> None:
         """Set the port that a module bound; it is logged and reported to the supervisor."""
         self.ports[name] = port
-        note_undo(lambda: self._take_port_back(name, port))
+        add_cleanup(lambda: self._take_port_back(name, port))
         self.log.info("{name} listens on port {port}", name=name, port=port)
         self.on_ports_changed()
 
@@ -150,7 +150,7 @@ class Up:
                 self.exclude(module, f"needs {missing.class_name}, which failed")
                 continue
             try:
-                with self.registrations_of(module).noted():
+                with self.cleanup_of(module).recording():
                     module.initialize(self)
             except (Exception, SystemExit) as error:  # noqa: BLE001 - a fault costs one module
                 self.log.failure("{name} failed to initialize", name=module.path)
@@ -158,9 +158,9 @@ class Up:
         for handler in self._handlers:
             self._register(handler)
 
-    def registrations_of(self, module: BaseModule) -> Registrations:
-        """Return the registrations of a module."""
-        return self._registrations[id(module)]
+    def cleanup_of(self, module: BaseModule) -> CleanupStack:
+        """Return the cleanups of a module's registrations."""
+        return self._cleanups[id(module)]
 
     def missing_need(self, module: BaseModule) -> BaseModule | None:
         """Return an excluded module that this one needs, or None."""
@@ -173,7 +173,7 @@ class Up:
         it to None. The caller must exclude the modules that need it.
         """
         self._excluded.append(module)
-        self.registrations_of(module).undo()
+        self.cleanup_of(module).unwind()
         self.command_executor.control.release(module.class_name)
         self._modules = [each for each in self._modules if each is not module]
         for each in self._modules:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from up.registrations import note_undo
+from up.cleanup import add_cleanup
 
 
 class Vetoes:
@@ -32,7 +32,7 @@ class Vetoes:
             if self._on_changed == call:
                 self._on_changed = before
 
-        note_undo(take_back)
+        add_cleanup(take_back)
 
     def set(self, name: str, reason: str) -> None:
         """Forbid arming under a name until it is cleared."""

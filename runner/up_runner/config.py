@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from up.config import ConfigFile, items, key, mapping, section
-from up.config.shape import ListOf
+from up.config.schema import ListOf
 from up.fields import Constraint
 from up_runner.request import NAME
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import yaml
 
-from up.config.reading import read_text
-from up.config.writing import write_atomically
+from up.config.atomic_writer import write_atomically
+from up.config.loader import read_text
 from up_runner.request import Request, Scalar
 
 FOLDER = "config"

@@ -29,7 +29,7 @@ def fly(tmp_path):
 
 def newest(flying, class_name):
     provider = flying.raspilot.module(class_name)
-    return provider.usable(provider.MAX_AGE_S)
+    return provider.fresh(provider.MAX_AGE_S)
 
 
 def test_what_arrives_is_the_truth_within_the_noise(fly):
@@ -123,7 +123,7 @@ class Counter:
         self.last = self.value()
 
     def value(self):
-        reading = self.provider.usable(60.0)
+        reading = self.provider.fresh(60.0)
         return None if reading is None else reading.value
 
     def look(self):
@@ -140,10 +140,10 @@ def test_an_unplugged_phone_is_stale_and_fresh_again_when_it_is_back(fly):
     assert all(newest(flying, name) is not None for name in names)
     flying.phone.unplug()
     providers = [flying.raspilot.module(name) for name in names]
-    flying.until(lambda: all(each.usable(1.5) is None for each in providers), 1.6)
+    flying.until(lambda: all(each.fresh(1.5) is None for each in providers), 1.6)
     flying.until(lambda: not flying.ground.telemetry["android"]["connected"], 5.0)
     flying.phone.plug()
-    flying.until(lambda: all(each.usable(1.5) is not None for each in providers), 5.0)
+    flying.until(lambda: all(each.fresh(1.5) is not None for each in providers), 5.0)
 
 
 def test_a_cable_that_tells_ends_its_links_at_once(fly):

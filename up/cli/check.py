@@ -6,7 +6,7 @@ import argparse
 import sys
 
 from up.cli.system import cog_files, cogfile_problems, program_files, system_of
-from up.cogs.say import say
+from up.cogs.echo import echo
 from up.loading.checking import check_application
 from up.loading.files import no_configuration
 
@@ -28,9 +28,9 @@ def run(values: argparse.Namespace) -> int:
         print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
     if problems:
         count = len(problems)
-        say(f"{count} {'mistake' if count == 1 else 'mistakes'} to mend")
+        echo(f"{count} {'mistake' if count == 1 else 'mistakes'} to mend")
         return EXIT_MISTAKES
-    say(
+    echo(
         f"all is in order: {len(findings.plan.modules)} modules in the mode"
         f" '{system.context.mode.value}', {len(findings.files)} configuration files"
         f" for {system.context.config_folder}"

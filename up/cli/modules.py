@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable
 
 from up.cli.system import cogfile_problems, system_of
-from up.cogs.say import say
+from up.cogs.echo import echo
 from up.loading.checking import check_application
 from up.loading.plan import Plan
 
@@ -19,14 +19,14 @@ def run(values: argparse.Namespace) -> int:
     system = system_of(values)
     findings = check_application(system.application, system.context)
     plan = findings.plan
-    say(f"mode: {system.context.mode.value}")
-    say("loaded, in this order:")
+    echo(f"mode: {system.context.mode.value}")
+    echo("loaded, in this order:")
     _table((str(place), name, origin) for place, name, origin in _loaded(plan))
     if plan.rejected:
-        say("not loaded:")
+        echo("not loaded:")
         _table(("", each.path, each.reason) for each in plan.rejected)
     if plan.commands:
-        say("Commands besides those of Up:")
+        echo("Commands besides those of Up:")
         _table(("", cls.NAME, f"{cls.__module__}.{cls.__qualname__}") for cls in plan.commands)
     for problem in (*cogfile_problems(system.application), *findings.problems):
         print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
@@ -42,4 +42,4 @@ def _table(rows: Iterable[tuple[str, str, str]]) -> None:
     lines = list(rows)
     width = max((len(name) for _, name, _ in lines), default=0)
     for first, name, last in lines:
-        say(f"  {first:>2}  {name:<{width}}  {last}")
+        echo(f"  {first:>2}  {name:<{width}}  {last}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from up.cli.place import application_of
+from up.cli.locate import application_of
 from up.cogs.package_name import package_name
 from up.cogs.registration import register, unregister
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from up.cli.system import cog_files, program_files, system_of
-from up.cogs.say import say
+from up.cogs.echo import echo
 from up.config import write_schemas
 from up.loading.application import UP_FILE_CONFIG
 from up.loading.checking import check_application
@@ -17,8 +17,8 @@ def run(values: argparse.Namespace) -> int:
     more = (UP_FILE_CONFIG, *cog_files(system.application), *program_files())
     findings = check_application(system.application, system.context, more)
     for path in write_schemas(findings.files, values.folder):
-        say(str(path))
-    say(
+        echo(str(path))
+    echo(
         "An editor with a YAML language server takes one by a first line like"
         " '# yaml-language-server: $schema=config.schema.json'"
     )

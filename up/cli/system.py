@@ -12,7 +12,7 @@ from typing import Any
 from twisted.internet.task import Clock
 
 from up.cli.cli_error import CliError
-from up.cli.place import application_of
+from up.cli.locate import application_of
 from up.cogs.cog_error import CogError
 from up.cogs.cogfile import COGFILE, load_cogfile
 from up.cogs.registration import find_registrant

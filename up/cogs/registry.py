@@ -12,7 +12,7 @@ from typing import Literal
 
 from up.cogs.cog_error import CogError
 from up.cogs.manifest import entry_lines
-from up.config.writing import write_atomically
+from up.config.atomic_writer import write_atomically
 from up.loading.external_modules import (
     EXTERNAL_MODULES,
     EXTERNAL_MODULES_FILE,

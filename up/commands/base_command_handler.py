@@ -20,9 +20,14 @@ class BaseCommandHandler(ABC):
     COMMAND: type[BaseCommand] | str = ""
 
     @property
-    def logger(self) -> Logger:
+    def log(self) -> Logger:
         """Return a logger with this handler's name."""
         return Logger(namespace=type(self).__name__)
+
+    @property
+    def logger(self) -> Logger:
+        """Deprecated: the thesis's name of ``log``."""
+        return self.log
 
     @abstractmethod
     def run_action(self, command: Any) -> Any:

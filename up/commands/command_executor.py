@@ -16,6 +16,7 @@ from twisted.internet.defer import Deferred
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
+from up.cleanup import add_cleanup
 from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.command import BaseCommand
 from up.commands.command_registry import CommandRegistry
@@ -24,7 +25,6 @@ from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
 from up.commands.roles import Role
 from up.log.limits import Limited
-from up.registrations import note_undo
 
 Handler = Callable[[Any], Any]
 Observe = Callable[[BaseCommand, Origin], object]
@@ -116,7 +116,7 @@ class CommandExecutor:
         handle = uuid4()
         self._subscribers[name] = (*self._subscribers.get(name, ()), (handle, call))
         self._rebuild(name)
-        note_undo(lambda: self._unsubscribe(name, handle))
+        add_cleanup(lambda: self._unsubscribe(name, handle))
         return handle
 
     def unregister_command(self, command: type[BaseCommand] | str, handle: UUID) -> None:
@@ -138,7 +138,7 @@ class CommandExecutor:
         handle = uuid4()
         self._observers = (*self._observers, (handle, self._handing_origin(call)))
         self._rebuild_called()
-        note_undo(lambda: self._drop_observer(handle))
+        add_cleanup(lambda: self._drop_observer(handle))
         return handle
 
     def remove_observer(self, handle: UUID) -> None:
@@ -203,7 +203,7 @@ class CommandExecutor:
 
     publish = execute_command
 
-    def execute_for_outcome(self, command: BaseCommand, origin: Origin) -> Deferred[None]:
+    def execute_and_wait(self, command: BaseCommand, origin: Origin) -> Deferred[None]:
         """Publish a Command from the reactor thread; the result is its outcome.
 
         Fires with None when every handler succeeded, fails with the first handler's exception. A

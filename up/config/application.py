@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from up.config.file import ConfigFile
-from up.config.shape import key
+from up.config.schema import key
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from up.config.file import ConfigFile
-from up.config.shape import items
+from up.config.schema import items
 from up.fields import Constraint
 
 

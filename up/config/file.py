@@ -1,4 +1,4 @@
-"""A configuration file: its name, its shape, and how it is read and written."""
+"""A configuration file: its name, its schema, and how it is read and written."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from up.config.json_schema import json_schema_of
+from up.config.loader import decode, read_text
 from up.config.nodes import compose
 from up.config.problems import ConfigErrors, ConfigProblem, Problems
-from up.config.reading import decode, read_text
 from up.config.scalars import is_null
-from up.config.schema import schema_of
-from up.config.shape import Shape, shape_of
+from up.config.schema import Schema, schema_of
 from up.config.template import template_of
 from up.config.validator import Validator
 
@@ -31,10 +31,10 @@ class ConfigFile(Generic[T]):
     filename: str
     cls: type[T]
     removed: Mapping[str, str] = field(default_factory=dict)
-    shape: Shape = field(init=False, repr=False)
+    schema: Schema = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "shape", shape_of(self.cls))
+        object.__setattr__(self, "schema", schema_of(self.cls))
 
     def load(self, folder: Path) -> T:
         """Return the values of the file in `folder`, or the defaults if it does not exist.
@@ -67,11 +67,11 @@ class ConfigFile(Generic[T]):
 
     def render(self, values: T) -> str:
         """Return the commented file that holds `values`."""
-        return template_of(self.shape, values)
+        return template_of(self.schema, values)
 
     def json_schema(self) -> dict[str, Any]:
         """Return the JSON Schema (draft 2020-12) of the file, for editors."""
-        return schema_of(self.filename, self.shape)
+        return json_schema_of(self.filename, self.schema)
 
     def _parse(self, text: str, problems: Problems, whole: bool) -> T:
         root = compose(text, problems.report)
@@ -79,7 +79,7 @@ class ConfigFile(Generic[T]):
             if whole and not problems.found:
                 problems.report(1, 1, "is empty")
             return self.cls()
-        value: T = Validator(problems.report, dict(self.removed), whole).read(self.shape, root)
+        value: T = Validator(problems.report, dict(self.removed), whole).read(self.schema, root)
         return value
 
 

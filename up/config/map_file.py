@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from up.config.loader import read_text
 from up.config.nodes import compose
 from up.config.problems import Problems
-from up.config.reading import read_text
 from up.config.scalars import is_null
-from up.config.shape import MapOf, shape_of
+from up.config.schema import MapOf, schema_of
 from up.config.validator import Validator
 from up.fields import Constraint
 
@@ -38,7 +38,7 @@ class MapFile(Generic[V]):
         if text is not None:
             root = compose(text, problems.report)
             if root is not None and not is_null(root):
-                spec: Any = MapOf(self.key, shape_of(self.cls), _GREATEST_LENGTH)
+                spec: Any = MapOf(self.key, schema_of(self.cls), _GREATEST_LENGTH)
                 entries = Validator(problems.report, {}).read(spec, root)
         problems.raise_if_any()
         return entries

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from up.config.shape import ListOf, MapOf, Shape, Spec
+from up.config.schema import ListOf, MapOf, Schema, Spec
 
 
 def plain_value(spec: Spec, value: Any) -> Any:
     """Return a value as JSON and YAML types, with the file's key names; None stays None."""
     if value is None:
         return None
-    if isinstance(spec, Shape):
+    if isinstance(spec, Schema):
         return {
             entry.name: plain_value(entry.spec, getattr(value, entry.attribute))
             for entry in spec.entries

@@ -34,7 +34,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         self._arbiter = SourceArbiter(self.MAX_AGE_S, self._on_switch)
         self._priorities: Mapping[str, int] = {}
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         wanted = self.config.order_of(self.READING)
         self._priorities = {name: 1000 - place for place, name in enumerate(wanted)}
         self._seconds = self.context.reactor.seconds
@@ -45,10 +45,10 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         """Return the newest reading of the followed source, however old; None before the first."""
         return self._reading
 
-    def usable(self, max_age_s: float) -> Reading[_T] | None:
+    def fresh(self, max_age_s: float) -> Reading[_T] | None:
         """Return the newest reading when it is valid and at most ``max_age_s`` old."""
         reading = self._reading
-        if reading is None or not reading.is_usable(self._seconds(), max_age_s):
+        if reading is None or not reading.is_fresh(self._seconds(), max_age_s):
             return None
         return reading
 
@@ -96,9 +96,14 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
     def _on_switch(self, previous: str, source: str) -> None:
         self.up.command_executor.execute_command(SourceSelectedCommand(self.READING, source))
         if previous:
-            self._log_warning(f"{self.READING} now comes from {source}, no longer from {previous}")
+            self.log.warn(
+                "{reading} now comes from {source}, no longer from {previous}",
+                reading=self.READING,
+                source=source,
+                previous=previous,
+            )
         else:
-            self._log_info(f"{self.READING} comes from {source}")
+            self.log.info("{reading} comes from {source}", reading=self.READING, source=source)
 
     def _ages(self) -> dict[str, Any]:
         """Return the part of telemetry common to all readings."""

@@ -21,6 +21,6 @@ class Reading(Generic[_T]):
         """Return the age in seconds."""
         return now_s - self.time_s
 
-    def is_usable(self, now_s: float, max_age_s: float) -> bool:
+    def is_fresh(self, now_s: float, max_age_s: float) -> bool:
         """Return whether the value is valid and at most ``max_age_s`` old."""
         return self.valid and now_s - self.time_s <= max_age_s

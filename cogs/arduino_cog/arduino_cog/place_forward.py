@@ -38,14 +38,14 @@ class PlaceForward(BaseStartedModule):
         """Return a value as the payload of a message."""
         raise NotImplementedError
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self._sender = ChangeSender(
             self.context.reactor, lambda payload: self.arduino.send_stream(self.LETTER, payload)
         )
         self.arduino.add_board_listener(self._sender.forget)
         self.up.command_executor.register_command(self.COMMAND, self.on_reading)
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         self._sender.stop()
 
     def on_reading(self, command: Any) -> None:

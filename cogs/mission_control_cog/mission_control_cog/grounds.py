@@ -16,7 +16,7 @@ from up.commands.command_link import CommandLink
 from up.commands.refusal import Code
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.system.clock import Clock
-from up.system.plain_peers import PlainPeers
+from up.system.peer_filter import PeerFilter
 
 ALIVE_S = 3.0
 """A holder that is silent for longer may lose the seat to a newcomer."""
@@ -33,7 +33,7 @@ class Grounds:
     def __init__(
         self,
         clock: Clock,
-        peers: PlainPeers,
+        peers: PeerFilter,
         aircraft: str,
         *,
         open_link: Callable[[Callable[[bytes], object]], CommandLink],

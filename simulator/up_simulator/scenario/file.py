@@ -11,11 +11,11 @@ from typing import Any
 from up.builtin_modules import BUILTIN_MODULES
 from up.cli.system import cog_files, program_files
 from up.config import ConfigErrors, ConfigFile
+from up.config.loader import decode, read_text
 from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
 from up.config.problems import Problems
-from up.config.reading import decode, read_text
 from up.config.scalars import is_null
-from up.config.shape import shape_of
+from up.config.schema import schema_of
 from up.config.validator import Validator
 from up.fields import printable
 from up.loading.application import Application, NoApplicationError
@@ -30,7 +30,7 @@ from up_simulator.scenario.plain import plain_of
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.tree import child, items_of, path_of
 
-SHAPE = shape_of(Scenario)
+SCHEMA = schema_of(Scenario)
 _HERE = Path()
 _FREE_TEXT = ("is", "is_not", "becomes")
 ROOT = Path(__file__).resolve().parents[3]
@@ -88,7 +88,7 @@ def _parse(
     apply(overrides, root, problems.report)
     free = _Free(root, problems.report)
     _check_times(root, problems.report)
-    scenario: Scenario = Validator(problems.report, {}, valued=True).read(SHAPE, root)
+    scenario: Scenario = Validator(problems.report, {}, valued=True).read(SCHEMA, root)
     problems.raise_if_any()
     scenario = _with_airframe_beside(free.fill(scenario), folder)
     for node, what in cross_problems(scenario, root):
@@ -160,7 +160,7 @@ class _Free:
         """Judge part of a configuration file as the daemon would."""
         file = daemon_files().get(filename) if node is not None else None
         if file is not None and node is not None and not is_null(node):
-            Validator(self._report, dict(file.removed)).read(file.shape, node, head)
+            Validator(self._report, dict(file.removed)).read(file.schema, node, head)
 
     def _take(self, parent: Node | None, name: str) -> dict[str, Any]:
         node = child(parent, name)

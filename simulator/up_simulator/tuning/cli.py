@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from up.config.writing import write_atomically
+from up.config.atomic_writer import write_atomically
 from up.flight_controller.gains import Gains, GainSet
 from up.flight_controller.pids_file import PIDS, PidsConfig, gain_set_of
 from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe

@@ -113,7 +113,7 @@ def profile_of(up):
 async def ask(up, command):
     """Return nothing, or the reason for a refusal."""
     try:
-        await up.command_executor.execute_for_outcome(command, INTERNAL)
+        await up.command_executor.execute_and_wait(command, INTERNAL)
     except CommandRefusedError as error:
         return error.reason
     return None
@@ -187,11 +187,11 @@ class FlightMode(BaseStartedModule):
 
     ROLL_DEG = 0.0
 
-    def _execute_start(self):
+    def on_start(self):
         self.loop = LoopingCall(self.step)
         self.loop.start(0.02)
 
-    def _execute_stop(self):
+    def on_stop(self):
         self.loop.stop()
 
     def step(self):

@@ -39,12 +39,12 @@ from up.telemetry_controller import TelemetryController
 class Talkative(BaseStartedModule):
     """Logs a line at its start and at its stop."""
 
-    def _execute_start(self):
-        self._log_info("opened a port")
+    def on_start(self):
+        self.log.info("opened a port")
         return True
 
-    def _execute_stop(self):
-        self._log_info("closed a port")
+    def on_stop(self):
+        self.log.info("closed a port")
 
 
 class System:
@@ -285,8 +285,8 @@ def test_one_that_is_excluded_observes_no_more(tmp_path):
     clock = Clock()
     up = build_up([BlackBox], clock, tmp_path, config={"black_box.yml": f'folder: "{tmp_path}"\n'})
     box = up.get_module(BlackBox)
-    with up.registrations_of(box).noted():
-        box._execute_start()
+    with up.cleanup_of(box).recording():
+        box.on_start()
     up.exclude(box, "test")
     up.command_executor.execute_command(OrientationCommand(1.0, 2.0, 3.0), BOARD)
     Logger().info("said")

@@ -19,7 +19,7 @@ from up.commands.arming_commands import ArmCommand
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
 from up.life_cycle import LifeCycle
-from up.system.plain_peers import PlainPeers
+from up.system.peer_filter import PeerFilter
 
 LISTENER = "listener: {port: 0, address: 127.0.0.1}\n"
 
@@ -196,7 +196,7 @@ def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
         assert "public address" in reason
         await life.stop()
         async with Aircraft(tmp_path / "b", None, "listener: {port: 0}\n") as b:
-            monkeypatch.setattr("up.system.plain_peers.is_private", lambda host: False)
+            monkeypatch.setattr("up.system.peer_filter.is_private", lambda host: False)
             peer = await connect(reactor, b.up.ports["ground"])
             await peer.closed
             assert peer.received == b""
@@ -229,7 +229,7 @@ class _Link:
 
 def virtual(clock, heard):
     return Grounds(
-        clock, PlainPeers(True, "k"), "a",
+        clock, PeerFilter(True, "k"), "a",
         open_link=lambda send: _Link(),
         on_message=lambda message, link: heard.append(message.id),
         on_malformed=lambda fault, link: None,

@@ -168,9 +168,9 @@ def test_readings_of_an_unplugged_phone_are_stale_within_their_time(fly):
     flying.fly(1.5)
     names = ("UpAltitudeProvider", "UpHeadingProvider", "UpLocationProvider")
     providers = [flying.raspilot.module(name) for name in names]
-    assert all(each.usable(each.MAX_AGE_S) is not None for each in providers)
+    assert all(each.fresh(each.MAX_AGE_S) is not None for each in providers)
     flying.phone.unplug()
-    took_s = flying.until(lambda: all(each.usable(1.5) is None for each in providers), 3.0)
+    took_s = flying.until(lambda: all(each.fresh(1.5) is None for each in providers), 3.0)
     assert took_s <= 1.5
     began_s = flying.now_s - took_s
     flying.fly(1.5)
@@ -182,7 +182,7 @@ def test_readings_of_an_unplugged_phone_are_stale_within_their_time(fly):
     assert flying.ground.telemetry["system"]["providers"] == ["battery", "orientation", "rx"]
     flying.until(lambda: not flying.ground.telemetry["android"]["connected"], 3.0)
     flying.phone.plug()
-    flying.until(lambda: all(each.usable(1.5) is not None for each in providers), 5.0)
+    flying.until(lambda: all(each.fresh(1.5) is not None for each in providers), 5.0)
 
 
 def test_a_cable_that_tells_ends_the_phones_links_at_once(fly):

@@ -24,7 +24,7 @@ class ArduinoFlightMode(BaseModule):
 
     arduino = needs(ArduinoProvider)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         auto = _AUTO[self.context.application.flight_controller]
         self._letters = {**_LETTERS, "AUTO": auto}
         self.up.command_executor.register_command(FlightModeCommand, self.on_flight_mode)

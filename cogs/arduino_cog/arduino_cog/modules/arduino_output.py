@@ -23,10 +23,10 @@ class ArduinoOutput(BaseModule):
 
     arduino = needs(ArduinoProvider)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self._send_command = self.arduino.serial.send_command
         if not self.arduino.is_checked:
-            self._log_info("thesis framing: the Raspberry Pi's Outputs and setpoints are not sent")
+            self.log.info("thesis framing: the Raspberry Pi's Outputs and setpoints are not sent")
             return
         self.up.command_executor.register_command(OutputCommand, self.on_output)
         self.up.command_executor.register_command(SetpointCommand, self.on_setpoint)

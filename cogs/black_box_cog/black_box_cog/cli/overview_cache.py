@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from black_box_cog.cli.overview import Overview
-from up.config.writing import write_atomically
+from up.config.atomic_writer import write_atomically
 from up.flight_log.flights import Flight
 
 FORMAT = 1

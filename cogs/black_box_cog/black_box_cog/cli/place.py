@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 from black_box_cog.config import BLACK_BOX
-from up.cli.place import application_of
+from up.cli.locate import application_of
 from up.flight_log.flights_folder import default_folder
 from up.flight_log.flights_folder import folder_of as configured_folder
 from up.loading.application import NoApplicationError

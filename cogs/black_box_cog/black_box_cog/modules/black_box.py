@@ -18,9 +18,9 @@ from black_box_cog.log_lines import LogLines
 from black_box_cog.record_policy import RecordPolicy
 from black_box_cog.recorder_status import RecorderStatus
 from up.base_thread_module import BaseThreadModule
+from up.cleanup import add_cleanup
 from up.commands.refusal import CommandRefusedError
 from up.commands.telemetry_commands import TelemetryCommand
-from up.registrations import note_undo
 
 if TYPE_CHECKING:
     from black_box_cog.recorder import Recorder
@@ -83,7 +83,7 @@ class BlackBox(BaseThreadModule):
         """Return whether it records, into which file, and its problem."""
         return {"black_box": asdict(self.status)}
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self.intake = Intake(self.config.waiting_messages)
         self._log_lines = LogLines(self.intake.note)
         executor = self.up.command_executor
@@ -92,13 +92,13 @@ class BlackBox(BaseThreadModule):
         executor.register_command(MarkCommand, self._on_mark)
         executor.register_command(RecordCommand, self._on_record)
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         self.up.command_executor.add_observer(self.intake.observe)
         self._log_lines.start()
-        note_undo(self._log_lines.stop)
+        add_cleanup(self._log_lines.stop)
         return True
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         self._log_lines.stop()
 
     def _loop(self) -> None:
@@ -114,7 +114,7 @@ class BlackBox(BaseThreadModule):
             self.recorder.finish()
         except Exception:  # noqa: BLE001 - without this the thread would end silently
             self.faults += 1
-            self.logger.failure("{name} does not record any more", name=self.class_name)
+            self.log.failure("{name} does not record any more", name=self.class_name)
 
     def _make_recorder(self) -> Recorder:
         """Return the recorder, importing its code in pieces: all in one would delay control."""
@@ -134,7 +134,7 @@ class BlackBox(BaseThreadModule):
 
     def _on_mark(self, command: MarkCommand) -> None:
         self._refuse_without_file()
-        self._log_info(f"mark: {command.text}")
+        self.log.info("mark: {text}", text=command.text)
 
     def _on_record(self, command: RecordCommand) -> None:
         self._refuse_without_file()

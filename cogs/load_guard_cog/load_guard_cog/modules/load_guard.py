@@ -58,20 +58,20 @@ class LoadGuard(BaseStartedModule):
             }
         }
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         values = self.config
         self._switch = PanicSwitch(
             values.panic_threshold, values.calm_down_threshold, values.dwell_s
         )
         self.up.command_executor.register_command(LinkStateCommand, self._on_link)
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         if self.meter is None:
             self.meter = PsutilMeter()
         self._schedule()
         return True
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
 
@@ -87,9 +87,12 @@ class LoadGuard(BaseStartedModule):
             self.ram = self.meter.memory_percent()
         if self._switch.update(self.meter.load_percent(), now_s):
             word = "busy" if self.in_panic else "not busy any more"
-            self._log_info(
-                f"Raspberry Pi {word} ({self.cpu_utilization:.0f} %):"
-                f" every sender may send every {self.delay_ms} ms (Panic Mode)"
+            self.log.info(
+                "Raspberry Pi {word} ({cpu_utilization:.0f} %):"
+                " every sender may send every {delay_ms} ms (Panic Mode)",
+                word=word,
+                cpu_utilization=self.cpu_utilization,
+                delay_ms=self.delay_ms,
             )
             self._publish()
 

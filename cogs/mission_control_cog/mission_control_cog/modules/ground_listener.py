@@ -22,7 +22,7 @@ from up.log.limits import Limited
 from up.needs import needs
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.start_result import StartFailedError
-from up.system.plain_peers import PlainPeers
+from up.system.peer_filter import PeerFilter
 
 LINK = "ground"
 _LOG_INTERVAL_S = 10.0
@@ -42,9 +42,9 @@ class GroundListener(BaseStartedModule):
         """Return whether a port is configured."""
         return self.config.listener.port is not None
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         config = self.config
-        self._peers = PlainPeers(config.i_accept_plain, PLAIN_KEY)
+        self._peers = PeerFilter(config.i_accept_plain, PLAIN_KEY)
         self._grounds = Grounds(
             self.context.reactor,
             self._peers,
@@ -71,7 +71,7 @@ class GroundListener(BaseStartedModule):
         }
         return {"counters": {"ground": counters}}
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         listener = self.config.listener
         refusal = self._peers.refusal_of(listener.address)
         if refusal:
@@ -88,7 +88,7 @@ class GroundListener(BaseStartedModule):
         self.up.advertise_port("ground", self._port.getHost().port)
         return True
 
-    async def _execute_stop(self) -> None:
+    async def on_stop(self) -> None:
         port, self._port = self._port, None
         if port is not None:
             await port.stopListening()
@@ -109,9 +109,9 @@ class GroundListener(BaseStartedModule):
 
     def _on_holder(self, peer: str) -> None:
         if peer:
-            self._said.log(self.logger.info, "the ground station {peer} commands", peer=peer)
+            self._said.log(self.log.info, "the ground station {peer} commands", peer=peer)
         else:
-            self._said.log(self.logger.warn, "no ground station commands here any more")
+            self._said.log(self.log.warn, "no ground station commands here any more")
         if self._has_holder != bool(peer):
             self._has_holder = bool(peer)
             self.up.command_executor.execute_command(LinkStateCommand(LINK, bool(peer)))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-Say = Callable[[str], None]
+Echo = Callable[[str], None]
 
 
-def say(text: str) -> None:
+def echo(text: str) -> None:
     """Show a line to the user."""
     print(text, flush=True)  # noqa: T201 - command line output

@@ -5,14 +5,14 @@ import gc
 import pytest
 from twisted.internet.task import Clock
 
-from up.system import garbage
-from up.system.garbage import OLDEST_EVERY, QuietCollector
+from up.system import gc_scheduler
+from up.system.gc_scheduler import OLDEST_EVERY, GcScheduler
 
 
 @pytest.fixture
 def rounds(monkeypatch):
     found = []
-    monkeypatch.setattr(garbage.gc, "collect", lambda generation=2: found.append(generation))
+    monkeypatch.setattr(gc_scheduler.gc, "collect", lambda generation=2: found.append(generation))
     return found
 
 
@@ -22,7 +22,7 @@ def clock():
 
 
 def test_it_takes_over_and_gives_back(clock):
-    collector = QuietCollector(clock)
+    collector = GcScheduler(clock)
     collector.start()
     try:
         assert not gc.isenabled()
@@ -36,7 +36,7 @@ def test_it_takes_over_and_gives_back(clock):
 
 
 def test_young_garbage_every_second_and_old_now_and_then(clock, rounds):
-    collector = QuietCollector(clock)
+    collector = GcScheduler(clock)
     collector.start()
     clock.pump([1.0] * OLDEST_EVERY)
     collector.stop()
@@ -49,7 +49,7 @@ def test_cycles_that_modules_make_are_really_freed(clock):
 
     import weakref
 
-    collector = QuietCollector(clock)
+    collector = GcScheduler(clock)
     collector.start()
     try:
         node = Node()

@@ -15,7 +15,7 @@ PERIOD_S = 1.0
 OLDEST_EVERY = 300
 
 
-class QuietCollector:
+class GcScheduler:
     """Replaces the automatic collector once the program has started."""
 
     def __init__(self, clock: Clock) -> None:

@@ -2,7 +2,7 @@
 
 import threading
 
-from up.system.forced_end import ForcedEnd
+from up.system.exit_watchdog import ExitWatchdog
 
 
 def test_it_ends_with_the_first_status_asked_for():
@@ -12,21 +12,21 @@ def test_it_ends_with_the_first_status_asked_for():
         statuses.append(status)
         ended.set()
 
-    forced = ForcedEnd(0.01, end)
-    forced.start()
-    forced.ask(3)
-    forced.ask(4)
+    exits = ExitWatchdog(0.01, end)
+    exits.start()
+    exits.request(3)
+    exits.request(4)
     assert ended.wait(30)
-    forced._thread.join(30)
+    exits._thread.join(30)
     assert statuses == [3]
 
 
 def test_called_off_it_ends_nothing():
     statuses = []
-    forced = ForcedEnd(60, statuses.append)
-    forced.start()
-    forced.ask(3)
-    forced.call_off()
-    forced._thread.join(30)
-    assert not forced._thread.is_alive()
+    exits = ExitWatchdog(60, statuses.append)
+    exits.start()
+    exits.request(3)
+    exits.cancel()
+    exits._thread.join(30)
+    assert not exits._thread.is_alive()
     assert statuses == []

@@ -8,8 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.up.config.samples import Gains
-from up.config import ConfigFile, LearnedFile, section
-from up.config import writing as writing_module
+from up.config import ConfigFile, PersistedFile, atomic_writer, section
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +26,7 @@ LATER = Pids(Gains(3.5, 0.25), Gains(4.0, 0.0))
 
 @pytest.fixture
 def learned(tmp_path):
-    return LearnedFile(tmp_path / "pids.yml", PIDS)
+    return PersistedFile(tmp_path / "pids.yml", PIDS)
 
 
 def test_nothing_learned_yet_is_the_defaults_and_no_problem(learned):
@@ -109,9 +108,9 @@ def test_loading_alone_writes_nothing(learned):
 
 def test_what_a_killed_write_leaves_is_removed_and_a_running_one_goes_on(learned, tmp_path):
     program = (
-        "import os, sys, time, pathlib; from up.config import writing;"
+        "import os, sys, time, pathlib; from up.config import atomic_writer;"
         "os.fsync = lambda _: (print('written', flush=True), time.sleep(60));"
-        "writing.write_atomically(pathlib.Path(sys.argv[1]), b'half')"
+        "atomic_writer.write_atomically(pathlib.Path(sys.argv[1]), b'half')"
     )
     with subprocess.Popen(
         [sys.executable, "-c", program, str(learned.path)], stdout=subprocess.PIPE
@@ -119,13 +118,13 @@ def test_what_a_killed_write_leaves_is_removed_and_a_running_one_goes_on(learned
         try:
             assert writer.stdout.readline() == b"written\n"
             (temporary,) = tmp_path.iterdir()
-            writing_module.remove_unfinished(tmp_path)
+            atomic_writer.remove_unfinished(tmp_path)
             assert temporary.exists(), "its program runs"
         finally:
             writer.kill()
     other = tmp_path / ".notes.tmp"
     other.touch()
-    writing_module.remove_unfinished(tmp_path)
+    atomic_writer.remove_unfinished(tmp_path)
     assert list(tmp_path.iterdir()) == [other]
 
 
@@ -144,7 +143,7 @@ class Loop:
 
 
 def test_an_axis_within_a_section_may_be_absent_as_old_files_have_it(tmp_path):
-    learned = LearnedFile(tmp_path / "loop.yml", ConfigFile("loop.yml", Loop))
+    learned = PersistedFile(tmp_path / "loop.yml", ConfigFile("loop.yml", Loop))
     learned.path.write_text("rate: {ailerons: {p: 2, i: 0}}\n")
     assert learned.load() == (Loop(Pids(ailerons=Gains(2.0, 0.0))), None)
 
@@ -175,8 +174,8 @@ def test_a_disk_that_fails_at_any_step_leaves_the_old_or_the_new_values(
         return step
 
     with monkeypatch.context() as patch:
-        patch.setattr(writing_module.os, "write", failing(os.write))
-        patch.setattr(writing_module.os, "fsync", failing(os.fsync))
+        patch.setattr(atomic_writer.os, "write", failing(os.write))
+        patch.setattr(atomic_writer.os, "fsync", failing(os.fsync))
         try:
             learned.save(LATER)
         except OSError as error:
@@ -194,7 +193,7 @@ def test_loading_from_a_read_only_place_raises_nothing(learned, monkeypatch):
     def read_only(path, data):
         raise OSError(30, "Read-only file system")
 
-    monkeypatch.setattr("up.config.learned.write_atomically", read_only)
+    monkeypatch.setattr("up.config.persisted.write_atomically", read_only)
     assert learned.load() == (LATER, None)
     with pytest.raises(OSError):
         learned.save(TUNED)

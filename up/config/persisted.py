@@ -6,17 +6,17 @@ import contextlib
 from pathlib import Path
 from typing import Generic, TypeVar
 
+from up.config.atomic_writer import write_atomically
 from up.config.file import ConfigFile
+from up.config.loader import read_text
 from up.config.problems import ConfigErrors
-from up.config.reading import read_text
-from up.config.writing import write_atomically
 
 T = TypeVar("T")
 _HEAD = "# Written by the program; a file that lacks its last line, '# end', is not used.\n\n"
 _END = "# end"
 
 
-class LearnedFile(Generic[T]):
+class PersistedFile(Generic[T]):
     """A file of learned values; the first save also writes a good copy, `<name>.good`.
 
     A set is valid only as a whole: a map with a missing value, or a missing end mark, makes the

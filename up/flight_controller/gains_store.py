@@ -25,7 +25,7 @@ def _in_thread(work: Callable[[], None]) -> None:
     threading.Thread(target=work, name="pids.yml writer", daemon=True).start()
 
 
-class GainsKeeper:
+class GainsStore:
     """Writes pids.yml on its own thread: an SD card may take a second.
 
     Saves keep their order. A failed one fails with CommandRefusedError on the reactor's thread.

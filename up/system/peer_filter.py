@@ -9,7 +9,7 @@ from up.system.addresses import is_private, is_wildcard
 _LOGGED_LIMIT = 20
 
 
-class PlainPeers:
+class PeerFilter:
     """Checks the addresses of a plain listener: public ones are refused unless accepted.
 
     A listener on a wildcard address checks each peer on arrival. ``key`` is the configuration key
