@@ -27,7 +27,7 @@ ARROWS: dict[str, set[str]] = {
     "up_rig": set(),
 }
 # The parts of Up for a program on another machine: the proxy uses no modules and no bus.
-PROXY_MAY_USE = {"config", "log", "system", "fields", "version"}
+PROXY_MAY_USE = {"config", "log", "protocols", "system", "fields", "version"}
 
 
 def cogs() -> dict[str, set[str]]:

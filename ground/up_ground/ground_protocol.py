@@ -11,9 +11,9 @@ from twisted.internet.protocol import Protocol, connectionDone
 from twisted.python.failure import Failure
 
 from up.protocols.line_decoder import LineDecoder
+from up.protocols.proxy_lines import PREFIX
 from up.protocols.tcp_options import watch_peer
 from up.system.clock import Clock, Timer
-from up_ground.control_line import PREFIX
 
 USER_TIMEOUT_MS = 1500
 HEARTBEAT_S = 1.0

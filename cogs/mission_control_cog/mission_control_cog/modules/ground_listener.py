@@ -52,12 +52,12 @@ class GroundListener(BaseStartedModule):
             open_link=self._open_link,
             on_message=self._on_message,
             on_malformed=self._on_malformed,
-            on_holder=self._on_holder,
+            on_owner=self._on_owner,
             random=self.context.random,
         )
         self._port: Any = None
-        self._has_holder = False
-        self._said = Limited(self.context.reactor, _LOG_INTERVAL_S)
+        self._has_owner = False
+        self._limited = Limited(self.context.reactor, _LOG_INTERVAL_S)
         self.mission_control.add_outlet(self._grounds)
 
     @property
@@ -78,7 +78,7 @@ class GroundListener(BaseStartedModule):
             raise StartFailedError(f"{refusal} (mission_control.yml: listener.address)")
         try:
             self._port = self.context.reactor.listenTCP(
-                listener.port, self._grounds.factory, interface=listener.address
+                listener.port, self._grounds, interface=listener.address
             )
         except CannotListenError as error:
             reason = getattr(error.socketError, "strerror", None) or error.socketError
@@ -93,7 +93,7 @@ class GroundListener(BaseStartedModule):
         if port is not None:
             await port.stopListening()
         await self._grounds.close()
-        self._said.stop()
+        self._limited.stop()
 
     def _open_link(self, send: Any) -> CommandLink:
         policy = self.mission_control.tuning_policy
@@ -107,11 +107,13 @@ class GroundListener(BaseStartedModule):
     def _on_malformed(self, fault: MalformedMessage, link: CommandLink) -> None:
         self.up.command_receiver.receive_malformed(fault, link)
 
-    def _on_holder(self, peer: str) -> None:
+    def _on_owner(self, peer: str) -> None:
         if peer:
-            self._said.log(self.log.info, "the ground station {peer} commands", peer=peer)
+            text = "the ground station {peer} has control"
+            self._limited.log(self.log.info, text, code="control_granted", peer=peer)
         else:
-            self._said.log(self.log.warn, "no ground station commands here any more")
-        if self._has_holder != bool(peer):
-            self._has_holder = bool(peer)
+            text = "the ground station with control has disconnected"
+            self._limited.log(self.log.warn, text, code="control_lost")
+        if self._has_owner != bool(peer):
+            self._has_owner = bool(peer)
             self.up.command_executor.execute_command(LinkStateCommand(LINK, bool(peer)))

@@ -108,11 +108,17 @@ class MissionControlProvider(BaseMissionControlProvider):
         except ValueError as error:
             self._telemetry_faults += 1
             if self._telemetry_faults == 1:
-                self.log.error("telemetry cannot be sent: {error}; said once", error=error)
+                self.log.error(
+                    "cannot send telemetry: {error}; logged once",
+                    code="telemetry_unsendable",
+                    error=str(error),
+                )
 
     def on_start(self) -> bool:
         if self._uplink is None:
-            self.log.info("no proxy is configured (mission_control.yml: remote_server)")
+            self.log.info(
+                "no proxy is configured (mission_control.yml: remote_server)", code="no_proxy"
+            )
         else:
             self._uplink.start()
         return True
@@ -159,11 +165,12 @@ class MissionControlProvider(BaseMissionControlProvider):
         if role is Role.PILOT and not self.config.i_accept_plain and not is_private(host):
             role, key = Role.OPERATOR, PLAIN_KEY
             self.log.error(
-                "{host} is a public address and the link is plain: the ground is an operator, not"
-                " a pilot, and cannot arm or tune; set {plain_key} to true to accept that anybody"
-                " who reaches the proxy can",
+                "{host} is a public address and the link is plain: the ground is an operator, not a"
+                " pilot, and cannot arm or tune; {key}: true grants every host that reaches the"
+                " proxy the pilot's role",
+                code="role_reduced",
                 host=host,
-                plain_key=PLAIN_KEY,
+                key=PLAIN_KEY,
             )
         self._link.origin = Origin(LINK, role)
         self._link.role_key = key

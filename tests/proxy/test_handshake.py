@@ -21,7 +21,7 @@ def test_a_malformed_hello_is_answered_and_closed(bench, line):
     for peer in (bench.air(line), bench.ground(line)):
         assert peer.line().startswith('UP1 error code=malformed reason="')
         peer.expect_closed()
-    air, ground = (door.refused["malformed"] for door in bench.proxy._doors)
+    air, ground = (door.refused["malformed"] for door in bench.proxy._acceptors)
     assert air == ground == 1
 
 
@@ -30,7 +30,7 @@ def test_why_is_readable_even_when_more_was_sent_than_is_read(bench):
     assert peer.line().startswith("UP1 error code=malformed")
     peer.expect_closed()
     bench.pass_time(3)
-    assert len(bench.proxy._doors[1].connections) == 0
+    assert len(bench.proxy._acceptors[1].connections) == 0
 
 
 def test_a_hello_may_come_byte_by_byte_within_five_seconds(bench):
@@ -67,7 +67,7 @@ def test_a_peer_that_closes_at_once_harms_nobody(bench):
         peer.close()
     bench.hello_ground()
     bench.pass_time(1)
-    assert len(bench.proxy._doors[1].connections) == 1
+    assert len(bench.proxy._acceptors[1].connections) == 1
 
 
 def test_idle_means_no_byte_in_either_direction(bench):
@@ -79,4 +79,4 @@ def test_idle_means_no_byte_in_either_direction(bench):
         bench.pass_time(1)
     assert not listener.closed
     lonely.expect_closed()
-    assert bench.proxy._doors[1].idle_closed == 1
+    assert bench.proxy._acceptors[1].idle_closed == 1

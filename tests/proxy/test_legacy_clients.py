@@ -11,7 +11,7 @@ def bench():
         yield bench
 
 
-def test_the_first_byte_shows_a_thesis_client(bench):
+def test_the_first_byte_shows_a_legacy_client(bench):
     air = bench.air('{"name": "telemetry"}\n')
     ground = bench.ground('{"name": "command"}\n')
     assert air.line() == '{"name": "command"}\n'
@@ -30,10 +30,10 @@ def test_its_first_line_may_come_in_pieces(bench):
     assert ground.line() == '{"a": 1}\n'
 
 
-def test_who_says_nothing_for_a_second_is_a_thesis_client_and_may_only_listen(bench):
+def test_who_says_nothing_for_a_second_is_a_legacy_client_and_may_only_listen(bench):
     ground = bench.ground()
     bench.pump()
-    assert len(bench.proxy.fleet) == 0
+    assert len(bench.proxy.registry) == 0
     bench.pass_time(1)
     air = bench.air('{"name": "telemetry"}\n')
     assert ground.line() == '{"name": "telemetry"}\n'
@@ -51,7 +51,7 @@ def test_a_second_thesis_ground_listens(bench):
     assert b"second" not in air.heard
 
 
-def test_a_listening_thesis_client_takes_a_free_seat_by_speaking(bench):
+def test_a_listening_legacy_client_takes_a_free_seat_by_speaking(bench):
     air = bench.air("{}\n")
     first = bench.ground('{"first": 1}\n')
     second = bench.ground('{"second": 1}\n')
@@ -77,7 +77,7 @@ def test_its_seat_is_taken_after_three_seconds_without_data(bench):
     assert not second.closed
 
 
-def test_a_thesis_client_never_hears_a_control_line(bench):
+def test_a_legacy_client_never_hears_a_control_line(bench):
     ground = bench.ground("{}\n")
     air = bench.air("{}\n")
     other = bench.ground("UP1 aircraft=default seat=command\n")
@@ -92,12 +92,12 @@ def test_a_thesis_client_never_hears_a_control_line(bench):
     assert ground.heard == b"{}\n".replace(b"{}\n", b"") or ground.heard == b"{}\n"
 
 
-def test_a_thesis_client_may_not_speak_control_lines(bench):
+def test_a_legacy_client_may_not_speak_control_lines(bench):
     air = bench.air("{}\n")
     ground = bench.ground("{}\nUP1 seat release\nUP1 seat give to=1\n{}\n")
     air.expect("{}\n{}\n")
     assert air.heard == b""
-    assert bench.aircraft("default").unheard_lines == 2
+    assert bench.aircraft("default").rejected_lines == 2
     assert not ground.closed
 
 
@@ -118,5 +118,5 @@ def test_a_hello_that_comes_late_is_still_a_hello(bench):
     assert late_air.line().startswith("UP1 ok aircraft=glider seat=air token=")
     late.expect("hello\n")
     default = bench.ground("{}\n")
-    assert bench.aircraft("default").command_seat.occupant is not None
+    assert bench.aircraft("default").grounds.lease.owner is not None
     assert not default.closed

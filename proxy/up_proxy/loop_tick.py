@@ -1,4 +1,4 @@
-"""The proxy's periodic tick, and its lateness."""
+"""The proxy's periodic tick and the lateness of its event loop."""
 
 from collections import deque
 from collections.abc import Callable
@@ -6,11 +6,11 @@ from collections.abc import Callable
 from up.system.clock import Clock, Timer
 
 TICK_S = 0.25
-"""Period of the checks of silence, idleness and seats."""
-_REMEMBERED = 240
+"""Period of the checks of silence, idleness and leases."""
+_WINDOW = 240
 
 
-class Heartbeat:
+class LoopTick:
     """Calls `on_tick` every TICK_S and measures the lateness of the event loop.
 
     `lag_max_s` covers the last minute.
@@ -22,7 +22,7 @@ class Heartbeat:
         self._started_s = clock.seconds()
         self._due_s = 0.0
         self._timer: Timer | None = None
-        self._lags_s: deque[float] = deque([0.0], maxlen=_REMEMBERED)
+        self._lags_s: deque[float] = deque([0.0], maxlen=_WINDOW)
 
     @property
     def uptime_s(self) -> float:

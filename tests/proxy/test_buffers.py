@@ -1,9 +1,26 @@
-"""What waits for a slow peer."""
+"""Partial lines received, and lines waiting for a slow peer."""
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from up_proxy.line_queue import LineQueue
+from up_proxy.buffers import LineBuffer, SendBuffer
+
+CHUNKS = st.lists(st.sampled_from([b"\n", b"a", b"bc\n", b"d\ne", b"\n\n"]) | st.binary(min_size=1))
+
+
+@given(CHUNKS)
+def test_only_whole_lines_pass_and_unchanged(chunks):
+    buffer = LineBuffer()
+    whole = []
+    for chunk in chunks:
+        lines = buffer.feed(chunk)
+        assert not lines or lines.endswith(b"\n")
+        whole.append(lines)
+    text = b"".join(chunks)
+    cut = text.rfind(b"\n") + 1
+    assert b"".join(whole) == text[:cut]
+    assert len(buffer) == len(text) - cut
+    assert buffer.starts_with(text[cut:])
 
 
 def drain(queue, step=7):
@@ -16,7 +33,7 @@ def drain(queue, step=7):
 
 
 def test_the_oldest_whole_lines_are_dropped():
-    queue = LineQueue(12)
+    queue = SendBuffer(12)
     for line in (b"one\n", b"two\n", b"three\n", b"four\n"):
         queue.put(line)
     assert queue.dropped_lines == 2
@@ -24,11 +41,11 @@ def test_the_oldest_whole_lines_are_dropped():
 
 
 def test_a_line_that_has_begun_to_leave_is_finished():
-    queue = LineQueue(12)
+    queue = SendBuffer(12)
     queue.put_rest(b"rest\nold\n")
     queue.put(b"newer\n")
     assert drain(queue) == b"rest\nnewer\n"
-    queue = LineQueue(12)
+    queue = SendBuffer(12)
     queue.put(b"begun\nnext\n")
     queue.sent(2)
     queue.put(b"0123456\n")
@@ -36,13 +53,13 @@ def test_a_line_that_has_begun_to_leave_is_finished():
 
 
 def test_a_control_line_stands_between_lines_and_is_never_dropped():
-    queue = LineQueue(8)
+    queue = SendBuffer(8)
     queue.put(b"begun\n")
     queue.sent(2)
     queue.put_control(b"UP1 x\n")
     queue.put(b"a\nb\nc\nd\ne\n")
     assert drain(queue) == b"gun\nUP1 x\n"
-    queue = LineQueue(8)
+    queue = SendBuffer(8)
     queue.put_control(b"UP1 x\n")
     queue.put(b"aaaaaaa\n")
     queue.put(b"b\n")
@@ -50,7 +67,7 @@ def test_a_control_line_stands_between_lines_and_is_never_dropped():
 
 
 def test_without_a_limit_nothing_is_dropped():
-    queue = LineQueue()
+    queue = SendBuffer()
     for _ in range(1000):
         queue.put(b"x" * 999 + b"\n")
     assert len(queue) == 1_000_000
@@ -69,7 +86,7 @@ ACTION = st.one_of(
 @given(st.integers(1, 60), st.lists(ACTION, max_size=40))
 def test_whatever_happens_whole_lines_leave_in_order(limit, actions):
     """Lines are numbered, so that any glued, torn, doubled or reordered one shows."""
-    queue = LineQueue(limit)
+    queue = SendBuffer(limit)
     out, put, control = b"", [], 0
     for what, value in actions:
         if what == "put":

@@ -7,11 +7,11 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from up.log import UpLogger
+from up.protocols.proxy_lines import ADDRESS, FULL, HelloError, Refused, Side
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock, Timer
 from up_proxy.connection import Connection
-from up_proxy.hello import ADDRESS, FULL, HelloError, Side, error_line
-from up_proxy.opening import Opening
+from up_proxy.handshake import Handshake
 from up_proxy.poller import Poller
 
 _ACCEPT_BATCH = 64
@@ -21,7 +21,7 @@ _log = UpLogger.get_logger("proxy")
 
 
 @dataclass(frozen=True, slots=True)
-class DoorLimits:
+class AcceptorLimits:
     """The limits of one side: number of connections and permitted addresses."""
 
     connections: int
@@ -30,33 +30,33 @@ class DoorLimits:
     accepts_public: bool
 
 
-class Door:
+class Acceptor:
     """The listening socket of one side and all its connections."""
 
     def __init__(
         self,
         listener: socket.socket,
-        opening: Opening,
+        handshake: Handshake,
         poller: Poller,
         clock: Clock,
         side: Side,
-        limits: DoorLimits,
+        limits: AcceptorLimits,
     ) -> None:
         self._listener = listener
-        self._opening = opening
+        self._handshake = handshake
         self._poller = poller
         self._clock = clock
         self._side = side
         self._limits = limits
         self._sources: Counter[str] = Counter()
         self._retry: Timer | None = None
-        self._on_closed = self._forget
-        self._public_said = False
+        self._on_closed = self._discard
+        self._public_logged = False
         self.connections: set[Connection] = set()
         self.accepted = 0
         self.over_limit = 0
         self.idle_closed = 0
-        self.refused = opening.refused
+        self.refused = handshake.refused
 
     @property
     def port(self) -> int:
@@ -66,7 +66,12 @@ class Door:
     def open(self) -> None:
         """Start accepting."""
         self._poller.watch(self._listener.fileno(), self)
-        _log.info("{side} side listens on port {port}", side=self._side.value, port=self.port)
+        _log.info(
+            "{side} side listens on port {port}",
+            code="port_open",
+            side=self._side.value,
+            port=self.port,
+        )
 
     def close(self) -> None:
         """Stop accepting and end every connection."""
@@ -75,7 +80,7 @@ class Door:
             self._retry = None
         self.end()
         for connection in self.connections:
-            connection.fail("the proxy stops")
+            connection.fail("the proxy is stopping")
 
     def on_ready(self, events: int) -> None:
         """Accept the waiting peers."""
@@ -86,18 +91,18 @@ class Door:
                 return
             except OSError as error:
                 if error.errno in _OUT_OF_DESCRIPTORS:
-                    self._rest()
+                    self._pause()
                     return
                 continue  # the peer closed before it was accepted
-            self._take(peer, plain(address[0]))
+            self._accept(peer, plain(address[0]))
 
     def fail(self, reason: str) -> None:
         """Pause: one failure must not close the listening socket."""
-        self._rest()
+        self._pause()
 
     def end(self) -> None:
         """Close the listening socket."""
-        self._poller.forget(self._listener.fileno())
+        self._poller.discard(self._listener.fileno())
         self._listener.close()
 
     def is_open(self) -> bool:
@@ -110,57 +115,63 @@ class Door:
             if connection.is_idle(now_s):
                 self.idle_closed += 1
                 connection.fail("idle")
-        self._opening.sweep(now_s)
+        self._handshake.sweep(now_s)
 
-    def _take(self, peer: socket.socket, host: str) -> None:
-        error = self._objection(host)
+    def _accept(self, peer: socket.socket, host: str) -> None:
+        error = self._check(host)
         if error is not None:
             with suppress(OSError):
-                peer.send(error_line(error))
+                peer.send(Refused(error.code, error.reason).encode())
             peer.close()
             return
         peer.setblocking(False)
         self.accepted += 1
         self._sources[neighbourhood(host)] += 1
         connection = Connection(
-            peer, self._poller, host, self._opening, self._on_closed, self._limits.queue_bytes
+            peer, self._poller, host, self._handshake, self._on_closed, self._limits.queue_bytes
         )
         self.connections.add(connection)
-        self._opening.begin(connection)
+        self._handshake.begin(connection)
 
-    def _objection(self, host: str) -> HelloError | None:
+    def _check(self, host: str) -> HelloError | None:
         if not self._limits.accepts_public and not is_private(host):
             self.refused[ADDRESS] += 1
-            if not self._public_said:
-                self._public_said = True
+            if not self._public_logged:
+                self._public_logged = True
                 _log.warn(
                     "refused {host} on the {side} side: plain traffic over a public network needs "
-                    "'i_accept_plain: true' in proxy.yml (said once)",
+                    "'i_accept_plain: true' in proxy.yml (logged once)",
+                    code="public_peer_refused",
                     host=host,
                     side=self._side.value,
                 )
             return HelloError(ADDRESS, "plain connections from public addresses are not accepted")
         if len(self.connections) >= self._limits.connections:
             self.over_limit += 1
-            return HelloError(FULL, "this side has as many connections as it may")
+            return HelloError(FULL, "too many connections on this side")
         if self._sources[neighbourhood(host)] >= self._limits.per_address:
             self.over_limit += 1
-            return HelloError(FULL, "your address has as many connections as it may")
+            return HelloError(FULL, "too many connections from your address")
         return None
 
-    def _forget(self, connection: Connection) -> None:
+    def _discard(self, connection: Connection) -> None:
         self.connections.discard(connection)
         source = neighbourhood(connection.host)
         self._sources[source] -= 1
         if self._sources[source] <= 0:
             del self._sources[source]
 
-    def _rest(self) -> None:
+    def _pause(self) -> None:
         if self._retry is None and self.is_open():
-            _log.error("{side} side rests: too many open files", side=self._side.value)
-            self._poller.forget(self._listener.fileno())
-            self._retry = self._clock.callLater(_RETRY_S, self._again)
+            _log.error(
+                "{side} side accepts nothing for {pause_s:g} s: too many open files",
+                code="out_of_descriptors",
+                side=self._side.value,
+                pause_s=_RETRY_S,
+            )
+            self._poller.discard(self._listener.fileno())
+            self._retry = self._clock.callLater(_RETRY_S, self._resume)
 
-    def _again(self) -> None:
+    def _resume(self) -> None:
         self._retry = None
         self._poller.watch(self._listener.fileno(), self)
