@@ -7,10 +7,8 @@ from typing import Any, ClassVar
 
 from twisted.internet.error import CannotListenError
 
-from discovery_cog.answerer import Answerer
+from discovery_cog.answerer import Answerer, RateLimit, own_address_towards
 from discovery_cog.config import DISCOVERY
-from discovery_cog.own_address import own_address_towards
-from discovery_cog.rate_limit import RateLimit
 from up.base_started_module import BaseStartedModule
 from up.mode import WITH_ARDUINO, Mode
 from up.start_result import StartFailedError

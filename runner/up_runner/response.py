@@ -1,4 +1,4 @@
-"""The runner's answer: one JSON line (docs/protocols.md, section 8)."""
+"""The runner's response: one JSON line (docs/protocols.md, section 8)."""
 
 from __future__ import annotations
 
@@ -12,18 +12,32 @@ NOT_RUNNING = "Raspilot not running"
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
-    """The state of one instance at the moment of the answer.
+class Problem:
+    """Why an instance does not run, or a request is refused: a code and one sentence."""
+
+    code: str
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+BUG = Problem("runner_bug", "the runner failed, see its log")
+
+
+@dataclass(frozen=True, slots=True)
+class Response:
+    """The state of one instance at the moment of the response.
 
     `spawned` is true only if this request started the running process. `pid`, `ports`: None without
-    a process; `error`: one sentence or None.
+    a process.
     """
 
     instance: str | None
     pid: int | None = None
     ports: Mapping[str, int] | None = None
     spawned: bool = False
-    error: str | None = None
+    error: Problem | None = None
 
     @property
     def running(self) -> bool:
@@ -39,15 +53,16 @@ class Answer:
 
     def encode(self, my_address: str, proxy: Mapping[str, object] | None) -> bytes:
         """Return the line for a client that reaches us at `my_address`, with its line feed."""
-        answer = {
+        response = {
             "message": self.message,
             "spawned": self.spawned,
-            "error": self.error,
+            "error": self.error and self.error.text,
             "myAddress": my_address,
             "running": self.running,
             "pid": self.pid,
             "instance": self.instance,
             "ports": None if self.ports is None else dict(self.ports),
             "proxy": proxy,
+            "code": self.error and self.error.code,
         }
-        return json.dumps(answer, ensure_ascii=True, allow_nan=False).encode("ascii") + b"\n"
+        return json.dumps(response, ensure_ascii=True, allow_nan=False).encode("ascii") + b"\n"

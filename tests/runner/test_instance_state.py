@@ -1,4 +1,4 @@
-"""The state that one runner leaves for the next."""
+"""The state that a runner saves for the next one."""
 
 import json
 
@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from up_runner import record
+from up_runner import instance_state
+from up_runner.instance_state import InstanceState
 from up_runner.process import Identity
-from up_runner.record import Record
 from up_runner.request import Request
 
-FULL = Record(
+FULL = InstanceState(
     Request("glider-1", "cub", {"load_guard.yml": {"interval": 1.5}}),
     Identity(4242, 123456, "b007"),
     keep=True,
@@ -29,30 +29,30 @@ def folder(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "kept", [FULL, Record(Request("glider-1")), Record(FULL.request, keep=True)]
+    "kept", [FULL, InstanceState(Request("glider-1")), InstanceState(FULL.request, keep=True)]
 )
 def test_it_reads_back(folder, kept):
     kept.save(folder)
-    assert record.load(folder) == kept
+    assert instance_state.load(folder) == kept
     assert [path.name for path in folder.iterdir()] == ["state.json"]
 
 
-def test_none_is_none(folder):
-    assert record.load(folder) is None
-    record.forget(folder)
+def test_without_a_file_there_is_no_state(folder):
+    assert instance_state.load(folder) is None
+    instance_state.discard(folder)
 
 
-def test_forgotten_it_is_gone(folder):
+def test_discarded_it_is_gone(folder):
     FULL.save(folder)
-    record.forget(folder)
-    assert record.load(folder) is None
+    instance_state.discard(folder)
+    assert instance_state.load(folder) is None
 
 
-def test_another_instances_record_is_none(tmp_path, folder):
+def test_the_file_of_another_instance_is_ignored(tmp_path, folder):
     FULL.save(folder)
     (tmp_path / "other").mkdir()
     (folder / "state.json").rename(tmp_path / "other" / "state.json")
-    assert record.load(tmp_path / "other") is None
+    assert instance_state.load(tmp_path / "other") is None
 
 
 def test_no_changed_byte_breaks_it(folder):
@@ -62,9 +62,9 @@ def test_no_changed_byte_breaks_it(folder):
     for position in range(len(data)):
         for byte in (0x00, 0x22, 0x30, 0x7B, 0xFF):
             path.write_bytes(data[:position] + bytes([byte]) + data[position + 1 :])
-            record.load(folder)
+            instance_state.load(folder)
         path.write_bytes(data[:position])
-        assert record.load(folder) is None or position == len(data) - 1
+        assert instance_state.load(folder) is None or position == len(data) - 1
 
 
 json_values = st.recursive(
@@ -76,11 +76,11 @@ json_values = st.recursive(
 @settings(max_examples=300)
 @given(st.sampled_from(["request", "process", "keep", "ready", "ports", "phone"]), json_values)
 def test_no_wrong_type_breaks_it(tmp_path_factory, key, value):
-    folder = tmp_path_factory.mktemp("record") / "glider-1"
+    folder = tmp_path_factory.mktemp("state") / "glider-1"
     folder.mkdir()
     FULL.save(folder)
     state = json.loads((folder / "state.json").read_text())
     state[key] = value
     (folder / "state.json").write_text(json.dumps(state))
-    found = record.load(folder)
-    assert found is None or isinstance(found, Record)
+    found = instance_state.load(folder)
+    assert found is None or isinstance(found, InstanceState)

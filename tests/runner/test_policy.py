@@ -1,9 +1,9 @@
-"""When an ended instance is started again."""
+"""The delay before an ended instance is restarted."""
 
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_runner.backoff import Backoff, RestartPolicy
+from up_runner.policy import Backoff, RestartPolicy
 
 
 def test_the_delay_doubles_up_to_its_bound():

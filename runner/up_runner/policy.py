@@ -1,4 +1,4 @@
-"""The delay before an instance is restarted, and the limit of restarts."""
+"""The requirements for every instance, and the delay before one is restarted."""
 
 from __future__ import annotations
 
@@ -11,9 +11,26 @@ class RestartPolicy:
     """Delays and limits, in seconds; a `limit` of None never gives up."""
 
     delay_s: float
-    longest_delay_s: float
+    max_delay_s: float
     limit: int | None
     period_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """The requirements for every instance; times in seconds.
+
+    `exit_delay_s` None: a lost phone never stops it. `always_restart`: it may be in flight, so it
+    restarts after any exit status. It is not ready before it has announced its `needed_ports`.
+    """
+
+    start_limit_s: float
+    watchdog_s: float | None
+    exit_delay_s: float | None
+    kill_delay_s: float
+    restarts: RestartPolicy
+    always_restart: bool
+    needed_ports: tuple[str, ...] = ()
 
 
 class Backoff:
@@ -29,7 +46,7 @@ class Backoff:
         return len(self._ends)
 
     def next_delay_s(self, now_s: float) -> float | None:
-        """Note an end at `now_s` and return the delay before the restart, None to give up.
+        """Count an end at `now_s` and return the delay before the restart, None to give up.
 
         An end older than the period no longer counts: the delays start again.
         """
@@ -41,4 +58,4 @@ class Backoff:
             return None
         # 2**30 periods exceed any bound; a larger exponent would only overflow.
         doublings = min(len(self._ends) - 1, 30)
-        return min(policy.delay_s * 2.0**doublings, policy.longest_delay_s)
+        return min(policy.delay_s * 2.0**doublings, policy.max_delay_s)

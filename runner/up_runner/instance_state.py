@@ -1,4 +1,4 @@
-"""The record of an instance that a runner leaves for the next one."""
+"""The state of an instance that a runner saves for the next one."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ _VERSION = 1
 
 
 @dataclass(frozen=True, slots=True)
-class Record:
-    """An instance's state, as its runner last saw it.
+class InstanceState:
+    """An instance's last known state.
 
     `identity`: None between two processes, while a restart is pending. `keep`: it must be
     restarted when it is gone; `ready`: its ports were bound. `phone`: None until the instance has
@@ -58,8 +58,8 @@ class Record:
         }
 
 
-def load(folder: Path) -> Record | None:
-    """Return the record in an instance's folder; None without a valid one."""
+def load(folder: Path) -> InstanceState | None:
+    """Return the state saved in an instance's folder; None without a valid one."""
     try:
         found = json.loads((folder / NAME).read_text("utf-8"))
         if found["version"] != _VERSION:
@@ -68,7 +68,7 @@ def load(folder: Path) -> Record | None:
         if request.aircraft != folder.name:
             return None
         who = found["process"]
-        record = Record(
+        state = InstanceState(
             request=request,
             identity=None if who is None else Identity(int(who[0]), int(who[1]), str(who[2])),
             keep=bool(found["keep"]),
@@ -77,14 +77,14 @@ def load(folder: Path) -> Record | None:
         )
         if found["ports"] is not None:
             ports = {str(name): int(port) for name, port in found["ports"].items()}
-            record = replace(record, ports=ports)
+            state = replace(state, ports=ports)
     except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, MalformedRequest):
-        # Any broken record is ignored; the processes still show which instances live.
+        # A broken file is ignored; the processes still show which instances live.
         return None
-    return record
+    return state
 
 
-def forget(folder: Path) -> None:
-    """Remove the record: the instance ended and must not restart."""
+def discard(folder: Path) -> None:
+    """Remove the saved state: the instance ended and must not restart."""
     with contextlib.suppress(OSError):
         (folder / NAME).unlink()

@@ -13,14 +13,13 @@ from twisted.internet.defer import Deferred, DeferredLock
 from twisted.internet.threads import deferToThreadPool
 from twisted.logger import Logger
 
-from up_runner import record
+from up_runner import instance_state
 from up_runner.instance_config import InstanceConfig
+from up_runner.instance_state import InstanceState
 from up_runner.listening_ports import listening_ports
 from up_runner.log_keeper import LogKeeper
-from up_runner.notification import Notification
-from up_runner.notify_socket import NotifySocket
+from up_runner.notify_listener import Notification, NotifyListener
 from up_runner.process import Process, sessions_with
-from up_runner.record import Record
 from up_runner.request import NAME, Request
 from up_runner.run_folder import RunFolder
 
@@ -38,7 +37,7 @@ class Application:
     watchdog_s: float | None
 
 
-class Host:
+class InstanceHost:
     """Machine access for the instances; operations that may block on the disk run in threads.
 
     `folder` holds the instances' configuration, `run_folder` their sockets and records; `environ`
@@ -75,10 +74,10 @@ class Host:
 
     def listen(
         self, name: str, on_notification: Callable[[int, Notification], None]
-    ) -> NotifySocket:
+    ) -> NotifyListener:
         """Bind the instance's notify socket; raises OSError."""
         self.run_folder.instance(name).mkdir(mode=0o700, exist_ok=True)
-        socket = NotifySocket(self.reactor, self._notify_path(name), on_notification)
+        socket = NotifyListener(self.reactor, self._notify_path(name), on_notification)
         socket.open()
         return socket
 
@@ -97,7 +96,7 @@ class Host:
             environ["WATCHDOG_USEC"] = str(round(application.watchdog_s * 1e6))
         try:
             if not application.script.is_file():
-                raise FileNotFoundError(f"there is no script {application.script}")
+                raise FileNotFoundError(f"no such script: {application.script}")
             return Process.spawn(
                 self.reactor,
                 [str(application.python), str(application.script), "--config", str(config)],
@@ -112,32 +111,33 @@ class Host:
         """Return the ports that a process has open, from the kernel."""
         return self.in_thread(listening_ports, pid)
 
-    def last_words(self, name: str) -> Deferred[str | None]:
+    def last_log_line(self, name: str) -> Deferred[str | None]:
         """Read the end of the instance's log."""
-        return self.in_thread(self.logs.last_words, name)
+        return self.in_thread(self.logs.last_log_line, name)
 
-    def save(self, kept: Record) -> None:
-        """Write the record for the next runner; log a failed write."""
+    def save(self, state: InstanceState) -> None:
+        """Write the state for the next runner; log a failed write."""
         try:
-            kept.save(self.run_folder.instance(kept.request.aircraft))
+            state.save(self.run_folder.instance(state.request.aircraft))
         except OSError as error:
-            self._log.error("the state of an instance cannot be kept: {error}", error=error)
+            text = "cannot save the state of an instance: {error}"
+            self._log.error(text, code="state_not_saved", error=str(error))
 
     def forget(self, name: str) -> None:
-        """Remove the record: the next runner does not restart the instance."""
-        record.forget(self.run_folder.instance(name))
+        """Remove the saved state: the next runner does not restart the instance."""
+        instance_state.discard(self.run_folder.instance(name))
         with suppress(OSError):
             # A killed instance leaves its PID file behind.
             self._pid_path(name).unlink(missing_ok=True)
 
-    def load(self, name: str) -> Record | None:
-        """Return the record of the previous runner about an instance."""
-        return record.load(self.run_folder.instance(name))
+    def load(self, name: str) -> InstanceState | None:
+        """Return the state that the previous runner saved."""
+        return instance_state.load(self.run_folder.instance(name))
 
     def running(self) -> Iterator[tuple[str, int]]:
         """Yield name and number of the processes that were started from this run folder.
 
-        Finds them without a record: by the notify socket in their environment.
+        Finds them without a saved state: by the notify socket in their environment.
         """
         for pid, socket in sessions_with("NOTIFY_SOCKET", f"{self.run_folder.path}/"):
             name = Path(socket).parent.name

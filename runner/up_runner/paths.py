@@ -12,7 +12,7 @@ from up_runner.run_folder import default_run_folder
 
 
 @dataclass(frozen=True, slots=True)
-class Places:
+class Paths:
     """The runner's folders and programs, all absolute."""
 
     root: Path
@@ -27,7 +27,7 @@ class Places:
     @classmethod
     def of(
         cls, config: RunnerConfig, config_folder: Path, environ: Mapping[str, str], uid: int
-    ) -> Places:
+    ) -> Paths:
         """Return the paths for a configuration read from `config_folder`."""
         config_folder = config_folder.absolute()
         root = Path(config.application_root or own_root()).absolute()

@@ -1,23 +1,81 @@
-"""The socket for the notifications of one instance."""
+"""The notifications of one instance: sd_notify datagrams with two fields of our own."""
 
 from __future__ import annotations
 
 import array
 import contextlib
 import os
+import re
 import socket
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from up_runner.notification import MAX_BYTES, Notification, parse
-
 _CREDENTIALS = struct.Struct("3i")
-_MOST_AT_ONCE = 100
+_MAX_BATCH = 100
+MAX_BYTES = 4096
+_PORT = re.compile(r"([a-z][a-z0-9_]{0,31}):([1-9][0-9]{0,4})", re.ASCII)
+_MAX_PORTS = 16
+_MAX_STATUS = 200
 
 
-class NotifySocket:
+@dataclass(frozen=True, slots=True)
+class Notification:
+    """One datagram; a missing field is None or False.
+
+    `ports` are TCP or UDP ports by purpose, `phone`: the phone is connected.
+    """
+
+    ready: bool = False
+    alive: bool = False
+    stopping: bool = False
+    status: str | None = None
+    ports: Mapping[str, int] | None = None
+    phone: bool | None = None
+
+
+def parse(datagram: bytes) -> Notification:
+    """Parse a datagram; unknown or malformed fields are left out.
+
+    Source: sd_notify(3) for READY, WATCHDOG, STOPPING and STATUS; X_UP_PORTS and X_UP_PHONE are
+    additions. Never raises.
+    """
+    fields: dict[str, str] = {}
+    for line in datagram[:MAX_BYTES].decode("utf-8", "replace").split("\n"):
+        name, equals, value = line.partition("=")
+        if equals:
+            fields[name] = value
+    return Notification(
+        ready=fields.get("READY") == "1",
+        alive=fields.get("WATCHDOG") == "1",
+        stopping=fields.get("STOPPING") == "1",
+        status=_status(fields.get("STATUS")),
+        ports=_ports(fields.get("X_UP_PORTS")),
+        phone={"1": True, "0": False}.get(fields.get("X_UP_PHONE", "")),
+    )
+
+
+def _status(text: str | None) -> str | None:
+    if text is None:
+        return None
+    return "".join(letter if letter.isprintable() else "?" for letter in text[:_MAX_STATUS])
+
+
+def _ports(text: str | None) -> dict[str, int] | None:
+    if text is None:
+        return None
+    ports: dict[str, int] = {}
+    for word in text.split():
+        match = _PORT.fullmatch(word)
+        if match is None or int(match[2]) > 65535 or len(ports) == _MAX_PORTS:
+            return None
+        ports[match[1]] = int(match[2])
+    return ports
+
+
+class NotifyListener:
     """Receives an instance's datagrams and passes them to `on_notification` with the sender's pid.
 
     The kernel authenticates the sender. A new socket at the same path takes over: an instance sends
@@ -60,8 +118,8 @@ class NotifySocket:
                 self.path.unlink()
 
     def drain(self) -> None:
-        """Process the waiting datagrams; called before an instance is declared silent."""
-        for _ in range(_MOST_AT_ONCE):
+        """Process the waiting datagrams; called before an instance counts as silent."""
+        for _ in range(_MAX_BATCH):
             if self._socket is None or not self._receive(self._socket):
                 return
 

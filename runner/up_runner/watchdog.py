@@ -7,41 +7,41 @@ from collections.abc import Callable
 from up.system.clock import Clock, Timer
 
 
-class Deadline:
-    """Calls `missed` when `touch` was not called for `limit_s` seconds.
+class Watchdog:
+    """Calls `on_expired` when `reset` was not called for `limit_s` seconds.
 
-    `touch` only stores the time: a single timer compares it when it fires, so a thousand calls cost
-    a thousand assignments. Idle until the first `touch`.
+    `reset` only stores the time: a single timer compares it when it fires, so a thousand calls cost
+    a thousand assignments. Idle until the first `reset`.
     """
 
-    def __init__(self, clock: Clock, limit_s: float, missed: Callable[[], None]) -> None:
+    def __init__(self, clock: Clock, limit_s: float, on_expired: Callable[[], None]) -> None:
         self._clock = clock
         self._limit_s = limit_s
-        self._missed = missed
+        self._on_expired = on_expired
         self._due_s = 0.0
         self._timer: Timer | None = None
 
     @property
     def running(self) -> bool:
-        """Return whether it waits for a touch."""
+        """Return whether it waits for a reset."""
         return self._timer is not None
 
-    def touch(self) -> None:
+    def reset(self) -> None:
         """Restart the timeout."""
         self._due_s = self._clock.seconds() + self._limit_s
         if self._timer is None:
-            self._timer = self._clock.callLater(self._limit_s, self._look)
+            self._timer = self._clock.callLater(self._limit_s, self._check)
 
     def stop(self) -> None:
-        """Stop until the next touch."""
+        """Stop until the next reset."""
         timer, self._timer = self._timer, None
         if timer is not None and timer.active():
             timer.cancel()
 
-    def _look(self) -> None:
+    def _check(self) -> None:
         self._timer = None
         left_s = self._due_s - self._clock.seconds()
         if left_s > 1e-9:
-            self._timer = self._clock.callLater(left_s, self._look)
+            self._timer = self._clock.callLater(left_s, self._check)
         else:
-            self._missed()
+            self._on_expired()
