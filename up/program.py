@@ -86,7 +86,7 @@ class Program:
         if self._stopping:
             return
         self._stopping = True
-        self.log.info("stopping: {why}", why=why)
+        self.log.info("stopping: {why}", why=why, code="stopping")
         self._notifier.stopping(why)
         self._exit_watchdog.request(self._exit_status or EXIT_STOPPED)
         done = Deferred.fromCoroutine(self._end())
@@ -113,7 +113,7 @@ class Program:
         # Runs after the reactor's next wait: the current turn belongs to the start.
         later = self._reactor.callLater
         later(0, later, 0, setattr, self._monitor, "has_started", True)
-        self.log.info("{count} modules run", count=len(self._life.started))
+        self.log.info("{count} modules run", count=len(self._life.started), code="started")
         if self._up.vetoes.own:
             self.log.warn("arming is refused: {vetoes}", vetoes="; ".join(self._up.vetoes.own))
 

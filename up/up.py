@@ -128,7 +128,7 @@ class Up:
         """Set the port that a module bound; it is logged and reported to the supervisor."""
         self.ports[name] = port
         add_cleanup(lambda: self._take_port_back(name, port))
-        self.log.info("{name} listens on port {port}", name=name, port=port)
+        self.log.info("{name} listens on port {port}", name=name, port=port, code="port_open")
         self.on_ports_changed()
 
     def count(self, part: str, counters: Mapping[str, int]) -> None:

@@ -336,6 +336,8 @@ class CommandExecutor:
                 owner=owner,
                 name=command.NAME,
                 reason=error.reason,
+                code="command_refused",
+                refusal=error.code.value,
             )
             return
         self.counters["failed_handlers"] += 1

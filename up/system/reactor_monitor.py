@@ -100,6 +100,8 @@ class ReactorMonitor:
                 culprit=culprit,
                 ms=BUDGET_S * 1000,
                 when=", and with it everything" if self.has_started else " during start-up",
+                code="event_loop_blocked",
+                call=culprit,
             )
 
 

@@ -35,7 +35,7 @@ def run(options: argparse.Namespace) -> int:
     if not log.topics:
         raise CliError(f"{printable(paths[0].name)} holds no message", EXIT_USAGE)
     for problem in log.problems[:5]:
-        complain(printable(problem))
+        complain(printable(problem.text))
     title = safe_text(paths[0].name.removesuffix(".mcap"), 100)
 
     def make(reactor: Any) -> Any:

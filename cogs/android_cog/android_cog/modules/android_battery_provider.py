@@ -50,7 +50,8 @@ class AndroidBatteryProvider(BaseProvider[float]):
         level = reading.value
         if not self.is_low and self._low_percent > 0 and level <= self._low_percent:
             self.is_low = True
-            self.log.error("the phone's battery is low: {level:g} percent", level=level)
+            text = "the phone's battery is low: {level:g} percent"
+            self.log.error(text, level=level, code="battery_low")
             self._tell(level)
         elif self.is_low and level >= self._low_percent + HYSTERESIS_PERCENT:
             self.is_low = False

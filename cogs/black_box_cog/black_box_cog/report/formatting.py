@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import datetime
 
-EARLIEST_UNIX_S = 1_735_689_600.0
+MIN_UNIX_S = 1_735_689_600.0
 """2025: no earlier flight was recorded; a Raspberry Pi without a clock starts long before."""
 SIMULATED_UNIX_S = 946_684_800.0
 """2000-01-01: the start of the simulator scenarios' flights, which have no date."""
@@ -36,7 +36,7 @@ def is_clock_right(unix_s: float, now_unix_s: float | None = None) -> bool:
     if unix_s == SIMULATED_UNIX_S:
         return True
     now_unix_s = datetime.now().timestamp() if now_unix_s is None else now_unix_s
-    return EARLIEST_UNIX_S <= unix_s <= now_unix_s + _DAY_S
+    return MIN_UNIX_S <= unix_s <= now_unix_s + _DAY_S
 
 
 def size_text(count: int) -> str:

@@ -6,17 +6,17 @@ import contextlib
 from collections.abc import Callable, Sequence
 
 from black_box_cog.disk import Disk
-from black_box_cog.flight_facts import FlightFacts
 from black_box_cog.flight_folder import FlightFolder
-from black_box_cog.intake import Entry
+from black_box_cog.flight_metadata import FlightMetadata
+from black_box_cog.ingest_queue import Entry
 from black_box_cog.log_file import LogFile
-from black_box_cog.pace import Pace
-from black_box_cog.part import Part
+from black_box_cog.log_segment import LogSegment
+from black_box_cog.throttle import CooperativeThrottle
 from black_box_cog.timeline import Timeline
 from up.flight_log.flight_file import FlightFile
 
 
-class FlightParts:
+class SegmentFactory:
     """Opens the next file of the current flight; ``make_timeline`` creates one for a new flight.
 
     The methods raise OSError and NoRoomError.
@@ -25,20 +25,20 @@ class FlightParts:
     def __init__(
         self,
         folder: FlightFolder,
-        facts: FlightFacts,
+        metadata: FlightMetadata,
         disk: Disk,
-        pace: Pace,
+        throttle: CooperativeThrottle,
         make_timeline: Callable[[], Timeline],
     ) -> None:
         self._folder = folder
-        self._facts = facts
+        self._metadata = metadata
         self._disk = disk
-        self._pace = pace
+        self._throttle = throttle
         self._make_timeline = make_timeline
         self._timeline = make_timeline()
         self._last: FlightFile | None = None
 
-    def open(self, entries: Sequence[Entry] = ()) -> Part:
+    def open(self, entries: Sequence[Entry] = ()) -> LogSegment:
         """Open a file that begins with these entries; a failure leaves no file."""
         if self._last is None:
             self._timeline = self._make_timeline()
@@ -46,9 +46,9 @@ class FlightParts:
         name, descriptor = self._create()
         file = LogFile(self._disk, name.path, descriptor)
         try:
-            part = Part(file, name, self._timeline)
-            self._pace.walk(part.head(self._facts))
-            self._pace.walk(map(part.put, entries))
+            segment = LogSegment(file, name, self._timeline)
+            self._throttle.run(segment.head(self._metadata))
+            self._throttle.run(map(segment.put, entries))
             file.flush()
             file.sync()
             self._disk.sync_folder(name.folder)
@@ -58,7 +58,7 @@ class FlightParts:
                 self._disk.remove(name.path)
             raise
         self._last = name
-        return part
+        return segment
 
     def make_room(self) -> None:
         """Delete old flights during the recording."""
@@ -75,4 +75,4 @@ class FlightParts:
     def _create(self) -> tuple[FlightFile, int]:
         if self._last is not None:
             return self._folder.create_part(self._last)
-        return self._folder.create(self._timeline.start_unix_s, self._facts.aircraft)
+        return self._folder.create(self._timeline.start_unix_s, self._metadata.aircraft)

@@ -14,7 +14,7 @@ ENDLESS_NS = 3600 * _SECOND_NS
 _NEIGHBOURS = 16
 
 
-def strays(times_ns: Sequence[int]) -> Iterator[int]:
+def outliers(times_ns: Sequence[int]) -> Iterator[int]:
     """Yield the positions of times, in the order of the file, that their neighbours contradict.
 
     A jump that the next messages confirm is accepted: the flight continues there.
@@ -24,7 +24,7 @@ def strays(times_ns: Sequence[int]) -> Iterator[int]:
         return
     before = _beginning(times_ns[: _NEIGHBOURS + 1])
     for place, time_ns in enumerate(times_ns):
-        if abs(time_ns - before) > FAR_NS and _is_stray(times_ns, place, before):
+        if abs(time_ns - before) > FAR_NS and _is_outlier(times_ns, place, before):
             yield place
         else:
             before = time_ns
@@ -37,7 +37,7 @@ def _beginning(first: Sequence[int]) -> int:
     return middle if 2 * near > len(first) else first[0]
 
 
-def _is_stray(times_ns: Sequence[int], place: int, before: int) -> bool:
+def _is_outlier(times_ns: Sequence[int], place: int, before: int) -> bool:
     time_ns = times_ns[place]
     after = times_ns[place + 1 : place + 1 + _NEIGHBOURS]
     near_before = sum(abs(each - before) <= FAR_NS for each in after)

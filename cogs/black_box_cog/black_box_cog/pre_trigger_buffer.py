@@ -5,35 +5,35 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterable
 
-from black_box_cog.intake import Entry, LogLine
+from black_box_cog.ingest_queue import Entry, LogLine
 
-HELD = 1000
+CAPACITY = 1000
 """This much from before a flight goes into its log."""
-_HELD_LINES = 300
+_MAX_LINES = 300
 
 
-class HeldEntries:
+class PreTriggerBuffer:
     """The newest entries, and the older lines of the program's log."""
 
     def __init__(self) -> None:
         self._entries: deque[Entry] = deque()
-        self._lines: deque[Entry] = deque(maxlen=_HELD_LINES)
+        self._lines: deque[Entry] = deque(maxlen=_MAX_LINES)
 
-    def hold(self, entries: Iterable[Entry]) -> int:
+    def add(self, entries: Iterable[Entry]) -> int:
         """Add entries; return how many Commands were dropped for them."""
-        gone = 0
+        dropped = 0
         for entry in entries:
-            if len(self._entries) >= HELD:
+            if len(self._entries) >= CAPACITY:
                 oldest = self._entries.popleft()
                 if isinstance(oldest[1], LogLine):
                     self._lines.append(oldest)
                 else:
-                    gone += 1
+                    dropped += 1
             self._entries.append(entry)
-        return gone
+        return dropped
 
     @property
-    def all(self) -> list[Entry]:
+    def entries(self) -> list[Entry]:
         """Return the entries in the order of arrival."""
         return [*self._lines, *self._entries]
 

@@ -11,6 +11,7 @@ from typing import Any
 from black_box_cog.pictures.chart import Band
 from black_box_cog.report.demand import Demand
 from up.flight_log.estimate_error import ORIENTATION, TRUTH
+from up.flight_log.flight_context import FlightContext
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.followed import followed
 from up.flight_log.origin_text import KEY, link_and_role
@@ -36,12 +37,12 @@ FRAME_FIELDS = (
 )
 BOARD_TOPICS = (STATUS, STICKS, SERVOS, STATE)
 PHONE_TOPICS = (LOCATION, ALTITUDE, "up.heading.change", "android.battery")
-_MOST_STEPS = 600
+_MAX_STEPS = 600
 GROUND_LINKS = ("ground", "mission_control")
 
 
 @dataclass(slots=True)
-class Evidence:
+class ReportData:
     """Series by name; empty if the log does not contain them."""
 
     log: FlightLog
@@ -56,88 +57,71 @@ class Evidence:
     speed: Series
     truth: dict[str, Series]
     bands: list[Band]
-    held_up: Series
+    blocked: Series
     silences: dict[str, Series]
 
 
-def evidence_of(log: FlightLog) -> Evidence:
+def read_report_data(log: FlightLog, context: FlightContext) -> ReportData:
     """Read it; raises FlightLogError when a file can no longer be read."""
-    told = partial(_told, log)
-    known, states, held_up = _from_frames(log)
+    read = partial(_messages, log)
+    known, blocked = _from_frames(log)
     followed_by = partial(followed, log)
     attitude = columns(followed_by("orientation", ORIENTATION), ANGLES)
-    sticks, servos = columns(told(STICKS), INPUTS), columns(told(SERVOS), CHANNELS)
+    sticks, servos = columns(read(STICKS), INPUTS), columns(read(SERVOS), CHANNELS)
     altitude = columns(followed_by("altitude", ALTITUDE), ("altitude",))
-    wanted = (each for each in told(ALTITUDE) if each[1].get("mode") == "required")
-    return Evidence(
+    wanted = (each for each in read(ALTITUDE) if each[1].get("mode") == "required")
+    return ReportData(
         log=log,
         attitude={name: attitude[name] or known[f"orientation.{name}"] for name in ANGLES},
         demand=Demand(log),
         sticks={name: sticks[name] or known[f"rx.{name}"] for name in INPUTS},
         servos={name: servos[name] or known[f"servo.{name}"] for name in CHANNELS},
-        status=columns(told(STATUS), ("loop_us", "late_us")),
+        status=columns(read(STATUS), ("loop_us", "late_us")),
         frames=known,
         altitude=altitude["altitude"] or known["altitude"],
         required_altitude=columns(wanted, ("altitude",))["altitude"],
         speed=columns(followed_by("location", LOCATION), ("speed",))["speed"],
-        truth=columns(told(TRUTH), TRUTHS),
-        bands=list(_bands(log, states)),
-        held_up=held_up,
+        truth=columns(read(TRUTH), TRUTHS),
+        bands=list(bands_of(context)),
+        blocked=blocked,
         silences=_silences(log),
     )
 
 
-def bands_of(log: FlightLog) -> list[Band]:
-    """Return the modes and their times, without the rest of the evidence."""
-    return list(_bands(log, [] if STATE in log.topics else _from_frames(log)[1]))
+def bands_of(context: FlightContext) -> Iterator[Band]:
+    """Yield the modes and their times; the circle of the receiver's failsafe is a separate one."""
+    begin_s, name = 0.0, ""
+    for state in context.states:
+        now = "failsafe" if state.is_failsafe else state.flight_mode or ""
+        if now != name:
+            if name:
+                yield Band(begin_s, state.time_s, name)
+            begin_s, name = state.time_s, now
+    if name:
+        yield Band(begin_s, context.log.length_s, name)
 
 
-def _told(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
+def _messages(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
     known = [topic for topic in topics if topic in log.topics]
     if known:
         for message in log.messages(*known):
             yield message.time_s, message.data
 
 
-def _from_frames(log: FlightLog) -> tuple[dict[str, Series], list[tuple[float, str]], Series]:
-    """Return the series of telemetry, its modes, and how often the program was held up.
+def _from_frames(log: FlightLog) -> tuple[dict[str, Series], Series]:
+    """Return the series of telemetry, and how often the event loop was blocked.
 
     The frames of an hour would take too much memory together: each is read and released.
     """
-    found, held_up = Columns(FRAME_FIELDS), Series()
-    states: list[tuple[float, str]] = []
+    found, blocked = Columns(FRAME_FIELDS), Series()
     for frame in frames(log):
-        found.take(frame.time_s, frame.data)
-        states.append((frame.time_s, _mode_of(frame.data)))
+        found.add(frame.time_s, frame.data)
         counters = frame.data.get("counters")
         reactor = counters.get("reactor") if isinstance(counters, dict) else None
         if isinstance(reactor, dict):
             times = sum(each for each in reactor.values() if type(each) is int)
-            held_up.add(frame.time_s, float(times))
-    return found.series, states, held_up
-
-
-def _mode_of(data: Mapping[str, Any]) -> str:
-    """Return the mode; the circle of the receiver's failsafe is a separate one."""
-    arduino = data.get("arduino")
-    is_failsafe = data.get("failsafe")
-    if is_failsafe is None and isinstance(arduino, dict):
-        is_failsafe = arduino.get("failsafe")
-    mode = data.get("flight_mode")
-    return "failsafe" if is_failsafe is True else mode if isinstance(mode, str) else ""
-
-
-def _bands(log: FlightLog, states: list[tuple[float, str]]) -> Iterator[Band]:
-    """Yield the modes and their times: from the board's state, otherwise from telemetry."""
-    told = ((time_s, _mode_of(data)) for time_s, data in _told(log, STATE))
-    begin_s, name = 0.0, ""
-    for time_s, now in told if STATE in log.topics else states:
-        if now != name:
-            if name:
-                yield Band(begin_s, time_s, name)
-            begin_s, name = time_s, now
-    if name:
-        yield Band(begin_s, log.length_s, name)
+            blocked.add(frame.time_s, float(times))
+    return found.series, blocked
 
 
 def _silences(log: FlightLog) -> dict[str, Series]:
@@ -159,12 +143,12 @@ def _silences(log: FlightLog) -> dict[str, Series]:
 
 def first_link(log: FlightLog, topic: str) -> str:
     """Return the link of a topic's first message; empty without one."""
-    return next((link_and_role(data.get(KEY))[0] for _, data in _told(log, topic)), "")
+    return next((link_and_role(data.get(KEY))[0] for _, data in _messages(log, topic)), "")
 
 
 def _silence(times_s: list[float], end_s: float) -> Series:
     """Return the longest silence that overlaps each second (in a long flight: each step)."""
-    step_s = max(1.0, end_s / _MOST_STEPS)
+    step_s = max(1.0, end_s / _MAX_STEPS)
     longest: dict[int, float] = {}
     for last_s, next_s in pairwise((*times_s, end_s)):
         for step in range(int(last_s / step_s), int(next_s / step_s) + 1):
@@ -180,7 +164,7 @@ def _ground_away(log: FlightLog) -> Series:
     series = Series()
     connected: dict[str, bool] = {}
     since_s: float | None = None
-    for time_s, data in _told(log, LINK_STATE):
+    for time_s, data in _messages(log, LINK_STATE):
         if data.get("link") not in GROUND_LINKS:
             continue
         connected[data["link"]] = data.get("connected") is True

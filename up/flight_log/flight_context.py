@@ -1,10 +1,10 @@
-"""Data that several judgments of one flight need, computed once."""
+"""Data that several detectors of one flight need, computed once."""
 
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -18,6 +18,10 @@ TELEMETRY = "up.telemetry.update"
 FLIGHT_STATE = "up.flight.state"
 LINK_STATE = "up.link.state"
 LOG = "log"
+WARNING, ERROR = 3, 4
+"""Levels of foxglove.Log."""
+_CODES = frozenset({"command_refused", "recording_resumed"})
+"""Lines of level info that are read."""
 _NEAR_S = 1.0
 _ENDING_S = 2.0
 """A program that stops closes its links up to this long before the log ends."""
@@ -36,15 +40,17 @@ class State:
 
 @dataclass(frozen=True, slots=True)
 class LogLine:
-    """A line of the program's log; ``level`` is foxglove.Log's (3 warning, 4 error, 5 fatal)."""
+    """A line of the program's log; ``level`` is foxglove.Log's; ``code`` is "" without one."""
 
     time_s: float
     level: int
     name: str
     text: str
+    code: str = ""
+    fields: Mapping[str, Any] = field(default_factory=dict)
 
 
-class Facts:
+class FlightContext:
     """A flight with its states and spans, each read from the log on first use."""
 
     def __init__(self, log: FlightLog) -> None:
@@ -66,8 +72,9 @@ class Facts:
 
     @cached_property
     def log_lines(self) -> list[LogLine]:
-        """Return warnings and errors of the program's log, and refusals and resumed recordings."""
-        return [line for line in self._all_lines() if line.level >= 3 or _is_told(line.text)]
+        """Return the warnings and errors of the program's log, and infos that are findings."""
+        lines = self._all_lines()
+        return [line for line in lines if line.level >= WARNING or line.code in _CODES]
 
     @cached_property
     def estimate_errors(self) -> list[EstimateError]:
@@ -136,11 +143,9 @@ class Facts:
                 level if type(level) is int else 0,
                 str(each.data.get("name", "")),
                 str(each.data.get("message", "")),
+                str(each.data.get("code", "")),
+                fields if isinstance(fields := each.data.get("fields"), dict) else {},
             )
-
-
-def _is_told(text: str) -> bool:
-    return " refused " in text or text.startswith("records again, ")
 
 
 def _after_first(states: Iterable[tuple[float, bool | None]]) -> Iterator[tuple[float, bool]]:

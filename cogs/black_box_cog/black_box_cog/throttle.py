@@ -10,7 +10,7 @@ BATCH_S = 0.0003
 PAUSE_S = 0.002
 
 
-class Pace:
+class CooperativeThrottle:
     """Pauses between the steps of long work, after each such time."""
 
     def __init__(self, pause: Callable[[float], object] = time.sleep) -> None:
@@ -27,13 +27,13 @@ class Pace:
             self._pause(PAUSE_S)
             self._due_s = time.perf_counter() + BATCH_S
 
-    def walk(self, steps: Iterable[object]) -> None:
+    def run(self, steps: Iterable[object]) -> None:
         """Run the steps, with pauses between them."""
         self.begin()
         for _ in steps:
             self.step()
 
-    def hurry(self) -> None:
+    def disable(self) -> None:
         """Stop pausing: the program is ending."""
         self._pause = _no_pause
 

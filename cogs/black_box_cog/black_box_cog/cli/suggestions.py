@@ -9,7 +9,7 @@ from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.flight_log import FlightLog
 
-MOST_LISTED = 10
+MAX_LISTED = 10
 
 
 def no_such_topic(topic: str, log: FlightLog) -> CliError:
@@ -30,7 +30,7 @@ def _no_such(what: str, named: str, known: Iterable[str], how: str) -> CliError:
         return CliError(f"{sentence}, did you mean {printable(near[0])}?")
     if not names:
         return CliError(f"{sentence}: the log has none")
-    likely = difflib.get_close_matches(named[:100], names, n=MOST_LISTED, cutoff=0.0)
+    likely = difflib.get_close_matches(named[:100], names, n=MAX_LISTED, cutoff=0.0)
     listed = ", ".join(map(printable, sorted(likely)))
     more = f" and {len(names) - len(likely)} more ({how})" if len(names) > len(likely) else ""
     return CliError(f"{sentence}; there are {listed}{more}")

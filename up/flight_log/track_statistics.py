@@ -14,7 +14,7 @@ from up.flight_log.json_message import number_at
 LOCATION = "up.location.update"
 _STEP_M = 5.0
 """A smaller step is receiver noise: a standing aircraft covers no distance."""
-_FASTEST_M_S = 150.0
+_MAX_SPEED_M_S = 150.0
 """A faster step is a jump of the receiver."""
 _JUMPS = 3
 _SPEED_OVER_S = 2.0
@@ -32,7 +32,7 @@ class Fix:
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class TrackStatistics:
     """Metres and metres per second; None if there are too few positions."""
 
     length_m: float | None
@@ -56,7 +56,7 @@ def fixes(log: FlightLog) -> Iterator[Fix]:
             yield Fix(message.time_s, *place, altitude_m, number_at(message.data, ("speed",)))
 
 
-def way_of(log: FlightLog) -> Way:
+def track_statistics(log: FlightLog) -> TrackStatistics:
     """Return the track from the first position, which is home."""
     home = last = marked = None
     length_m = farthest_m = 0.0
@@ -89,8 +89,8 @@ def way_of(log: FlightLog) -> Way:
             made_m_s = max(made_m_s, _between_m(marked, fix) / passed_s)
             marked = fix
     if home is None:
-        return Way(None, None, None, None, None)
-    return Way(
+        return TrackStatistics(None, None, None, None, None)
+    return TrackStatistics(
         length_m,
         farthest_m,
         max(told_m_s) if told_m_s else made_m_s,
@@ -101,7 +101,7 @@ def way_of(log: FlightLog) -> Way:
 
 def _is_jump(before: Fix, now: Fix) -> bool:
     passed_s = now.time_s - before.time_s
-    return _between_m(before, now) > _STEP_M + _FASTEST_M_S * max(passed_s, 0.1)
+    return _between_m(before, now) > _STEP_M + _MAX_SPEED_M_S * max(passed_s, 0.1)
 
 
 def _between_m(one: Fix, other: Fix) -> float:

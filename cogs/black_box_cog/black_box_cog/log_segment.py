@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
-from black_box_cog.command_form import form_of
-from black_box_cog.encoders import OriginTexts
-from black_box_cog.flight_facts import FlightFacts
-from black_box_cog.intake import Entry, LogLine, Recorded
+from black_box_cog.encoders import Encode, OriginTexts, encoder_of
+from black_box_cog.flight_metadata import FlightMetadata
+from black_box_cog.ingest_queue import Entry, LogLine, Recorded
 from black_box_cog.log_file import LogFile
 from black_box_cog.timeline import Timeline
 from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
+from up.flight_log.command_schema import schema_of
 from up.flight_log.flight_file import FlightFile
 from up.flight_log.foxglove import (
     LOCATION_FIX,
@@ -33,12 +33,31 @@ _ANY_OBJECT = {"type": "object"}
 
 
 @dataclass(frozen=True, slots=True)
+class CommandForm:
+    """The schema of a Command class's data, and the function that encodes a Command."""
+
+    schema: dict[str, Any]
+    encode: Encode
+
+
+_forms: dict[type[BaseCommand], CommandForm] = {}
+
+
+def form_of(cls: type[BaseCommand]) -> CommandForm:
+    """Return the form of a class; the first call takes half a millisecond on a PC."""
+    form = _forms.get(cls)
+    if form is None:
+        form = _forms[cls] = CommandForm(schema_of(cls), encoder_of(cls))
+    return form
+
+
+@dataclass(frozen=True, slots=True)
 class _Channel:
     number: int
     encode: Callable[[Any], str] | None = None
 
 
-class Part:
+class LogSegment:
     """Writes one file from its head to its summary; an OSError comes from the file.
 
     A Command that cannot be encoded is left out: ``unwritten`` counts by topic.
@@ -53,16 +72,18 @@ class Part:
         self._channels: dict[Any, _Channel] = {}
         self._origins = OriginTexts()
 
-    def head(self, facts: FlightFacts) -> Iterator[None]:
+    def head(self, metadata: FlightMetadata) -> Iterator[None]:
         """Write the head of a file, in pieces; the caller must exhaust the iterator."""
         started = timestamp_text(self._timeline.start_unix_s)
         self._writer.start()
-        self._writer.add_metadata("flight", facts.flight(started) | {"part": str(self.name.part)})
+        self._writer.add_metadata(
+            "flight", metadata.flight(started) | {"part": str(self.name.part)}
+        )
         yield
-        self._writer.add_metadata("versions", facts.versions())
+        self._writer.add_metadata("versions", metadata.versions())
         yield
         now_ns = int(self._timeline.start_unix_s * 1e9)
-        for name, data in facts.config_files():
+        for name, data in metadata.config_files():
             self._writer.add_attachment(f"config/{name}", "text/yaml", data, now_ns)
             yield
 
@@ -123,7 +144,7 @@ def timestamp_text(unix_s: float) -> str:
 
 
 def _line(line: LogLine, time_ns: int) -> bytes:
-    content = {
+    content: dict[str, Any] = {
         "timestamp": timestamp(time_ns),
         "level": line.level,
         "message": line.message,
@@ -131,6 +152,8 @@ def _line(line: LogLine, time_ns: int) -> bytes:
         "file": "",
         "line": 0,
     }
+    if line.code:
+        content |= {"code": line.code, "fields": line.fields}
     return json.dumps(content, separators=(",", ":")).encode("ascii")
 
 

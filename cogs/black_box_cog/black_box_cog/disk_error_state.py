@@ -11,7 +11,7 @@ from black_box_cog.flight_folder import NoRoomError
 RETRY_S = 60.0
 
 
-class Trouble:
+class DiskErrorState:
     """The current problem of the disk; ``problem`` is None without one."""
 
     def __init__(self, log: Logger, folder: Path) -> None:
@@ -21,16 +21,16 @@ class Trouble:
         self._kind: object = None
         self._retry_s = float("-inf")
 
-    def is_time_to_try(self, now_s: float) -> bool:
+    def may_retry(self, now_s: float) -> bool:
         """Return whether a file may be opened."""
         return now_s >= self._retry_s
 
-    def wait(self, now_s: float) -> None:
+    def delay_retry(self, now_s: float) -> None:
         """Retry only after a minute."""
         self._retry_s = now_s + RETRY_S
 
-    def note(self, error: Exception) -> None:
-        """Keep the disk's error."""
+    def report(self, error: Exception) -> None:
+        """Store the disk's error, and log it if it is of another kind."""
         reason = getattr(error, "strerror", None) or str(error)
         path = getattr(error, "filename", None) or self._folder
         kind = getattr(error, "errno", None) or type(error)
@@ -38,9 +38,11 @@ class Trouble:
         if self._kind != kind:
             self._kind = kind
             self._log.error(
-                "the flight is not recorded: {text}; tried again every minute", text=self.problem
+                "the flight is not recorded: {problem}; retrying every minute",
+                problem=self.problem,
+                code="recording_stopped",
             )
 
-    def forget(self) -> None:
+    def clear(self) -> None:
         """Note that the problem is over."""
         self.problem = self._kind = None
